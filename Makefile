@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: MIT
+#
+# rhotrack. `make help` lists the targets; each stands under the `##` line that describes it.
+#
+# Variables for the command line:
+#   CC=clang          the compiler (default gcc)
+#   OPT=-O3           optimisation (default -O2)
+#   CFLAGS=, LDFLAGS= added to every compilation, every link
+#   BUILD=folder      where everything goes (default build); give each set of flags its own
+#   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local)
+
+VERSION := 0.1.0
+BUILD := build
+PREFIX := /usr/local
+
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+OPT := -O2
+
+# --- what there is ---------------------------------------------------------------------------
+
+library_sources := $(sort $(wildcard src/*/*.c))
+program_sources := $(sort $(wildcard tools/rhotrack/*.c))
+unit_sources := $(sort $(wildcard tests/unit/test_*.c))
+scenario_sources := $(sort $(wildcard tests/scenario/test_*.c))
+sources := $(library_sources) $(program_sources) \
+           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tests/*/*.[ch])
+
+library := $(BUILD)/librhotrack.a
+workstation_library := $(BUILD)/workstation/librhotrack.a
+program := $(BUILD)/rhotrack
+
+embedded_objects := $(library_sources:%.c=$(BUILD)/embedded/%.o)
+workstation_objects := $(library_sources:%.c=$(BUILD)/workstation/%.o)
+program_objects := $(program_sources:%.c=$(BUILD)/program/%.o)
+
+# Unit tests are built and run for both profiles; scenario tests use the program's own parts.
+unit_programs := $(unit_sources:tests/%.c=$(BUILD)/tests/embedded/%) \
+                 $(unit_sources:tests/%.c=$(BUILD)/tests/workstation/%)
+scenario_programs := $(scenario_sources:tests/%.c=$(BUILD)/tests/%)
+
+# --- flags -----------------------------------------------------------------------------------
+
+# No fused multiply-add: every compiler and optimisation must give the same bits.
+common_flags := -Iinclude -ffp-contract=off -MMD -MP
+warnings := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Werror
+library_flags := -std=c99 $(common_flags) $(warnings) -Wpedantic -Wconversion -Wdouble-promotion \
+                 -Wfloat-equal -Wundef -Wcast-qual -Wvla -Wswitch-enum
+program_flags := -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) \
+                 -Wconversion -pthread
+test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itools/rhotrack $(warnings)
+program_libraries := -lcsv -linih -lcjson -pthread -lm
+
+compile = @mkdir -p $(@D) && echo "  cc       $@" && $(CC) $(1) $(OPT) $(CFLAGS)
+
+# As many jobs as processors, unless the caller said how many.
+jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.PHONY: all lib test-programs test demo layers poison size examples determinism lint format \
+        format-check tidy cppcheck sanitize install clean help
+
+# --- what users build ------------------------------------------------------------------------
+
+## Build the program (build/rhotrack) and the library (build/librhotrack.a); the default
+all: $(program) lib
+
+## Build the library alone, embedded profile
+lib: $(library)
+
+$(library): $(embedded_objects)
+$(workstation_library): $(workstation_objects)
+$(library) $(workstation_library):
+	@rm -f $@ && echo "  ar       $@" && ar rcs $@ $^
+
+$(program): $(program_objects) $(workstation_library)
+	$(call compile) $(LDFLAGS) -o $@ $^ $(program_libraries)
+
+$(BUILD)/embedded/%.o: %.c Makefile
+	$(call compile,$(library_flags)) $(LIBRARY_CFLAGS) -c -o $@ $<
+
+$(BUILD)/workstation/%.o: %.c Makefile
+	$(call compile,$(library_flags) -DRHO_PROFILE_WORKSTATION) $(LIBRARY_CFLAGS) -c -o $@ $<
+
+$(BUILD)/program/%.o: %.c Makefile
+	$(call compile,$(program_flags) -DRHOTRACK_VERSION='"$(VERSION)"') -c -o $@ $<
+
+## Set up what is missing, build, track real radar plots and show the result (build/demo)
+demo:
+	@tools/setup.sh
+	@$(MAKE) --no-print-directory $(jobs) all
+	@RHOTRACK=$(abspath $(program)) tools/demo.sh $(BUILD)/demo
+
+## Install program, library, headers and pkg-config file (PREFIX, DESTDIR)
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig \
+	           $(DESTDIR)$(PREFIX)/include/rhotrack
+	install -m 755 $(program) $(DESTDIR)$(PREFIX)/bin/
+	install -m 644 $(library) $(DESTDIR)$(PREFIX)/lib/
+	install -m 644 include/rhotrack/*.h $(DESTDIR)$(PREFIX)/include/rhotrack/
+	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: rhotrack' \
+	    'Description: tracks from radar and bearing sensors, without a heap (embedded profile)' \
+	    'Version: $(VERSION)' 'Cflags: -I$${prefix}/include' 'Libs: -L$${prefix}/lib -lrhotrack' \
+	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/rhotrack.pc
+
+# --- tests -----------------------------------------------------------------------------------
+
+# A test that does not build counts as failed, so the build goes on past it (-k) and its runner decides.
+## Set up what is missing, build and run the whole test suite; ends with `N passed, N failed`
+test:
+	@tools/setup.sh
+	@$(MAKE) --no-print-directory -k $(jobs) all test-programs || echo "  ...  the build has failures"
+	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
+	    $(sort $(wildcard tests/integration/*.sh tests/regression/*.sh)) \
+	    tools/layers.py tools/poison.sh tools/extract_example.sh tools/determinism.sh
+
+test-programs: $(unit_programs) $(scenario_programs)
+
+$(BUILD)/tests/embedded/%: tests/%.c $(library) Makefile
+	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
+
+$(BUILD)/tests/workstation/%: tests/%.c $(workstation_library) Makefile
+	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \
+	    $(workstation_library) -lcmocka -lm
+
+scenario_objects := $(filter-out %/main.o,$(program_objects))
+$(BUILD)/tests/scenario/%: tests/scenario/%.c $(scenario_objects) $(workstation_library) Makefile
+	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \
+	    $(scenario_objects) $(workstation_library) -lcmocka $(program_libraries)
+
+## Unit, scenario and bad-input tests with address and undefined-behaviour sanitizers (clang)
+sanitize:
+	@$(MAKE) --no-print-directory $(jobs) sanitized-tests BUILD=$(BUILD)/sanitize CC=clang \
+	    OPT='-O1 -g' CFLAGS='-fsanitize=address,undefined -fno-sanitize-recover=all' \
+	    LIBRARY_CFLAGS=-fsanitize=float-cast-overflow
+
+.PHONY: sanitized-tests
+sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
+	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
+	    $(sort $(wildcard tests/integration/bad*.sh))
+
+# --- gates -----------------------------------------------------------------------------------
+
+## Check every include against the module table of src/DESIGN.md
+layers:
+	@tools/layers.py
+
+## Check that the library has no heap, no stdio, no double, no mutable globals
+poison: $(library)
+	@BUILD=$(BUILD) tools/poison.sh
+
+## Build with gcc and clang, -O0 and -O3, and compare what the programs write, byte by byte
+determinism:
+	@BUILD=$(BUILD) tools/determinism.sh
+
+## Compile and run the C examples of README.md
+examples: $(library)
+	@BUILD=$(BUILD) tools/extract_example.sh
+
+## Sizes of code, objects and stack, as a table
+size:
+	@BUILD=$(BUILD) tools/size.sh
+
+# One clang-tidy a file, as many at a time as there are processors; silent where all is well.
+tidy = printf '%s\n' $(1) | xargs -r -P "$$(nproc)" -n 1 sh -c \
+    'found=$$(clang-tidy --quiet "$$1" -- $(filter-out -M%,$(2)) 2>&1) || { echo "$$found"; exit 1; }' tidy
+
+# missingIncludeSystem: the system's headers are not looked into, which is what is wanted.
+# invalidTestForOverflow: it reads RHO_AT(3 + i, i) as a test for overflow.
+# uninitvar: an array that a loop fills counts as unset, as the loop might not run; clang's analyzer looks better.
+# _Noreturn: cppcheck knows the attribute only.
+cppcheck_flags := --quiet -j 2 --error-exitcode=1 --enable=warning,performance,portability \
+                  --inline-suppr --suppress=missingIncludeSystem --suppress=invalidTestForOverflow \
+                  --suppress=uninitvar -URHO_CONFIG_FILE -D_Noreturn='__attribute__((noreturn))' -Iinclude
+
+## Run clang-tidy, cppcheck and the format check (`make -k lint` shows the findings of all three)
+lint: tidy cppcheck format-check
+
+tidy:
+	@echo "  tidy     src tools/rhotrack"
+	@$(call tidy,$(library_sources),$(library_flags)) || failed=1; \
+	$(call tidy,$(program_sources),$(program_flags)) || failed=1; test -z "$$failed"
+
+cppcheck:
+	@echo "  cppcheck src tools/rhotrack"
+	@cppcheck $(cppcheck_flags) --std=c99 src || failed=1; \
+	cppcheck $(cppcheck_flags) --std=c11 -DRHO_PROFILE_WORKSTATION tools/rhotrack || failed=1; \
+	test -z "$$failed"
+
+## Lay out all C sources by .clang-format
+format:
+	clang-format -i $(sources)
+
+## Check the layout without changing anything
+format-check:
+	@echo "  format   src include tools/rhotrack tests"
+	@for file in $(sources); do \
+	    clang-format --dry-run -Werror "$$file" >/dev/null 2>&1 || { echo "$$file: run make format"; failed=1; }; \
+	done; test -z "$$failed"
+
+# --- the rest --------------------------------------------------------------------------------
+
+## Remove everything that was built
+clean:
+	rm -rf $(BUILD)
+
+## This list
+help:
+	@awk '/^## /{text = substr($$0, 4); next} \
+	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-14s %s\n", $$0, text; text = ""}' Makefile
+
+-include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
+         $(unit_programs:=.d) $(scenario_programs:=.d)

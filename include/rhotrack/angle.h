@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * angle: angles on the circle, and lines as points (rho, theta).
+ *
+ * Constant cost, stack 32 bytes at most. |angle| <= 100 rad (16 turns) is accepted; NaN beyond.
+ */
+#ifndef RHOTRACK_ANGLE_H
+#define RHOTRACK_ANGLE_H
+
+#include <stdint.h>
+
+/* A line of the plane: rho_m = x cos(theta_rad) + y sin(theta_rad), rho signed, 0 <= theta < pi. */
+struct rho_line {
+    float rho_m;
+    float theta_rad;
+};
+
+/* The same direction in -pi <= angle < pi. */
+float rho_angle_wrap(float angle_rad);
+
+/* a - b by the shorter way, in -pi <= difference < pi. */
+float rho_angle_difference(float a_rad, float b_rad);
+
+/* True (1) where the direction lies in the sector that runs counter-clockwise from .. to, ends included; equal ends are
+ * the whole circle. */
+int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
+
+/*
+ * The line through (x_m, y_m) along (dx, dy), which is not (0, 0); theta = atan2(dx, -dy) brought into [0, pi), rho
+ * signed to match (the paper "A Neutrosophic Hough Transform", eqs. (9) and (10), corrected: taken literally they turn
+ * the line by pi/2 and drop rho's sign, which merges mirror lines).
+ */
+struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy);
+
+/* Index of the theta cell, 0 .. num_cells - 1, for num_cells equal cells over [0, pi). theta outside: the nearest cell. */
+int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells);
+
+#endif

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * approx: elementary functions in float32.
+ *
+ * Own code, so that every target decides alike: libm differs between newlib and glibc, and newlib's versions drag in
+ * errno. Only +, -, *, / of IEEE binary32 and integer operations; the same bits on every machine. No state, no loops
+ * over data, constant cost. Errors below are against exact arithmetic over the whole stated range, checked by
+ * tests/unit/test_approx.c. NaN in gives NaN out. Stack: 32 bytes at most.
+ */
+#ifndef RHOTRACK_APPROX_H
+#define RHOTRACK_APPROX_H
+
+#define RHO_PI 3.14159274f
+#define RHO_TWO_PI 6.28318548f
+#define RHO_HALF_PI 1.57079637f
+
+/* Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 2e-7. */
+float rho_sin(float angle_rad);
+float rho_cos(float angle_rad);
+
+/*
+ * Angle of the point (x, y) in radians, -pi .. pi, counter-clockwise from +x. Absolute error <= 4e-7.
+ * (0, 0) gives 0. Infinite arguments give NaN.
+ */
+float rho_atan2(float y, float x);
+
+/* e^v. Relative error <= 3e-7 for -87 <= v <= 88; 0 below, +infinity above. */
+float rho_exp(float v);
+
+/* Natural logarithm of v > 0, subnormal v included. Error <= 2e-7 relative + 1e-7 absolute. 0: -infinity; v < 0: NaN. */
+float rho_log(float v);
+
+/* Square root of v >= 0, correctly rounded (the bits of IEEE 754). v < 0: NaN. +infinity: +infinity. */
+float rho_sqrt(float v);
+
+#endif

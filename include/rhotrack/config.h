@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * config: the capacities that fix the size of every object, and what they cost.
+ *
+ * Two profiles give the defaults: embedded (used when nothing is said; a Cortex-M4F with 256 KiB of RAM) and
+ * workstation (-DRHO_PROFILE_WORKSTATION; the command-line tools). Single capacities are overridden with -D, or all in
+ * one file named by -DRHO_CONFIG_FILE='"my_config.h"', which is included first. Library and application must be built
+ * with the same values: every init takes sizeof(object) and refuses a mismatch (RHO_ERROR_SIZE).
+ */
+#ifndef RHOTRACK_CONFIG_H
+#define RHOTRACK_CONFIG_H
+
+#ifdef RHO_CONFIG_FILE
+#include RHO_CONFIG_FILE
+#endif
+
+#ifdef RHO_PROFILE_WORKSTATION
+#define RHO_CONFIG_PICK(embedded, workstation) (workstation)
+#else
+#define RHO_CONFIG_PICK(embedded, workstation) (embedded)
+#endif
+
+/* Scans in the initiation window. More scans find tracks in denser clutter, later. RAM: linear. 3 .. 12. */
+#ifndef RHO_MAX_SCANS
+#define RHO_MAX_SCANS RHO_CONFIG_PICK(7, 12)
+#endif
+
+/* Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. RAM: linear. 1 .. 32767. */
+#ifndef RHO_MAX_PLOTS
+#define RHO_MAX_PLOTS RHO_CONFIG_PICK(256, 10000)
+#endif
+
+/* Bins of one scan's neighbour look-up. More bins mean fewer distance tests. RAM: 2 bytes a bin and scan. 1 .. 32767. */
+#ifndef RHO_MAX_BINS
+#define RHO_MAX_BINS RHO_CONFIG_PICK(640, 16384)
+#endif
+
+/* Candidate tracks that one search keeps before the exclusive selection; the lowest score gives way. 1 .. 4096. */
+#ifndef RHO_MAX_CANDIDATES
+#define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 512)
+#endif
+
+/* Cells along each side of the clutter density map. RAM: 2 bytes a cell. 1 .. 64. */
+#ifndef RHO_MAX_DENSITY_CELLS
+#define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
+#endif
+
+/* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
+#ifndef RHO_MAX_TRACKS
+#define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
+#endif
+
+/* Plots in one track's gate that compete in the assignment; the nearest are kept. 1 .. 32. */
+#ifndef RHO_MAX_GATE_PLOTS
+#define RHO_MAX_GATE_PLOTS RHO_CONFIG_PICK(8, 16)
+#endif
+
+/* Sensors in the tracker's table. 1 .. 256. */
+#ifndef RHO_MAX_SENSORS
+#define RHO_MAX_SENSORS RHO_CONFIG_PICK(8, 64)
+#endif
+
+#if RHO_MAX_SCANS < 3 || RHO_MAX_SCANS > 12
+#error "RHO_MAX_SCANS must be 3 .. 12"
+#endif
+#if RHO_MAX_PLOTS < 1 || RHO_MAX_PLOTS > 32767
+#error "RHO_MAX_PLOTS must be 1 .. 32767"
+#endif
+#if RHO_MAX_BINS < 1 || RHO_MAX_BINS > 32767
+#error "RHO_MAX_BINS must be 1 .. 32767"
+#endif
+#if RHO_MAX_CANDIDATES < 1 || RHO_MAX_CANDIDATES > 4096
+#error "RHO_MAX_CANDIDATES must be 1 .. 4096"
+#endif
+#if RHO_MAX_DENSITY_CELLS < 1 || RHO_MAX_DENSITY_CELLS > 64
+#error "RHO_MAX_DENSITY_CELLS must be 1 .. 64"
+#endif
+#if RHO_MAX_TRACKS < 1 || RHO_MAX_TRACKS > 8192
+#error "RHO_MAX_TRACKS must be 1 .. 8192"
+#endif
+#if RHO_MAX_GATE_PLOTS < 1 || RHO_MAX_GATE_PLOTS > 32
+#error "RHO_MAX_GATE_PLOTS must be 1 .. 32"
+#endif
+#if RHO_MAX_SENSORS < 1 || RHO_MAX_SENSORS > 256
+#error "RHO_MAX_SENSORS must be 1 .. 256"
+#endif
+
+/*
+ * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (initiator.c, tracker.c).
+ * Embedded: initiator 64 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
+ */
+#define RHO_RAM_WINDOW_BYTES (RHO_MAX_SCANS * (24 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 80) + 96)
+#define RHO_RAM_INITIATOR_BYTES                                                                    \
+    (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 40) +                        \
+     2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 384)
+#define RHO_RAM_TRACKER_BYTES                                                                      \
+    (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 56 * RHO_MAX_SENSORS + 512)
+
+#endif

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * initiator: the default track initiation: which plots of the last scans are tracks?
+ *
+ * A kernel-centric, time-aware Hough transform. Every pair of plots far apart in time is a kernel: a line with a speed
+ * and a sense, a point in the space of straight tracks. Each scan between votes for it with its plot nearest to the
+ * place that the kernel predicts for that very scan, if one lies in the gate that the plots' own noise gives. Votes are
+ * a bit mask of scans, so that no scan counts twice. Kernels with votes enough are fitted (weighted least squares),
+ * every scan is asked again along the fitted track, and the candidate is scored: the logarithm of the likelihood that
+ * these plots are one target's, over the likelihood that they are clutter of the local density. Candidates are accepted
+ * best first; one that shares more than one plot with a better one is fitted again on what is left.
+ *
+ * src/DESIGN.md derives the gates, the score and the densities up to which this can work. Sources: "Track Initiation
+ * Based on a Neutrosophic Hough Transform" (votes in parameter space, kernels, time-ordered scans); the score is the
+ * integrated likelihood ratio over all straight tracks with speeds between v_min_mps and v_max_mps.
+ */
+#ifndef RHOTRACK_INITIATOR_H
+#define RHOTRACK_INITIATOR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+#include "rhotrack/window.h"
+
+struct rho_initiator_config {
+    uint16_t scans;             /* N, the window: 3 .. RHO_MAX_SCANS */
+    uint16_t min_scans;         /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter */
+    float v_min_mps, v_max_mps; /* speeds of targets, 0 <= v_min < v_max <= RHO_LIMIT_SPEED_MPS */
+    float pd;                   /* probability that a scan sees the target: 0.01 .. 0.999 */
+    float score_min_nat;        /* candidates below are none */
+    float process_noise_mps2;   /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
+    int area_is_fixed;          /* area below is meant; else the extent of the plots seen so far */
+    struct rho_extent area;     /* that clutter and births are spread over */
+};
+
+/* A track found: the plots that voted, and the fit at the newest scan's time. */
+struct rho_candidate {
+    uint16_t mask;               /* bit m: the scan of age order m voted */
+    uint16_t hits;               /* number of votes */
+    uint16_t plot[RHO_MAX_SCANS]; /* by age order: index into that scan's plots where the bit is set, else 0 */
+    int32_t score_mnat;
+    float x_m, y_m, vx_mps, vy_mps;
+};
+
+/* Work of the last search, and what its capacities cut. All saturate. */
+struct rho_initiator_work {
+    uint32_t seeds;     /* kernels tried */
+    struct rho_window_work window;
+    uint32_t fits;      /* least-squares fits */
+    uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES */
+};
+
+enum rho_search {
+    RHO_SEARCH_BATCH,  /* every track with min_scans votes anywhere in the window */
+    RHO_SEARCH_NEWEST, /* only tracks that the newest scan voted for: for use after every push */
+};
+
+struct rho_initiator {
+    uint32_t magic;
+    uint16_t num_candidates; /* found by the last search, best first */
+    uint16_t min_scans;      /* M in use at the last search */
+    struct rho_initiator_config config;
+    struct rho_initiator_work work;
+    float density_per_m2;    /* plots a scan, mean over the area, of the last search */
+    uint16_t density_columns, density_rows;
+    uint16_t density[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS]; /* plots in the window, saturating */
+    struct rho_candidate candidates[RHO_MAX_CANDIDATES];
+    struct rho_window window;
+};
+
+/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, score_min 0 nat, no process noise, area from the plots; scans
+ * is cut to RHO_MAX_SCANS. Constant cost. */
+void rho_initiator_config_default(struct rho_initiator_config *config);
+
+/*
+ * Prepares an empty initiator; the config is copied.
+ *   size   sizeof(struct rho_initiator) of the caller
+ * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 96 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
+                                                  const struct rho_initiator_config *config);
+
+/* rho_window_push on the initiator's window; what an earlier search found is forgotten. */
+RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
+                                                  const struct rho_scan *scan, uint8_t *fates,
+                                                  uint32_t *left_unused);
+
+/*
+ * Searches the window. Results: initiator->candidates[0 .. num_candidates - 1], best first, deterministic.
+ * Errors: NULL, STATE (not initialised). Fewer than min_scans scans held: RHO_OK and no candidate.
+ * Cost: with n plots a scan and f the fraction of pairs that the speed limits allow, (N - M + 1)(N - M + 2) / 2 (batch)
+ * or N - M + 1 (newest) times n^2 f kernels, two look-ups each unless clutter is dense; fits are few. Bins make n f
+ * the plots within v_max x time, so that cost grows with density, not with area. Stack: 1.2 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_search search);
+
+/*
+ * Marks the plots of a candidate of the last search as used: they leave all later searches.
+ * Returns how many were not used before. candidate is not checked against num_candidates. Cost: N.
+ */
+unsigned rho_initiator_consume(struct rho_initiator *initiator, const struct rho_candidate *candidate);
+
+/*
+ * Density of the held plots near a place, plots a m^2 and scan: counts of the map's cells over the window, drawn to the
+ * mean where a cell has seen little, never below one plot in the area and window. 0 before the first search. Constant cost.
+ */
+float rho_initiator_density(const struct rho_initiator *initiator, float x_m, float y_m);
+
+#endif

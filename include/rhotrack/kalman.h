@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * kalman: six-state Kalman filter, nearly constant velocity, updated by one scalar at a time.
+ *
+ * State [x y z vx vy vz] in metres and metres a second; covariance as the lower triangle row by row (linalg.h), 21
+ * floats: symmetric by construction. An axis that was never measured has zero state and zero variance and stays so.
+ * Scalar updates need no matrix inverse: a measurement whose noise couples no axes is one update an axis, and gives the
+ * same estimate as the vector update.
+ */
+#ifndef RHOTRACK_KALMAN_H
+#define RHOTRACK_KALMAN_H
+
+#include "rhotrack/linalg.h"
+#include "rhotrack/status.h"
+
+#define RHO_KALMAN_STATES 6
+#define RHO_KALMAN_VARIANCE_MIN 1.0e-9f /* of a measured element; updates keep it there */
+#define RHO_KALMAN_VARIANCE_MAX 1.0e12f /* beyond, the filter says nothing: RHO_ERROR_VALUE */
+
+struct rho_kalman {
+    float state[RHO_KALMAN_STATES];
+    float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
+};
+
+/* Everything zero: no axis measured. Constant cost. */
+void rho_kalman_init(struct rho_kalman *kalman);
+
+/*
+ * Opens axis 0 (x), 1 (y) or 2 (z) with a first position and its variance, velocity 0 with its variance; covariances
+ * with the other axes become 0. Errors: NULL, VALUE (axis, not finite, variance outside
+ * RHO_KALMAN_VARIANCE_MIN .. MAX). Constant cost.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float position_m,
+                                                    float position_variance, float velocity_variance);
+
+/*
+ * Moves the estimate on by dt_s, -1e5 .. 1e5. noise_density is the power spectral density of white acceleration on
+ * each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2 dt], so that one long step equals
+ * several short ones. Going back (dt_s < 0) adds no noise: forth and back without noise is the identity but for rounding.
+ * Errors: NULL, VALUE (arguments, or a result beyond RHO_KALMAN_VARIANCE_MAX; unchanged).
+ * Cost: about 180 instructions. Stack: 128 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density);
+
+/*
+ * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0. *nis (may be NULL)
+ * gets the normalised innovation squared. Errors: NULL, VALUE (element, not finite), SINGULAR (innovation variance not
+ * positive and finite); unchanged. Cost: about 230 instructions. Stack: 128 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
+                                                 float variance, float *nis);
+
+/* True where axis 0 .. 2 was opened. */
+int rho_kalman_is_open(const struct rho_kalman *kalman, int axis);
+
+#endif

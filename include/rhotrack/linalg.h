@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * linalg: small symmetric matrices, sized by their use.
+ *
+ * A symmetric n x n matrix is its lower triangle row by row: element (i, j <= i) at i (i + 1) / 2 + j, n (n + 1) / 2
+ * floats. n <= RHO_LINALG_MAX. Every routine checks positive definiteness where it divides (a comparison that NaN
+ * fails), and refuses without touching its operands.
+ */
+#ifndef RHOTRACK_LINALG_H
+#define RHOTRACK_LINALG_H
+
+#include "rhotrack/status.h"
+
+#define RHO_LINALG_MAX 12
+#define RHO_TRIANGLE(n) ((n) * ((n) + 1) / 2)
+#define RHO_AT(i, j) ((i) >= (j) ? (i) * ((i) + 1) / 2 + (j) : (j) * ((j) + 1) / 2 + (i))
+
+/*
+ * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a itself).
+ * RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is untouched. Cost: n^3 / 6 multiplications, n square
+ * roots. Stack: 340 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
+
+/* b := L^-1 b for a factor from rho_linalg_cholesky. Cost: n^2 / 2. */
+void rho_linalg_forward(int n, const float *l, float *b);
+
+/* ln det(L L^T) = 2 sum ln L_ii. Cost: n logarithms. */
+float rho_linalg_log_determinant(int n, const float *l);
+
+/*
+ * Squared Mahalanobis distance d^T S^-1 d and ln det S for 2 x 2 (s: 3 floats) and 3 x 3 (s: 6 floats).
+ * RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs untouched. Cost: 25 and 60
+ * operations and a logarithm.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *distance2,
+                                                float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *distance2,
+                                                float *log_det);
+
+/*
+ * One scalar Kalman update of a six-element state x with covariance p (21 floats): element `index` was measured,
+ * `innovation` is its measured minus predicted value, `variance` the measurement's noise. *nis (may be NULL) gets
+ * innovation^2 / (p_ii + variance). No variance grows, and a positive definite p stays so in spite of rounding.
+ * Errors: NULL, VALUE (index, innovation or a result not finite), SINGULAR (variance not positive, p_ii negative, or
+ * their sum not a number one can divide by); x, p and *nis untouched. Cost: about 280 instructions. Stack: 96 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
+                                                  float variance, float *nis);
+
+#endif

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * track: one target's estimate, its evidence, and its life cycle.
+ *
+ *              start                confirm                 miss
+ *      FREE ----------> TENTATIVE ----------> CONFIRMED <----------> COASTING
+ *        ^                  | drop                | drop      update    | drop
+ *        +------------------+---------------------+---------------------+
+ *
+ * The evidence is a sequential log-likelihood ratio, target against clutter: a plot adds ln(pd / density) plus the log
+ * density of its innovation, a miss adds ln(1 - pd), but only where the sensor looked. A tentative track is confirmed
+ * when the score reaches the confirm threshold and dropped when it falls below Wald's lower one; a confirmed track is
+ * dropped when its score has fallen by coast_scans_max misses from its highest, or after that many misses in a row.
+ */
+#ifndef RHOTRACK_TRACK_H
+#define RHOTRACK_TRACK_H
+
+#include <stdint.h>
+
+#include "rhotrack/gate.h"
+#include "rhotrack/kalman.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+enum rho_track_status {
+    RHO_TRACK_FREE = 0,  /* an empty slot */
+    RHO_TRACK_TENTATIVE, /* started, not yet believed */
+    RHO_TRACK_CONFIRMED, /* believed; updated when it was last looked at */
+    RHO_TRACK_COASTING,  /* believed; predicted only since */
+    RHO_NUM_TRACK_STATUS
+};
+
+enum rho_track_event {
+    RHO_TRACK_START = 0, /* initiation found it */
+    RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold */
+    RHO_TRACK_UPDATE,    /* a plot was claimed */
+    RHO_TRACK_MISS,      /* the sensor looked there, and no plot was claimed */
+    RHO_TRACK_DROP,      /* the score fell below the drop threshold, or too many misses in a row */
+    RHO_NUM_TRACK_EVENTS
+};
+
+struct rho_track {
+    uint32_t track_id; /* 1, 2, ... in the order of starts; never used twice until 2^32 */
+    uint8_t status;    /* enum rho_track_status */
+    uint8_t misses_in_row;
+    uint16_t hits, misses; /* since the start; saturate */
+    int16_t plot;          /* row of the plot claimed in the newest scan; -1: none */
+    int32_t sensor_id;     /* of the last claimed plot */
+    int32_t score_mnat;
+    int32_t score_max_mnat; /* highest since the start */
+    int64_t time_us;        /* of the estimate */
+    int64_t updated_us;     /* of the last claimed plot */
+    struct rho_kalman kalman;
+};
+
+/* Thresholds that a track's evidence is held against. */
+struct rho_track_limits {
+    int32_t confirm_mnat;   /* confirmed at or above */
+    int32_t tentative_mnat; /* a tentative track below is dropped */
+    int32_t fall_mnat;      /* a confirmed track so far below its highest score is dropped; > 0 */
+    uint8_t misses_in_row_max;
+};
+
+/* Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value. Constant cost. */
+const char *rho_track_status_name(enum rho_track_status status);
+
+/* The life cycle above as a pure function; an event that a status does not know changes nothing. Constant cost. */
+enum rho_track_status rho_track_next_status(enum rho_track_status status, enum rho_track_event event);
+
+/* What targets may do, as maintenance assumes it. */
+struct rho_track_model {
+    float speed_sigma_mps; /* of the velocity on an axis that was measured once */
+    float noise_density;   /* white acceleration, m^2/s^3 (rho_kalman_predict) */
+};
+
+/* One plot of a track to be started. */
+struct rho_track_plot {
+    int64_t time_us; /* its own */
+    float x_m, y_m, z_m;
+    float sigma_m;
+    int has_z;
+    int16_t row; /* in its scan */
+};
+
+/*
+ * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 2 plots: the first opens the filter, the
+ * others predict and update it, and it is brought to time_us, the newest scan's time, whose plot comes last.
+ * Errors: NULL, VALUE (num_plots, numbers), SINGULAR; *track is unchanged. Cost: num_plots filter steps. Stack: 400 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
+                                               const struct rho_track_plot *plots, unsigned num_plots,
+                                               int64_t time_us, const struct rho_track_model *model,
+                                               int32_t score_mnat);
+
+/* Predicts to time_us, not before the estimate's. Errors: NULL, VALUE (time, a covariance beyond its limit). */
+RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
+                                                 const struct rho_track_model *model);
+
+/*
+ * Updates with plot `row` of the scan at the track's time. Its position, and velocity where measured, enter by scalar
+ * updates at the plot's own time; a first z opens the third axis. gain_mnat is added to the score.
+ * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: 2 to 6 scalar updates, 2 predictions where the plot has an
+ * own time. Stack: 300 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track, const struct rho_scan *scan,
+                                                uint32_t row, const struct rho_track_model *model,
+                                                int32_t gain_mnat);
+
+/* Counts a scan that looked and saw nothing; loss_mnat >= 0 is taken from the score. Constant cost. */
+void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
+
+/* Applies the limits to the evidence: confirm and drop. Returns the status, RHO_TRACK_FREE where it ended. Constant cost. */
+enum rho_track_status rho_track_judge(struct rho_track *track, const struct rho_track_limits *limits);
+
+/* Root of the mean position (velocity) variance over the open axes, metres (metres a second). Constant cost. */
+float rho_track_sigma_m(const struct rho_track *track);
+float rho_track_sigma_mps(const struct rho_track *track);
+
+#endif

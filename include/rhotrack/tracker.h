@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker: scans in, tracks out.
+ *
+ *     static struct rho_tracker tracker;
+ *     static struct rho_initiator initiator;
+ *     static struct rho_report report;
+ *     ...
+ *     rho_tracker_step(&tracker, &initiator, &scan, &report);
+ *
+ * One step a scan, in the order of time:
+ *   predict   every live track to the scan's time
+ *   claim     gate the plots and assign them exclusively
+ *   update    the tracks that claimed one
+ *   age       the others, where the sensor looked; the dead make room
+ *   initiate  tracks from the plots that nobody claimed
+ *   report    tracks, one fate a plot, counters
+ * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on every machine: there is no
+ * clock, no random number and no global variable inside. Calls on one tracker must not overlap; several trackers are
+ * independent. The objects hold no pointers: a memcpy is a snapshot.
+ */
+#ifndef RHOTRACK_TRACKER_H
+#define RHOTRACK_TRACKER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/assignment.h"
+#include "rhotrack/config.h"
+#include "rhotrack/initiator.h"
+#include "rhotrack/status.h"
+#include "rhotrack/track.h"
+#include "rhotrack/types.h"
+#include "rhotrack/window.h"
+
+struct rho_tracker_config {
+    float pd;                    /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
+    float v_max_mps;             /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
+    float accel_max_mps2;        /* manoeuvres to follow: 0 .. 1000 */
+    float false_tracks_per_hour; /* wanted rate of confirmed tracks from clutter: 1e-6 .. 1e6 */
+    int score_is_fixed;          /* score_min_nat below is the confirm threshold, whatever the rate above */
+    float score_min_nat;         /* -100 .. 1000 */
+    uint16_t coast_scans_max;    /* misses in a row that end a track: 1 .. 255 */
+};
+
+/* Since init; all saturate. The fates' counters add up to plots_in. */
+struct rho_tracker_counters {
+    uint32_t scans_accepted, scans_late;
+    uint32_t plots_in;
+    uint32_t fates[RHO_NUM_FATES];
+    uint32_t plots_initiated; /* of the held: started a track */
+    uint32_t plots_clutter;   /* of the held: left the window unused */
+    uint32_t tracks_started, tracks_confirmed, tracks_ended;
+    uint32_t tracks_no_room;     /* starts refused, or tentative tracks that gave way: RHO_MAX_TRACKS */
+    uint32_t gate_plots_dropped; /* RHO_MAX_GATE_PLOTS */
+    uint32_t candidates_dropped; /* RHO_MAX_CANDIDATES */
+    uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
+};
+
+struct rho_tracker {
+    uint32_t magic;
+    uint32_t next_track_id;
+    int64_t time_us; /* of the last accepted scan */
+    int has_time;
+    int32_t interval_us;   /* between the last two scans of different times; 0: not yet known */
+    float unclaimed_plots; /* a scan, smoothed: the clutter density where no initiator tells it */
+    struct rho_extent extent; /* of all valid plots so far */
+    uint16_t num_sensors;
+    uint16_t num_tracks; /* live ones, in the order of their identities */
+    struct rho_tracker_config config;
+    struct rho_tracker_counters counters;
+    struct rho_sensor sensors[RHO_MAX_SENSORS];
+    struct rho_track tracks[RHO_MAX_TRACKS];
+    struct rho_assignment assignment;
+};
+
+/* One track as reported. */
+struct rho_track_report {
+    uint32_t track_id;
+    enum rho_track_status status;
+    uint16_t hits, misses;
+    int32_t sensor_id; /* of the last claimed plot */
+    int32_t plot;      /* row of the plot claimed in this scan; -1: none */
+    int32_t update_age_us;
+    float score_nat;
+    float state[RHO_KALMAN_STATES];
+    float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
+    float sigma_m, sigma_mps; /* root mean variance over the measured axes */
+};
+
+/* What one step did. Tracks in the order of their identities. */
+struct rho_report {
+    int64_t time_us;
+    uint32_t num_plots; /* of the scan: fates of the first RHO_MAX_PLOTS follow, the others are NO_ROOM */
+    uint16_t num_tracks, num_ended;
+    uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
+    uint8_t fates[RHO_MAX_PLOTS];        /* enum rho_fate */
+    struct rho_track_report tracks[RHO_MAX_TRACKS];
+    uint32_t ended[RHO_MAX_TRACKS]; /* identities of confirmed or coasting tracks that ended in this step */
+};
+
+/* pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, 1 false track an hour, coast_scans_max 5. Constant cost. */
+void rho_tracker_config_default(struct rho_tracker_config *config);
+
+/*
+ * Prepares an empty tracker; the config is copied.
+ *   size   sizeof(struct rho_tracker) of the caller
+ * Errors: NULL, SIZE, CONFIG. Cost: sizeof(tracker) bytes cleared.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
+                                                const struct rho_tracker_config *config);
+
+/*
+ * Describes a sensor, or replaces the description of the same sensor_id.
+ * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost: RHO_MAX_SENSORS.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker,
+                                                      const struct rho_sensor *sensor);
+
+/*
+ * Takes one scan through all phases above.
+ *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held nowhere (fate NO_ROOM)
+ *   scan       num_plots plots; bad ones get the fate INVALID, those beyond RHO_MAX_PLOTS get NO_ROOM.
+ *              A scan older than the last accepted one is late: all its plots are STALE, nothing else changes.
+ *   report     filled whole, whatever it held before
+ * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
+ * VALUE (sector not finite); nothing is changed, *report neither.
+ * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of the newest scan.
+ * Stack: 1.6 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
+                                                struct rho_initiator *initiator,
+                                                const struct rho_scan *scan, struct rho_report *report);
+
+#endif

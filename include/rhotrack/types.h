@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * types: what sensors say and what the library says of it. Plain data, a unit in every field name.
+ *
+ * Conventions, everywhere in rhotrack:
+ *   frame     local Cartesian, metres: x east, y north, z up
+ *   angles    radians; bearing, azimuth and heading counter-clockwise from +x (east); elevation up from the horizontal
+ *   times     int64_t microseconds of one clock, any epoch; differences in float seconds
+ *   lines     rho = x cos(theta) + y sin(theta), rho signed, theta in [0, pi); (rho, theta) and (-rho, theta +- pi)
+ *             are one line; a track on it heads for theta + pi/2 or theta - pi/2
+ *   scores    natural logarithms of likelihood ratios, as integer thousandths of a nat (mnat)
+ */
+#ifndef RHOTRACK_TYPES_H
+#define RHOTRACK_TYPES_H
+
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+
+/* Limits of what is believed. Inputs beyond them get the fate INVALID; parameters beyond them are refused. */
+#define RHO_LIMIT_POSITION_M 2.0e6f
+#define RHO_LIMIT_SPEED_MPS 2.0e4f
+#define RHO_LIMIT_SIGMA_MIN 1.0e-3f
+#define RHO_LIMIT_SIGMA_MAX 1.0e5f
+#define RHO_LIMIT_OFFSET_US 60000000 /* a plot's own time from its scan's */
+
+/* What the plots of a scan measure beside x_m and y_m; values to be or-ed. */
+#define RHO_MEASURES_Z 1u
+#define RHO_MEASURES_VELOCITY 2u
+#define RHO_MEASURES_RANGE_RATE 4u
+
+/*
+ * One plot: a detection by a radar or any other sensor that measures positions.
+ *
+ * Its noise has the axes of the sensor's line of sight (sensor to plot): along it, across it in the horizontal plane,
+ * and upwards at right angles to both. Equal values are isotropic noise. Fields that the scan does not measure are
+ * ignored and may hold anything.
+ */
+struct rho_plot {
+    int32_t offset_us; /* time of this plot after the scan's time: a rotating antenna's delay */
+    float x_m, y_m, z_m;
+    float vx_mps, vy_mps, vz_mps;
+    float range_rate_mps; /* positive: receding */
+    float sigma_range_m, sigma_cross_m, sigma_up_m;
+    float sigma_mps;            /* of each velocity component */
+    float sigma_range_rate_mps;
+    float snr_db; /* 0 where unknown; passed on, not used */
+};
+
+/* One look of one sensor: a whole turn, or a sector of it. The plots stay the caller's and are only read. */
+struct rho_scan {
+    int64_t time_us;
+    int32_t sensor_id;
+    uint32_t measures; /* RHO_MEASURES_... */
+    float sector_from_rad, sector_to_rad; /* counter-clockwise from .. to; equal: the whole circle */
+    uint32_t num_plots;
+    const struct rho_plot *plots; /* num_plots of them; may be NULL for 0 */
+};
+
+/* What is known of a sensor. Scans of a sensor that was never described use the tracker's defaults. */
+struct rho_sensor {
+    int32_t sensor_id;
+    float x_m, y_m, z_m;
+    float pd;           /* probability that a target in the sensor's reach yields a plot, 0 < pd < 1 */
+    float range_min_m;  /* no plots are expected below; 0: none */
+    float range_max_m;  /* nor beyond */
+    float sector_from_rad, sector_to_rad; /* where the sensor can look at all; equal: the whole circle */
+};
+
+/*
+ * What became of an input at the step that took it: exactly one of these. The fates of a scan add up to its plots.
+ */
+enum rho_fate {
+    RHO_FATE_CLAIMED = 0, /* updated a track */
+    RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */
+    RHO_FATE_GHOST,       /* a bearing whose crossings were all false */
+    RHO_FATE_STALE,       /* its scan is older than what was already stepped */
+    RHO_FATE_INVALID,     /* not finite, or outside the limits above */
+    RHO_FATE_NO_ROOM,     /* beyond a capacity */
+    RHO_NUM_FATES         /* count of the values above, not a fate */
+};
+
+/* Name of a fate in lower case ("claimed", ...); "unknown" for any other value. Constant cost, no stack. */
+const char *rho_fate_name(enum rho_fate fate);
+
+/* One number for a plot's noise: the larger of its horizontal sigmas. Constant cost. */
+float rho_plot_sigma_m(const struct rho_plot *plot);
+
+/* a + n that stops at UINT32_MAX: every counter of the library moves this way. Constant cost. */
+uint32_t rho_count(uint32_t counter, uint32_t n);
+
+/* Seconds from one time to another; exact to float for spans below 2^24 us, relative error 6e-8 beyond. */
+float rho_seconds_between(int64_t from_us, int64_t to_us);
+
+/* True where v is finite and lo <= v <= hi; false for NaN. */
+int rho_is_within(float v, float lo, float hi);
+
+#endif

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * window: the last N scans of plots, binned for neighbour look-up.
+ *
+ * A ring of scans, oldest dropped first. Each scan's plots are sorted into bins over the area on entry, so that the
+ * nearest plot to a predicted place is found in constant time while plots are spread out. Scans are addressed by age
+ * order: 0 is the oldest held, num_scans - 1 the newest.
+ */
+#ifndef RHOTRACK_WINDOW_H
+#define RHOTRACK_WINDOW_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+/* A rectangle of the plane; empty while x_min_m > x_max_m. */
+struct rho_extent {
+    float x_min_m, x_max_m, y_min_m, y_max_m;
+};
+
+/* One held plot. */
+struct rho_window_plot {
+    float x_m, y_m, z_m;
+    float offset_s; /* own time after the scan's */
+    float sigma_m;  /* isotropic: the largest of the plot's sigmas in the measured axes */
+    uint16_t row;   /* 0-based place in the scan that brought it */
+    uint16_t flags; /* RHO_WINDOW_... */
+};
+
+#define RHO_WINDOW_TAKEN 1u     /* belongs to a candidate accepted in the search under way */
+#define RHO_WINDOW_INITIATED 2u /* started a track: no longer there for look-ups */
+
+/* One held scan. plots[bin_start[c]] .. plots[bin_start[c + 1] - 1] lie in bin c = row * bins_x + column. */
+struct rho_window_scan {
+    int64_t time_us;
+    int32_t sensor_id;
+    uint32_t measures; /* RHO_MEASURES_... */
+    uint16_t num_plots;
+    uint16_t num_unused; /* plots that started no track */
+    uint16_t bins_x, bins_y;
+    float bin_x0_m, bin_y0_m;
+    float bins_per_m_x, bins_per_m_y;
+    float sigma_max_m;                  /* over the plots */
+    float offset_min_s, offset_max_s;   /* over the plots */
+    uint16_t bin_start[RHO_MAX_BINS + 1];
+    struct rho_window_plot plots[RHO_MAX_PLOTS];
+};
+
+struct rho_window {
+    uint32_t magic; /* tells an initialised object */
+    uint16_t scans_max;
+    uint16_t num_scans;
+    uint16_t first; /* ring place of the oldest */
+    uint16_t area_is_fixed;
+    float side_min_m;         /* the area is taken at least this wide and high */
+    struct rho_extent extent; /* fixed, or grown over all plots seen */
+    struct rho_window_scan ring[RHO_MAX_SCANS];
+};
+
+/* Which plot is asked for: the nearest, in units of its own standard deviation, to a place that moves with the plots'
+ * own times. */
+struct rho_window_query {
+    float x_m, y_m;       /* where, at the scan's time */
+    float vx_mps, vy_mps; /* moves on with the plot's offset */
+    float variance_m2;    /* of the place, an axis */
+    float sigma_factor;   /* a plot's sigma^2 counts this many times */
+    float gate_chi2;      /* plots with distance^2 / (variance_m2 + sigma_factor sigma^2) there or beyond are none */
+    float reach_m;        /* no plot in the gate is farther, before its own time moves the place */
+    uint16_t skip_flags;  /* plots with any of these flags are not there */
+};
+
+/* Work done, for measurement: moves with each look-up and saturates. */
+struct rho_window_work {
+    uint32_t lookups;   /* queries */
+    uint32_t distances; /* plots compared */
+};
+
+/*
+ * Prepares an empty window of scans_max scans (1 .. RHO_MAX_SCANS).
+ *   size        sizeof(struct rho_window) of the caller
+ *   area        the rectangle that is binned; NULL: the extent of the plots seen so far
+ *   side_min_m  >= 0: the area counts as at least this wide and high (targets move by so much within the window)
+ * Errors: NULL, SIZE, CONFIG (scans_max, an area that is empty or beyond RHO_LIMIT_POSITION_M, side_min_m).
+ * Cost: sizeof(window) bytes cleared. Stack: 32 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t size,
+                                               unsigned scans_max, const struct rho_extent *area,
+                                               float side_min_m);
+
+/*
+ * Takes the plots of a scan whose fate is RHO_FATE_HELD; the oldest scan leaves when the window is full.
+ *   scan    a valid scan, not older than the newest held; its plots are copied
+ *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 65535 and up, becomes NO_ROOM
+ *   left_unused  counts the plots that leave the window without having started a track
+ * Errors: NULL, STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
+ * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions. Stack: 96 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
+                                               uint8_t *fates, uint32_t *left_unused);
+
+/* The scan of age order m, 0 (oldest) .. num_scans - 1 (newest); m is not checked. Constant cost. */
+struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m);
+
+/*
+ * Index of the plot nearest to the query's place, or -1 where none is in the gate. Ties go to the lower index.
+ * Cost: bins under the gate's square, and their plots. Stack: 96 bytes.
+ */
+int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
+                       struct rho_window_work *work);
+
+/*
+ * Bins whose columns and rows touch [x0, x1] x [y0, y1]; outside the area, its border bins. first and last are both
+ * included. Constant cost.
+ */
+struct rho_window_bins {
+    int column_first, column_last, row_first, row_last;
+};
+struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m, float x1_m,
+                                             float y0_m, float y1_m);
+
+/* Sides and content of an extent, at least side_min_m a side; 0 where it is empty and side_min_m is 0. */
+float rho_extent_width_m(const struct rho_extent *extent, float side_min_m);
+float rho_extent_height_m(const struct rho_extent *extent, float side_min_m);
+float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m);
+
+/* Grows an extent to hold the point. Constant cost. */
+void rho_extent_add(struct rho_extent *extent, float x_m, float y_m);
+
+#endif

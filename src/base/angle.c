@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/angle.h"
+
+#include "rhotrack/approx.h"
+
+#define ANGLE_LIMIT_RAD 100.0f
+#define TURNS_PER_RADIAN 0.159154943f
+
+/* What is left of an angle in float32 after it was brought into one turn. */
+#define SECTOR_TOLERANCE_RAD 1.0e-6f
+
+/* 2 pi in three parts (Cody and Waite): the first two times a count up to 17 are exact. */
+#define TURN_HIGH 6.28125f
+#define TURN_MIDDLE 1.93500518798828125e-3f
+#define TURN_LOW 3.01991598195675286e-7f
+
+static float size_of(float v)
+{
+    return v < 0.0f ? -v : v;
+}
+
+static float without_turns(float angle_rad, float turns)
+{
+    return ((angle_rad - turns * TURN_HIGH) - turns * TURN_MIDDLE) - turns * TURN_LOW;
+}
+
+/* Counter-clockwise way from one direction to another, 0 <= way < 2 pi. */
+static float way_between(float from_rad, float to_rad)
+{
+    const float difference = rho_angle_difference(to_rad, from_rad);
+
+    return difference < 0.0f ? difference + RHO_TWO_PI : difference;
+}
+
+float rho_angle_wrap(float angle_rad)
+{
+    float turns, wrapped;
+
+    if (angle_rad >= -RHO_PI && angle_rad < RHO_PI) {
+        return angle_rad;
+    }
+    if (!(angle_rad >= -ANGLE_LIMIT_RAD && angle_rad <= ANGLE_LIMIT_RAD)) {
+        return rho_log(-1.0f); /* NaN */
+    }
+    turns = (float)(int32_t)(angle_rad * TURNS_PER_RADIAN + (angle_rad < 0.0f ? -0.5f : 0.5f));
+    wrapped = without_turns(angle_rad, turns);
+    /* The count was rounded: near the cut it may be one off. */
+    if (wrapped >= RHO_PI) {
+        wrapped = without_turns(angle_rad, turns + 1.0f);
+    } else if (wrapped < -RHO_PI) {
+        wrapped = without_turns(angle_rad, turns - 1.0f);
+    }
+    return wrapped >= -RHO_PI && wrapped < RHO_PI ? wrapped : -RHO_PI;
+}
+
+/* Each is wrapped first: their difference may be beyond the limit, or too long for its last digits. */
+float rho_angle_difference(float a_rad, float b_rad)
+{
+    return rho_angle_wrap(rho_angle_wrap(a_rad) - rho_angle_wrap(b_rad));
+}
+
+int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
+{
+    const float width = way_between(from_rad, to_rad);
+    const float way = way_between(from_rad, angle_rad);
+
+    if (!(width >= 0.0f && way >= 0.0f)) {
+        return 0;
+    }
+    return width <= SECTOR_TOLERANCE_RAD || way <= width + SECTOR_TOLERANCE_RAD ||
+           way >= RHO_TWO_PI - SECTOR_TOLERANCE_RAD;
+}
+
+/*
+ * rho is the point's component along the normal (-dy, dx), without the detour over sin(theta) and cos(theta), which at
+ * 2000 km would cost half a metre. The direction is scaled first so that its squares can neither overflow nor vanish.
+ */
+struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
+{
+    const float longer = size_of(dx) > size_of(dy) ? size_of(dx) : size_of(dy);
+    const float ux = dx / longer;
+    const float uy = dy / longer;
+    const float rho_m = (y_m * ux - x_m * uy) / rho_sqrt(ux * ux + uy * uy);
+    const float theta_rad = rho_atan2(ux, -uy);
+    struct rho_line line = {.rho_m = rho_m, .theta_rad = theta_rad};
+
+    if (line.theta_rad < 0.0f) {
+        line.theta_rad += RHO_PI;
+        line.rho_m = -line.rho_m;
+    }
+    if (line.theta_rad >= RHO_PI) {
+        line.theta_rad = 0.0f;
+        line.rho_m = -line.rho_m;
+    }
+    return line;
+}
+
+int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells)
+{
+    const float cell = theta_rad * ((float)num_cells / RHO_PI);
+    int32_t index;
+
+    if (!(num_cells > 0 && cell > 0.0f)) {
+        return 0;
+    }
+    if (cell >= (float)num_cells) {
+        return num_cells - 1;
+    }
+    index = (int32_t)cell;
+    return index < num_cells ? index : num_cells - 1;
+}

@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/approx.h"
+
+#include <float.h>
+#include <stdint.h>
+#include <string.h>
+
+#define BITS_INFINITY 0x7f800000u
+#define BITS_NAN 0x7fc00000u
+#define EXPONENT_SHIFT 23
+#define EXPONENT_BIAS 127
+#define FRACTION_MASK 0x007fffffu
+#define FRACTION_ONE 0x00800000u
+
+#define TRIG_LIMIT_RAD 100.0f
+#define TWO_OVER_PI 0.636619772f
+
+/*
+ * pi/2 in three parts (Cody and Waite). The first two have so few bits that their products with a quarter-turn count up
+ * to 64 are exact.
+ */
+#define QUARTER_HIGH 1.5703125f
+#define QUARTER_MIDDLE 4.83751296997070312e-4f
+#define QUARTER_LOW 7.54978995489188216e-8f
+
+/* ln 2 in two parts, to the same end for exponents up to 150. */
+#define LN2_HIGH 0.693359375f
+#define LN2_LOW (-2.12194440e-4f)
+#define LOG2_E 1.44269504f
+#define EXP_LOWEST (-87.0f)
+#define EXP_HIGHEST 88.0f
+
+#define SQRT_HALF 0.707106781f
+#define TAN_PI_8 0.414213562f
+#define QUARTER_PI 0.785398163f
+
+static uint32_t bits_of(float v)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    return bits;
+}
+
+static float float_of(uint32_t bits)
+{
+    float v;
+
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+static int32_t nearest_integer(float v)
+{
+    return (int32_t)(v < 0.0f ? v - 0.5f : v + 0.5f);
+}
+
+/* Minimax polynomials on |r| <= pi/4: S. Moshier, Cephes library, sinf.c. */
+static float sine_kernel(float r)
+{
+    const float z = r * r;
+
+    return ((-1.9515295891e-4f * z + 8.3321608736e-3f) * z - 1.6666654611e-1f) * z * r + r;
+}
+
+static float cosine_kernel(float r)
+{
+    const float z = r * r;
+
+    return ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z *
+               z -
+           0.5f * z + 1.0f;
+}
+
+/* sin(angle + quarters * pi/2). */
+static float sine_shifted(float angle_rad, uint32_t quarters)
+{
+    int32_t count;
+    uint32_t quadrant;
+    float k, r, sine;
+
+    if (!(angle_rad >= -TRIG_LIMIT_RAD && angle_rad <= TRIG_LIMIT_RAD)) {
+        return float_of(BITS_NAN);
+    }
+    count = nearest_integer(angle_rad * TWO_OVER_PI);
+    k = (float)count;
+    r = ((angle_rad - k * QUARTER_HIGH) - k * QUARTER_MIDDLE) - k * QUARTER_LOW;
+    quadrant = (uint32_t)count + quarters;
+    sine = (quadrant & 1u) != 0u ? cosine_kernel(r) : sine_kernel(r);
+    return (quadrant & 2u) != 0u ? -sine : sine;
+}
+
+/* atan(t) for 0 <= t <= 1: Cephes, atanf.c. */
+static float atan_unit(float t)
+{
+    const int is_upper = t > TAN_PI_8;
+    const float u = is_upper ? (t - 1.0f) / (t + 1.0f) : t;
+    const float z = u * u;
+    const float angle = (((8.05374449538e-2f * z - 1.38776856032e-1f) * z + 1.99777106478e-1f) * z -
+                         3.33329491539e-1f) *
+                            z * u +
+                        u;
+
+    return is_upper ? QUARTER_PI + angle : angle;
+}
+
+/* ln(1 + f) + f^2/2 - f for sqrt(1/2) <= 1 + f < sqrt(2): Cephes, logf.c. */
+static float log_kernel(float f)
+{
+    float y = 7.0376836292e-2f;
+
+    y = y * f - 1.1514610310e-1f;
+    y = y * f + 1.1676998740e-1f;
+    y = y * f - 1.2420140846e-1f;
+    y = y * f + 1.4249322787e-1f;
+    y = y * f - 1.6668057665e-1f;
+    y = y * f + 2.0000714765e-1f;
+    y = y * f - 2.4999993993e-1f;
+    y = y * f + 3.3333331174e-1f;
+    return y * f * f * f;
+}
+
+/*
+ * Root of m * 2^23 for 2^23 <= m < 2^25, to the nearest integer. Newton's iteration for 1/sqrt brings the estimate to
+ * some units; the remainder, which fits 32 bits though m * 2^23 does not, settles them exactly. A root is never half an
+ * integer, so there are no ties.
+ */
+static uint32_t integer_root(uint32_t m)
+{
+    const float x = (float)m * (1.0f / 8388608.0f);
+    float y = float_of(0x5f3759dfu - (bits_of(x) >> 1));
+    uint32_t root, rest;
+    int i;
+
+    for (i = 0; i < 3; ++i) {
+        y = y * (1.5f - 0.5f * x * y * y);
+    }
+    root = (uint32_t)(x * y * 8388608.0f) - 4u;
+    rest = (m << EXPONENT_SHIFT) - root * root;
+    for (i = 0; i < 8 && rest > 2u * root; ++i) {
+        rest -= 2u * root + 1u;
+        ++root;
+    }
+    return rest > root ? root + 1u : root;
+}
+
+float rho_sin(float angle_rad)
+{
+    return sine_shifted(angle_rad, 0u);
+}
+
+float rho_cos(float angle_rad)
+{
+    return sine_shifted(angle_rad, 1u);
+}
+
+float rho_atan2(float y, float x)
+{
+    const float size_y = y < 0.0f ? -y : y;
+    const float size_x = x < 0.0f ? -x : x;
+    const int is_steep = size_y > size_x;
+    const float longer = is_steep ? size_y : size_x;
+    float angle;
+
+    if (!(size_y <= FLT_MAX && size_x <= FLT_MAX)) {
+        return float_of(BITS_NAN);
+    }
+    if (!(longer > 0.0f)) {
+        return 0.0f;
+    }
+    angle = atan_unit((is_steep ? size_x : size_y) / longer);
+    angle = is_steep ? RHO_HALF_PI - angle : angle;
+    angle = x < 0.0f ? RHO_PI - angle : angle;
+    return y < 0.0f ? -angle : angle;
+}
+
+/* e^v = 2^n e^r, |r| <= ln(2)/2; the polynomial is Cephes, expf.c. */
+float rho_exp(float v)
+{
+    int32_t n;
+    float r, y;
+
+    if (!(v >= EXP_LOWEST && v <= EXP_HIGHEST)) {
+        return v < EXP_LOWEST ? 0.0f : float_of(v > EXP_HIGHEST ? BITS_INFINITY : BITS_NAN);
+    }
+    n = nearest_integer(v * LOG2_E);
+    r = (v - (float)n * LN2_HIGH) - (float)n * LN2_LOW;
+    y = 1.9875691500e-4f;
+    y = y * r + 1.3981999507e-3f;
+    y = y * r + 8.3334519073e-3f;
+    y = y * r + 4.1665795894e-2f;
+    y = y * r + 1.6666665459e-1f;
+    y = y * r + 5.0000001201e-1f;
+    y = y * r * r + r + 1.0f;
+    return y * float_of((uint32_t)(n + EXPONENT_BIAS) << EXPONENT_SHIFT);
+}
+
+float rho_log(float v)
+{
+    const int is_subnormal = v < FLT_MIN;
+    const uint32_t bits = bits_of(is_subnormal ? v * 8388608.0f : v);
+    int32_t exponent = (int32_t)(bits >> EXPONENT_SHIFT) - (EXPONENT_BIAS - 1);
+    float f, k;
+
+    if (!(v > 0.0f && v <= FLT_MAX)) {
+        return v > 0.0f ? v : float_of(v >= 0.0f ? BITS_INFINITY | 0x80000000u : BITS_NAN);
+    }
+    f = float_of((bits & FRACTION_MASK) | bits_of(0.5f));
+    exponent -= is_subnormal ? EXPONENT_SHIFT : 0;
+    if (f < SQRT_HALF) {
+        f += f;
+        --exponent;
+    }
+    f -= 1.0f;
+    k = (float)exponent;
+    return f + (log_kernel(f) + k * LN2_LOW - 0.5f * f * f) + k * LN2_HIGH;
+}
+
+float rho_sqrt(float v)
+{
+    const int is_subnormal = v < FLT_MIN;
+    const uint32_t bits = bits_of(is_subnormal ? v * 16777216.0f : v);
+    const uint32_t exponent = bits >> EXPONENT_SHIFT;
+    uint32_t m, half;
+
+    if (!(v > 0.0f && v <= FLT_MAX)) {
+        return v >= 0.0f ? v : float_of(BITS_NAN);
+    }
+    m = (bits & FRACTION_MASK) | FRACTION_ONE;
+    m <<= (exponent + 1u) & 1u; /* an even power of two is left over */
+    half = ((exponent + EXPONENT_BIAS) >> 1) - (is_subnormal ? 12u : 0u);
+    return float_of((half << EXPONENT_SHIFT) + (integer_root(m) - FRACTION_ONE));
+}

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/linalg.h"
+
+#include <float.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "rhotrack/approx.h"
+
+/*
+ * A variance lowered by an update is first raised by 2^-20, sixteen units of float32's rounding. The products that are
+ * taken off carry at most four each, so that what remains of a positive definite matrix is positive definite, even
+ * where the measurement is 10^8 times better than the prediction and every digit cancels.
+ */
+#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
+
+/* Where row i of a packed 6 x 6 matrix lies. */
+static const uint8_t row_places[6][6] = {
+    {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
+    {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
+};
+
+/* False for NaN. */
+static int is_positive(float v)
+{
+    return v > 0.0f && v <= FLT_MAX;
+}
+
+static int is_finite(float v)
+{
+    return v >= -FLT_MAX && v <= FLT_MAX;
+}
+
+/* a[i] . b over the first n elements of two packed rows. */
+static float dot(int n, const float *a, const float *b)
+{
+    float sum = 0.0f;
+    int i;
+
+    for (i = 0; i < n; ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+/* Row i of the factor from row i of the matrix and the rows above. */
+static int factor_row(int i, const float *a, float *l)
+{
+    float *row = &l[RHO_TRIANGLE(i)];
+    float pivot;
+    int j;
+
+    for (j = 0; j < i; ++j) {
+        const float *above = &l[RHO_TRIANGLE(j)];
+
+        row[j] = (a[RHO_TRIANGLE(i) + j] - dot(j, row, above)) / above[j];
+    }
+    pivot = a[RHO_TRIANGLE(i) + i] - dot(i, row, row);
+    row[i] = rho_sqrt(pivot);
+    return is_positive(pivot);
+}
+
+/* p := p - row row^T / s, off the diagonal. Written out: a loop would take twice the time. */
+static inline void lower_covariances(float p[21], const float row[6], const float gain[6])
+{
+    p[RHO_AT(1, 0)] -= gain[1] * row[0];
+    p[RHO_AT(2, 0)] -= gain[2] * row[0];
+    p[RHO_AT(2, 1)] -= gain[2] * row[1];
+    p[RHO_AT(3, 0)] -= gain[3] * row[0];
+    p[RHO_AT(3, 1)] -= gain[3] * row[1];
+    p[RHO_AT(3, 2)] -= gain[3] * row[2];
+    p[RHO_AT(4, 0)] -= gain[4] * row[0];
+    p[RHO_AT(4, 1)] -= gain[4] * row[1];
+    p[RHO_AT(4, 2)] -= gain[4] * row[2];
+    p[RHO_AT(4, 3)] -= gain[4] * row[3];
+    p[RHO_AT(5, 0)] -= gain[5] * row[0];
+    p[RHO_AT(5, 1)] -= gain[5] * row[1];
+    p[RHO_AT(5, 2)] -= gain[5] * row[2];
+    p[RHO_AT(5, 3)] -= gain[5] * row[3];
+    p[RHO_AT(5, 4)] -= gain[5] * row[4];
+}
+
+/* No update makes a variance grow. */
+static inline float lowered(float variance, float gain, float covariance)
+{
+    const float rest = variance * ROUNDING_ALLOWANCE - gain * covariance;
+
+    return rest < variance ? rest : variance;
+}
+
+static inline void lower_variances(float p[21], const float row[6], const float gain[6])
+{
+    p[RHO_AT(0, 0)] = lowered(p[RHO_AT(0, 0)], gain[0], row[0]);
+    p[RHO_AT(1, 1)] = lowered(p[RHO_AT(1, 1)], gain[1], row[1]);
+    p[RHO_AT(2, 2)] = lowered(p[RHO_AT(2, 2)], gain[2], row[2]);
+    p[RHO_AT(3, 3)] = lowered(p[RHO_AT(3, 3)], gain[3], row[3]);
+    p[RHO_AT(4, 4)] = lowered(p[RHO_AT(4, 4)], gain[4], row[4]);
+    p[RHO_AT(5, 5)] = lowered(p[RHO_AT(5, 5)], gain[5], row[5]);
+}
+
+enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
+{
+    float factor[RHO_TRIANGLE(RHO_LINALG_MAX)];
+    int i;
+
+    if (a == NULL || l == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (n < 1 || n > RHO_LINALG_MAX) {
+        return RHO_ERROR_CAPACITY;
+    }
+    for (i = 0; i < n; ++i) {
+        if (!factor_row(i, a, factor)) {
+            return RHO_ERROR_SINGULAR;
+        }
+    }
+    memcpy(l, factor, (size_t)RHO_TRIANGLE(n) * sizeof *l);
+    return RHO_OK;
+}
+
+void rho_linalg_forward(int n, const float *l, float *b)
+{
+    int i;
+
+    if (n < 1 || n > RHO_LINALG_MAX || l == NULL || b == NULL) {
+        return;
+    }
+    for (i = 0; i < n; ++i) {
+        const float *row = &l[RHO_TRIANGLE(i)];
+
+        b[i] = (b[i] - dot(i, row, b)) / row[i];
+    }
+}
+
+float rho_linalg_log_determinant(int n, const float *l)
+{
+    float sum = 0.0f;
+    int i;
+
+    if (n < 1 || n > RHO_LINALG_MAX || l == NULL) {
+        return rho_log(-1.0f);
+    }
+    for (i = 0; i < n; ++i) {
+        sum += rho_log(l[RHO_AT(i, i)]);
+    }
+    return 2.0f * sum;
+}
+
+/* S = L D L^T with a unit L: pivots instead of a determinant, which cancels where the errors are correlated. */
+enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *distance2,
+                                 float *log_det)
+{
+    float l10, pivot1, y1, distance, logarithm;
+
+    if (s == NULL || d == NULL || distance2 == NULL || log_det == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    l10 = s[1] / s[0];
+    pivot1 = s[2] - l10 * s[1];
+    y1 = d[1] - l10 * d[0];
+    distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1;
+    if (!(is_positive(s[0]) && is_positive(pivot1) && is_finite(distance))) {
+        return RHO_ERROR_SINGULAR;
+    }
+    logarithm = rho_log(s[0] * pivot1);
+    if (!is_finite(logarithm)) {
+        return RHO_ERROR_SINGULAR;
+    }
+    *distance2 = distance;
+    *log_det = logarithm;
+    return RHO_OK;
+}
+
+enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *distance2,
+                                 float *log_det)
+{
+    float l10, l20, l21, c21, pivot1, pivot2, y1, y2, distance, logarithm;
+
+    if (s == NULL || d == NULL || distance2 == NULL || log_det == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    l10 = s[1] / s[0];
+    l20 = s[3] / s[0];
+    pivot1 = s[2] - l10 * s[1];
+    c21 = s[4] - l20 * s[1];
+    l21 = c21 / pivot1;
+    pivot2 = s[5] - l20 * s[3] - l21 * c21;
+    y1 = d[1] - l10 * d[0];
+    y2 = d[2] - l20 * d[0] - l21 * y1;
+    distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1 + y2 * y2 / pivot2;
+    if (!(is_positive(s[0]) && is_positive(pivot1) && is_positive(pivot2) && is_finite(distance))) {
+        return RHO_ERROR_SINGULAR;
+    }
+    logarithm = rho_log(s[0] * pivot1 * pivot2);
+    if (!is_finite(logarithm)) {
+        return RHO_ERROR_SINGULAR;
+    }
+    *distance2 = distance;
+    *log_det = logarithm;
+    return RHO_OK;
+}
+
+enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
+                                   float variance, float *nis)
+{
+    float row[6], gain[6], next[6];
+    float predicted, sum, inverse, total = 0.0f;
+    const uint8_t *place;
+    int j;
+
+    if (x == NULL || p == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (index < 0 || index >= 6) {
+        return RHO_ERROR_VALUE;
+    }
+    place = row_places[index];
+    predicted = p[place[index]];
+    sum = predicted + variance;
+    inverse = 1.0f / sum;
+    if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
+        return RHO_ERROR_SINGULAR;
+    }
+    for (j = 0; j < 6; ++j) {
+        row[j] = p[place[j]];
+        gain[j] = row[j] * inverse;
+        next[j] = x[j] + gain[j] * innovation;
+        total += next[j];
+    }
+    if (!(is_finite(innovation * inverse * innovation) && is_finite(total))) {
+        return RHO_ERROR_VALUE;
+    }
+    memcpy(x, next, sizeof next);
+    lower_covariances(p, row, gain);
+    lower_variances(p, row, gain);
+    for (j = 0; j < 6; ++j) {
+        p[place[j]] = gain[j] * variance;
+    }
+    if (nis != NULL) {
+        *nis = innovation * inverse * innovation;
+    }
+    return RHO_OK;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/types.h"
+
+#include <float.h>
+
+static const char fate_names[RHO_NUM_FATES][8] = {
+    [RHO_FATE_CLAIMED] = "claimed", [RHO_FATE_HELD] = "held",       [RHO_FATE_GHOST] = "ghost",
+    [RHO_FATE_STALE] = "stale",     [RHO_FATE_INVALID] = "invalid", [RHO_FATE_NO_ROOM] = "no_room",
+};
+
+/* Divided, not multiplied by 1e-6f, which is no binary number: one rounding up to 2^24 us. */
+static float seconds_of(uint64_t span_us)
+{
+    return (float)span_us / 1.0e6f;
+}
+
+const char *rho_fate_name(enum rho_fate fate)
+{
+    const unsigned value = (unsigned)fate;
+
+    return value < RHO_NUM_FATES ? fate_names[value] : "unknown";
+}
+
+uint32_t rho_count(uint32_t counter, uint32_t n)
+{
+    return n < UINT32_MAX - counter ? counter + n : UINT32_MAX;
+}
+
+/* The span of two int64_t needs 64 bits and a sign, so the sign is taken first and the rest is unsigned. */
+float rho_seconds_between(int64_t from_us, int64_t to_us)
+{
+    const uint64_t from = (uint64_t)from_us;
+    const uint64_t to = (uint64_t)to_us;
+
+    return from_us <= to_us ? seconds_of(to - from) : -seconds_of(from - to);
+}
+
+int rho_is_within(float v, float lo, float hi)
+{
+    return v >= lo && v <= hi && v >= -FLT_MAX && v <= FLT_MAX;
+}

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/initiator.h"
+
+#include <string.h>
+
+#include "initiator_search.h"
+#include "rhotrack/approx.h"
+
+#define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
+
+/* The build fails where the RAM formula of config.h is no longer an upper bound. */
+typedef char rho_assert_window_ram[sizeof(struct rho_window) <= RHO_RAM_WINDOW_BYTES ? 1 : -1];
+typedef char rho_assert_initiator_ram[sizeof(struct rho_initiator) <= RHO_RAM_INITIATOR_BYTES ? 1 : -1];
+
+/* ---- kernels ---------------------------------------------------------------------------------- */
+
+/* What all kernels between scans a and b share. */
+struct span {
+    unsigned a, b;
+    const struct rho_window_scan *scan_a, *scan_b;
+    float gap_s;                      /* between the scans' times */
+    unsigned num_between;
+    unsigned between[RHO_MAX_SCANS];  /* scans that vote, the narrowest gate first */
+    float process_m2[RHO_MAX_SCANS];  /* by scan: process noise of its place between a and b */
+    float reach_m[RHO_MAX_SCANS];     /* by scan: of the widest gate */
+    unsigned misses_outside;          /* scans before a and after b: they cannot vote for this kernel */
+};
+
+/* One pair of plots. */
+struct kernel {
+    const struct rho_window_plot *from, *to;
+    float dx_m, dy_m;
+    float duration_s;
+};
+
+/* The scan in the middle has the narrowest gate, and rejects most: it votes first, then its neighbours outwards. */
+static void order_votes(struct span *span)
+{
+    unsigned middle = (span->a + span->b) / 2u;
+    span->num_between = 0;
+    for (unsigned step = 0; step < span->b - span->a; step++) {
+        unsigned up = middle + step, down = middle - step;
+        if (step > 0 && middle >= step && down > span->a) {
+            span->between[span->num_between++] = down;
+        }
+        if (up > span->a && up < span->b) {
+            span->between[span->num_between++] = up;
+        }
+    }
+}
+
+static void open_span(struct search *search, unsigned a, unsigned b, struct span *span)
+{
+    struct rho_window *window = &search->initiator->window;
+    *span = (struct span){.a = a, .b = b};
+    span->scan_a = rho_window_scan_at(window, a);
+    span->scan_b = rho_window_scan_at(window, b);
+    span->gap_s = search->time_s[b] - search->time_s[a];
+    span->misses_outside = search->num_scans - (b - a + 1u);
+    order_votes(span);
+    for (unsigned k = 0; k < span->num_between; k++) {
+        unsigned m = span->between[k];
+        float sigma_a_m = span->scan_a->sigma_max_m, sigma_b_m = span->scan_b->sigma_max_m;
+        float sigma_m = rho_window_scan_at(window, m)->sigma_max_m;
+        float process_m2 = 0.0f;
+        if (search->fit_process_m2 > 0.0f) {
+            process_m2 = rho_initiator_process_gap_m2(search, a, m, b);
+        }
+        span->process_m2[m] = process_m2;
+        /* (1 - al)^2 and al^2 are at most 1: a bound that plots' own times do not break */
+        span->reach_m[m] = rho_sqrt(GATE_CHI2 * (sigma_m * sigma_m + process_m2 + sigma_a_m * sigma_a_m +
+                                                 sigma_b_m * sigma_b_m));
+    }
+}
+
+/* The plot of scan m nearest to where the kernel says, in the gate of all three plots' noise; -1: none. */
+static int vote(struct search *search, const struct span *span, const struct kernel *kernel, unsigned m)
+{
+    float al = (search->time_s[m] - search->time_s[span->a] - kernel->from->offset_s) / kernel->duration_s;
+    float from_m2 = kernel->from->sigma_m * kernel->from->sigma_m;
+    float to_m2 = kernel->to->sigma_m * kernel->to->sigma_m;
+    struct rho_window_query query = {
+        .x_m = kernel->from->x_m + al * kernel->dx_m,
+        .y_m = kernel->from->y_m + al * kernel->dy_m,
+        .vx_mps = kernel->dx_m / kernel->duration_s,
+        .vy_mps = kernel->dy_m / kernel->duration_s,
+        .variance_m2 =
+            (1.0f - al) * (1.0f - al) * from_m2 + al * al * to_m2 + span->process_m2[m],
+        .sigma_factor = 1.0f,
+        .gate_chi2 = GATE_CHI2,
+        .reach_m = span->reach_m[m],
+        .skip_flags = search->skip_flags,
+    };
+    return rho_window_nearest(rho_window_scan_at(&search->initiator->window, m), &query,
+                              &search->initiator->work.window);
+}
+
+/* Lets the scans between vote, and offers the kernel as a candidate where enough do. */
+static void try_kernel(struct search *search, const struct span *span, const struct kernel *kernel)
+{
+    struct plot_set set = {.mask = 1u << span->a | 1u << span->b, .hits = 2};
+    unsigned misses = span->misses_outside;
+    search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
+    for (unsigned k = 0; k < span->num_between; k++) {
+        unsigned m = span->between[k];
+        int plot = vote(search, span, kernel, m);
+        if (plot >= 0) {
+            set.mask |= 1u << m;
+            set.hits++;
+            set.plot[m] = (uint16_t)plot;
+        } else if (++misses > search->num_scans - search->min_scans) {
+            return;
+        }
+    }
+    set.plot[span->a] = (uint16_t)(kernel->from - span->scan_a->plots);
+    set.plot[span->b] = (uint16_t)(kernel->to - span->scan_b->plots);
+    rho_initiator_offer(search, &set);
+}
+
+static void pair_with(struct search *search, const struct span *span,
+                      const struct rho_window_plot *from, const struct rho_window_plot *to)
+{
+    const struct rho_initiator_config *config = &search->initiator->config;
+    struct kernel kernel = {
+        .from = from,
+        .to = to,
+        .dx_m = to->x_m - from->x_m,
+        .dy_m = to->y_m - from->y_m,
+        .duration_s = span->gap_s + to->offset_s - from->offset_s,
+    };
+    float distance2_m2 = kernel.dx_m * kernel.dx_m + kernel.dy_m * kernel.dy_m;
+    float near_m = config->v_min_mps * kernel.duration_s;
+    float far_m = config->v_max_mps * kernel.duration_s;
+    if (kernel.duration_s > 0.0f && distance2_m2 >= near_m * near_m &&
+        distance2_m2 <= far_m * far_m && !(to->flags & search->skip_flags)) {
+        try_kernel(search, span, &kernel);
+    }
+}
+
+/* Pairs a plot of scan a with every plot of scan b that the speed limits allow. */
+static void pair_from(struct search *search, const struct span *span, const struct rho_window_plot *from)
+{
+    const struct rho_window_scan *scan = span->scan_b;
+    float far_m = search->initiator->config.v_max_mps *
+                  (span->gap_s + scan->offset_max_s - from->offset_s);
+    struct rho_window_bins bins = rho_window_bins_under(scan, from->x_m - far_m, from->x_m + far_m,
+                                                        from->y_m - far_m, from->y_m + far_m);
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        unsigned end = start[bins.column_last + 1];
+        for (unsigned j = start[bins.column_first]; j < end; j++) {
+            pair_with(search, span, from, &scan->plots[j]);
+        }
+    }
+}
+
+static void search_span(struct search *search, unsigned a, unsigned b)
+{
+    struct span span;
+    open_span(search, a, b, &span);
+    for (unsigned i = 0; i < span.scan_a->num_plots; i++) {
+        const struct rho_window_plot *from = &span.scan_a->plots[i];
+        if (!(from->flags & search->skip_flags)) {
+            pair_from(search, &span, from);
+        }
+    }
+}
+
+/* A kernel of M votes spans at least M scans; longer spans predict better and come first. */
+static void search_all_spans(struct search *search)
+{
+    unsigned last = search->num_scans - 1u;
+    unsigned first_b = search->kind == RHO_SEARCH_NEWEST ? last : search->min_scans - 1u;
+    for (unsigned a = 0; a + search->min_scans <= search->num_scans; a++) {
+        for (unsigned b = last; b >= first_b && b - a + 1u >= search->min_scans; b--) {
+            search_span(search, a, b);
+        }
+    }
+}
+
+/* ---- public ----------------------------------------------------------------------------------- */
+
+void rho_initiator_config_default(struct rho_initiator_config *config)
+{
+    *config = (struct rho_initiator_config){
+        .scans = RHO_MAX_SCANS < 7 ? RHO_MAX_SCANS : 7,
+        .v_max_mps = 700.0f,
+        .pd = 0.9f,
+    };
+}
+
+static int is_usable(const struct rho_initiator_config *config)
+{
+    return config->scans >= 3 && config->scans <= RHO_MAX_SCANS &&
+           (config->min_scans == 0 ||
+            (config->min_scans >= 3 && config->min_scans <= config->scans)) &&
+           rho_is_within(config->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
+           config->v_min_mps < config->v_max_mps && rho_is_within(config->pd, 0.01f, 0.999f) &&
+           rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
+           rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f);
+}
+
+enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
+                                   const struct rho_initiator_config *config)
+{
+    if (!initiator || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *initiator) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    const struct rho_extent *area = config->area_is_fixed ? &config->area : 0;
+    struct rho_initiator_config copy = *config;
+    enum rho_status status = rho_window_init(&initiator->window, sizeof initiator->window,
+                                             copy.scans, area, 0.0f);
+    if (status != RHO_OK) {
+        return status;
+    }
+    memset(initiator, 0, offsetof(struct rho_initiator, window));
+    initiator->config = copy;
+    initiator->magic = INITIATOR_MAGIC;
+    return RHO_OK;
+}
+
+enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct rho_scan *scan,
+                                   uint8_t *fates, uint32_t *left_unused)
+{
+    if (!initiator) {
+        return RHO_ERROR_NULL;
+    }
+    if (initiator->magic != INITIATOR_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = rho_window_push(&initiator->window, scan, fates, left_unused);
+    if (status == RHO_OK) {
+        initiator->num_candidates = 0;
+    }
+    return status;
+}
+
+/* Times relative to the newest scan, and the least side of an area that is not given: what a target crosses meanwhile. */
+static void lay_times(struct search *search)
+{
+    struct rho_window *window = &search->initiator->window;
+    int64_t newest_us = rho_window_scan_at(window, search->num_scans - 1u)->time_us;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        search->time_s[m] = rho_seconds_between(newest_us, rho_window_scan_at(window, m)->time_us);
+    }
+    if (!window->area_is_fixed) {
+        window->side_min_m = -search->time_s[0] * search->initiator->config.v_max_mps;
+    }
+}
+
+enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_search kind)
+{
+    if (!initiator) {
+        return RHO_ERROR_NULL;
+    }
+    if (initiator->magic != INITIATOR_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    struct search search = {
+        .initiator = initiator,
+        .kind = kind,
+        .num_scans = initiator->window.num_scans,
+        .skip_flags = RHO_WINDOW_INITIATED,
+    };
+    initiator->num_candidates = 0;
+    memset(&initiator->work, 0, sizeof initiator->work);
+    if (search.num_scans == 0) {
+        return RHO_OK;
+    }
+    lay_times(&search);
+    rho_initiator_prepare_process(&search);
+    rho_initiator_prepare(&search);
+    if (search.num_scans >= 3 && search.num_scans >= search.min_scans) {
+        search_all_spans(&search);
+        rho_initiator_select(&search);
+    }
+    return RHO_OK;
+}
+
+unsigned rho_initiator_consume(struct rho_initiator *initiator, const struct rho_candidate *candidate)
+{
+    unsigned used = 0;
+    for (unsigned m = 0; m < initiator->window.num_scans; m++) {
+        struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
+        if (!((unsigned)candidate->mask >> m & 1u) ||
+            (scan->plots[candidate->plot[m]].flags & RHO_WINDOW_INITIATED)) {
+            continue;
+        }
+        scan->plots[candidate->plot[m]].flags |= RHO_WINDOW_INITIATED;
+        scan->num_unused--;
+        used++;
+    }
+    return used;
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/kalman.h"
+
+#include <float.h>
+#include <stddef.h>
+
+#define NUM_AXES 3
+#define TIME_STEP_MAX_S 1.0e5f
+
+/*
+ * A predicted position's variance is raised by 2^-19 of what it was added up from, thirty-two units
+ * of float32's rounding: more than the sums of its row can be wrong by, forth or back, so that a
+ * positive definite covariance stays so.
+ */
+#define ROUNDING_ALLOWANCE (1.0f / 524288.0f)
+
+/* Places in the packed triangle: variances by element, and cov(velocity of a, position of b) by axis. */
+#define DIAGONAL(i) RHO_AT(i, i)
+#define MIXED(a, b) RHO_AT(NUM_AXES + (a), (b))
+
+/* One axis as predicted: computed and judged before anything is written. */
+struct prediction {
+    float position_m, position_variance, velocity_variance, mixed;
+};
+
+/* False for NaN. */
+static int is_finite(float v)
+{
+    return v >= -FLT_MAX && v <= FLT_MAX;
+}
+
+static int is_variance(float v)
+{
+    return v >= RHO_KALMAN_VARIANCE_MIN && v <= RHO_KALMAN_VARIANCE_MAX;
+}
+
+/* Zero marks an axis that is not open and stays. */
+static inline float at_least_floor(float variance, float before)
+{
+    return variance < RHO_KALMAN_VARIANCE_MIN && before > 0.0f ? RHO_KALMAN_VARIANCE_MIN : variance;
+}
+
+/*
+ * F P F^T + Q of one axis, F = [1 dt; 0 1]. noise: density x dt. False where the result is beyond
+ * the limits.
+ */
+static inline int predict_axis(struct prediction *next, const struct rho_kalman *kalman, int axis,
+                               float dt_s, float noise)
+{
+    const float *p = kalman->covariance;
+    const float position = p[DIAGONAL(axis)];
+    const float velocity = p[DIAGONAL(NUM_AXES + axis)];
+    const float mixed = p[MIXED(axis, axis)];
+    const float q = position > 0.0f ? noise : 0.0f;
+    const float moved = dt_s * velocity;
+    const float moved_twice = dt_s * moved;
+    const float predicted = position + moved_twice + 2.0f * dt_s * mixed +
+                            (position + moved_twice) * ROUNDING_ALLOWANCE +
+                            q * dt_s * dt_s * (1.0f / 3.0f);
+
+    next->position_m = kalman->state[axis] + dt_s * kalman->state[NUM_AXES + axis];
+    next->position_variance = at_least_floor(predicted, position);
+    next->velocity_variance = velocity + q;
+    next->mixed = mixed + moved + 0.5f * dt_s * q;
+    return is_finite(next->position_m) && next->position_variance >= 0.0f &&
+           next->position_variance <= RHO_KALMAN_VARIANCE_MAX &&
+           next->velocity_variance <= RHO_KALMAN_VARIANCE_MAX;
+}
+
+/*
+ * F P F^T between two axes: with P = [A C^T; C V] this is A + dt (C + C^T) + dt^2 V and C + dt V.
+ * One C is moved first, so that A needs one multiplication.
+ */
+static inline void predict_pair(float *p, int a, int b, float dt_s)
+{
+    const float moved = dt_s * p[RHO_AT(NUM_AXES + a, NUM_AXES + b)];
+    const float mixed_ab = p[MIXED(a, b)] + moved;
+    const float mixed_ba = p[MIXED(b, a)];
+
+    p[RHO_AT(a, b)] += dt_s * (mixed_ab + mixed_ba);
+    p[MIXED(a, b)] = mixed_ab;
+    p[MIXED(b, a)] = mixed_ba + moved;
+}
+
+static inline void accept_axis(struct rho_kalman *kalman, int axis, const struct prediction *next)
+{
+    kalman->state[axis] = next->position_m;
+    kalman->covariance[DIAGONAL(axis)] = next->position_variance;
+    kalman->covariance[DIAGONAL(NUM_AXES + axis)] = next->velocity_variance;
+    kalman->covariance[MIXED(axis, axis)] = next->mixed;
+}
+
+/* What an update left below the floor is lifted to it. */
+static inline void keep_floor(float *variance)
+{
+    if (*variance < RHO_KALMAN_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
+        *variance = RHO_KALMAN_VARIANCE_MIN;
+    }
+}
+
+void rho_kalman_init(struct rho_kalman *kalman)
+{
+    static const struct rho_kalman nothing_measured = {.state = {0.0f}, .covariance = {0.0f}};
+
+    if (kalman != NULL) {
+        *kalman = nothing_measured;
+    }
+}
+
+enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float position_m,
+                                     float position_variance, float velocity_variance)
+{
+    int i;
+
+    if (kalman == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (axis < 0 || axis >= NUM_AXES || !is_finite(position_m) || !is_variance(position_variance) ||
+        !is_variance(velocity_variance)) {
+        return RHO_ERROR_VALUE;
+    }
+    for (i = 0; i < RHO_KALMAN_STATES; ++i) {
+        kalman->covariance[RHO_AT(axis, i)] = 0.0f;
+        kalman->covariance[RHO_AT(NUM_AXES + axis, i)] = 0.0f;
+    }
+    kalman->state[axis] = position_m;
+    kalman->state[NUM_AXES + axis] = 0.0f;
+    kalman->covariance[DIAGONAL(axis)] = position_variance;
+    kalman->covariance[DIAGONAL(NUM_AXES + axis)] = velocity_variance;
+    return RHO_OK;
+}
+
+enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density)
+{
+    const float noise = dt_s > 0.0f ? noise_density * dt_s : 0.0f;
+    struct prediction x, y, z;
+
+    if (kalman == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!(dt_s >= -TIME_STEP_MAX_S && dt_s <= TIME_STEP_MAX_S && noise_density >= 0.0f &&
+          noise_density <= FLT_MAX)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (!(dt_s > 0.0f || dt_s < 0.0f)) {
+        return RHO_OK; /* no time, no rounding either */
+    }
+    if (!(predict_axis(&x, kalman, 0, dt_s, noise) && predict_axis(&y, kalman, 1, dt_s, noise) &&
+          predict_axis(&z, kalman, 2, dt_s, noise))) {
+        return RHO_ERROR_VALUE;
+    }
+    predict_pair(kalman->covariance, 1, 0, dt_s);
+    predict_pair(kalman->covariance, 2, 0, dt_s);
+    predict_pair(kalman->covariance, 2, 1, dt_s);
+    accept_axis(kalman, 0, &x);
+    accept_axis(kalman, 1, &y);
+    accept_axis(kalman, 2, &z);
+    return RHO_OK;
+}
+
+enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
+                                  float variance, float *nis)
+{
+    enum rho_status status;
+
+    if (kalman == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (element < 0 || element >= RHO_KALMAN_STATES || !is_finite(value) ||
+        !(variance > 0.0f && variance <= FLT_MAX)) {
+        return RHO_ERROR_VALUE;
+    }
+    status = rho_linalg_update6(kalman->state, kalman->covariance, element,
+                                value - kalman->state[element], variance, nis);
+    if (status == RHO_OK) {
+        keep_floor(&kalman->covariance[DIAGONAL(0)]);
+        keep_floor(&kalman->covariance[DIAGONAL(1)]);
+        keep_floor(&kalman->covariance[DIAGONAL(2)]);
+        keep_floor(&kalman->covariance[DIAGONAL(3)]);
+        keep_floor(&kalman->covariance[DIAGONAL(4)]);
+        keep_floor(&kalman->covariance[DIAGONAL(5)]);
+    }
+    return status;
+}
+
+int rho_kalman_is_open(const struct rho_kalman *kalman, int axis)
+{
+    return kalman != NULL && axis >= 0 && axis < NUM_AXES &&
+           kalman->covariance[DIAGONAL(axis)] > 0.0f;
+}

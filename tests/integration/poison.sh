@@ -1,0 +1,45 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# tools/poison.sh passes on a clean little library, and goes red for each thing that it forbids.
+set -eu
+cd "$(dirname "$0")/../.."
+top=$(pwd)
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+mkdir -p "$copy/src/base" "$copy/include/rhotrack"
+
+build() { # source text of the only module
+    printf '%s\n' "$1" >"$copy/src/base/sample.c"
+    rm -f "$copy/sample.a"
+    gcc -std=c99 -O1 -c -o "$copy/sample.o" "$copy/src/base/sample.c"
+    ar rcs "$copy/sample.a" "$copy/sample.o"
+}
+
+must_pass() { # what, source
+    build "$2"
+    "$top/tools/poison.sh" "$copy" "$copy/sample.a" >"$copy/output" ||
+        { echo "poison.sh refuses $1:"; cat "$copy/output"; exit 1; }
+}
+
+must_fail() { # what, source, the heading expected
+    build "$2"
+    if "$top/tools/poison.sh" "$copy" "$copy/sample.a" >"$copy/output"; then
+        echo "poison.sh did not see $1"
+        exit 1
+    fi
+    grep -qF -- "$3" "$copy/output" || { echo "poison.sh saw $1, but said:"; cat "$copy/output"; exit 1; }
+}
+
+must_pass 'clean code' 'float rho_twice(float v) { return v + v; }'
+must_pass 'words in comments and strings' \
+    'const char *rho_name(void) { return "free"; } /* never malloc(), no double */'
+must_pass 'a constant table of pointers' \
+    'static const char *const names[] = {"a", "b"}; const char *rho_name(int i) { return names[i]; }'
+must_fail 'double' 'double rho_twice(float v) { return v + v; }' 'forbidden words'
+must_fail 'malloc' 'void *malloc(unsigned long); void *rho_new(void) { return malloc(8); }' 'forbidden words'
+must_fail 'stdio.h' '#include <stdio.h>' 'forbidden words'
+must_fail 'a function of libm' 'float sinf(float); float rho_f(float v) { return sinf(v); }' 'takes from elsewhere'
+must_fail 'a counter of its own' 'int rho_count(void); static int n; int rho_count(void) { return ++n; }' 'mutable globals'
+must_fail 'a public variable' 'int rho_level = 3;' 'mutable globals'
+must_fail 'a name without prefix' 'int helper(int v); int helper(int v) { return v; }' 'without the prefix'
+echo 'poison.sh sees what it must'

@@ -1,0 +1,38 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# tests/run.sh counts truly: passes, failures, crashes, programs that are missing.
+set -eu
+cd "$(dirname "$0")/../.."
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+export BUILD=$folder
+
+check() { # name, text of the script
+    printf '#!/bin/sh\n%s\n' "$2" >"$folder/$1"
+    chmod +x "$folder/$1"
+}
+
+must_say() { # closing line, exit code, checks...
+    local line=$1 code=$2 status=0
+    shift 2
+    tests/run.sh "${@/#/$folder/}" >"$folder/output" 2>&1 || status=$?
+    if [ "$(tail -n 1 "$folder/output")" != "$line" ] || [ "$status" -ne "$code" ]; then
+        echo "run.sh $*: expected '$line' and exit $code, got exit $status and:"
+        cat "$folder/output"
+        exit 1
+    fi
+}
+
+check plain 'exit 0'
+check wrong 'exit 3'
+check crash 'echo "[       OK ] a"; kill -SEGV $$'
+check cmocka 'echo "[  PASSED  ] 4 test(s)." >&2'
+check cmocka_wrong 'echo "[  PASSED  ] 2 test(s)."; echo "[  FAILED  ] 3 test(s), listed below:"; exit 3'
+
+must_say '1 passed, 0 failed' 0 plain
+must_say '5 passed, 0 failed' 0 plain cmocka
+must_say '0 passed, 1 failed' 1 wrong
+must_say '0 passed, 1 failed' 1 crash
+must_say '1 passed, 1 failed' 1 plain missing
+must_say '7 passed, 4 failed' 1 cmocka wrong cmocka_wrong plain
+echo 'run.sh counts what it must'

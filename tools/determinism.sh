@@ -1,0 +1,46 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+#
+# The same input gives the same bytes, whatever the compiler and its optimisation: builds the program with gcc and clang
+# at -O0 and -O3, lets each simulate, track and initiate with a fixed seed, and compares all files.
+set -eu
+cd "$(dirname "$0")/.."
+build=${BUILD:-build}/determinism
+scenarios='clutter radar crossing'
+variants='gcc-O0 gcc-O3 clang-O0 clang-O3'
+
+unset MAKEFLAGS MAKELEVEL MFLAGS
+mkdir -p "$build"
+make_variant() { # gcc-O0
+    folder=$build/$1
+    make --no-print-directory -s BUILD="$folder" CC="${1%-*}" OPT="-${1#*-}" "$folder/rhotrack" \
+        >"$build/$1.log" 2>&1 || { grep -v '^  ' "$build/$1.log"; echo "determinism: $1 does not build"; exit 1; }
+}
+export -f make_variant
+export build
+# shellcheck disable=SC2086 # words on purpose
+printf '%s\n' $variants | xargs -P "$(nproc)" -I{} bash -euc 'make_variant {}'
+
+for variant in $variants; do
+    output=$build/$variant/output
+    rm -rf "$output"
+    mkdir -p "$output"
+    for scenario in $scenarios; do
+        data=$output/$scenario
+        "$build/$variant/rhotrack" simulate "$scenario" --seed 3 -o "$data"
+        "$build/$variant/rhotrack" track "$data/plots.csv" -o "$data/tracks.csv"
+        "$build/$variant/rhotrack" initiate "$data/plots.csv" -o "$data/initiated.csv"
+    done 2>"$build/$variant.log" || { cat "$build/$variant.log"; exit 1; }
+    (cd "$output" && find . -type f | sort | xargs sha256sum) >"$build/$variant.sha256"
+done
+
+status=0
+for variant in $variants; do
+    if ! diff "$build/gcc-O0.sha256" "$build/$variant.sha256"; then
+        echo "determinism: $variant writes other bytes than gcc-O0"
+        status=1
+    fi
+done
+[ "$status" -eq 0 ] || exit 1
+cat "$build/gcc-O0.sha256"
+echo "determinism: the same bytes from $variants"

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "commands.h"
+#include "common.h"
+#include "experiment.h"
+
+static const struct {
+    const char *name;
+    int (*run)(const struct command_line *line);
+} experiments[] = {{"initiation", experiment_initiation}};
+
+int command_experiment(struct command_line *line)
+{
+    if (line->num_arguments != 1) {
+        fail(EXIT_USAGE, "experiment: give one name; there is: initiation");
+    }
+    for (size_t i = 0; i < sizeof experiments / sizeof experiments[0]; i++) {
+        if (strcmp(experiments[i].name, line->arguments[0]) == 0) {
+            return experiments[i].run(line);
+        }
+    }
+    fail(EXIT_USAGE, "no experiment `%s`; there is: initiation", line->arguments[0]);
+}

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: MIT */
+/* initiate: initiation alone, on the last scans of a file as one batch. */
+#include <cjson/cJSON.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "common.h"
+#include "scan_reader.h"
+#include "tracks_writer.h"
+
+struct batch {
+    struct rho_initiator *initiator;
+    int64_t time_us; /* of the last scan */
+    uint64_t scans, plots, plots_no_room;
+    int64_t wall_us;
+};
+
+static void check_method(const char *method)
+{
+    if (method && strcmp(method, "kernel") != 0)
+        fail(EXIT_USAGE, "method '%s' is not in this version; there is: kernel", method);
+}
+
+static void check_status(enum rho_status status)
+{
+    if (status != RHO_OK)
+        fail(EXIT_RUNTIME, "initiator: the library says '%s'", rho_status_name(status));
+}
+
+/* ---- The batch ---- */
+
+static void push(struct batch *batch, const struct rho_scan *scan)
+{
+    static uint8_t fates[RHO_MAX_PLOTS];
+    struct rho_scan held = *scan;
+    uint32_t left_unused = 0;
+    int64_t start_us;
+
+    if (held.num_plots > RHO_MAX_PLOTS)
+        held.num_plots = RHO_MAX_PLOTS;
+    memset(fates, RHO_FATE_HELD, sizeof fates);
+    start_us = clock_us();
+    check_status(rho_initiator_push(batch->initiator, &held, fates, &left_unused));
+    batch->wall_us += clock_us() - start_us;
+    batch->time_us = scan->time_us;
+    batch->scans++;
+    batch->plots += scan->num_plots;
+    batch->plots_no_room += scan->num_plots - held.num_plots;
+}
+
+/* Pushes the last scans of the reader that fit the window. */
+static void push_last(struct batch *batch, struct scan_reader *reader)
+{
+    uint64_t total = scan_reader_total(reader), scans = batch->initiator->config.scans;
+    const struct rho_scan *scan;
+
+    if (total > scans)
+        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " scans are taken\n", scans,
+                total);
+    for (uint64_t i = 0; (scan = scan_reader_next(reader)); i++) {
+        if (i + scans >= total)
+            push(batch, scan);
+    }
+}
+
+static void search(struct batch *batch, const struct command_line *line)
+{
+    struct rho_initiator_config config;
+    struct scan_reader *reader;
+    int64_t start_us;
+
+    parameters_to_initiator(&line->parameters, &config);
+    batch->initiator = must_alloc(sizeof *batch->initiator);
+    check_status(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config));
+    reader = scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
+                              line->keep_going);
+    push_last(batch, reader);
+    start_us = clock_us();
+    check_status(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
+    batch->wall_us += clock_us() - start_us;
+    if (scan_reader_counts(reader).rows_skipped)
+        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n",
+                scan_reader_counts(reader).rows_skipped);
+    if (batch->plots_no_room)
+        fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
+                batch->plots_no_room, RHO_MAX_PLOTS);
+    scan_reader_close(reader);
+}
+
+/* ---- What it found ---- */
+
+static void write_found(const struct batch *batch, const char *path)
+{
+    struct output output = output_open(path);
+
+    initiated_write_header(output.file);
+    for (unsigned i = 0; i < batch->initiator->num_candidates; i++)
+        initiated_write_row(output.file, i + 1, batch->time_us, &batch->initiator->candidates[i]);
+    output_close(&output);
+}
+
+static int compare_descending(const void *a, const void *b)
+{
+    return *(const int *)b - *(const int *)a;
+}
+
+/* Votes of each track found, descending; *sum gets them all. */
+static cJSON *peaks_json(const struct rho_initiator *initiator, double *sum)
+{
+    int hits[RHO_MAX_CANDIDATES];
+    cJSON *list;
+
+    *sum = 0;
+    for (int i = 0; i < initiator->num_candidates; i++) {
+        hits[i] = initiator->candidates[i].hits;
+        *sum += hits[i];
+    }
+    qsort(hits, initiator->num_candidates, sizeof *hits, compare_descending);
+    list = cJSON_CreateIntArray(hits, initiator->num_candidates);
+    if (!list)
+        fail(EXIT_RUNTIME, "out of memory");
+    return list;
+}
+
+static void print_json(const struct batch *batch)
+{
+    const struct rho_initiator *initiator = batch->initiator;
+    cJSON *object = cJSON_CreateObject(), *peaks;
+    double votes;
+
+    peaks = peaks_json(initiator, &votes);
+    cJSON_AddStringToObject(object, "method", "kernel");
+    cJSON_AddNumberToObject(object, "scans", (double)batch->scans);
+    cJSON_AddNumberToObject(object, "plots", (double)batch->plots);
+    cJSON_AddNumberToObject(object, "pairs", initiator->work.seeds);
+    cJSON_AddNumberToObject(object, "candidates", initiator->work.seeds);
+    cJSON_AddNumberToObject(object, "votes", votes);
+    cJSON_AddItemToObject(object, "peak_votes", peaks);
+    cJSON_AddNumberToObject(object, "tracks", initiator->num_candidates);
+    cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *initiator);
+    cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
+    cJSON_AddNumberToObject(object, "min_scans", initiator->min_scans);
+    cJSON_AddNumberToObject(object, "lookups", initiator->work.window.lookups);
+    cJSON_AddNumberToObject(object, "distances", initiator->work.window.distances);
+    cJSON_AddNumberToObject(object, "fits", initiator->work.fits);
+    cJSON_AddNumberToObject(object, "candidates_dropped", initiator->work.candidates_dropped);
+    cJSON_AddNumberToObject(object, "plots_no_room", (double)batch->plots_no_room);
+    json_print(object);
+}
+
+int command_initiate(struct command_line *line)
+{
+    struct batch batch = {.wall_us = 0};
+
+    check_method(line->method);
+    search(&batch, line);
+    if (line->output || !line->json)
+        write_found(&batch, line->output);
+    if (line->json)
+        print_json(&batch);
+    free(batch.initiator);
+    return 0;
+}

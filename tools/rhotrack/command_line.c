@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: MIT */
+#include "command_line.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common.h"
+#include "hint.h"
+
+enum { NUM_OPTIONS = 12, RUNS_MAX = 1000000 };
+
+/* Letters are the program's own names of the options; only -o and -h may be typed as such. */
+static const struct {
+    char letter;
+    const char *name, *argument, *text;
+} options[NUM_OPTIONS] = {
+    {'o', "output", "OUTPUT", "where to write; it appears there only when it is complete"},
+    {'m', "method", "METHOD", "how to"},
+    {'g', "gate", "GATE", "how tracks choose their plots: nearest (the default)"},
+    {'f', "follow", NULL, "not in this version"},
+    {'c', "covariance", NULL, "tracks with 21 columns more: the covariance's lower triangle"},
+    {'r', "runs", "N", "how many runs"},
+    {'S', "seed", "S", "start of the random numbers, a whole number (default 1)"},
+    {'j', "json", NULL, "one JSON object with the results on standard output"},
+    {'k', "keep-going", NULL, "skip and count bad rows instead of stopping at the first"},
+    {'s', "set", "KEY=VALUE", "a parameter; may be repeated; `rhotrack config` lists them"},
+    {'C', "config", "FILE", "parameters from an INI file; --set goes before it"},
+    {'h', "help", NULL, "this text"},
+};
+
+static bool takes(const struct command *command, char letter)
+{
+    return letter == 'h' || strchr(command->options, letter);
+}
+
+static const char *option_name(size_t index)
+{
+    return index < NUM_OPTIONS ? options[index].name : NULL;
+}
+
+/* ---- Help ---- */
+
+void command_line_help(const struct command *command, FILE *file)
+{
+    fprintf(file, "Usage: rhotrack %s %s\n\n%s\nOptions:\n", command->name, command->usage,
+            command->text);
+    for (size_t i = 0; i < NUM_OPTIONS; i++) {
+        char left[48];
+
+        if (!takes(command, options[i].letter))
+            continue;
+        snprintf(left, sizeof left, "%s--%s%s%s",
+                 options[i].letter == 'o' ? "-o, "
+                 : options[i].letter == 'h' ? "-h, " : "    ",
+                 options[i].name, options[i].argument ? " " : "",
+                 options[i].argument ? options[i].argument : "");
+        fprintf(file, "  %-26s %s\n", left, options[i].text);
+    }
+}
+
+static _Noreturn void show_help(const struct command *command)
+{
+    struct output output = output_open(NULL);
+
+    command_line_help(command, output.file);
+    output_close(&output);
+    exit(0);
+}
+
+/* ---- Values of options ---- */
+
+static uint64_t read_count(const char *option, const char *text, uint64_t min, uint64_t max)
+{
+    char *end;
+    unsigned long long number;
+
+    errno = 0;
+    number = strtoull(text, &end, 10);
+    if (*text < '0' || *text > '9' || *end)
+        fail(EXIT_USAGE, "--%s '%s' is not a whole number", option, text);
+    if (errno || number < min || number > max)
+        fail(EXIT_USAGE, "--%s %s is outside %llu .. %llu", option, text, (unsigned long long)min,
+             (unsigned long long)max);
+    return number;
+}
+
+static void take_option(struct command_line *line, char letter, char *argument)
+{
+    switch (letter) {
+    case 'o':
+        line->output = argument;
+        break;
+    case 'm':
+        line->method = argument;
+        break;
+    case 'g':
+        line->gate = argument;
+        break;
+    case 'c':
+        line->covariance = true;
+        break;
+    case 'r':
+        line->runs = (long)read_count("runs", argument, 1, RUNS_MAX);
+        break;
+    case 'S':
+        line->seed = read_count("seed", argument, 0, UINT64_MAX);
+        break;
+    case 'j':
+        line->json = true;
+        break;
+    case 'k':
+        line->keep_going = true;
+        break;
+    case 's':
+        parameters_set(&line->parameters, argument);
+        break;
+    case 'C':
+        parameters_load(&line->parameters, argument);
+        break;
+    default:
+        fail(EXIT_USAGE, "--follow is not in this version");
+    }
+}
+
+/* ---- The whole line ---- */
+
+/* getopt's table of all options: those of other commands are refused with a better message than its own. */
+static void fill_table(struct option table[NUM_OPTIONS + 1])
+{
+    for (size_t i = 0; i < NUM_OPTIONS; i++)
+        table[i] = (struct option){options[i].name,
+                                   options[i].argument ? required_argument : no_argument, NULL,
+                                   options[i].letter};
+    table[NUM_OPTIONS] = (struct option){NULL, 0, NULL, 0};
+}
+
+static const char *name_of(int letter)
+{
+    for (size_t i = 0; i < NUM_OPTIONS; i++) {
+        if (options[i].letter == letter)
+            return options[i].name;
+    }
+    return NULL;
+}
+
+static _Noreturn void refuse_option(const struct command *command, char **argv)
+{
+    const char *typed = argv[optind - 1], *hint;
+    char name[64];
+
+    if (optopt && strncmp(typed, "--", 2) == 0 && name_of(optopt))
+        fail(EXIT_USAGE, "%s: --%s takes no value", command->name, name_of(optopt));
+    if (optopt)
+        fail(EXIT_USAGE, "%s: unknown option '-%c'; see rhotrack %s --help", command->name, optopt,
+             command->name);
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(typed + 2, "="), typed + 2);
+    hint = hint_nearest(name, option_name);
+    if (hint)
+        fail(EXIT_USAGE, "%s: unknown option '%s', did you mean '--%s'?", command->name, typed,
+             hint);
+    fail(EXIT_USAGE, "%s: unknown option '%s'; see rhotrack %s --help", command->name, typed,
+         command->name);
+}
+
+static void read_options(struct command_line *line, const struct command *command, int argc,
+                         char **argv)
+{
+    struct option table[NUM_OPTIONS + 1];
+    int letter;
+
+    fill_table(table);
+    opterr = 0;
+    while ((letter = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
+        if (letter == '?')
+            refuse_option(command, argv);
+        if (letter == ':')
+            fail(EXIT_USAGE, "%s: --%s needs a value", command->name, name_of(optopt));
+        if (letter == 'h')
+            show_help(command);
+        if (!takes(command, (char)letter))
+            fail(EXIT_USAGE, "%s takes no --%s; see rhotrack %s --help", command->name,
+                 name_of(letter), command->name);
+        take_option(line, (char)letter, optarg);
+    }
+}
+
+void command_line_read(struct command_line *line, const struct command *command, int argc,
+                       char **argv)
+{
+    *line = (struct command_line){.seed = 1};
+    parameters_default(&line->parameters);
+    read_options(line, command, argc, argv);
+    line->arguments = argv + optind;
+    line->num_arguments = argc - optind;
+    if (line->num_arguments < command->min_arguments)
+        fail(EXIT_USAGE, "%s: too few arguments; usage: rhotrack %s %s", command->name,
+             command->name, command->usage);
+    if (line->num_arguments > command->max_arguments)
+        fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
+             line->arguments[command->max_arguments], command->name, command->usage);
+}

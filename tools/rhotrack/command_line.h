@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* command_line: what the user typed, as one struct; and the help that says what may be typed. */
+#ifndef RHOTRACK_TOOL_COMMAND_LINE_H
+#define RHOTRACK_TOOL_COMMAND_LINE_H
+
+#include <stdio.h>
+
+#include "commands.h"
+
+/* One command of the program, a row of main's table. */
+struct command {
+    const char *name;
+    int (*run)(struct command_line *line); /* NULL: planned, not in this version */
+    const char *usage;                     /* arguments and the most important options */
+    int min_arguments, max_arguments;
+    const char *options; /* the options' letters that it takes, as in command_line.c's table */
+    const char *summary; /* one line */
+    const char *text;    /* paragraphs; lines end with a newline */
+};
+
+/* Reads argv, argv[0] being the command's name. Errors: one line, exit 2. --help: prints and exits with 0. */
+void command_line_read(struct command_line *line, const struct command *command, int argc,
+                       char **argv);
+
+/* Help of one command. */
+void command_line_help(const struct command *command, FILE *file);
+
+#endif

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "common.h"
+#include "scenario.h"
+
+static void write_plots(const struct simulation *simulation, const char *folder)
+{
+    char *path = path_join(folder, "plots.csv");
+    struct output output = output_open(path);
+    fprintf(output.file, "t_s,sensor_id,x_m,y_m,sigma_m\n");
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        const struct simulated_scan *scan = &simulation->scans[i];
+        for (size_t j = 0; j < scan->num_plots; j++) {
+            fprintf(output.file, "%.6f,0,%.3f,%.3f,%g\n", scan->t_s, scan->plots[j].x_m, scan->plots[j].y_m,
+                    simulation->sigma_m);
+        }
+        if (scan->num_plots == 0) {
+            fprintf(output.file, "%.6f,0,,,\n", scan->t_s);
+        }
+    }
+    output_close(&output);
+    free(path);
+}
+
+static void write_truth(const struct simulation *simulation, const char *folder)
+{
+    char *path = path_join(folder, "truth.csv");
+    struct output output = output_open(path);
+    fprintf(output.file, "t_s,target_id,x_m,y_m,vx_mps,vy_mps\n");
+    for (size_t i = 0; i < simulation->num_truth; i++) {
+        const struct truth_point *point = &simulation->truth[i];
+        fprintf(output.file, "%.6f,%d,%.3f,%.3f,%.4f,%.4f\n", point->t_s, point->target_id, point->x_m,
+                point->y_m, point->vx_mps, point->vy_mps);
+    }
+    output_close(&output);
+    free(path);
+}
+
+/* What a tracker should know of the scenario, for `track --config`. */
+static void write_settings(const char *name, const struct simulation *simulation,
+                           const struct parameters *parameters, const char *folder)
+{
+    static const enum parameter_id told[] = {PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS,
+                                             PARAMETER_ACCEL_MAX_MPS2};
+    char *path = path_join(folder, "scenario.ini");
+    struct output output = output_open(path);
+    fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
+    fprintf(output.file, "sigma_m = %g\n", simulation->sigma_m);
+    for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
+        fprintf(output.file, "%s = %g\n", parameters_name(told[i]), parameters->value[told[i]]);
+    }
+    fprintf(output.file, "area_x_min_m = %.3f\narea_x_max_m = %.3f\n", simulation->area.x_min_m,
+            simulation->area.x_max_m);
+    fprintf(output.file, "area_y_min_m = %.3f\narea_y_max_m = %.3f\n", simulation->area.y_min_m,
+            simulation->area.y_max_m);
+    output_close(&output);
+    free(path);
+}
+
+static void write_run(const struct command_line *line, const char *folder, uint64_t run)
+{
+    const char *name = line->arguments[0];
+    struct simulation *simulation = scenario_simulate(name, &line->parameters, line->seed, run);
+    make_folder(folder);
+    write_plots(simulation, folder);
+    write_truth(simulation, folder);
+    write_settings(name, simulation, &line->parameters, folder);
+    simulation_free(simulation);
+}
+
+static void write_runs(const struct command_line *line)
+{
+    struct progress progress = progress_start("runs", (uint64_t)line->runs);
+    for (long run = 0; run < line->runs; run++) {
+        char name[32];
+        snprintf(name, sizeof name, "run-%04ld", run);
+        char *folder = path_join(line->output, name);
+        write_run(line, folder, (uint64_t)run);
+        free(folder);
+        progress_show(&progress, (uint64_t)run + 1);
+    }
+    progress_end(&progress);
+}
+
+static _Noreturn void fail_with_list(void)
+{
+    fprintf(stderr, "rhotrack: simulate: give one scenario and -o DIR; the scenarios:\n");
+    for (size_t i = 0; scenario_name(i) != NULL; i++) {
+        fprintf(stderr, "  %-15s %s\n", scenario_name(i), scenario_text(i));
+    }
+    exit(EXIT_USAGE);
+}
+
+int command_simulate(struct command_line *line)
+{
+    if (line->num_arguments != 1 || line->output == NULL) {
+        fail_with_list();
+    }
+    scenario_suggest(line->arguments[0], &line->parameters);
+    parameters_check(&line->parameters);
+    if (line->runs > 1) {
+        write_runs(line);
+    } else {
+        write_run(line, line->output, 0);
+    }
+    return 0;
+}

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT */
+/* track: the whole chain, scans in, tracks out. */
+#include <cjson/cJSON.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "common.h"
+#include "scan_reader.h"
+#include "tracks_writer.h"
+
+struct tracking {
+    struct rho_tracker *tracker;
+    struct rho_initiator *initiator;
+    struct rho_report *report;
+    const struct parameters *parameters;
+    int32_t *sensor_ids; /* met so far */
+    size_t num_sensors, sensors_capacity;
+    int64_t sum_us, max_us;
+};
+
+static void check_status(enum rho_status status, const char *what)
+{
+    if (status != RHO_OK)
+        fail(EXIT_RUNTIME, "%s: the library says '%s'", what, rho_status_name(status));
+}
+
+static void check_gate(const char *gate)
+{
+    if (!gate || !strcmp(gate, "nearest"))
+        return;
+    if (!strcmp(gate, "best") || !strcmp(gate, "hough"))
+        fail(EXIT_USAGE, "--gate %s is not in this version; there is: nearest", gate);
+    fail(EXIT_USAGE, "unknown gate '%s'; there is: nearest", gate);
+}
+
+/* ---- Steps ---- */
+
+static void start(struct tracking *tracking, const struct parameters *parameters)
+{
+    struct rho_initiator_config initiator_config;
+    struct rho_tracker_config tracker_config;
+
+    *tracking = (struct tracking){
+        .tracker = must_alloc(sizeof *tracking->tracker),
+        .initiator = must_alloc(sizeof *tracking->initiator),
+        .report = must_alloc(sizeof *tracking->report),
+        .parameters = parameters,
+    };
+    parameters_to_initiator(parameters, &initiator_config);
+    parameters_to_tracker(parameters, &tracker_config);
+    check_status(rho_initiator_init(tracking->initiator, sizeof *tracking->initiator,
+                                    &initiator_config),
+                 "initiator");
+    check_status(rho_tracker_init(tracking->tracker, sizeof *tracking->tracker, &tracker_config),
+                 "tracker");
+}
+
+static void finish(struct tracking *tracking)
+{
+    free(tracking->tracker);
+    free(tracking->initiator);
+    free(tracking->report);
+    free(tracking->sensor_ids);
+}
+
+static bool is_known_sensor(const struct tracking *tracking, int32_t sensor_id)
+{
+    for (size_t i = 0; i < tracking->num_sensors; i++) {
+        if (tracking->sensor_ids[i] == sensor_id)
+            return true;
+    }
+    return false;
+}
+
+/* Describes a sensor to the tracker when its first scan comes. */
+static void meet_sensor(struct tracking *tracking, int32_t sensor_id)
+{
+    struct rho_sensor sensor;
+    enum rho_status status;
+
+    if (is_known_sensor(tracking, sensor_id))
+        return;
+    if (tracking->num_sensors == tracking->sensors_capacity) {
+        tracking->sensors_capacity = 2 * tracking->sensors_capacity + 8;
+        tracking->sensor_ids = must_realloc(tracking->sensor_ids, tracking->sensors_capacity *
+                                                                      sizeof *tracking->sensor_ids);
+    }
+    tracking->sensor_ids[tracking->num_sensors++] = sensor_id;
+    if (!parameters_to_sensor(tracking->parameters, sensor_id, &sensor))
+        return;
+    status = rho_tracker_set_sensor(tracking->tracker, &sensor);
+    if (status == RHO_ERROR_CAPACITY)
+        fail(EXIT_USAGE, "more than %d sensors with limits of their own", RHO_MAX_SENSORS);
+    check_status(status, "sensor");
+}
+
+static void step(struct tracking *tracking, const struct rho_scan *scan)
+{
+    int64_t start_us, took_us;
+
+    meet_sensor(tracking, scan->sensor_id);
+    start_us = clock_us();
+    check_status(
+        rho_tracker_step(tracking->tracker, tracking->initiator, scan, tracking->report), "step");
+    took_us = clock_us() - start_us;
+    tracking->sum_us += took_us;
+    if (took_us > tracking->max_us)
+        tracking->max_us = took_us;
+}
+
+static void step_all(struct tracking *tracking, struct scan_reader *reader, FILE *file,
+                     bool with_covariance)
+{
+    struct progress progress = progress_start("scans", scan_reader_total(reader));
+    const struct rho_scan *scan;
+    uint64_t done = 0;
+
+    if (file)
+        tracks_write_header(file, with_covariance);
+    while ((scan = scan_reader_next(reader))) {
+        step(tracking, scan);
+        if (file)
+            tracks_write_report(file, tracking->report, with_covariance);
+        progress_show(&progress, ++done);
+    }
+    progress_end(&progress);
+}
+
+/* ---- What it comes to ---- */
+
+static double mean_us(const struct tracking *tracking, const struct scan_reader_counts *counts)
+{
+    return (double)tracking->sum_us / (double)counts->scans;
+}
+
+static void print_summary(const struct tracking *tracking, const struct scan_reader_counts *counts)
+{
+    const struct rho_tracker_counters *counters = &tracking->tracker->counters;
+
+    fprintf(stderr,
+            "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots, %" PRIu32 " tracks confirmed; lost: "
+            "%" PRIu32 " invalid, %" PRIu32 " stale, %" PRIu32 " no room",
+            counts->scans, counts->plots, counters->tracks_confirmed,
+            counters->fates[RHO_FATE_INVALID], counters->fates[RHO_FATE_STALE],
+            counters->fates[RHO_FATE_NO_ROOM]);
+    if (counts->rows_skipped)
+        fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
+    fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),
+            tracking->max_us);
+}
+
+static cJSON *fates_json(const struct rho_tracker_counters *counters)
+{
+    cJSON *object = cJSON_CreateObject();
+
+    for (int i = 0; i < RHO_NUM_FATES; i++)
+        cJSON_AddNumberToObject(object, rho_fate_name((enum rho_fate)i), counters->fates[i]);
+    return object;
+}
+
+static cJSON *counters_json(const struct rho_tracker_counters *counters)
+{
+    cJSON *object = cJSON_CreateObject();
+
+    cJSON_AddNumberToObject(object, "scans_accepted", counters->scans_accepted);
+    cJSON_AddNumberToObject(object, "scans_late", counters->scans_late);
+    cJSON_AddNumberToObject(object, "plots_initiated", counters->plots_initiated);
+    cJSON_AddNumberToObject(object, "plots_clutter", counters->plots_clutter);
+    cJSON_AddNumberToObject(object, "tracks_started", counters->tracks_started);
+    cJSON_AddNumberToObject(object, "tracks_ended", counters->tracks_ended);
+    cJSON_AddNumberToObject(object, "tracks_no_room", counters->tracks_no_room);
+    cJSON_AddNumberToObject(object, "gate_plots_dropped", counters->gate_plots_dropped);
+    cJSON_AddNumberToObject(object, "candidates_dropped", counters->candidates_dropped);
+    cJSON_AddNumberToObject(object, "updates_refused", counters->updates_refused);
+    return object;
+}
+
+static void print_json(const struct tracking *tracking, const struct scan_reader_counts *counts)
+{
+    const struct rho_tracker_counters *counters = &tracking->tracker->counters;
+    cJSON *object = cJSON_CreateObject();
+
+    cJSON_AddNumberToObject(object, "scans", (double)counts->scans);
+    cJSON_AddNumberToObject(object, "plots", (double)counts->plots);
+    cJSON_AddNumberToObject(object, "rows_skipped", (double)counts->rows_skipped);
+    cJSON_AddNumberToObject(object, "tracks_confirmed", counters->tracks_confirmed);
+    cJSON_AddItemToObject(object, "fates", fates_json(counters));
+    cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
+    cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
+    cJSON_AddNumberToObject(object, "state_bytes",
+                            (double)(sizeof *tracking->tracker + sizeof *tracking->initiator));
+    cJSON_AddItemToObject(object, "counters", counters_json(counters));
+    json_print(object);
+}
+
+int command_track(struct command_line *line)
+{
+    bool has_file = line->output || !line->json;
+    struct scan_reader *reader;
+    struct scan_reader_counts counts;
+    struct output output;
+    struct tracking tracking;
+
+    check_gate(line->gate);
+    start(&tracking, &line->parameters);
+    reader = scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
+                              line->keep_going);
+    counts = scan_reader_counts(reader);
+    if (has_file)
+        output = output_open(line->output);
+    step_all(&tracking, reader, has_file ? output.file : NULL, line->covariance);
+    if (has_file)
+        output_close(&output);
+    print_summary(&tracking, &counts);
+    if (line->json)
+        print_json(&tracking, &counts);
+    scan_reader_close(reader);
+    finish(&tracking);
+    return 0;
+}

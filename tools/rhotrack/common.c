@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: MIT */
+#include "common.h"
+
+#include <cjson/cJSON.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Unfinished outputs, for fail() and the signal handler. Children of a fork own none of them. */
+static char *volatile unfinished[OUTPUTS_MAX];
+static volatile pid_t unfinished_owner;
+static volatile sig_atomic_t progress_visible;
+
+/* ---- How the program ends ---- */
+
+static void remove_unfinished(void)
+{
+    if (unfinished_owner != getpid())
+        return;
+    for (int i = 0; i < OUTPUTS_MAX; i++) {
+        if (unfinished[i])
+            unlink(unfinished[i]);
+    }
+}
+
+static void on_signal(int number)
+{
+    remove_unfinished();
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+void fail(int exit_code, const char *format, ...)
+{
+    char message[8192];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    for (char *c = message; *c; c++) {
+        if ((unsigned char)*c < ' ' || *c == 127)
+            *c = '?';
+    }
+    fprintf(stderr, "%srhotrack: %s\n", progress_visible ? "\r\033[K" : "", message);
+    remove_unfinished();
+    exit(exit_code);
+}
+
+/* ---- Memory ---- */
+
+static void *check_memory(void *memory, size_t bytes)
+{
+    if (!memory)
+        fail(EXIT_RUNTIME, "out of memory: %zu bytes more are not there", bytes);
+    return memory;
+}
+
+void *must_alloc(size_t bytes)
+{
+    return check_memory(malloc(bytes ? bytes : 1), bytes);
+}
+
+void *must_calloc(size_t count, size_t size)
+{
+    return check_memory(calloc(count ? count : 1, size ? size : 1), count * size);
+}
+
+void *must_realloc(void *memory, size_t bytes)
+{
+    return check_memory(realloc(memory, bytes ? bytes : 1), bytes);
+}
+
+/* ---- Output files ---- */
+
+static void remember_unfinished(char *path)
+{
+    if (!unfinished_owner) {
+        signal(SIGINT, on_signal);
+        signal(SIGTERM, on_signal);
+        unfinished_owner = getpid();
+    }
+    for (int i = 0; i < OUTPUTS_MAX; i++) {
+        if (!unfinished[i]) {
+            unfinished[i] = path;
+            return;
+        }
+    }
+    unlink(path);
+    fail(EXIT_RUNTIME, "more than %d output files are open", OUTPUTS_MAX);
+}
+
+static void forget_unfinished(const char *path)
+{
+    for (int i = 0; i < OUTPUTS_MAX; i++) {
+        if (unfinished[i] == path)
+            unfinished[i] = NULL;
+    }
+}
+
+static char *copy_text(const char *text)
+{
+    size_t bytes = strlen(text) + 1;
+
+    return memcpy(must_alloc(bytes), text, bytes);
+}
+
+static FILE *open_directly(const char *path)
+{
+    FILE *file = fopen(path, "w");
+
+    if (!file)
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
+    return file;
+}
+
+/* A file beside output->path with the mode that the finished one is to have. */
+static void open_beside(struct output *output, mode_t mode)
+{
+    size_t bytes = strlen(output->path) + sizeof ".XXXXXX";
+    int descriptor;
+
+    output->temporary_path = must_alloc(bytes);
+    snprintf(output->temporary_path, bytes, "%s.XXXXXX", output->path);
+    descriptor = mkstemp(output->temporary_path);
+    if (descriptor < 0)
+        fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
+    remember_unfinished(output->temporary_path);
+    output->file = fchmod(descriptor, mode) ? NULL : fdopen(descriptor, "w");
+    if (!output->file)
+        fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
+}
+
+static mode_t new_file_mode(void)
+{
+    mode_t mask = umask(0);
+
+    umask(mask);
+    return 0666 & ~mask;
+}
+
+struct output output_open(const char *path)
+{
+    struct output output = {stdout, NULL, NULL};
+    struct stat status;
+    char *real_path;
+
+    if (!path || !strcmp(path, "-"))
+        return output;
+    if (stat(path, &status)) {
+        output.path = copy_text(path);
+        open_beside(&output, new_file_mode());
+        return output;
+    }
+    if (S_ISDIR(status.st_mode))
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(EISDIR));
+    real_path = realpath(path, NULL); /* a link stays one: the file that it names is replaced */
+    output.path = copy_text(real_path ? real_path : path);
+    free(real_path);
+    if (S_ISREG(status.st_mode))
+        open_beside(&output, status.st_mode & 07777);
+    else
+        output.file = open_directly(path);
+    return output;
+}
+
+void output_close(struct output *output)
+{
+    const char *name = output->path ? output->path : "standard output";
+    int is_bad = ferror(output->file);
+
+    if (output->file == stdout)
+        is_bad |= fflush(stdout);
+    else
+        is_bad |= fclose(output->file);
+    if (is_bad)
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", name, strerror(errno));
+    if (output->temporary_path) {
+        if (rename(output->temporary_path, output->path))
+            fail(EXIT_RUNTIME, "%s: %s", name, strerror(errno));
+        forget_unfinished(output->temporary_path);
+    }
+    free(output->temporary_path);
+    free(output->path);
+    *output = (struct output){NULL, NULL, NULL};
+}
+
+/* ---- Folders and names ---- */
+
+void make_folder(const char *path)
+{
+    char *partial = copy_text(path);
+    struct stat status;
+
+    for (char *c = partial + 1; *partial; c++) {
+        char end = *c;
+
+        if (end != '/' && end != '\0')
+            continue;
+        *c = '\0';
+        if (mkdir(partial, 0777) && errno != EEXIST)
+            fail(EXIT_RUNTIME, "%s: %s", partial, strerror(errno));
+        *c = end;
+        if (!end)
+            break;
+    }
+    if (stat(path, &status) || !S_ISDIR(status.st_mode))
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(*path ? ENOTDIR : ENOENT));
+    free(partial);
+}
+
+char *path_join(const char *folder, const char *name)
+{
+    size_t length = strlen(folder), bytes = length + strlen(name) + 2;
+    char *path = must_alloc(bytes);
+    const char *slash = length && folder[length - 1] == '/' ? "" : "/";
+
+    snprintf(path, bytes, "%s%s%s", folder, slash, name);
+    return path;
+}
+
+/* ---- Numbers and JSON ---- */
+
+const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
+{
+    if (value == 0.0f)
+        return strcpy(text, "0");
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(text, FLOAT_TEXT_BYTES, "%.*g", digits, (double)value);
+        if (strtof(text, NULL) == value)
+            break;
+    }
+    return text;
+}
+
+void json_print(struct cJSON *object)
+{
+    struct output output = output_open(NULL);
+    char *text = cJSON_Print(object);
+
+    if (!text)
+        fail(EXIT_RUNTIME, "out of memory");
+    fprintf(output.file, "%s\n", text);
+    output_close(&output);
+    cJSON_free(text);
+    cJSON_Delete(object);
+}
+
+/* ---- Time and progress ---- */
+
+int64_t clock_us(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+struct progress progress_start(const char *what, uint64_t total)
+{
+    struct progress progress = {what, clock_us(), 0, total};
+
+    if (!isatty(STDERR_FILENO))
+        progress.shown_us = INT64_MAX; /* never due */
+    return progress;
+}
+
+static void print_bar(double fraction)
+{
+    enum { WIDTH = 30 };
+    int filled = (int)(fraction * WIDTH);
+
+    fputc('[', stderr);
+    for (int i = 0; i < WIDTH; i++)
+        fputc(i < filled ? '#' : '.', stderr);
+    fprintf(stderr, "] %3.0f %%  ", 100 * fraction);
+}
+
+void progress_show(struct progress *progress, uint64_t done)
+{
+    enum { QUIET_US = 2000000, PERIOD_US = 200000 };
+    int64_t now_us;
+    double seconds, fraction;
+
+    if (progress->shown_us == INT64_MAX)
+        return;
+    now_us = clock_us();
+    if (now_us - progress->start_us < QUIET_US || now_us - progress->shown_us < PERIOD_US)
+        return;
+    progress->shown_us = now_us;
+    progress_visible = 1;
+    fputs("\r\033[K", stderr);
+    if (!progress->total || done > progress->total) {
+        fprintf(stderr, "%llu %s", (unsigned long long)done, progress->what);
+        return;
+    }
+    fraction = (double)done / (double)progress->total;
+    seconds = (double)(now_us - progress->start_us) * 1e-6;
+    print_bar(fraction);
+    fprintf(stderr, "%llu of %llu %s", (unsigned long long)done,
+            (unsigned long long)progress->total, progress->what);
+    if (done)
+        fprintf(stderr, ", %.0f s left", seconds * (1 - fraction) / fraction);
+}
+
+void progress_end(struct progress *progress)
+{
+    if (progress_visible)
+        fputs("\r\033[K", stderr);
+    progress_visible = 0;
+    progress->shown_us = INT64_MAX;
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * common: what all commands share: how they end, memory, output files, progress.
+ *
+ * Exit codes: 0 success, 1 a run-time failure, 2 bad usage or bad input.
+ */
+#ifndef RHOTRACK_TOOL_COMMON_H
+#define RHOTRACK_TOOL_COMMON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#define EXIT_RUNTIME 1
+#define EXIT_USAGE 2
+
+/*
+ * Prints `rhotrack: ` and the message as one line on standard error (control characters as ?), removes unfinished
+ * outputs, and exits.
+ */
+_Noreturn void fail(int exit_code, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* malloc, calloc, realloc that end the program with exit 1 when memory is out. */
+void *must_alloc(size_t bytes);
+void *must_calloc(size_t count, size_t size);
+void *must_realloc(void *memory, size_t bytes);
+
+/*
+ * Output file that appears under its name only when it is complete: written beside, then renamed. path NULL or "-":
+ * standard output. A device or pipe is written directly. Unfinished ones are removed by fail() and on SIGINT and
+ * SIGTERM; OUTPUTS_MAX can be open at a time.
+ */
+#define OUTPUTS_MAX 64
+struct output {
+    FILE *file;
+    char *path, *temporary_path;
+};
+struct output output_open(const char *path);
+void output_close(struct output *output); /* checks for write errors, renames */
+
+/* mkdir -p. Exit 1 with the reason. */
+void make_folder(const char *path);
+
+/* Writes a JSON object (cJSON) to standard output with a newline, and deletes it. */
+struct cJSON;
+void json_print(struct cJSON *object);
+
+/* A float32 in the fewest digits that read back as the same float32; "0" for -0. */
+#define FLOAT_TEXT_BYTES 24
+const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);
+
+/* "folder/name" in new memory. */
+char *path_join(const char *folder, const char *name);
+
+/* Monotonic clock, microseconds. */
+int64_t clock_us(void);
+
+/*
+ * Progress on standard error: only on a terminal, only after two seconds. `what` names the work ("scans", "runs").
+ */
+struct progress {
+    const char *what;
+    int64_t start_us, shown_us;
+    uint64_t total; /* 0: unknown */
+};
+struct progress progress_start(const char *what, uint64_t total);
+void progress_show(struct progress *progress, uint64_t done);
+void progress_end(struct progress *progress);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* rhotrack: the command-line program. main finds the command and runs it. */
+#include <cjson/cJSON.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command_line.h"
+#include "commands.h"
+#include "common.h"
+#include "hint.h"
+
+#ifndef RHOTRACK_VERSION
+#define RHOTRACK_VERSION "0.1.0"
+#endif
+
+static const struct command commands[] = {
+    {"track", command_track, "INPUT... [-o OUTPUT] [--gate nearest]", 1, INT_MAX, "ogfcjksC",
+     "the main job: scans in, tracks out",
+     "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns; several inputs are merged by\n"
+     "time), starts and maintains tracks, and writes one row a track and scan (CSV) to OUTPUT or\n"
+     "standard output. A summary goes to standard error. With --json the results go to standard\n"
+     "output as one JSON object, and tracks only to OUTPUT.\n"},
+    {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method kernel]", 1, 1, "omjksC",
+     "initiation alone, on the last scans as one batch",
+     "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks found\n"
+     "in it (CSV), best first, at the time of the last scan. Method: kernel.\n"},
+    {"simulate", command_simulate, "SCENARIO -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
+     "made-up targets, noise, misses and clutter",
+     "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and so\n"
+     "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, crossing-angle,\n"
+     "same-line, clutter, slow-turn, traffic; their parameters are set by --set.\n"},
+    {"evaluate", command_evaluate, "TRUTH TRACKS", 2, 2, "jsC", "tracks against the truth",
+     "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a tracks\n"
+     "file against a truth file. Times must agree to 1 ms; confirmed and coasting tracks count.\n"},
+    {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
+     "orSmjsC", "a Monte Carlo experiment with tables and figures",
+     "Runs an experiment on all cores and writes its tables, figures and index.html to DIR (default\n"
+     "build/experiment/NAME). Experiments: initiation.\n"},
+    {"plot", command_plot, "scans|tracks|parameter-space|errors FILES... -o FILE.svg", 2, INT_MAX,
+     "osC", "pictures", "Draws plots, tracks, the parameter space of lines, or errors, as SVG.\n"},
+    {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
+     "Measures speed and memory; without a name everything there is.\n"},
+    {"config", command_config, "", 0, 0, "jsC", "every parameter with unit, default and range",
+     "Prints each parameter's unit, default, range, and its value now with where it came from.\n"},
+    {"maintain", NULL, "", 0, 0, "", "", ""},
+    {"convert", NULL, "", 0, 0, "", "", ""},
+    {"node", NULL, "", 0, 0, "", "", ""},
+    {"publish", NULL, "", 0, 0, "", "", ""},
+    {"register", NULL, "", 0, 0, "", "", ""},
+};
+
+enum { NUM_COMMANDS = sizeof commands / sizeof *commands };
+
+static const char *command_name(size_t index)
+{
+    return index < NUM_COMMANDS && commands[index].run ? commands[index].name : NULL;
+}
+
+static void print_help(void)
+{
+    struct output output = output_open(NULL);
+
+    fputs("rhotrack: from radar plots to tracks.\n\nUsage: rhotrack COMMAND ...\n\nCommands:\n",
+          output.file);
+    for (size_t i = 0; command_name(i); i++)
+        fprintf(output.file, "  %-11s %s\n", commands[i].name, commands[i].summary);
+    fputs("\n`rhotrack COMMAND --help` says more; `rhotrack --version` prints the version.\n\n"
+          "Exit codes: 0 success, 1 a failure at run time, 2 bad usage or bad input.\n",
+          output.file);
+    output_close(&output);
+}
+
+static void print_version(void)
+{
+    struct output output = output_open(NULL);
+
+    fprintf(output.file, "rhotrack %s\n", RHOTRACK_VERSION);
+    output_close(&output);
+}
+
+static const struct command *find_command(const char *name)
+{
+    const char *hint;
+
+    if (*name == '-')
+        fail(EXIT_USAGE, "unknown option '%s'; see rhotrack --help", name);
+    for (size_t i = 0; i < NUM_COMMANDS; i++) {
+        if (strcmp(commands[i].name, name) != 0)
+            continue;
+        if (!commands[i].run)
+            fail(EXIT_USAGE, "command '%s' is not in this version; see rhotrack --help", name);
+        return &commands[i];
+    }
+    hint = hint_nearest(name, command_name);
+    if (hint)
+        fail(EXIT_USAGE, "unknown command '%s', did you mean '%s'?", name, hint);
+    fail(EXIT_USAGE, "unknown command '%s'; see rhotrack --help", name);
+}
+
+int main(int argc, char **argv)
+{
+    static struct command_line line;
+    cJSON_Hooks hooks = {must_alloc, free};
+    const struct command *command;
+
+    cJSON_InitHooks(&hooks);
+    if (argc < 2)
+        fail(EXIT_USAGE, "no command; see rhotrack --help");
+    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
+        print_help();
+        return 0;
+    }
+    if (!strcmp(argv[1], "--version")) {
+        print_version();
+        return 0;
+    }
+    command = find_command(argv[1]);
+    command_line_read(&line, command, argc - 1, argv + 1);
+    return command->run(&line);
+}

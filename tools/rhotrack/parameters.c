@@ -1,0 +1,347 @@
+/* SPDX-License-Identifier: MIT */
+#include "parameters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common.h"
+#include "hint.h"
+#include "table.h"
+
+static const struct parameter_text texts[NUM_PARAMETERS] = {
+#define X(id, name, unit, value, min, max, is_integer, has_default, text)                          \
+    {name, unit, text, value, min, max, is_integer, has_default},
+    PARAMETERS(X)
+#undef X
+};
+
+static const struct parameter_text sensor_texts[NUM_SENSOR_PARAMETERS] = {
+#define X(id, name, unit, min, max, text) {name, unit, text, 0, min, max, false, false},
+    SENSOR_PARAMETERS(X)
+#undef X
+};
+
+struct parameter_text parameters_text(enum parameter_id id)
+{
+    return texts[id];
+}
+
+struct parameter_text parameters_sensor_text(enum sensor_parameter_id id)
+{
+    return sensor_texts[id];
+}
+
+const char *parameters_name(enum parameter_id id)
+{
+    return texts[id].name;
+}
+
+const char *parameters_source_name(enum parameter_source source)
+{
+    static const char *const names[] = {
+        [SOURCE_UNSET] = "unset",   [SOURCE_DEFAULT] = "default", [SOURCE_METHOD] = "method",
+        [SOURCE_CONFIG] = "config", [SOURCE_SET] = "set",
+    };
+
+    return names[source];
+}
+
+/* ---- One assignment ---- */
+
+static const char *text_name(size_t index)
+{
+    return index < NUM_PARAMETERS ? texts[index].name : NULL;
+}
+
+static const char *sensor_text_name(size_t index)
+{
+    return index < NUM_SENSOR_PARAMETERS ? sensor_texts[index].name : NULL;
+}
+
+/* Index of a name, or -1 and the reason with a hint. */
+static int find_name(const char *key, hint_name name, char *reason)
+{
+    const char *hint;
+
+    for (size_t i = 0; name(i); i++) {
+        if (!strcmp(key, name(i)))
+            return (int)i;
+    }
+    hint = hint_nearest(key, name);
+    snprintf(reason, PARAMETER_REASON_BYTES, "unknown parameter '%.60s'%s%s%s", key,
+             hint ? ", did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
+    return -1;
+}
+
+static bool read_value(const struct parameter_text *text, const char *cell, double *value,
+                       char *reason)
+{
+    double number;
+    const char *why = table_number(cell, &number);
+
+    if (why)
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' %s", text->name, cell, why);
+    else if (text->is_integer && number != floor(number))
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not a whole number", text->name,
+                 cell);
+    else if (number < text->min || number > text->max)
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s %.60s is outside %.9g .. %.9g %s", text->name,
+                 cell, text->min, text->max, strcmp(text->unit, "-") ? text->unit : "");
+    else {
+        *value = number;
+        return true;
+    }
+    reason[strlen(reason) - (reason[strlen(reason) - 1] == ' ')] = '\0';
+    return false;
+}
+
+static void store(double *value, enum parameter_source *source, double number,
+                  enum parameter_source from)
+{
+    if (from >= *source) {
+        *value = number;
+        *source = from;
+    }
+}
+
+static const struct sensor_parameters *find_sensor(const struct parameters *parameters,
+                                                   int32_t sensor_id)
+{
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        if (parameters->sensors[i].sensor_id == sensor_id)
+            return &parameters->sensors[i];
+    }
+    return NULL;
+}
+
+/* The sensor, added where it is new; NULL where there is no room. */
+static struct sensor_parameters *have_sensor(struct parameters *parameters, int32_t sensor_id)
+{
+    const struct sensor_parameters *found = find_sensor(parameters, sensor_id);
+    struct sensor_parameters *sensor;
+
+    if (found)
+        return &parameters->sensors[found - parameters->sensors];
+    if (parameters->num_sensors == RHO_MAX_SENSORS)
+        return NULL;
+    sensor = &parameters->sensors[parameters->num_sensors++];
+    *sensor = (struct sensor_parameters){.sensor_id = sensor_id};
+    return sensor;
+}
+
+/* key: "N.name". */
+static bool assign_sensor(struct parameters *parameters, const char *key, const char *value,
+                          enum parameter_source source, char *reason)
+{
+    const char *dot = strchr(key, '.');
+    char digits[16] = "";
+    struct sensor_parameters *sensor;
+    int32_t sensor_id;
+    double number;
+    int id;
+
+    if (dot && (size_t)(dot - key) < sizeof digits)
+        memcpy(digits, key, (size_t)(dot - key));
+    if (table_int32(digits, &sensor_id)) {
+        snprintf(reason, PARAMETER_REASON_BYTES,
+                 "'sensor.%.60s' is not sensor.N.key with a whole number N", key);
+        return false;
+    }
+    id = find_name(dot + 1, sensor_text_name, reason);
+    if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason))
+        return false;
+    sensor = have_sensor(parameters, sensor_id);
+    if (!sensor) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "more than %d sensors", RHO_MAX_SENSORS);
+        return false;
+    }
+    store(&sensor->value[id], &sensor->source[id], number, source);
+    return true;
+}
+
+bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
+                       enum parameter_source source, char reason[PARAMETER_REASON_BYTES])
+{
+    static const char prefix[] = "sensor.";
+    double number;
+    int id;
+
+    if (!strncmp(key, prefix, sizeof prefix - 1))
+        return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);
+    id = find_name(key, text_name, reason);
+    if (id < 0 || !read_value(&texts[id], value, &number, reason))
+        return false;
+    store(&parameters->value[id], &parameters->source[id], number, source);
+    return true;
+}
+
+/* ---- Values ---- */
+
+void parameters_default(struct parameters *parameters)
+{
+    memset(parameters, 0, sizeof *parameters);
+    for (int i = 0; i < NUM_PARAMETERS; i++) {
+        parameters->value[i] = texts[i].value;
+        parameters->source[i] = texts[i].has_default ? SOURCE_DEFAULT : SOURCE_UNSET;
+    }
+}
+
+void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value)
+{
+    store(&parameters->value[id], &parameters->source[id], value, SOURCE_METHOD);
+}
+
+void parameters_set(struct parameters *parameters, const char *assignment)
+{
+    const char *equals = strchr(assignment, '=');
+    char reason[PARAMETER_REASON_BYTES], key[80] = "";
+
+    if (!equals)
+        fail(EXIT_USAGE, "--set %s: not of the form key=value", assignment);
+    snprintf(key, sizeof key, "%.*s", (int)(equals - assignment), assignment);
+    if (!parameters_assign(parameters, key, equals + 1, SOURCE_SET, reason))
+        fail(EXIT_USAGE, "--set %s: %s", assignment, reason);
+}
+
+bool parameters_is_set(const struct parameters *parameters, enum parameter_id id)
+{
+    return parameters->source[id] != SOURCE_UNSET;
+}
+
+double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                            enum sensor_parameter_id id, double otherwise)
+{
+    const struct sensor_parameters *sensor = find_sensor(parameters, sensor_id);
+
+    return sensor && sensor->source[id] != SOURCE_UNSET ? sensor->value[id] : otherwise;
+}
+
+/* ---- What only holds together ---- */
+
+static void check_below(const struct parameters *parameters, enum parameter_id low,
+                        enum parameter_id high)
+{
+    if (parameters->value[low] >= parameters->value[high])
+        fail(EXIT_USAGE, "%s %.9g is not below %s %.9g", texts[low].name, parameters->value[low],
+             texts[high].name, parameters->value[high]);
+}
+
+static void check_scans(const struct parameters *parameters)
+{
+    double scans = parameters->value[PARAMETER_SCANS];
+    double min_scans = parameters->value[PARAMETER_MIN_SCANS];
+
+    if (min_scans > scans)
+        fail(EXIT_USAGE, "min_scans %.9g is more than scans %.9g", min_scans, scans);
+    if (min_scans > 0 && min_scans < 3)
+        fail(EXIT_USAGE, "min_scans %.9g is neither 0 nor 3 or more", min_scans);
+}
+
+static void check_area(const struct parameters *parameters)
+{
+    int num_set = 0;
+
+    for (int i = PARAMETER_AREA_X_MIN_M; i <= PARAMETER_AREA_Y_MAX_M; i++)
+        num_set += parameters_is_set(parameters, (enum parameter_id)i);
+    if (!num_set)
+        return;
+    if (num_set < 4)
+        fail(EXIT_USAGE, "area_x_min_m, area_x_max_m, area_y_min_m and area_y_max_m go together: "
+                         "%d of 4 are set", num_set);
+    check_below(parameters, PARAMETER_AREA_X_MIN_M, PARAMETER_AREA_X_MAX_M);
+    check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
+}
+
+void parameters_check(const struct parameters *parameters)
+{
+    double range_min_m = parameters->value[PARAMETER_RANGE_MIN_M];
+    double range_max_m = parameters->value[PARAMETER_RANGE_MAX_M];
+
+    check_below(parameters, PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS);
+    check_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
+    check_scans(parameters);
+    check_area(parameters);
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        int32_t id = parameters->sensors[i].sensor_id;
+        double low = parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
+        double high = parameters_of_sensor(parameters, id, SENSOR_RANGE_MAX_M, range_max_m);
+
+        if (low >= high)
+            fail(EXIT_USAGE, "sensor %d: range_min_m %.9g is not below range_max_m %.9g", (int)id,
+                 low, high);
+    }
+}
+
+/* ---- The library's configs ---- */
+
+void parameters_to_initiator(const struct parameters *parameters,
+                             struct rho_initiator_config *config)
+{
+    const double *value = parameters->value;
+
+    parameters_check(parameters);
+    rho_initiator_config_default(config);
+    config->scans = (uint16_t)value[PARAMETER_SCANS];
+    config->min_scans = (uint16_t)value[PARAMETER_MIN_SCANS];
+    config->v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
+    config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    config->pd = (float)value[PARAMETER_PD];
+    config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
+    if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT))
+        config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
+    config->area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
+    if (config->area_is_fixed) {
+        config->area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
+        config->area.x_max_m = (float)value[PARAMETER_AREA_X_MAX_M];
+        config->area.y_min_m = (float)value[PARAMETER_AREA_Y_MIN_M];
+        config->area.y_max_m = (float)value[PARAMETER_AREA_Y_MAX_M];
+    }
+}
+
+void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config)
+{
+    const double *value = parameters->value;
+
+    parameters_check(parameters);
+    rho_tracker_config_default(config);
+    config->pd = (float)value[PARAMETER_PD];
+    config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    config->accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    config->false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
+    config->score_is_fixed = parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT);
+    if (config->score_is_fixed)
+        config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
+    config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
+}
+
+static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)
+{
+    return parameters->source[id] > SOURCE_DEFAULT;
+}
+
+bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
+                          struct rho_sensor *sensor)
+{
+    const double *value = parameters->value;
+    bool has_min = is_asked_for(parameters, PARAMETER_RANGE_MIN_M);
+    bool has_max = is_asked_for(parameters, PARAMETER_RANGE_MAX_M);
+    double range_max_m = has_max ? value[PARAMETER_RANGE_MAX_M] : (double)RHO_LIMIT_POSITION_M;
+
+    if (!find_sensor(parameters, sensor_id) && !has_min && !has_max)
+        return false;
+#define OF_SENSOR(id, otherwise) (float)parameters_of_sensor(parameters, sensor_id, id, otherwise)
+    *sensor = (struct rho_sensor){
+        .sensor_id = sensor_id,
+        .x_m = OF_SENSOR(SENSOR_X_M, 0),
+        .y_m = OF_SENSOR(SENSOR_Y_M, 0),
+        .z_m = OF_SENSOR(SENSOR_Z_M, 0),
+        .pd = OF_SENSOR(SENSOR_PD, value[PARAMETER_PD]),
+        .range_min_m = OF_SENSOR(SENSOR_RANGE_MIN_M, value[PARAMETER_RANGE_MIN_M]),
+        .range_max_m = OF_SENSOR(SENSOR_RANGE_MAX_M, range_max_m),
+        .sector_from_rad = OF_SENSOR(SENSOR_SECTOR_FROM_RAD, 0),
+        .sector_to_rad = OF_SENSOR(SENSOR_SECTOR_TO_RAD, 0),
+    };
+#undef OF_SENSOR
+    return true;
+}

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * parameters: every --set name with its unit, default and range, and where its value came from.
+ *
+ * Precedence, highest first: CSV column (the readers'), --set, --config FILE (INI), the method's or scenario's own
+ * default, the default of the table below.
+ */
+#ifndef RHOTRACK_TOOL_PARAMETERS_H
+#define RHOTRACK_TOOL_PARAMETERS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "rhotrack/initiator.h"
+#include "rhotrack/tracker.h"
+
+/* X(id, name, unit, default, min, max, is_integer, has_default, text). has_default 0: unset until someone sets it. */
+#define PARAMETERS(X)                                                                              \
+    X(SCANS, "scans", "-", 7, 3, 12, 1, 1, "N: scans in the initiation window")                    \
+    X(MIN_SCANS, "min_scans", "-", 0, 0, 12, 1, 1,                                                 \
+      "M: scans of the window that must have voted; 0: chosen so that false_tracks_per_hour holds") \
+    X(FALSE_TRACKS_PER_HOUR, "false_tracks_per_hour", "1/h", 1, 1e-6, 1e6, 0, 1,                   \
+      "wanted rate of confirmed tracks from clutter")                                              \
+    X(SCORE_MIN_NAT, "score_min_nat", "nat", 0, -100, 1000, 0, 0,                                  \
+      "score that starts and confirms a track; overrides false_tracks_per_hour")                   \
+    X(SIGMA_M, "sigma_m", "m", 10, 0.001, 1e5, 0, 1, "position noise of a plot, each axis")        \
+    X(SIGMA_MPS, "sigma_mps", "m/s", 1, 0.001, 1e5, 0, 1, "velocity noise of a plot, each axis")   \
+    X(PD, "pd", "-", 0.9, 0.01, 0.999, 0, 1, "assumed probability of detection")                   \
+    X(V_MIN_MPS, "v_min_mps", "m/s", 0, 0, 2e4, 0, 1, "slowest target")                            \
+    X(V_MAX_MPS, "v_max_mps", "m/s", 700, 1, 2e4, 0, 1, "fastest target")                          \
+    X(RANGE_MIN_M, "range_min_m", "m", 0, 0, 2e6, 0, 1, "nearest range a sensor sees")             \
+    X(RANGE_MAX_M, "range_max_m", "m", 100000, 1, 2e6, 0, 1, "farthest range a sensor sees")       \
+    X(ACCEL_MAX_MPS2, "accel_max_mps2", "m/s^2", 30, 0, 1000, 0, 1,                                \
+      "manoeuvres that maintenance follows")                                                       \
+    X(PROCESS_NOISE_MPS2, "process_noise_mps2", "m/s^2", 0, 0, 1000, 0, 1,                         \
+      "acceleration that the initiation window allows for; 0: straight")                           \
+    X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1, "misses in a row that end a track") \
+    X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
+      "rows of a sensor within it are one scan; 0: rows of equal t_s")                             \
+    X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0, "area of clutter and births; unset: seen so far") \
+    X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(AREA_Y_MIN_M, "area_y_min_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(AREA_Y_MAX_M, "area_y_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
+      "distance beyond which a track and a target are not paired")                                 \
+    X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0, "simulate: mean clutter plots a scan and area") \
+    X(CLUTTER_PER_SCAN, "clutter_per_scan", "-", 0, 0, 1e4, 0, 0, "simulate: mean clutter plots a scan") \
+    X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0, "simulate: probability of detection that happens") \
+    X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
+    X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
+    X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0, "simulate: number of targets, where the scenario leaves it open") \
+    X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0, "simulate parallel, same-line: distance of the two targets") \
+    X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0, "simulate crossing-angle: angle between the tracks") \
+    X(TURN_DEG, "turn_deg", "deg", 2, -90, 90, 0, 0, "simulate slow-turn: change of heading a scan") \
+    X(SPEED_MPS, "speed_mps", "m/s", 250, 0.1, 2e4, 0, 0,                                          \
+      "simulate parallel, crossing-angle, same-line, slow-turn: speed of the targets")             \
+    X(SECOND_SPEED_MPS, "second_speed_mps", "m/s", 250, -2e4, 2e4, 0, 0,                           \
+      "simulate same-line: speed of the one ahead; below 0 it comes towards the first")
+
+enum parameter_id {
+#define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,
+    PARAMETERS(X)
+#undef X
+    NUM_PARAMETERS
+};
+
+enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONFIG, SOURCE_SET };
+
+/* A sensor's own: INI section [sensor N], or --set sensor.N.key=value. X(id, name, unit, min, max, text). */
+#define SENSOR_PARAMETERS(X)                                                                       \
+    X(PD, "pd", "-", 0.01, 0.999, "assumed probability of detection")                              \
+    X(SIGMA_M, "sigma_m", "m", 0.001, 1e5, "position noise of a plot, each axis")                  \
+    X(SIGMA_MPS, "sigma_mps", "m/s", 0.001, 1e5, "velocity noise of a plot, each axis")            \
+    X(RANGE_MIN_M, "range_min_m", "m", 0, 2e6, "nearest range it sees")                            \
+    X(RANGE_MAX_M, "range_max_m", "m", 1, 2e6, "farthest range it sees")                           \
+    X(SECTOR_FROM_RAD, "sector_from_rad", "rad", -6.2831853, 6.2831853, "where it can look at all:") \
+    X(SECTOR_TO_RAD, "sector_to_rad", "rad", -6.2831853, 6.2831853, "counter-clockwise from .. to") \
+    X(X_M, "x_m", "m", -2e6, 2e6, "its place")                                                     \
+    X(Y_M, "y_m", "m", -2e6, 2e6, "")                                                              \
+    X(Z_M, "z_m", "m", -2e6, 2e6, "")
+
+enum sensor_parameter_id {
+#define X(id, name, unit, min, max, text) SENSOR_##id,
+    SENSOR_PARAMETERS(X)
+#undef X
+    NUM_SENSOR_PARAMETERS
+};
+
+struct sensor_parameters {
+    int32_t sensor_id;
+    double value[NUM_SENSOR_PARAMETERS];
+    enum parameter_source source[NUM_SENSOR_PARAMETERS]; /* UNSET: as for all sensors */
+};
+
+struct parameters {
+    double value[NUM_PARAMETERS];
+    enum parameter_source source[NUM_PARAMETERS];
+    size_t num_sensors;
+    struct sensor_parameters sensors[RHO_MAX_SENSORS];
+};
+
+void parameters_default(struct parameters *parameters);
+
+/* A method's or scenario's own default: counts only where nobody set the parameter. */
+void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
+
+/* "key=value" or "sensor.N.key=value" from --set. On error prints `rhotrack: --set key=value: what is wrong` and exits with 2. */
+void parameters_set(struct parameters *parameters, const char *assignment);
+
+/* INI file (no section, [rhotrack], or [sensor N]); errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. */
+void parameters_load(struct parameters *parameters, const char *path);
+
+/* Checks what only holds together (v_min < v_max, min_scans <= scans, all four area sides or none, min < max); exit 2. */
+void parameters_check(const struct parameters *parameters);
+
+bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
+const char *parameters_name(enum parameter_id id);
+
+/*
+ * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher precedence stays. Returns
+ * false and the reason.
+ */
+#define PARAMETER_REASON_BYTES 256
+bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
+                       enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
+
+/* What the table says of a parameter, for the command `config`. */
+struct parameter_text {
+    const char *name, *unit, *text;
+    double value, min, max;
+    bool is_integer, has_default;
+};
+struct parameter_text parameters_text(enum parameter_id id);
+struct parameter_text parameters_sensor_text(enum sensor_parameter_id id); /* value: 0 */
+const char *parameters_source_name(enum parameter_source source);
+
+/* The table with unit, default, range, value and text (command `config`). */
+void parameters_print(const struct parameters *parameters, FILE *out);
+
+/* A sensor's own value, or otherwise the value for all. */
+double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                            enum sensor_parameter_id id, double otherwise);
+
+/*
+ * The library's configs from the parameters, checked (parameters_check). A sensor is described only where somebody set
+ * something of it, or the range limits of all: else false, and *sensor is unchanged.
+ */
+bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
+                          struct rho_sensor *sensor);
+void parameters_to_initiator(const struct parameters *parameters, struct rho_initiator_config *config);
+void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config);
+
+#endif

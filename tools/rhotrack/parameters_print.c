@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+#include "parameters.h"
+
+#include <string.h>
+
+static void print_row(FILE *out, const struct parameter_text *text, const char *value,
+                      enum parameter_source source)
+{
+    char initial[32] = "unset", range[48];
+
+    if (text->has_default)
+        snprintf(initial, sizeof initial, "%.9g", text->value);
+    snprintf(range, sizeof range, "%.9g .. %.9g", text->min, text->max);
+    fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", text->name, text->unit, initial, range,
+            value, parameters_source_name(source), text->text);
+}
+
+static void print_sensor(FILE *out, const struct sensor_parameters *sensor)
+{
+    for (int i = 0; i < NUM_SENSOR_PARAMETERS; i++) {
+        struct parameter_text text = parameters_sensor_text((enum sensor_parameter_id)i);
+        char name[40], value[32];
+
+        if (sensor->source[i] == SOURCE_UNSET)
+            continue;
+        snprintf(name, sizeof name, "sensor.%d.%s", (int)sensor->sensor_id, text.name);
+        snprintf(value, sizeof value, "%.9g", sensor->value[i]);
+        text.name = name;
+        print_row(out, &text, value, sensor->source[i]);
+    }
+}
+
+static void print_sensor_keys(FILE *out)
+{
+    fputs("\nA sensor's own (--set sensor.N.key=value, or [sensor N] in the --config file):\n", out);
+    for (int i = 0; i < NUM_SENSOR_PARAMETERS; i++) {
+        struct parameter_text text = parameters_sensor_text((enum sensor_parameter_id)i);
+        char range[48];
+
+        snprintf(range, sizeof range, "%.9g .. %.9g", text.min, text.max);
+        fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", text.name, text.unit, "", range, "",
+                "", text.text);
+    }
+}
+
+void parameters_print(const struct parameters *parameters, FILE *out)
+{
+    fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", "name", "unit", "default", "range",
+            "value", "source", "meaning");
+    for (int i = 0; i < NUM_PARAMETERS; i++) {
+        struct parameter_text text = parameters_text((enum parameter_id)i);
+        char value[32] = "-";
+
+        if (parameters->source[i] != SOURCE_UNSET)
+            snprintf(value, sizeof value, "%.9g", parameters->value[i]);
+        print_row(out, &text, value, parameters->source[i]);
+    }
+    for (size_t i = 0; i < parameters->num_sensors; i++)
+        print_sensor(out, &parameters->sensors[i]);
+    print_sensor_keys(out);
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* plot_row: one row of a plot file, checked: its time, its sensor, and its plot if it has one. */
+#ifndef RHOTRACK_TOOL_PLOT_ROW_H
+#define RHOTRACK_TOOL_PLOT_ROW_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "parameters.h"
+#include "rhotrack/types.h"
+#include "table.h"
+
+struct plot_row {
+    int64_t time_us;
+    int32_t sensor_id;
+    float sector_from_rad, sector_to_rad; /* of the scan; both 0 where not given */
+    bool has_plot;
+    uint32_t measures; /* RHO_MEASURES_... of the plot */
+    struct rho_plot plot;
+};
+
+/* Columns of a plot file by index, -1 where it has none. */
+struct plot_columns {
+    int t_s, sensor_id, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps, sigma_m, sigma_mps;
+    int sector_from_rad, sector_to_rad, snr_db;
+};
+
+/* Finds the columns; exit 2 where one is missing that is needed, or the file holds polar plots or bearings. */
+struct plot_columns plot_columns_find(const struct table *table);
+
+/* Reads a row. Returns false and the reason where it is bad. */
+#define PLOT_ROW_REASON_BYTES 200
+bool plot_row_read(const struct table *table, const struct plot_columns *columns, size_t row,
+                   const struct parameters *parameters, struct plot_row *plot_row,
+                   char reason[PLOT_ROW_REASON_BYTES]);
+
+#endif

@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: MIT */
+#include "scan_reader.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common.h"
+#include "plot_row.h"
+#include "table.h"
+
+/* A scan while its rows are collected. */
+struct entry {
+    struct rho_scan scan;
+    size_t order; /* of its first row, over all files */
+    size_t first_plot;
+    bool has_measures; /* scan.measures is settled, by its first plot */
+};
+
+/* A plot and the scan that it belongs to. */
+struct member {
+    size_t entry;
+    struct rho_plot plot;
+};
+
+/* The scan of a sensor that further rows may join. */
+struct open_scan {
+    int32_t sensor_id;
+    size_t entry;
+};
+
+struct scan_reader {
+    const struct parameters *parameters;
+    bool keep_going;
+    int64_t interval_us;
+    struct entry *entries;
+    size_t num_entries, entries_capacity;
+    struct member *members;
+    size_t num_members, members_capacity;
+    struct open_scan *open;
+    size_t num_open, open_capacity;
+    struct rho_plot *plots; /* all, scan by scan */
+    size_t next;
+    uint64_t rows_skipped;
+};
+
+/* Room for one element more. */
+static void *grown(void *array, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity)
+        return array;
+    *capacity = 2 * *capacity + 16;
+    return must_realloc(array, *capacity * size);
+}
+
+/* ---- Rows to scans ---- */
+
+static size_t add_entry(struct scan_reader *reader, const struct plot_row *row)
+{
+    struct entry *entry;
+
+    reader->entries = grown(reader->entries, reader->num_entries, &reader->entries_capacity,
+                            sizeof *reader->entries);
+    entry = &reader->entries[reader->num_entries];
+    *entry = (struct entry){
+        .scan = {.time_us = row->time_us,
+                 .sensor_id = row->sensor_id,
+                 .sector_from_rad = row->sector_from_rad,
+                 .sector_to_rad = row->sector_to_rad},
+        .order = reader->num_entries,
+    };
+    return reader->num_entries++;
+}
+
+static struct open_scan *find_open(const struct scan_reader *reader, int32_t sensor_id)
+{
+    for (size_t i = 0; i < reader->num_open; i++) {
+        if (reader->open[i].sensor_id == sensor_id)
+            return &reader->open[i];
+    }
+    return NULL;
+}
+
+/* time_us is not before the scan's. */
+static bool joins(const struct scan_reader *reader, size_t entry, int64_t time_us)
+{
+    int64_t start_us = reader->entries[entry].scan.time_us;
+
+    return time_us == start_us || time_us - reader->interval_us < start_us;
+}
+
+/* The scan that a good row belongs to. */
+static size_t entry_of(struct scan_reader *reader, const struct plot_row *row)
+{
+    struct open_scan *open = find_open(reader, row->sensor_id);
+
+    if (open && joins(reader, open->entry, row->time_us))
+        return open->entry;
+    if (!open) {
+        reader->open = grown(reader->open, reader->num_open, &reader->open_capacity,
+                             sizeof *reader->open);
+        open = &reader->open[reader->num_open++];
+        open->sensor_id = row->sensor_id;
+    }
+    return open->entry = add_entry(reader, row);
+}
+
+static void add_member(struct scan_reader *reader, size_t index, const struct plot_row *row)
+{
+    struct entry *entry = &reader->entries[index];
+    struct member *member;
+
+    reader->members = grown(reader->members, reader->num_members, &reader->members_capacity,
+                            sizeof *reader->members);
+    member = &reader->members[reader->num_members++];
+    member->entry = index;
+    member->plot = row->plot;
+    member->plot.offset_us = (int32_t)(row->time_us - entry->scan.time_us);
+    entry->scan.num_plots++;
+    entry->scan.measures = row->measures;
+    entry->has_measures = true;
+}
+
+static void add_row(struct scan_reader *reader, const struct plot_row *row)
+{
+    size_t entry = entry_of(reader, row);
+
+    if (row->has_plot)
+        add_member(reader, entry, row);
+}
+
+/* What a row must have in common with the scan that it would join. */
+static const char *why_not_same_scan(const struct scan_reader *reader, const struct plot_row *row)
+{
+    const struct open_scan *open = find_open(reader, row->sensor_id);
+    const struct entry *entry;
+
+    if (!open || !joins(reader, open->entry, row->time_us))
+        return NULL;
+    entry = &reader->entries[open->entry];
+    if (row->sector_from_rad != entry->scan.sector_from_rad ||
+        row->sector_to_rad != entry->scan.sector_to_rad)
+        return "the sector is not that of the scan's first row";
+    if (row->has_plot && entry->has_measures && row->measures != entry->scan.measures)
+        return "height or velocity must be given in all rows of a scan or in none";
+    return NULL;
+}
+
+static bool check_order(const struct scan_reader *reader, const struct plot_row *row,
+                        const int64_t *last_us, char *reason)
+{
+    const char *why = why_not_same_scan(reader, row);
+
+    if (last_us && row->time_us < *last_us) {
+        snprintf(reason, PLOT_ROW_REASON_BYTES, "time goes back from %.6f s to %.6f s",
+                 (double)*last_us * 1e-6, (double)row->time_us * 1e-6);
+        return false;
+    }
+    if (why)
+        snprintf(reason, PLOT_ROW_REASON_BYTES, "%s", why);
+    return !why;
+}
+
+static void read_table(struct scan_reader *reader, const struct table *table)
+{
+    struct plot_columns columns = plot_columns_find(table);
+    char reason[PLOT_ROW_REASON_BYTES];
+    struct plot_row row;
+    int64_t last_us = 0;
+    bool has_last = false;
+
+    for (size_t i = 0; i < table->num_rows; i++) {
+        if (!plot_row_read(table, &columns, i, reader->parameters, &row, reason) ||
+            !check_order(reader, &row, has_last ? &last_us : NULL, reason)) {
+            if (!reader->keep_going)
+                table_fail(table, i, "%s", reason);
+            reader->rows_skipped++;
+            continue;
+        }
+        last_us = row.time_us;
+        has_last = true;
+        add_row(reader, &row);
+    }
+    if (!has_last)
+        table_fail(table, TABLE_HEADER, "not one good row after the header");
+}
+
+static void read_path(struct scan_reader *reader, const char *path)
+{
+    struct table *table = table_read(path, reader->keep_going);
+
+    reader->rows_skipped += table->rows_skipped;
+    reader->num_open = 0;
+    read_table(reader, table);
+    table_free(table);
+}
+
+/* ---- Scans in order ---- */
+
+/* Places the plots scan by scan, in the order of their rows. */
+static void place_plots(struct scan_reader *reader)
+{
+    size_t start = 0;
+
+    reader->plots = must_alloc(reader->num_members * sizeof *reader->plots);
+    for (size_t i = 0; i < reader->num_entries; i++) {
+        reader->entries[i].first_plot = start;
+        reader->entries[i].scan.plots = reader->plots + start;
+        start += reader->entries[i].scan.num_plots;
+    }
+    for (size_t i = 0; i < reader->num_members; i++) {
+        struct entry *entry = &reader->entries[reader->members[i].entry];
+
+        reader->plots[entry->first_plot++] = reader->members[i].plot;
+    }
+    free(reader->members);
+    reader->members = NULL;
+}
+
+static int compare_entries(const void *a, const void *b)
+{
+    const struct entry *first = a, *second = b;
+
+    if (first->scan.time_us != second->scan.time_us)
+        return first->scan.time_us < second->scan.time_us ? -1 : 1;
+    return first->order < second->order ? -1 : 1;
+}
+
+struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
+                                     const struct parameters *parameters, bool keep_going)
+{
+    struct scan_reader *reader = must_calloc(1, sizeof *reader);
+
+    reader->parameters = parameters;
+    reader->keep_going = keep_going;
+    reader->interval_us = llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6);
+    for (int i = 0; i < num_paths; i++)
+        read_path(reader, paths[i]);
+    place_plots(reader);
+    qsort(reader->entries, reader->num_entries, sizeof *reader->entries, compare_entries);
+    return reader;
+}
+
+const struct rho_scan *scan_reader_next(struct scan_reader *reader)
+{
+    return reader->next < reader->num_entries ? &reader->entries[reader->next++].scan : NULL;
+}
+
+uint64_t scan_reader_total(const struct scan_reader *reader)
+{
+    return reader->num_entries;
+}
+
+struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader)
+{
+    return (struct scan_reader_counts){reader->num_entries, reader->num_members,
+                                       reader->rows_skipped};
+}
+
+void scan_reader_close(struct scan_reader *reader)
+{
+    if (!reader)
+        return;
+    free(reader->entries);
+    free(reader->open);
+    free(reader->plots);
+    free(reader);
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
+ *
+ * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic. The same seed gives the
+ * same data on every machine.
+ */
+#ifndef RHOTRACK_TOOL_SCENARIO_H
+#define RHOTRACK_TOOL_SCENARIO_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "parameters.h"
+
+struct truth_point {
+    double t_s;
+    int target_id; /* 0, 1, ... */
+    double x_m, y_m, vx_mps, vy_mps;
+};
+
+struct simulated_plot {
+    double x_m, y_m;
+    int target_id; /* -1: clutter */
+};
+
+struct simulated_scan {
+    double t_s;
+    size_t num_plots;
+    struct simulated_plot *plots;
+};
+
+struct scenario_box {
+    double x_min_m, x_max_m, y_min_m, y_max_m;
+};
+
+struct simulation {
+    size_t num_scans, num_targets, num_truth;
+    double sigma_m;            /* noise that a tracker should reckon with */
+    struct scenario_box area;  /* clutter is spread over it */
+    struct simulated_scan *scans;
+    struct truth_point *truth; /* by time, then target */
+};
+
+/* Names and one-line texts of all scenarios, for help and errors; NULL past the last. */
+const char *scenario_name(size_t index);
+const char *scenario_text(size_t index);
+
+/* The scenario's customary parameters (suggested, so that --set wins). Unknown name: exit 2 with the list. */
+void scenario_suggest(const char *name, struct parameters *parameters);
+
+/* One run: the data of (seed, run), the same whatever other runs are made. */
+struct simulation *scenario_simulate(const char *name, const struct parameters *parameters,
+                                     uint64_t seed, uint64_t run);
+void simulation_free(struct simulation *simulation);
+
+#endif

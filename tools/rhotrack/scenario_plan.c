@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT */
+#include "scenario_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common.h"
+
+const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2] = {
+    {{-23793, 24841}, {-2548, 21411}, {-7021, 14156}},
+    {{-21011, 25246}, {-5080, 20251}, {-8675, 16448}},
+    {{-18300, 25575}, {-7720, 19125}, {-10248, 18720}},
+    {{-15547, 25858}, {-10322, 17938}, {-11849, 21086}},
+    {{-12823, 26185}, {-12766, 16739}, {-13363, 23508}},
+    {{-10050, 26402}, {-15310, 15467}, {-14961, 25823}},
+    {{-7248, 26643}, {-17794, 14169}, {-16459, 28155}},
+};
+
+/* ---- plans ------------------------------------------------------------------------------------ */
+
+struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, size_t target)
+{
+    return &plan->truth[scan * plan->num_targets + target];
+}
+
+struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double interval_s)
+{
+    struct scenario_plan plan = {
+        .num_scans = num_scans, .num_targets = num_targets, .interval_s = interval_s, .pd = 1.0};
+    plan.truth = must_calloc(num_scans * num_targets + 1, sizeof *plan.truth);
+    for (size_t scan = 0; scan < num_scans; scan++) {
+        for (size_t target = 0; target < num_targets; target++) {
+            struct truth_point *point = plan_truth(&plan, scan, target);
+            point->t_s = (double)scan * interval_s;
+            point->target_id = (int)target;
+        }
+    }
+    return plan;
+}
+
+void plan_free(struct scenario_plan *plan)
+{
+    free(plan->truth);
+    plan->truth = NULL;
+}
+
+static void put(const struct scenario_plan *plan, size_t scan, size_t target, struct scenario_state state)
+{
+    struct truth_point *point = plan_truth(plan, scan, target);
+    point->x_m = state.x_m;
+    point->y_m = state.y_m;
+    point->vx_mps = state.vx_mps;
+    point->vy_mps = state.vy_mps;
+}
+
+/* ---- paths ------------------------------------------------------------------------------------ */
+
+void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start)
+{
+    for (size_t scan = 0; scan < plan->num_scans; scan++) {
+        double t_s = (double)scan * plan->interval_s;
+        struct scenario_state now = start;
+        now.x_m += start.vx_mps * t_s;
+        now.y_m += start.vy_mps * t_s;
+        put(plan, scan, target, now);
+    }
+}
+
+void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start, double change_mps,
+                 struct random *random)
+{
+    struct scenario_state now = start;
+    for (size_t scan = 0; scan < plan->num_scans; scan++) {
+        put(plan, scan, target, now);
+        double dvx_mps = change_mps * random_normal(random);
+        double dvy_mps = change_mps * random_normal(random);
+        now.x_m += plan->interval_s * (now.vx_mps + dvx_mps / 2.0);
+        now.y_m += plan->interval_s * (now.vy_mps + dvy_mps / 2.0);
+        now.vx_mps += dvx_mps;
+        now.vy_mps += dvy_mps;
+    }
+}
+
+void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start, double turn_rad)
+{
+    struct scenario_state now = start;
+    for (size_t scan = 0; scan < plan->num_scans; scan++) {
+        put(plan, scan, target, now);
+        double vx_mps = now.vx_mps * cos(turn_rad) - now.vy_mps * sin(turn_rad);
+        double vy_mps = now.vx_mps * sin(turn_rad) + now.vy_mps * cos(turn_rad);
+        now = (struct scenario_state){.x_m = now.x_m + plan->interval_s * vx_mps,
+                                      .vx_mps = vx_mps,
+                                      .y_m = now.y_m + plan->interval_s * vy_mps,
+                                      .vy_mps = vy_mps};
+    }
+}
+
+void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start, double mps2)
+{
+    double speed_mps = hypot(start.vx_mps, start.vy_mps);
+    for (size_t scan = 0; scan < plan->num_scans; scan++) {
+        double t_s = (double)scan * plan->interval_s;
+        double path_m = speed_mps * t_s + mps2 * t_s * t_s / 2.0;
+        double gain = 1.0 + mps2 * t_s / speed_mps;
+        put(plan, scan, target,
+            (struct scenario_state){.x_m = start.x_m + path_m * start.vx_mps / speed_mps,
+                                    .vx_mps = start.vx_mps * gain,
+                                    .y_m = start.y_m + path_m * start.vy_mps / speed_mps,
+                                    .vy_mps = start.vy_mps * gain});
+    }
+}
+
+/* Slope of a least-squares line through one coordinate of a target's real plots. */
+static double radar_table_velocity(size_t target, int axis)
+{
+    double sum = 0.0, sum_tt = 0.0;
+    for (int scan = 0; scan < RADAR_TABLE_SCANS; scan++) {
+        double t_s = (scan - (RADAR_TABLE_SCANS - 1) / 2.0) * RADAR_TABLE_INTERVAL_S;
+        sum += t_s * radar_table_m[scan][target][axis];
+        sum_tt += t_s * t_s;
+    }
+    return sum / sum_tt;
+}
+
+void plan_radar_table(struct scenario_plan *plan)
+{
+    for (size_t target = 0; target < RADAR_TABLE_TARGETS; target++) {
+        struct scenario_state state = {.vx_mps = radar_table_velocity(target, 0),
+                                       .vy_mps = radar_table_velocity(target, 1)};
+        for (size_t scan = 0; scan < plan->num_scans; scan++) {
+            state.x_m = radar_table_m[scan][target][0];
+            state.y_m = radar_table_m[scan][target][1];
+            put(plan, scan, target, state);
+        }
+    }
+}
+
+/* ---- plots ------------------------------------------------------------------------------------ */
+
+static void add_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
+                        struct random *random)
+{
+    for (uint64_t i = 0; i < count; i++) {
+        struct simulated_plot *plot = &scan->plots[scan->num_plots++];
+        plot->x_m = random_between(random, box->x_min_m, box->x_max_m);
+        plot->y_m = random_between(random, box->y_min_m, box->y_max_m);
+        plot->target_id = -1;
+    }
+}
+
+static void add_detection(const struct scenario_plan *plan, struct simulated_scan *scan,
+                          const struct truth_point *truth, struct random *random)
+{
+    bool is_seen = random_uniform(random) < plan->pd;
+    double noise_x_m = plan->noise_m * random_normal(random);
+    double noise_y_m = plan->noise_m * random_normal(random);
+    if (is_seen) {
+        scan->plots[scan->num_plots++] = (struct simulated_plot){
+            .x_m = truth->x_m + noise_x_m, .y_m = truth->y_m + noise_y_m, .target_id = truth->target_id};
+    }
+}
+
+static void shuffle(struct simulated_scan *scan, struct random *random)
+{
+    for (size_t i = scan->num_plots; i > 1; i--) {
+        size_t j = random_below(random, i);
+        struct simulated_plot swapped = scan->plots[i - 1];
+        scan->plots[i - 1] = scan->plots[j];
+        scan->plots[j] = swapped;
+    }
+}
+
+static void simulate_scan(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
+                          struct random *random)
+{
+    uint64_t num_clutter = random_poisson(random, plan->clutter_mean);
+    uint64_t num_spot = random_poisson(random, plan->spot_mean);
+    scan->t_s = (double)index * plan->interval_s;
+    scan->plots = must_calloc(plan->num_targets + num_clutter + num_spot + 1, sizeof *scan->plots);
+    for (size_t target = 0; target < plan->num_targets; target++) {
+        add_detection(plan, scan, plan_truth(plan, index, target), random);
+    }
+    add_clutter(scan, &plan->box, num_clutter, random);
+    add_clutter(scan, &plan->spot, num_spot, random);
+    shuffle(scan, random);
+}
+
+struct simulation *plan_simulate(const struct scenario_plan *plan, struct random *random)
+{
+    struct simulation *simulation = must_calloc(1, sizeof *simulation);
+    simulation->num_scans = plan->num_scans;
+    simulation->num_targets = plan->num_targets;
+    simulation->num_truth = plan->num_scans * plan->num_targets;
+    simulation->sigma_m = plan->sigma_m;
+    simulation->area = plan->box;
+    simulation->scans = must_calloc(plan->num_scans, sizeof *simulation->scans);
+    simulation->truth = must_calloc(simulation->num_truth + 1, sizeof *simulation->truth);
+    memcpy(simulation->truth, plan->truth, simulation->num_truth * sizeof *simulation->truth);
+    for (size_t scan = 0; scan < plan->num_scans; scan++) {
+        simulate_scan(plan, scan, &simulation->scans[scan], random);
+    }
+    return simulation;
+}
+
+void simulation_free(struct simulation *simulation)
+{
+    for (size_t scan = 0; scan < simulation->num_scans; scan++) {
+        free(simulation->scans[scan].plots);
+    }
+    free(simulation->scans);
+    free(simulation->truth);
+    free(simulation);
+}

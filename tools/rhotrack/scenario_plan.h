@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scenario_plan: what is to be simulated, before chance comes in: paths, noise, misses, clutter.
+ *
+ * The named scenarios and the experiments' cases are plans.
+ */
+#ifndef RHOTRACK_TOOL_SCENARIO_PLAN_H
+#define RHOTRACK_TOOL_SCENARIO_PLAN_H
+
+#include "random.h"
+#include "scenario.h"
+
+#define RADAR_TABLE_SCANS 7
+#define RADAR_TABLE_TARGETS 3
+#define RADAR_TABLE_INTERVAL_S 10.0
+#define RADAR_TABLE_SIGMA_M 60.0 /* the targets turn slightly: what a straight line leaves, an axis */
+
+/* x, then y, in metres: the real plots of the paper "A Neutrosophic Hough Transform ...", Table 3. */
+extern const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2];
+
+struct scenario_plan {
+    size_t num_scans, num_targets;
+    double interval_s;
+    double sigma_m; /* as the tracker is told */
+    double noise_m; /* that is added to the positions, each axis */
+    double pd;
+    struct scenario_box box; /* of the clutter */
+    double clutter_mean;     /* plots a scan */
+    struct scenario_box spot; /* more clutter there */
+    double spot_mean;         /* plots a scan; 0: none */
+    struct truth_point *truth; /* num_scans x num_targets, by time, then target */
+};
+
+/* A state at the first scan. */
+struct scenario_state {
+    double x_m, vx_mps, y_m, vy_mps;
+};
+
+/* Room for the paths, times and identities set; the rest zero. */
+struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double interval_s);
+void plan_free(struct scenario_plan *plan);
+
+struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, size_t target);
+
+/* Straight at constant velocity. */
+void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start);
+
+/* Straight, but each scan interval adds a normal velocity change of this standard deviation, each axis. */
+void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start, double change_mps,
+                 struct random *random);
+
+/* Constant speed, the heading changes by turn_rad at each scan. */
+void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start, double turn_rad);
+
+/* Constant acceleration along the first velocity. */
+void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start, double mps2);
+
+/* The real plots as paths; velocities from a straight-line fit. The plan has RADAR_TABLE_... sizes, or fewer scans. */
+void plan_radar_table(struct scenario_plan *plan);
+
+/* Plots by chance: detections with noise, clutter, shuffled in each scan. */
+struct simulation *plan_simulate(const struct scenario_plan *plan, struct random *random);
+
+#endif

@@ -1,0 +1,61 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick when none is.
+set -eu
+
+packages='
+gcc                 # compiler
+libc6-dev           # its C library
+clang               # second compiler: warnings, sanitizers, determinism
+libclang-rt-14-dev  # the sanitizers of clang
+clang-tidy          # make lint
+clang-format        # make format, make lint
+cppcheck            # make lint
+make                # build
+binutils            # ar, nm, size
+pkg-config          # test of the installed library
+libcsv-dev          # the program reads CSV
+libinih-dev         # ... and INI
+libcjson-dev        # ... and writes JSON
+libcmocka-dev       # unit and scenario tests
+gnuplot-nox         # pictures
+librsvg2-bin        # pictures: SVG to PNG
+python3             # make layers, reference vectors
+valgrind            # memory checks, instruction counts
+'
+
+missing=''
+for package in $(printf '%s' "$packages" | sed 's/#.*//'); do
+    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$state" = installed ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+if ! command -v apt-get >/dev/null 2>&1; then
+    echo "setup: this is not a Debian system (no apt-get). Please install what corresponds to:$missing" >&2
+    exit 1
+fi
+if [ "$(id -u)" -eq 0 ]; then
+    as_root=''
+elif command -v sudo >/dev/null 2>&1; then
+    as_root='sudo'
+else
+    echo "setup: not root, and no sudo. Please have an administrator run: apt-get install$missing" >&2
+    exit 1
+fi
+
+install_missing() {
+    # shellcheck disable=SC2086 # words on purpose
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing
+}
+
+echo "setup: installing$missing"
+# The package lists are fetched only where those at hand do not do.
+if ! install_missing; then
+    echo "setup: trying again with fresh package lists"
+    $as_root apt-get update -q
+    install_missing || {
+        echo "setup: could not install:$missing" >&2
+        exit 1
+    }
+fi

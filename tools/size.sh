@@ -1,0 +1,68 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+#
+# What the library costs: code and data a module at -Os (embedded profile), the worst stack of each module's functions,
+# and the public objects in both profiles. For Cortex-M4F where arm-none-eabi-gcc is there, else for this machine.
+set -eu
+cd "$(dirname "$0")/.."
+folder=${BUILD:-build}/size
+rm -rf "$folder"
+mkdir -p "$folder"
+
+if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
+    prefix=arm-none-eabi-
+    machine='-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard'
+    target='Cortex-M4F'
+else
+    prefix=''
+    machine='-fno-pie' # constant tables of pointers are not to count as data
+    target="this machine, $(uname -m) (no arm-none-eabi-gcc here)"
+fi
+flags="-std=c99 -Os -ffp-contract=off -Iinclude $machine"
+
+row() { printf '%-34s %9s %9s %9s  %9s %s\n' "$@"; }
+
+echo "Code and data in bytes, gcc $(${prefix}gcc -dumpfullversion) -Os, $target."
+echo 'Stack: the largest frame of one function; callees come on top.'
+echo
+row file text data bss frame function
+for source in src/*/*.c; do
+    [ -f "$source" ] || { echo 'size: no sources'; exit 1; }
+    object=$folder/$(basename "$source" .c).o
+    # shellcheck disable=SC2086 # words on purpose
+    ${prefix}gcc $flags -fstack-usage -c -o "$object" "$source"
+    read -r text data bss _ < <(${prefix}size "$object" | tail -n 1)
+    # FILE:LINE:COLUMN:FUNCTION <tab> bytes <tab> kind
+    read -r frame function < <(
+        sort -t "$(printf '\t')" -k2,2nr "${object%.o}.su" | awk -F '[:\t]' 'NR == 1 {print $(NF - 1), $(NF - 2)}')
+    row "${source#src/}" "$text" "$data" "$bss" "${frame:-0}" "${function:-}"
+done
+# shellcheck disable=SC2046 # words on purpose
+row 'all' $(${prefix}size -t "$folder"/*.o | tail -n 1 | awk '{print $1, $2, $3}') '' ''
+
+# Sizes of objects without running anything on the target: arrays of that size, read back from the symbol table.
+{
+    for header in include/rhotrack/*.h; do
+        echo "#include \"rhotrack/$(basename "$header")\""
+    done
+    for object in window initiator assignment tracker report; do
+        echo "char rho_sizeof_$object[sizeof(struct rho_$object)];"
+    done
+    echo 'char rho_sizeof_track_slot[sizeof(struct rho_track)];'
+    echo 'char rho_sizeof_plot[sizeof(struct rho_plot)];'
+} >"$folder/objects.c"
+
+sizes_of() { # profile, flags: name and bytes of each object
+    # shellcheck disable=SC2086 # words on purpose
+    ${prefix}gcc $flags $2 -fno-common -c -o "$folder/$1.objects" "$folder/objects.c"
+    ${prefix}nm -S "$folder/$1.objects" | sed -n 's/^[^ ]* \([0-9a-f]*\) . rho_sizeof_/\1 /p' |
+        while read -r hex name; do echo "$name $((16#$hex))"; done | sort
+}
+
+echo
+echo "Objects in bytes, $target; the caller owns them."
+echo
+printf '%-34s %12s %12s\n' object embedded workstation
+join <(sizes_of embedded '') <(sizes_of workstation -DRHO_PROFILE_WORKSTATION) | while read -r name embedded workstation; do
+    printf '%-34s %12d %12d\n' "struct rho_${name%_slot}" "$embedded" "$workstation"
+done
