@@ -83,6 +83,9 @@ void rho_initiator_config_default(struct rho_initiator_config *config);
 RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
                                                   const struct rho_initiator_config *config);
 
+/* True where a scan of this time can be pushed: the initiator is initialised, and holds no newer scan. Constant cost. */
+int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
+
 /* rho_window_push on the initiator's window; what an earlier search found is forgotten. */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan, uint8_t *fates,

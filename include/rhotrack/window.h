@@ -90,6 +90,9 @@ RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t
                                                unsigned scans_max, const struct rho_extent *area,
                                                float side_min_m);
 
+/* True where a scan of this time can be pushed: the window is initialised, and holds no newer scan. Constant cost. */
+int rho_window_accepts(const struct rho_window *window, int64_t time_us);
+
 /*
  * Takes the plots of a scan whose fate is RHO_FATE_HELD; the oldest scan leaves when the window is full.
  *   scan    a valid scan, not older than the newest held; its plots are copied

@@ -39,3 +39,8 @@ int rho_is_within(float v, float lo, float hi)
 {
     return v >= lo && v <= hi && v >= -FLT_MAX && v <= FLT_MAX;
 }
+
+float rho_plot_sigma_m(const struct rho_plot *plot)
+{
+    return plot->sigma_range_m > plot->sigma_cross_m ? plot->sigma_range_m : plot->sigma_cross_m;
+}

@@ -226,6 +226,11 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     return RHO_OK;
 }
 
+int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us)
+{
+    return initiator->magic == INITIATOR_MAGIC && rho_window_accepts(&initiator->window, time_us);
+}
+
 enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct rho_scan *scan,
                                    uint8_t *fates, uint32_t *left_unused)
 {

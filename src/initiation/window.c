@@ -223,15 +223,22 @@ enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned
     return RHO_OK;
 }
 
+int rho_window_accepts(const struct rho_window *window, int64_t time_us)
+{
+    if (window->magic != WINDOW_MAGIC) {
+        return 0;
+    }
+    unsigned newest = ((unsigned)window->first + window->num_scans + window->scans_max - 1u) % window->scans_max;
+    return window->num_scans == 0 || window->ring[newest].time_us <= time_us;
+}
+
 enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
                                 uint8_t *fates, uint32_t *left_unused)
 {
     if (!window || !scan || !left_unused || (scan->num_plots && (!scan->plots || !fates))) {
         return RHO_ERROR_NULL;
     }
-    if (window->magic != WINDOW_MAGIC ||
-        (window->num_scans &&
-         scan->time_us < rho_window_scan_at(window, window->num_scans - 1u)->time_us)) {
+    if (!rho_window_accepts(window, scan->time_us)) {
         return RHO_ERROR_STATE;
     }
     struct rho_window_scan *slot = next_slot(window, left_unused);

@@ -14,12 +14,12 @@ enum { NUM_OPTIONS = 12, RUNS_MAX = 1000000 };
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
     char letter;
-    const char *name, *argument, *text;
+    const char *name, *argument, *text; /* no text: not in this version */
 } options[NUM_OPTIONS] = {
     {'o', "output", "OUTPUT", "where to write; it appears there only when it is complete"},
     {'m', "method", "METHOD", "how to"},
     {'g', "gate", "GATE", "how tracks choose their plots: nearest (the default)"},
-    {'f', "follow", NULL, "not in this version"},
+    {'f', "follow", NULL, NULL},
     {'c', "covariance", NULL, "tracks with 21 columns more: the covariance's lower triangle"},
     {'r', "runs", "N", "how many runs"},
     {'S', "seed", "S", "start of the random numbers, a whole number (default 1)"},
@@ -49,7 +49,7 @@ void command_line_help(const struct command *command, FILE *file)
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         char left[48];
 
-        if (!takes(command, options[i].letter))
+        if (!takes(command, options[i].letter) || !options[i].text)
             continue;
         snprintf(left, sizeof left, "%s--%s%s%s",
                  options[i].letter == 'o' ? "-o, "

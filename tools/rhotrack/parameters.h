@@ -75,8 +75,8 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(SIGMA_MPS, "sigma_mps", "m/s", 0.001, 1e5, "velocity noise of a plot, each axis")            \
     X(RANGE_MIN_M, "range_min_m", "m", 0, 2e6, "nearest range it sees")                            \
     X(RANGE_MAX_M, "range_max_m", "m", 1, 2e6, "farthest range it sees")                           \
-    X(SECTOR_FROM_RAD, "sector_from_rad", "rad", -6.2831853, 6.2831853, "where it can look at all:") \
-    X(SECTOR_TO_RAD, "sector_to_rad", "rad", -6.2831853, 6.2831853, "counter-clockwise from .. to") \
+    X(SECTOR_FROM_RAD, "sector_from_rad", "rad", -6.2831853, 6.2831853, "it can look counter-clockwise from here") \
+    X(SECTOR_TO_RAD, "sector_to_rad", "rad", -6.2831853, 6.2831853, "to here; equal: all round") \
     X(X_M, "x_m", "m", -2e6, 2e6, "its place")                                                     \
     X(Y_M, "y_m", "m", -2e6, 2e6, "")                                                              \
     X(Z_M, "z_m", "m", -2e6, 2e6, "")

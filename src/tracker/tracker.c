@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/tracker.h"
+
+#include <string.h>
+
+#include "rhotrack/approx.h"
+#include "tracker_step.h"
+
+#define TRACKER_MAGIC 0x5452434bu /* "TRCK" */
+
+/* White acceleration that follows manoeuvres of accel_max: a third of it, kept up for a second. */
+#define ACCEL_SHARE (1.0f / 3.0f)
+#define ACCEL_TIME_S 1.0f
+
+/* Memory of the smoothed clutter count: ten scans. */
+#define CLUTTER_SMOOTHING 0.1f
+
+/* The build fails where the RAM formula of config.h is no longer an upper bound. */
+typedef char rho_assert_tracker_ram[sizeof(struct rho_tracker) <= RHO_RAM_TRACKER_BYTES ? 1 : -1];
+
+/* ---- sensors ---------------------------------------------------------------------------------- */
+
+static const struct rho_sensor *find_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (unsigned i = 0; i < tracker->num_sensors; i++) {
+        if (tracker->sensors[i].sensor_id == sensor_id) {
+            return &tracker->sensors[i];
+        }
+    }
+    return 0;
+}
+
+static int is_usable_sensor(const struct rho_sensor *sensor)
+{
+    return rho_is_within(sensor->x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->z_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->pd, 0.01f, 0.999f) &&
+           rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
+           sensor->range_min_m < sensor->range_max_m &&
+           rho_is_within(sensor->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
+           rho_is_within(sensor->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI);
+}
+
+/* ---- begin: which plots can be believed ------------------------------------------------------- */
+
+static int is_position(float v_m)
+{
+    return rho_is_within(v_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M);
+}
+
+static int is_velocity(float v_mps)
+{
+    return rho_is_within(v_mps, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS);
+}
+
+static int is_sigma(float sigma)
+{
+    return rho_is_within(sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
+}
+
+static int is_valid(const struct rho_plot *plot, uint32_t measures)
+{
+    int z = (measures & RHO_MEASURES_Z) != 0;
+    if (plot->offset_us > RHO_LIMIT_OFFSET_US || plot->offset_us < -RHO_LIMIT_OFFSET_US ||
+        !is_position(plot->x_m) || !is_position(plot->y_m) || !is_sigma(plot->sigma_range_m) ||
+        !is_sigma(plot->sigma_cross_m)) {
+        return 0;
+    }
+    if (z && !(is_position(plot->z_m) && is_sigma(plot->sigma_up_m))) {
+        return 0;
+    }
+    if (measures & RHO_MEASURES_VELOCITY) {
+        return is_velocity(plot->vx_mps) && is_velocity(plot->vy_mps) &&
+               (!z || is_velocity(plot->vz_mps)) && is_sigma(plot->sigma_mps);
+    }
+    return 1;
+}
+
+static void judge_plots(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        int valid = is_valid(plot, step->scan->measures);
+        step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
+        if (valid) {
+            rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
+        }
+    }
+}
+
+/* Time since the scan before, as the false-track rate counts searches. Scans of one instant share an interval. */
+static void note_interval(struct rho_tracker *tracker, int64_t time_us)
+{
+    int64_t interval_us = time_us - tracker->time_us;
+    if (tracker->has_time && interval_us > 0) {
+        tracker->interval_us = interval_us < INT32_MAX ? (int32_t)interval_us : INT32_MAX;
+    }
+    tracker->time_us = time_us;
+    tracker->has_time = 1;
+}
+
+static void begin(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
+    step->sensor = find_sensor(tracker, step->scan->sensor_id);
+    float pd = step->sensor ? step->sensor->pd : tracker->config.pd;
+    step->log_pd = rho_log(pd);
+    step->log_miss = rho_log(1.0f - pd);
+    step->model.speed_sigma_mps = tracker->config.v_max_mps;
+    step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
+    tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
+    note_interval(tracker, step->scan->time_us);
+    judge_plots(step);
+}
+
+/* ---- report ----------------------------------------------------------------------------------- */
+
+static void report_track(const struct step *step, const struct rho_track *track,
+                         struct rho_track_report *out)
+{
+    int64_t age_us = step->scan->time_us - track->updated_us;
+    *out = (struct rho_track_report){
+        .track_id = track->track_id,
+        .status = (enum rho_track_status)track->status,
+        .hits = track->hits,
+        .misses = track->misses,
+        .sensor_id = track->sensor_id,
+        .plot = track->plot,
+        .update_age_us = age_us < INT32_MAX ? (int32_t)age_us : INT32_MAX,
+        .score_nat = (float)track->score_mnat * 0.001f,
+        .sigma_m = rho_track_sigma_m(track),
+        .sigma_mps = rho_track_sigma_mps(track),
+    };
+    memcpy(out->state, track->kalman.state, sizeof out->state);
+    memcpy(out->covariance, track->kalman.covariance, sizeof out->covariance);
+}
+
+/* Plots without a place in fates[] have a fate all the same: that of a late scan, or NO_ROOM. */
+static void count_fates(const struct step *step)
+{
+    struct rho_tracker_counters *counters = &step->tracker->counters;
+    struct rho_report *report = step->report;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        report->fates_total[report->fates[i]]++;
+    }
+    int late = step->num_gated > 0 && report->fates[0] == RHO_FATE_STALE;
+    report->fates_total[late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] +=
+        step->scan->num_plots - step->num_gated;
+    for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
+        counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
+    }
+    counters->plots_in = rho_count(counters->plots_in, step->scan->num_plots);
+}
+
+static void note_unclaimed(struct step *step)
+{
+    float unclaimed = 0.0f;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        unclaimed += step->report->fates[i] == RHO_FATE_CLAIMED ? 0.0f : 1.0f;
+    }
+    step->tracker->unclaimed_plots += CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_plots);
+}
+
+static void report_all(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    count_fates(step);
+    step->report->num_tracks = tracker->num_tracks;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        report_track(step, &tracker->tracks[i], &step->report->tracks[i]);
+    }
+}
+
+/* ---- public ----------------------------------------------------------------------------------- */
+
+void rho_tracker_config_default(struct rho_tracker_config *config)
+{
+    *config = (struct rho_tracker_config){
+        .pd = 0.9f,
+        .v_max_mps = 700.0f,
+        .accel_max_mps2 = 30.0f,
+        .false_tracks_per_hour = 1.0f,
+        .coast_scans_max = 5,
+    };
+}
+
+static int is_usable(const struct rho_tracker_config *config)
+{
+    return rho_is_within(config->pd, 0.01f, 0.999f) &&
+           rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
+           rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f) &&
+           (!config->score_is_fixed || rho_is_within(config->score_min_nat, -100.0f, 1000.0f)) &&
+           config->coast_scans_max >= 1 && config->coast_scans_max <= UINT8_MAX;
+}
+
+enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
+                                 const struct rho_tracker_config *config)
+{
+    if (!tracker || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *tracker) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    struct rho_tracker_config copy = *config;
+    memset(tracker, 0, sizeof *tracker);
+    tracker->config = copy;
+    tracker->next_track_id = 1;
+    tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
+    tracker->magic = TRACKER_MAGIC;
+    return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
+}
+
+enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
+{
+    if (!tracker || !sensor) {
+        return RHO_ERROR_NULL;
+    }
+    if (tracker->magic != TRACKER_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    if (!is_usable_sensor(sensor)) {
+        return RHO_ERROR_CONFIG;
+    }
+    unsigned place = 0;
+    while (place < tracker->num_sensors && tracker->sensors[place].sensor_id != sensor->sensor_id) {
+        place++;
+    }
+    if (place == RHO_MAX_SENSORS) {
+        return RHO_ERROR_CAPACITY;
+    }
+    tracker->sensors[place] = *sensor;
+    tracker->num_sensors = (uint16_t)(place < tracker->num_sensors ? tracker->num_sensors : place + 1u);
+    return RHO_OK;
+}
+
+static enum rho_status check_step(const struct rho_tracker *tracker,
+                                  const struct rho_initiator *initiator,
+                                  const struct rho_scan *scan, const struct rho_report *report)
+{
+    if (!tracker || !scan || !report || (scan->num_plots && !scan->plots)) {
+        return RHO_ERROR_NULL;
+    }
+    if (tracker->magic != TRACKER_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
+        !rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI)) {
+        return RHO_ERROR_VALUE;
+    }
+    int late = tracker->has_time && scan->time_us < tracker->time_us;
+    return !initiator || late || rho_initiator_accepts(initiator, scan->time_us) ? RHO_OK
+                                                                                 : RHO_ERROR_STATE;
+}
+
+/* A scan older than what was stepped: counted, and nothing else. */
+static void refuse_late(struct step *step)
+{
+    memset(step->report->fates, RHO_FATE_STALE, step->num_gated);
+    step->tracker->counters.scans_late = rho_count(step->tracker->counters.scans_late, 1);
+}
+
+static void take_in(struct step *step)
+{
+    begin(step);
+    rho_tracker_predict(step);
+    rho_tracker_claim(step);
+    rho_tracker_update(step);
+    rho_tracker_age(step);
+    rho_tracker_initiate(step);
+    note_unclaimed(step);
+}
+
+enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiator *initiator,
+                                 const struct rho_scan *scan, struct rho_report *report)
+{
+    enum rho_status status = check_step(tracker, initiator, scan, report);
+    if (status != RHO_OK) {
+        return status;
+    }
+    struct step step = {
+        .tracker = tracker,
+        .initiator = initiator,
+        .scan = scan,
+        .report = report,
+        .num_gated = scan->num_plots < RHO_MAX_PLOTS ? scan->num_plots : RHO_MAX_PLOTS,
+    };
+    memset(report, 0, sizeof *report);
+    report->time_us = scan->time_us;
+    report->num_plots = scan->num_plots;
+    if (tracker->has_time && scan->time_us < tracker->time_us) {
+        refuse_late(&step);
+    } else {
+        take_in(&step);
+    }
+    report_all(&step);
+    return RHO_OK;
+}

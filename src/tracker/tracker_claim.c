@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_claim: existing tracks are predicted, gate the scan's plots, and are updated by those assigned to them.
+ */
+#include "rhotrack/approx.h"
+#include "tracker_step.h"
+
+#define LOG_TWO_PI 1.83787707f
+
+/* Where heights count, clutter is taken to spread over so many metres of them. */
+#define CLUTTER_HEIGHT_M 20000.0f
+
+/* The least area that clutter is spread over while few plots were seen. */
+#define CLUTTER_SIDE_MIN_M 1000.0f
+
+int32_t rho_tracker_mnat(float nat)
+{
+    float mnat = nat * 1000.0f;
+    if (!(mnat > -(float)RHO_ASSIGNMENT_COST_MAX)) {
+        return -RHO_ASSIGNMENT_COST_MAX;
+    }
+    return mnat < (float)RHO_ASSIGNMENT_COST_MAX ? (int32_t)mnat : RHO_ASSIGNMENT_COST_MAX;
+}
+
+/* ---- predict ---------------------------------------------------------------------------------- */
+
+void rho_tracker_predict(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        track->plot = -1;
+        /* an estimate that time has made worthless cannot be carried on */
+        if (rho_track_predict(track, step->scan->time_us, &step->model) != RHO_OK) {
+            rho_tracker_end_track(step, track, (enum rho_track_status)track->status);
+        }
+    }
+}
+
+/* ---- claim ------------------------------------------------------------------------------------ */
+
+static float clutter_density(const struct step *step, float x_m, float y_m)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    if (step->initiator) {
+        float density = rho_initiator_density(step->initiator, x_m, y_m);
+        if (density > 0.0f) {
+            return density;
+        }
+    }
+    float area_m2 = rho_extent_area_m2(&tracker->extent, CLUTTER_SIDE_MIN_M);
+    return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
+}
+
+/* ln of the plot's density as the track's, over its density as clutter. */
+static float log_ratio(const struct rho_gate_result *result, float log_density)
+{
+    float clutter = result->has_z ? log_density - rho_log(CLUTTER_HEIGHT_M) : log_density;
+    float dimensions = result->has_z ? 3.0f : 2.0f;
+    return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - clutter;
+}
+
+/* A pair's cost is minus what the plot gains over a miss, in mnat. A plot in the gate is always better than none. */
+static void gate_plots(struct step *step, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[row];
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    float log_density = rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
+    rho_gate_open(&gate, &track->kalman);
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD &&
+            rho_gate_test(&gate, &step->scan->plots[i], step->scan->measures, &result)) {
+            int32_t gain = rho_tracker_mnat(step->log_pd + log_ratio(&result, log_density) - step->log_miss);
+            (void)!rho_assignment_add(&tracker->assignment, row, i, gain > 1 ? -gain : -1);
+        }
+    }
+}
+
+void rho_tracker_claim(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    /* both counts are within the capacities: nothing to refuse */
+    (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        if (tracker->tracks[row].status != RHO_TRACK_FREE) {
+            gate_plots(step, row);
+        }
+    }
+    rho_assignment_solve(&tracker->assignment);
+    tracker->counters.gate_plots_dropped =
+        rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
+}
+
+/* ---- update ----------------------------------------------------------------------------------- */
+
+static int32_t gain_of(const struct step *step, const struct rho_track *track, uint32_t plot)
+{
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    rho_gate_open(&gate, &track->kalman);
+    if (!rho_gate_test(&gate, &step->scan->plots[plot], step->scan->measures, &result)) {
+        return 0;
+    }
+    float density = clutter_density(step, track->kalman.state[0], track->kalman.state[1]);
+    return rho_tracker_mnat(step->log_pd + log_ratio(&result, rho_log(density)));
+}
+
+void rho_tracker_update(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        int plot = rho_assignment_column(&tracker->assignment, row);
+        if (plot == RHO_ASSIGNMENT_NONE) {
+            continue;
+        }
+        int32_t gain = gain_of(step, track, (uint32_t)plot);
+        if (rho_track_update(track, step->scan, (uint32_t)plot, &step->model, gain) == RHO_OK) {
+            step->report->fates[plot] = RHO_FATE_CLAIMED;
+        } else {
+            tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
+        }
+    }
+}

@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_life: evidence ends tracks, confirms them, and starts new ones from the plots that nobody claimed.
+ */
+#include <string.h>
+
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+#include "tracker_step.h"
+
+/* Wald's lower threshold: one true track in a hundred is given up while tentative. */
+#define TENTATIVE_FALL_MNAT 4605
+
+/* ---- age -------------------------------------------------------------------------------------- */
+
+void rho_tracker_end_track(struct step *step, struct rho_track *track, enum rho_track_status was)
+{
+    struct rho_report *report = step->report;
+    if (was == RHO_TRACK_CONFIRMED || was == RHO_TRACK_COASTING) {
+        report->ended[report->num_ended++] = track->track_id;
+    }
+    track->status = RHO_TRACK_FREE;
+    step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
+}
+
+/* Did this scan look where the track is? A sensor that is not in the table sees everything, from the origin. */
+static int looked_at(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_sensor *sensor = step->sensor;
+    float dx_m = track->kalman.state[0] - (sensor ? sensor->x_m : 0.0f);
+    float dy_m = track->kalman.state[1] - (sensor ? sensor->y_m : 0.0f);
+    float range2_m2 = dx_m * dx_m + dy_m * dy_m;
+    float azimuth_rad = rho_atan2(dy_m, dx_m);
+    if (!rho_angle_in_sector(azimuth_rad, step->scan->sector_from_rad, step->scan->sector_to_rad)) {
+        return 0;
+    }
+    return !sensor || (range2_m2 >= sensor->range_min_m * sensor->range_min_m &&
+                       range2_m2 <= sensor->range_max_m * sensor->range_max_m &&
+                       rho_angle_in_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad));
+}
+
+/*
+ * The score that confirms. A score is a likelihood ratio whose prior expects one target a search, so that chance passes
+ * a threshold s at most e^-s times a search (Markov's inequality); the wanted rate gives s.
+ */
+static int32_t confirm_mnat(const struct rho_tracker *tracker)
+{
+    const struct rho_tracker_config *config = &tracker->config;
+    if (config->score_is_fixed) {
+        return rho_tracker_mnat(config->score_min_nat);
+    }
+    float interval_s = (float)(tracker->interval_us > 0 ? tracker->interval_us : 1000000) * 1e-6f;
+    return rho_tracker_mnat(-rho_log(config->false_tracks_per_hour * interval_s / 3600.0f));
+}
+
+static struct rho_track_limits limits_of(const struct step *step)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    struct rho_track_limits limits = {
+        .confirm_mnat = confirm_mnat(tracker),
+        .fall_mnat = rho_tracker_mnat(-step->log_miss * (float)tracker->config.coast_scans_max),
+        .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
+    };
+    int32_t start_mnat =
+        step->initiator ? rho_tracker_mnat(step->initiator->config.score_min_nat) : limits.confirm_mnat;
+    limits.tentative_mnat =
+        (start_mnat < limits.confirm_mnat ? start_mnat : limits.confirm_mnat) - TENTATIVE_FALL_MNAT;
+    return limits;
+}
+
+static void judge(struct step *step, struct rho_track *track, const struct rho_track_limits *limits)
+{
+    enum rho_track_status was = (enum rho_track_status)track->status;
+    enum rho_track_status is = rho_track_judge(track, limits);
+    if (is == RHO_TRACK_FREE) {
+        rho_tracker_end_track(step, track, was);
+    } else if (was == RHO_TRACK_TENTATIVE && is != RHO_TRACK_TENTATIVE) {
+        step->tracker->counters.tracks_confirmed = rho_count(step->tracker->counters.tracks_confirmed, 1);
+    }
+}
+
+void rho_tracker_age(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track_limits limits = limits_of(step);
+    unsigned live = 0;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        if (track->status == RHO_TRACK_FREE) {
+            continue;
+        }
+        if (track->plot < 0 && looked_at(step, track)) {
+            rho_track_miss(track, rho_tracker_mnat(-step->log_miss));
+        }
+        judge(step, track, &limits);
+        if (track->status != RHO_TRACK_FREE) {
+            tracker->tracks[live++] = *track;
+        }
+    }
+    tracker->num_tracks = (uint16_t)live;
+}
+
+/* ---- initiate --------------------------------------------------------------------------------- */
+
+/* Room for one more track: at the end, or that of the lowest tentative track below the score. */
+static int make_room(struct rho_tracker *tracker, int32_t score_mnat)
+{
+    if (tracker->num_tracks < RHO_MAX_TRACKS) {
+        return 1;
+    }
+    tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
+    unsigned lowest = RHO_MAX_TRACKS;
+    for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        if (track->status == RHO_TRACK_TENTATIVE && track->score_mnat < score_mnat) {
+            score_mnat = track->score_mnat;
+            lowest = i;
+        }
+    }
+    if (lowest == RHO_MAX_TRACKS) {
+        return 0;
+    }
+    tracker->num_tracks--;
+    tracker->counters.tracks_ended = rho_count(tracker->counters.tracks_ended, 1);
+    memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
+            (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
+    return 1;
+}
+
+/* The candidate's plots in the order of their scans. */
+static unsigned gather_plots(struct rho_initiator *initiator, const struct rho_candidate *candidate,
+                             struct rho_track_plot *plots)
+{
+    unsigned n = 0;
+    for (unsigned m = 0; m < initiator->window.num_scans; m++) {
+        if ((unsigned)candidate->mask >> m & 1u) {
+            const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
+            const struct rho_window_plot *plot = &scan->plots[candidate->plot[m]];
+            plots[n++] = (struct rho_track_plot){
+                .time_us = scan->time_us + (int64_t)(plot->offset_s * 1e6f),
+                .x_m = plot->x_m,
+                .y_m = plot->y_m,
+                .z_m = plot->z_m,
+                .sigma_m = plot->sigma_m,
+                .has_z = (scan->measures & RHO_MEASURES_Z) != 0,
+                .row = (int16_t)plot->row,
+            };
+        }
+    }
+    return n;
+}
+
+static void start_track(struct step *step, const struct rho_candidate *candidate,
+                        const struct rho_track_limits *limits)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track_plot plots[RHO_MAX_SCANS];
+    struct rho_track track;
+    unsigned n = gather_plots(step->initiator, candidate, plots);
+    if (rho_track_start(&track, tracker->next_track_id, plots, n, step->scan->time_us, &step->model,
+                        candidate->score_mnat) != RHO_OK) {
+        tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
+        return;
+    }
+    if (!make_room(tracker, candidate->score_mnat)) {
+        return;
+    }
+    track.sensor_id = step->scan->sensor_id;
+    judge(step, &track, limits);
+    tracker->tracks[tracker->num_tracks++] = track;
+    tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
+    tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);
+    tracker->counters.plots_initiated =
+        rho_count(tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
+}
+
+static void refuse_unclaimed(struct step *step)
+{
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            step->report->fates[i] = RHO_FATE_NO_ROOM;
+        }
+    }
+}
+
+void rho_tracker_initiate(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_initiator *initiator = step->initiator;
+    if (!initiator) {
+        refuse_unclaimed(step);
+        return;
+    }
+    /* only the plots with a fate of their own are offered; pointers were checked before the step began */
+    struct rho_scan held = *step->scan;
+    held.num_plots = step->num_gated;
+    (void)!rho_initiator_push(initiator, &held, step->report->fates, &tracker->counters.plots_clutter);
+    (void)!rho_initiator_search(initiator, RHO_SEARCH_NEWEST);
+    tracker->counters.candidates_dropped =
+        rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
+    struct rho_track_limits limits = limits_of(step);
+    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+        start_track(step, &initiator->candidates[i], &limits);
+    }
+}

@@ -1,0 +1,169 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Bad input: exit 2, one line with file and line, and no output file left or touched.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+
+# The last run said the line, and neither wrote nor touched an output.
+refused() { # pattern
+    says 2 "rhotrack: $1" && matches "$(echo out*)" 'out.csv' && matches "$(cat out.csv)" before
+}
+
+refuse_file() { # name, pattern, path
+    for command in track initiate; do
+        echo before >out.csv
+        run "$command" "$3" -o out.csv
+        check "$command: $1" refused "$2"
+        rm -f out*
+        run "$command" "$3" -o out.csv
+        check "$command: $1, no output left" matches "$(echo out*)" 'out\*'
+    done
+}
+
+refuse() { # name, LINE: what (a pattern), text as for printf
+    # shellcheck disable=SC2059
+    printf "$3" >bad.csv
+    refuse_file "$1" "bad.csv:$2" bad.csv
+}
+
+header='t_s,sensor_id,x_m,y_m\n'
+
+# ---- cells ----
+refuse 'no number' "3: x_m 'abc' is not a number" "${header}1,1,2,3\n2,1,abc,3\n"
+refuse 'trailing text' "2: y_m '3m' is not a number" "${header}1,1,2,3m\n"
+refuse 'hexadecimal' "2: x_m '0x10' is not a number" "${header}1,1,0x10,3\n"
+refuse 'two points' "2: x_m '1.2.3' is not a number" "${header}1,1,1.2.3,3\n"
+refuse 'NaN' "2: x_m 'NaN' is not finite" "${header}1,1,NaN,3\n"
+refuse 'Inf' "2: y_m '-inf' is not finite" "${header}1,1,2,-inf\n"
+refuse 'beyond float32' "2: x_m '1e39' is out of the range of float32" "${header}1,1,1e39,3\n"
+refuse 'beyond double' "2: x_m '1e999' is out of the range of float32" "${header}1,1,1e999,3\n"
+refuse 'beyond the limit of positions' '2: x_m 3000000 is outside -2000000 .. 2000000' "${header}1,1,3000000,3\n"
+refuse 'time that is no number' "2: t_s 'noon' is not a number" "${header}noon,1,2,3\n"
+refuse 'time NaN' "2: t_s 'nan' is not finite" "${header}nan,1,2,3\n"
+refuse 'time beyond 9e12 s' "2: t_s '9.1e12' is beyond 9e12 s" "${header}9.1e12,1,2,3\n"
+refuse 'no time' '2: t_s is empty' "${header},1,2,3\n"
+refuse 'sensor_id with a point' "2: sensor_id '1.5' is not an integer" "${header}1,1.5,2,3\n"
+refuse 'sensor_id that is no number' "2: sensor_id 'A' is not an integer" "${header}1,A,2,3\n"
+refuse 'sensor_id too large' "2: sensor_id '4294967296' is out of the range*" "${header}1,4294967296,2,3\n"
+refuse 'no sensor_id' '2: sensor_id is empty' "${header}1,,2,3\n"
+refuse 'x without y' '2: y_m is empty' "${header}1,1,2,\n"
+refuse 'sigma_m zero' '2: sigma_m 0 is outside 0.00100000005 .. 100000' 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,0\n'
+refuse 'sigma_m negative' '2: sigma_m -5 is outside *' 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,-5\n'
+refuse 'sigma_m too large' '2: sigma_m 1e6 is outside *' 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,1e6\n'
+refuse 'sigma_m that is no number' "2: sigma_m 'x' is not a number" 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,x\n'
+refuse 'too fast' '2: vx_mps 30000 is outside *' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30000,0\n'
+refuse 'vx without vy' '2: vy_mps is missing*' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30,\n'
+refuse 'velocity of a part of a scan' '3: height or velocity must be given in all rows*' \
+    't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30,4\n1,1,5,6,,\n'
+
+# ---- rows ----
+refuse 'short row' '2: short row: 3 cells, the header has 4' "${header}1,1,2\n"
+refuse 'long row' '3: long row: 5 cells, the header has 4' "${header}1,1,2,3\n2,1,2,3,4\n"
+refuse 'time that goes back' '4: time goes back from 2.500000 s to 2.400000 s' \
+    "${header}1,1,2,3\n2.5,1,2,3\n2.4,1,2,3\n"
+refuse 'time that goes back, other sensor' '3: time goes back from 2.000000 s to 1.000000 s' \
+    "${header}2,1,2,3\n1,2,2,3\n"
+refuse 'time that goes back by a microsecond' \
+    '3: time goes back from 1700000000.000002 s to 1700000000.000001 s' \
+    "${header}1700000000.000002,1,2,3\n1700000000.000001,1,2,3\n"
+refuse 'quotation mark inside a cell' '2: a quotation mark inside a cell' "${header}1,1,2\"2,3\n"
+refuse 'quote without end' '3: a quoted cell has no end' "${header}1,1,2,3\n2,1,\"2,3\n3,1,2,3\n"
+refuse 'text of several lines in an error' "2: x_m 'a?b' is not a number" "${header}1,1,\"a\nb\",3\n"
+
+# ---- the file's own lines ----
+refuse 'line after comments and blank lines' "7: x_m 'bad' is not a number" \
+    "# one\n\n${header}# four\n   \n1,1,2,3\n2,1,bad,3\n"
+refuse 'line after a quoted line end' "5: x_m 'bad' is not a number" \
+    't_s,sensor_id,x_m,y_m,note\n1,1,2,3,"two\nlines"\n2,1,2,3,\n3,1,bad,3,\n'
+refuse 'comment mark inside quotes' "5: x_m 'bad' is not a number" \
+    't_s,sensor_id,x_m,y_m,note\n1,1,2,3,"two\n# no comment\nlines"\n3,1,bad,3,\n'
+refuse 'line with CR LF' "3: x_m 'bad' is not a number" 't_s,sensor_id,x_m,y_m\r\n1,1,2,3\r\n2,1,bad,3\r\n'
+refuse 'line with CR' "3: x_m 'bad' is not a number" 't_s,sensor_id,x_m,y_m\r1,1,2,3\r2,1,bad,3\r'
+refuse 'last line without an end' "3: x_m 'bad' is not a number" "${header}1,1,2,3\n2,1,bad,3"
+
+# ---- columns ----
+refuse 'no column x_m' "1: no column 'x_m'" 't_s,sensor_id,y_m\n1,1,2\n'
+refuse 'no column t_s' "2: no column 't_s'" '# comment\ntime,sensor_id,x_m,y_m\n1,1,2,3\n'
+refuse 'no column sensor_id' "1: no column 'sensor_id'" 't_s,x_m,y_m\n1,1,2\n'
+refuse 'a column twice' "1: column 'x_m' is there twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
+refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" 't_s,sensor_id,x_m,y_m,vx_mps\n1,1,2,3,4\n'
+refuse 'no header' "1: no column 't_s'" '1,1,2,3\n2,1,3,4\n'
+refuse 'polar plots' "1: polar plots*Cartesian*'x_m' and 'y_m' are missing" \
+    't_s,sensor_id,range_m,azimuth_rad\n1,1,2,3\n'
+refuse 'bearings' "1: bearings*'x_m' and 'y_m' are missing" \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n1,1,2,3,1\n'
+
+# ---- files ----
+refuse 'empty file' '1: the file is empty' ''
+refuse 'line ends alone' '2: no header row' '\n\n'
+refuse 'comments alone' '2: no header row' '# one\n# two\n'
+refuse 'header alone' '2: no rows after the header' "# one\n${header}"
+refuse 'NUL bytes' '2: not a text file: it has a NUL byte' "${header}1,1,\\0,3\n"
+head -c 5000 /dev/urandom >noise.csv
+printf '\0' >>noise.csv
+refuse_file 'binary noise' 'noise.csv:*' noise.csv
+mkdir a_folder
+refuse_file 'a folder' 'a_folder: Is a directory' a_folder
+refuse_file 'missing file' 'none.csv: No such file or directory' none.csv
+refuse_file 'a name with a line end' 'no?ne.csv: No such file or directory' $'no\nne.csv'
+printf "${header}1,1,2,3\n" >good.csv
+printf "${header}1,1,2,3\n2,1,x,3\n" >second.csv
+echo before >out.csv
+run track good.csv second.csv -o out.csv
+check 'the second of two inputs' refused "second.csv:3: x_m 'x' is not a number"
+
+# Root reads everything, so another user tries.
+if [ "$(id -u)" -ne 0 ]; then
+    cp good.csv secret.csv && chmod 000 secret.csv
+    refuse_file 'unreadable file' 'secret.csv: Permission denied' secret.csv
+elif command -v setpriv >/dev/null; then
+    cp good.csv secret.csv && chmod 000 secret.csv && chmod 755 .
+    cp "$program" program_copy && chmod 755 program_copy
+    status=0
+    setpriv --reuid=65534 --clear-groups ./program_copy track secret.csv >stdout 2>stderr || status=$?
+    check 'track: unreadable file' says 2 'rhotrack: secret.csv: Permission denied'
+fi
+
+# ---- keep going ----
+printf "${header}1,1,2,3\nbad row\n2,1,x,3\n2,1,2,3\n1.5,1,2,3\n2,1,4,5\n3,1,\"2,3\n4,1,2,3\n4,1,2,3,4\n" >mixed.csv
+run track mixed.csv --keep-going --json
+check 'keep-going: exit 0' exits 0
+check 'keep-going: good rows count, bad ones too' json stdout \
+    'o["plots"] == 4 and o["scans"] == 3 and o["rows_skipped"] == 5'
+check 'keep-going: the summary counts' grep -q '5 bad rows skipped' stderr
+run initiate mixed.csv --keep-going
+check 'keep-going: initiate counts' grep -q '5 bad rows skipped' stderr
+printf "${header}x,1,2,3\n" >bad.csv
+run track bad.csv --keep-going
+check 'keep-going: not one good row' says 2 'rhotrack: bad.csv:1: not one good row after the header'
+printf "${header}1,1\n" >bad.csv
+run track bad.csv --keep-going
+check 'keep-going: not one whole row' says 2 'rhotrack: bad.csv:1: not one good row after the header'
+
+# ---- outputs that cannot be ----
+run track good.csv -o no_folder/out.csv
+check 'output in a folder that is not there' says 1 'rhotrack: no_folder/out.csv: No such file or directory'
+run track good.csv -o a_folder
+check 'output is a folder' says 1 'rhotrack: a_folder: Is a directory'
+"$program" track good.csv >/dev/full 2>stderr
+status=$?
+check 'standard output on a full disk' exits 1
+
+# ---- noise: whatever the bytes, no crash ----
+survives() {
+    local seed
+    for seed in $(seq 1 60); do
+        awk -v seed="$seed" 'BEGIN {
+            srand(seed); split("0 1 9 . - , , , \" # e \n \r x nan 1e9 inf", part, " ")
+            part[length(part) + 1] = "\n"; part[length(part) + 1] = "\r"
+            printf "t_s,sensor_id,x_m,y_m\n"
+            for (i = 0; i < 300; i++) printf "%s", part[int(rand() * length(part)) + 1] }' >fuzz.csv
+        run track fuzz.csv --keep-going
+        exits 0 || exits 2 || return 1
+        run track fuzz.csv
+        exits 0 || exits 2 || return 1
+    done
+}
+check 'rows of random pieces' survives
+
+finish
