@@ -24,8 +24,10 @@ library_sources := $(sort $(wildcard src/*/*.c))
 program_sources := $(sort $(wildcard tools/rhotrack/*.c))
 unit_sources := $(sort $(wildcard tests/unit/test_*.c))
 scenario_sources := $(sort $(wildcard tests/scenario/test_*.c))
+# Laid out by .clang-format: all but the tables that scripts write.
 sources := $(library_sources) $(program_sources) \
            $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tests/*/*.[ch])
+sources := $(filter-out tests/vectors/%,$(sources))
 
 library := $(BUILD)/librhotrack.a
 workstation_library := $(BUILD)/workstation/librhotrack.a

@@ -3,8 +3,9 @@
 #
 # Runs test programs and scripts, one after the other, and counts: tests/run.sh CHECK...
 #
-# A check passes where it exits with 0. CMocka programs count each of their tests, all others count as one.
-# A check that is not there (it did not build) is a failure. Output goes to $BUILD/log/ and is shown on failure.
+# A check passes where it exits with 0. CMocka programs count each of their tests, scripts that end with a line
+# `N passed, N failed` count as it says, all others as one. A check that is not there (it did not build) is a failure.
+# Output goes to $BUILD/log/; of a failure its end is shown, and what stands around the word FAIL or ERROR before.
 # The last line is `N passed, N failed`; exit 1 where anything failed.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -38,8 +39,12 @@ run_check() {
     fi
     good=$(cmocka_sum PASSED "$log")
     bad=$(cmocka_sum FAILED "$log")
+    if [[ $(tail -n 1 "$log") =~ ^([0-9]+)\ passed,\ ([0-9]+)\ failed$ ]]; then
+        good=${BASH_REMATCH[1]}
+        bad=${BASH_REMATCH[2]}
+    fi
     if [ "$good" -eq 0 ] && [ "$status" -eq 0 ]; then
-        good=1 # no CMocka program
+        good=1 # it does not count
     fi
     if [ "$bad" -eq 0 ] && [ "$status" -ne 0 ]; then
         bad=1 # ended before its own count
@@ -53,7 +58,10 @@ run_check() {
     fi
     failures+=("$name")
     printf 'FAILED  %-52s %4d  %6s s  (exit %d)\n' "$name" "$bad" "$seconds" "$status"
-    tail -n 40 "$log" | sed 's/^/        | /'
+    {
+        head -n -15 "$log" | grep -A 3 -E 'FAIL|ERROR' | head -n 40
+        tail -n 15 "$log"
+    } | sed 's/^/        | /'
 }
 
 mkdir -p "$BUILD/log"

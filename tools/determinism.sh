@@ -6,7 +6,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}/determinism
-scenarios='clutter radar crossing'
+scenarios='crossing radar traffic'
 variants='gcc-O0 gcc-O3 clang-O0 clang-O3'
 
 unset MAKEFLAGS MAKELEVEL MFLAGS
@@ -21,17 +21,30 @@ export build
 # shellcheck disable=SC2086 # words on purpose
 printf '%s\n' $variants | xargs -P "$(nproc)" -I{} bash -euc 'make_variant {}'
 
+run() { # variant, scenario: its files in output/SCENARIO
+    local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2
+    "$rhotrack" simulate "$2" --seed 3 -o "$data" &&
+        "$rhotrack" track "$data/plots.csv" --covariance -o "$data/tracks.csv" &&
+        "$rhotrack" initiate "$data/plots.csv" -o "$data/initiated.csv" || return 1
+    for file in tracks.csv initiated.csv; do
+        if [ "$(wc -l <"$data/$file")" -le 1 ]; then
+            echo "$data/$file holds no track: there is nothing to compare"
+            return 1
+        fi
+    done
+}
+
 for variant in $variants; do
-    output=$build/$variant/output
-    rm -rf "$output"
-    mkdir -p "$output"
+    rm -rf "$build/$variant/output"
     for scenario in $scenarios; do
-        data=$output/$scenario
-        "$build/$variant/rhotrack" simulate "$scenario" --seed 3 -o "$data"
-        "$build/$variant/rhotrack" track "$data/plots.csv" -o "$data/tracks.csv"
-        "$build/$variant/rhotrack" initiate "$data/plots.csv" -o "$data/initiated.csv"
-    done 2>"$build/$variant.log" || { cat "$build/$variant.log"; exit 1; }
-    (cd "$output" && find . -type f | sort | xargs sha256sum) >"$build/$variant.sha256"
+        mkdir -p "$build/$variant/output/$scenario"
+        run "$variant" "$scenario" >"$build/$variant.log" 2>&1 || {
+            cat "$build/$variant.log"
+            echo "determinism: $variant fails on scenario $scenario"
+            exit 1
+        }
+    done
+    (cd "$build/$variant/output" && find . -type f | sort | xargs sha256sum) >"$build/$variant.sha256"
 done
 
 status=0

@@ -22,17 +22,18 @@ float rho_angle_wrap(float angle_rad);
 float rho_angle_difference(float a_rad, float b_rad);
 
 /* True (1) where the direction lies in the sector that runs counter-clockwise from .. to, ends included; equal ends are
- * the whole circle. */
+ * the whole circle. All to 1e-6 rad, so that -pi .. pi and 0 .. 2 pi are whole too. False for NaN. */
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 
 /*
- * The line through (x_m, y_m) along (dx, dy), which is not (0, 0); theta = atan2(dx, -dy) brought into [0, pi), rho
+ * The line through (x_m, y_m) along (dx, dy), which is not (0, 0) but finite (else NaN); theta = atan2(dx, -dy) brought into [0, pi), rho
  * signed to match (the paper "A Neutrosophic Hough Transform", eqs. (9) and (10), corrected: taken literally they turn
  * the line by pi/2 and drop rho's sign, which merges mirror lines).
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy);
 
-/* Index of the theta cell, 0 .. num_cells - 1, for num_cells equal cells over [0, pi). theta outside: the nearest cell. */
+/* Index of the theta cell, 0 .. num_cells - 1, for num_cells equal cells over [0, pi). theta outside: the nearest cell; NaN, or
+ * num_cells < 1: 0. */
 int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells);
 
 #endif

@@ -14,20 +14,21 @@
 #define RHO_TWO_PI 6.28318548f
 #define RHO_HALF_PI 1.57079637f
 
-/* Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 2e-7. */
+/* Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 1e-7. */
 float rho_sin(float angle_rad);
 float rho_cos(float angle_rad);
 
 /*
- * Angle of the point (x, y) in radians, -pi .. pi, counter-clockwise from +x. Absolute error <= 4e-7.
- * (0, 0) gives 0. Infinite arguments give NaN.
+ * Angle of the point (x, y) in radians, -pi .. pi, counter-clockwise from +x. Absolute error <= 3e-7.
+ * (0, 0) gives 0; -0 counts as 0. Infinite arguments give NaN.
  */
 float rho_atan2(float y, float x);
 
-/* e^v. Relative error <= 3e-7 for -87 <= v <= 88; 0 below, +infinity above. */
+/* e^v. Relative error <= 1e-7 for -87 <= v <= 88; 0 below, +infinity above. */
 float rho_exp(float v);
 
-/* Natural logarithm of v > 0, subnormal v included. Error <= 2e-7 relative + 1e-7 absolute. 0: -infinity; v < 0: NaN. */
+/* Natural logarithm of v > 0, subnormal v included. Relative error <= 1e-7 + 1e-7 absolute. 0: -infinity; v < 0: NaN;
+ * +infinity: +infinity. */
 float rho_log(float v);
 
 /* Square root of v >= 0, correctly rounded (the bits of IEEE 754). v < 0: NaN. +infinity: +infinity. */

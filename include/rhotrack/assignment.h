@@ -53,19 +53,20 @@ RHO_MUST_CHECK enum rho_status rho_assignment_begin(struct rho_assignment *assig
 
 /*
  * Adds a pair; one of cost >= 0 is ignored. A row holds RHO_MAX_GATE_PLOTS pairs: beyond, the dearest gives way and
- * pairs_dropped moves. A column is added to a row at most once. Errors: NULL, VALUE (row, column, cost magnitude).
- * Cost: RHO_MAX_GATE_PLOTS.
+ * pairs_dropped moves; of equals the higher column. Errors: NULL, STATE, VALUE (row, column, cost magnitude, a column
+ * that the row holds). Cost: RHO_MAX_GATE_PLOTS.
  */
 RHO_MUST_CHECK enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned row,
                                                   unsigned column, int32_t cost);
 
 /*
- * Solves: rho_assignment_column then answers. Cost: a row's search visits each pair of its cluster once and picks the
- * nearest column from a list: at worst rows x (pairs + columns^2) of the cluster. Stack: 96 bytes.
+ * Solves: rho_assignment_column then answers. An object that was not initialised is left alone. Cost: a row's search
+ * visits each pair of its cluster once and picks the nearest column from a list: at worst rows x (pairs + columns^2) of
+ * the cluster. Stack: 128 bytes.
  */
 void rho_assignment_solve(struct rho_assignment *assignment);
 
-/* The column of a row, or RHO_ASSIGNMENT_NONE. */
+/* The column of a row by the last solve, or RHO_ASSIGNMENT_NONE. Constant cost. */
 int rho_assignment_column(const struct rho_assignment *assignment, unsigned row);
 
 #endif

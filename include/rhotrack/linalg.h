@@ -17,7 +17,8 @@
 
 /*
  * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a itself).
- * RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is untouched. Cost: n^3 / 6 multiplications, n square
+ * RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is untouched. Also NULL,
+ * CAPACITY (n). Cost: n^3 / 6 multiplications, n square
  * roots. Stack: 340 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
@@ -30,7 +31,7 @@ float rho_linalg_log_determinant(int n, const float *l);
 
 /*
  * Squared Mahalanobis distance d^T S^-1 d and ln det S for 2 x 2 (s: 3 floats) and 3 x 3 (s: 6 floats).
- * RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs untouched. Cost: 25 and 60
+ * RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs untouched. Also NULL. Cost: 25 and 60
  * operations and a logarithm.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *distance2,

@@ -53,7 +53,10 @@ float rho_angle_wrap(float angle_rad)
     return wrapped >= -RHO_PI && wrapped < RHO_PI ? wrapped : -RHO_PI;
 }
 
-/* Each is wrapped first: their difference may be beyond the limit, or too long for its last digits. */
+/*
+ * Each is wrapped first: their difference may be beyond the limit, or too long for its last
+ * digits.
+ */
 float rho_angle_difference(float a_rad, float b_rad)
 {
     return rho_angle_wrap(rho_angle_wrap(a_rad) - rho_angle_wrap(b_rad));
@@ -72,8 +75,9 @@ int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
 }
 
 /*
- * rho is the point's component along the normal (-dy, dx), without the detour over sin(theta) and cos(theta), which at
- * 2000 km would cost half a metre. The direction is scaled first so that its squares can neither overflow nor vanish.
+ * rho is the point's component along the normal (-dy, dx), without the detour over sin(theta)
+ * and cos(theta), which at 2000 km would cost half a metre. The direction is scaled first so
+ * that its squares can neither overflow nor vanish.
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
 {

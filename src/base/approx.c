@@ -16,8 +16,8 @@
 #define TWO_OVER_PI 0.636619772f
 
 /*
- * pi/2 in three parts (Cody and Waite). The first two have so few bits that their products with a quarter-turn count up
- * to 64 are exact.
+ * pi/2 in three parts (Cody and Waite). The first two have so few bits that their products with
+ * a quarter-turn count up to 64 are exact.
  */
 #define QUARTER_HIGH 1.5703125f
 #define QUARTER_MIDDLE 4.83751296997070312e-4f
@@ -121,9 +121,9 @@ static float log_kernel(float f)
 }
 
 /*
- * Root of m * 2^23 for 2^23 <= m < 2^25, to the nearest integer. Newton's iteration for 1/sqrt brings the estimate to
- * some units; the remainder, which fits 32 bits though m * 2^23 does not, settles them exactly. A root is never half an
- * integer, so there are no ties.
+ * Root of m * 2^23 for 2^23 <= m < 2^25, to the nearest integer. Newton's iteration for 1/sqrt
+ * brings the estimate to some units; the remainder, which fits 32 bits though m * 2^23 does
+ * not, settles them exactly. A root is never half an integer, so there are no ties.
  */
 static uint32_t integer_root(uint32_t m)
 {

@@ -9,9 +9,10 @@
 #include "rhotrack/approx.h"
 
 /*
- * A variance lowered by an update is first raised by 2^-20, sixteen units of float32's rounding. The products that are
- * taken off carry at most four each, so that what remains of a positive definite matrix is positive definite, even
- * where the measurement is 10^8 times better than the prediction and every digit cancels.
+ * A variance lowered by an update is first raised by 2^-20, sixteen units of float32's
+ * rounding. The products that are taken off carry at most four each, so that what remains of a
+ * positive definite matrix is positive definite, even where the measurement is 10^8 times
+ * better than the prediction and every digit cancels.
  */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
@@ -147,7 +148,10 @@ float rho_linalg_log_determinant(int n, const float *l)
     return 2.0f * sum;
 }
 
-/* S = L D L^T with a unit L: pivots instead of a determinant, which cancels where the errors are correlated. */
+/*
+ * S = L D L^T with a unit L: pivots instead of a determinant, which cancels where the errors
+ * are correlated.
+ */
 enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *distance2,
                                  float *log_det)
 {

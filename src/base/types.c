@@ -26,7 +26,10 @@ uint32_t rho_count(uint32_t counter, uint32_t n)
     return n < UINT32_MAX - counter ? counter + n : UINT32_MAX;
 }
 
-/* The span of two int64_t needs 64 bits and a sign, so the sign is taken first and the rest is unsigned. */
+/*
+ * The span of two int64_t needs 64 bits and a sign, so the sign is taken first and the rest is
+ * unsigned.
+ */
 float rho_seconds_between(int64_t from_us, int64_t to_us)
 {
     const uint64_t from = (uint64_t)from_us;

@@ -14,6 +14,10 @@
 /* M is the smallest number of votes with at most this many chance tracks a search. */
 #define CHANCE_TRACKS_MAX 0.1f
 
+/* ln of the targets expected in the area and window before any plot was seen: a half, so that one target and none are
+ * equally likely. */
+#define LOG_TARGETS_EXPECTED -0.69314718f
+
 #define LOG_PI 1.14472989f
 
 static float area_m2(const struct rho_initiator *initiator)
@@ -207,8 +211,8 @@ void rho_initiator_prepare(struct search *search)
     search->mean_cell_count = mean_cell_count(initiator);
     search->log_pd = rho_log(config->pd);
     search->log_miss = rho_log(1.0f - config->pd);
-    /* births: one target in the area, its velocity anywhere in the ring of allowed speeds */
-    search->log_prior = -rho_log(area) - LOG_PI -
+    /* targets are anywhere in the area, their velocities anywhere in the ring of allowed speeds */
+    search->log_prior = LOG_TARGETS_EXPECTED - rho_log(area) - LOG_PI -
                         rho_log(config->v_max_mps * config->v_max_mps -
                                 config->v_min_mps * config->v_min_mps);
     search->min_scans = config->min_scans ? config->min_scans : choose_min_scans(search);

@@ -14,7 +14,10 @@
  */
 #define ROUNDING_ALLOWANCE (1.0f / 524288.0f)
 
-/* Places in the packed triangle: variances by element, and cov(velocity of a, position of b) by axis. */
+/*
+ * Places in the packed triangle: variances by element, and cov(velocity of a, position of b) by
+ * axis.
+ */
 #define DIAGONAL(i) RHO_AT(i, i)
 #define MIXED(a, b) RHO_AT(NUM_AXES + (a), (b))
 

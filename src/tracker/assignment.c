@@ -7,12 +7,14 @@
 #define DISTANCE_NONE INT32_MAX
 
 /*
- * One row's search: Dijkstra's shortest path over the costs reduced by the columns' prices (Jonker and Volgenant 1987).
- * A path ends at a column that nobody has, or at a row that gives up its column: a column of its own at cost and price 0
- * that needs no place in the tables, because a row in it is reached by no later search.
+ * One row's search: Dijkstra's shortest path over the costs reduced by the columns' prices
+ * (Jonker and Volgenant 1987). A path ends at a column that nobody has, or at a row that gives
+ * up its column: a column of its own at cost and price 0 that needs no place in the tables,
+ * because a row in it is reached by no later search.
  *
- * Prices stay within -COST_MAX .. 0 and distances within twice that: a row in a column gains by it, so that
- * cost - price <= 0, and no path dearer than staying without is followed. int32_t is enough.
+ * Prices stay within -COST_MAX .. 0 and distances within twice that: a row in a column gains by
+ * it, so that cost - price <= 0, and no path dearer than staying without is followed. int32_t
+ * is enough.
  */
 struct search {
     int32_t end_distance; /* of the nearest row that may give up its column; later of the end */
@@ -82,7 +84,10 @@ static void label_column(struct rho_assignment *a, struct search *s, int column,
     a->column_from[column] = (int16_t)row;
 }
 
-/* Offers the ways that go on from a row: its columns, or none. base: the row's price less its distance. */
+/*
+ * Offers the ways that go on from a row: its columns, or none. base: the row's price less its
+ * distance.
+ */
 static void label_row(struct rho_assignment *a, struct search *s, int row, int32_t base)
 {
     const int num_pairs = a->num_pairs[row];
@@ -103,7 +108,10 @@ static void label_row(struct rho_assignment *a, struct search *s, int row, int32
     }
 }
 
-/* Brings the nearest open column, the lowest of equals, to the head of the queue's open part; false: none in reach. */
+/*
+ * Brings the nearest open column, the lowest of equals, to the head of the queue's open part;
+ * false: none in reach.
+ */
 static int find_nearest(struct rho_assignment *a, const struct search *s)
 {
     int16_t *queue = a->column_queue;
@@ -128,7 +136,10 @@ static int find_nearest(struct rho_assignment *a, const struct search *s)
     return 1;
 }
 
-/* Finds the end of the shortest path from a row: s->end_column, or where that is NONE s->end_row. */
+/*
+ * Finds the end of the shortest path from a row: s->end_column, or where that is NONE
+ * s->end_row.
+ */
 static void search_path(struct rho_assignment *a, struct search *s, int row)
 {
     label_row(a, s, row, 0);
@@ -163,7 +174,10 @@ static void update_prices(struct rho_assignment *a, const struct search *s)
     }
 }
 
-/* Walks back from the end to the row that was searched for, each row on the way taking the column it reached. */
+/*
+ * Walks back from the end to the row that was searched for, each row on the way taking the
+ * column it reached.
+ */
 static void augment(struct rho_assignment *a, const struct search *s, int first_row)
 {
     int16_t column = s->end_column;

@@ -28,8 +28,10 @@ check wrong 'exit 3'
 check crash 'echo "[       OK ] a"; kill -SEGV $$'
 check cmocka 'echo "[  PASSED  ] 4 test(s)." >&2'
 check cmocka_wrong 'echo "[  PASSED  ] 2 test(s)."; echo "[  FAILED  ] 3 test(s), listed below:"; exit 3'
+check counting 'echo "6 passed, 2 failed"; exit 1'
 
 must_say '1 passed, 0 failed' 0 plain
+must_say '6 passed, 2 failed' 1 counting
 must_say '5 passed, 0 failed' 0 plain cmocka
 must_say '0 passed, 1 failed' 1 wrong
 must_say '0 passed, 1 failed' 1 crash

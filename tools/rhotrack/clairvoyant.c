@@ -5,6 +5,7 @@
 
 #define MAX CLAIRVOYANT_PLOTS_MAX
 #define LN_TWO_PI 1.8378770664093453
+#define TARGETS_EXPECTED 0.5 /* in the area, before any plot: as the initiator takes it */
 #define PI 3.141592653589793
 
 /* Position at time t of the unit velocity changes at the start of every interval before: half at once, then linear. */
@@ -87,7 +88,8 @@ static double score(const struct clairvoyant_model *model, const struct clairvoy
                     double log_det, double log_det_normal, double chi2)
 {
     double speeds_m2ps2 = PI * (model->v_max_mps * model->v_max_mps - model->v_min_mps * model->v_min_mps);
-    double sum = ((double)(model->num_scans - n)) * log(1.0 - model->pd) - log(model->area_m2 * speeds_m2ps2);
+    double sum = ((double)(model->num_scans - n)) * log(1.0 - model->pd) -
+                 log(model->area_m2 * speeds_m2ps2) + log(TARGETS_EXPECTED);
     for (size_t i = 0; i < n; i++) {
         sum += log(model->pd / plots[i].density_per_m2);
     }

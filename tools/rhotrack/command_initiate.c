@@ -74,8 +74,8 @@ static void search(struct batch *batch, const struct command_line *line)
     parameters_to_initiator(&line->parameters, &config);
     batch->initiator = must_alloc(sizeof *batch->initiator);
     check_status(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config));
-    reader = scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
-                              line->keep_going);
+    reader =
+        scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     push_last(batch, reader);
     start_us = clock_us();
     check_status(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));

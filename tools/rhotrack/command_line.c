@@ -52,8 +52,9 @@ void command_line_help(const struct command *command, FILE *file)
         if (!takes(command, options[i].letter) || !options[i].text)
             continue;
         snprintf(left, sizeof left, "%s--%s%s%s",
-                 options[i].letter == 'o' ? "-o, "
-                 : options[i].letter == 'h' ? "-h, " : "    ",
+                 options[i].letter == 'o'   ? "-o, "
+                 : options[i].letter == 'h' ? "-h, "
+                                            : "    ",
                  options[i].name, options[i].argument ? " " : "",
                  options[i].argument ? options[i].argument : "");
         fprintf(file, "  %-26s %s\n", left, options[i].text);
@@ -130,9 +131,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
 static void fill_table(struct option table[NUM_OPTIONS + 1])
 {
     for (size_t i = 0; i < NUM_OPTIONS; i++)
-        table[i] = (struct option){options[i].name,
-                                   options[i].argument ? required_argument : no_argument, NULL,
-                                   options[i].letter};
+        table[i] =
+            (struct option){options[i].name, options[i].argument ? required_argument : no_argument,
+                            NULL, options[i].letter};
     table[NUM_OPTIONS] = (struct option){NULL, 0, NULL, 0};
 }
 

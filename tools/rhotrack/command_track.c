@@ -50,9 +50,9 @@ static void start(struct tracking *tracking, const struct parameters *parameters
     };
     parameters_to_initiator(parameters, &initiator_config);
     parameters_to_tracker(parameters, &tracker_config);
-    check_status(rho_initiator_init(tracking->initiator, sizeof *tracking->initiator,
-                                    &initiator_config),
-                 "initiator");
+    check_status(
+        rho_initiator_init(tracking->initiator, sizeof *tracking->initiator, &initiator_config),
+        "initiator");
     check_status(rho_tracker_init(tracking->tracker, sizeof *tracking->tracker, &tracker_config),
                  "tracker");
 }
@@ -102,8 +102,8 @@ static void step(struct tracking *tracking, const struct rho_scan *scan)
 
     meet_sensor(tracking, scan->sensor_id);
     start_us = clock_us();
-    check_status(
-        rho_tracker_step(tracking->tracker, tracking->initiator, scan, tracking->report), "step");
+    check_status(rho_tracker_step(tracking->tracker, tracking->initiator, scan, tracking->report),
+                 "step");
     took_us = clock_us() - start_us;
     tracking->sum_us += took_us;
     if (took_us > tracking->max_us)
@@ -205,8 +205,8 @@ int command_track(struct command_line *line)
 
     check_gate(line->gate);
     start(&tracking, &line->parameters);
-    reader = scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
-                              line->keep_going);
+    reader =
+        scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     counts = scan_reader_counts(reader);
     if (has_file)
         output = output_open(line->output);

@@ -76,6 +76,13 @@ void *must_realloc(void *memory, size_t bytes)
     return check_memory(realloc(memory, bytes ? bytes : 1), bytes);
 }
 
+char *must_copy(const char *text)
+{
+    size_t bytes = strlen(text) + 1;
+
+    return memcpy(must_alloc(bytes), text, bytes);
+}
+
 /* ---- Output files ---- */
 
 static void remember_unfinished(char *path)
@@ -101,13 +108,6 @@ static void forget_unfinished(const char *path)
         if (unfinished[i] == path)
             unfinished[i] = NULL;
     }
-}
-
-static char *copy_text(const char *text)
-{
-    size_t bytes = strlen(text) + 1;
-
-    return memcpy(must_alloc(bytes), text, bytes);
 }
 
 static FILE *open_directly(const char *path)
@@ -153,14 +153,14 @@ struct output output_open(const char *path)
     if (!path || !strcmp(path, "-"))
         return output;
     if (stat(path, &status)) {
-        output.path = copy_text(path);
+        output.path = must_copy(path);
         open_beside(&output, new_file_mode());
         return output;
     }
     if (S_ISDIR(status.st_mode))
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(EISDIR));
     real_path = realpath(path, NULL); /* a link stays one: the file that it names is replaced */
-    output.path = copy_text(real_path ? real_path : path);
+    output.path = must_copy(real_path ? real_path : path);
     free(real_path);
     if (S_ISREG(status.st_mode))
         open_beside(&output, status.st_mode & 07777);
@@ -194,7 +194,7 @@ void output_close(struct output *output)
 
 void make_folder(const char *path)
 {
-    char *partial = copy_text(path);
+    char *partial = must_copy(path);
     struct stat status;
 
     for (char *c = partial + 1; *partial; c++) {
@@ -229,7 +229,7 @@ char *path_join(const char *folder, const char *name)
 const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
 {
     if (value == 0.0f)
-        return strcpy(text, "0");
+        value = 0.0f; /* not -0 */
     for (int digits = 6; digits <= 9; digits++) {
         snprintf(text, FLOAT_TEXT_BYTES, "%.*g", digits, (double)value);
         if (strtof(text, NULL) == value)

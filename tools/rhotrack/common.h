@@ -26,6 +26,9 @@ void *must_alloc(size_t bytes);
 void *must_calloc(size_t count, size_t size);
 void *must_realloc(void *memory, size_t bytes);
 
+/* The text in new memory. */
+char *must_copy(const char *text);
+
 /*
  * Output file that appears under its name only when it is complete: written beside, then renamed. path NULL or "-":
  * standard output. A device or pipe is written directly. Unfinished ones are removed by fail() and on SIGINT and

@@ -10,9 +10,18 @@
 
 #define V_MIN_MPS 100.0
 #define V_MAX_MPS 400.0
-#define PD_ASSUMED 0.9
+#define PD_ASSUMED_MAX 0.99
 
 /* ---- the initiator on simulated scans --------------------------------------------------------- */
+
+/* The bars take P_D as known; where there is no target, 0.9 is assumed as by default. */
+static double assumed_pd(const struct initiation_case *of)
+{
+    if (of->paths == PATHS_NONE) {
+        return 0.9;
+    }
+    return of->true_pd < PD_ASSUMED_MAX ? of->true_pd : PD_ASSUMED_MAX;
+}
 
 static struct rho_initiator_config config_of(const struct initiation_case *of)
 {
@@ -22,7 +31,7 @@ static struct rho_initiator_config config_of(const struct initiation_case *of)
     config.min_scans = of->min_scans;
     config.v_min_mps = (float)V_MIN_MPS;
     config.v_max_mps = (float)V_MAX_MPS;
-    config.pd = (float)PD_ASSUMED;
+    config.pd = (float)assumed_pd(of);
     config.score_min_nat = (float)of->score_min_nat;
     config.process_noise_mps2 = (float)of->process_noise_mps2;
     config.area_is_fixed = 1;
@@ -170,7 +179,7 @@ static int clairvoyant_found(const struct initiation_case *of, const struct scen
                                       .interval_s = plan->interval_s,
                                       .sigma_m = plan->sigma_m,
                                       .process_noise_mps2 = of->process_noise_mps2,
-                                      .pd = PD_ASSUMED,
+                                      .pd = assumed_pd(of),
                                       .area_m2 = area_m2,
                                       .v_min_mps = V_MIN_MPS,
                                       .v_max_mps = V_MAX_MPS};

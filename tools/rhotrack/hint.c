@@ -34,16 +34,16 @@ static size_t edits(const char *a, const char *b)
 const char *hint_nearest(const char *wanted, hint_name name)
 {
     size_t length = strlen(wanted), best_edits = length / 3 + 2;
-    const char *best = NULL;
+    const char *best = NULL, *known;
 
     if (length > LENGTH_MAX)
         return NULL;
-    for (size_t i = 0; name(i); i++) {
-        size_t n = strlen(name(i)) <= LENGTH_MAX ? edits(wanted, name(i)) : LENGTH_MAX;
+    for (size_t i = 0; (known = name(i)); i++) {
+        size_t n = strlen(known) <= LENGTH_MAX ? edits(wanted, known) : LENGTH_MAX;
 
         if (n < best_edits) {
             best_edits = n;
-            best = name(i);
+            best = known;
         }
     }
     return best;

@@ -23,19 +23,24 @@ static const struct command commands[] = {
      "output as one JSON object, and tracks only to OUTPUT.\n"},
     {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method kernel]", 1, 1, "omjksC",
      "initiation alone, on the last scans as one batch",
-     "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks found\n"
+     "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks "
+     "found\n"
      "in it (CSV), best first, at the time of the last scan. Method: kernel.\n"},
     {"simulate", command_simulate, "SCENARIO -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
      "made-up targets, noise, misses and clutter",
-     "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and so\n"
-     "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, crossing-angle,\n"
+     "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and "
+     "so\n"
+     "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
+     "crossing-angle,\n"
      "same-line, clutter, slow-turn, traffic; their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS", 2, 2, "jsC", "tracks against the truth",
-     "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a tracks\n"
+     "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a "
+     "tracks\n"
      "file against a truth file. Times must agree to 1 ms; confirmed and coasting tracks count.\n"},
     {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
      "orSmjsC", "a Monte Carlo experiment with tables and figures",
-     "Runs an experiment on all cores and writes its tables, figures and index.html to DIR (default\n"
+     "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
+     "(default\n"
      "build/experiment/NAME). Experiments: initiation.\n"},
     {"plot", command_plot, "scans|tracks|parameter-space|errors FILES... -o FILE.svg", 2, INT_MAX,
      "osC", "pictures", "Draws plots, tracks, the parameter space of lines, or errors, as SVG.\n"},

@@ -62,10 +62,10 @@ static const char *sensor_text_name(size_t index)
 /* Index of a name, or -1 and the reason with a hint. */
 static int find_name(const char *key, hint_name name, char *reason)
 {
-    const char *hint;
+    const char *known, *hint;
 
-    for (size_t i = 0; name(i); i++) {
-        if (!strcmp(key, name(i)))
+    for (size_t i = 0; (known = name(i)); i++) {
+        if (!strcmp(key, known))
             return (int)i;
     }
     hint = hint_nearest(key, name);
@@ -247,8 +247,10 @@ static void check_area(const struct parameters *parameters)
     if (!num_set)
         return;
     if (num_set < 4)
-        fail(EXIT_USAGE, "area_x_min_m, area_x_max_m, area_y_min_m and area_y_max_m go together: "
-                         "%d of 4 are set", num_set);
+        fail(EXIT_USAGE,
+             "area_x_min_m, area_x_max_m, area_y_min_m and area_y_max_m go together: "
+             "%d of 4 are set",
+             num_set);
     check_below(parameters, PARAMETER_AREA_X_MIN_M, PARAMETER_AREA_X_MAX_M);
     check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
 }

@@ -20,7 +20,8 @@
 #define PARAMETERS(X)                                                                              \
     X(SCANS, "scans", "-", 7, 3, 12, 1, 1, "N: scans in the initiation window")                    \
     X(MIN_SCANS, "min_scans", "-", 0, 0, 12, 1, 1,                                                 \
-      "M: scans of the window that must have voted; 0: chosen so that false_tracks_per_hour holds") \
+      "M: scans of the window that must have voted; 0: chosen so that false_tracks_per_hour "      \
+      "holds")                                                                                     \
     X(FALSE_TRACKS_PER_HOUR, "false_tracks_per_hour", "1/h", 1, 1e-6, 1e6, 0, 1,                   \
       "wanted rate of confirmed tracks from clutter")                                              \
     X(SCORE_MIN_NAT, "score_min_nat", "nat", 0, -100, 1000, 0, 0,                                  \
@@ -36,24 +37,33 @@
       "manoeuvres that maintenance follows")                                                       \
     X(PROCESS_NOISE_MPS2, "process_noise_mps2", "m/s^2", 0, 0, 1000, 0, 1,                         \
       "acceleration that the initiation window allows for; 0: straight")                           \
-    X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1, "misses in a row that end a track") \
+    X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
+      "misses in a row that end a track")                                                          \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
       "rows of a sensor within it are one scan; 0: rows of equal t_s")                             \
-    X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0, "area of clutter and births; unset: seen so far") \
+    X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0,                                       \
+      "area of clutter and births; unset: seen so far")                                            \
     X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MIN_M, "area_y_min_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MAX_M, "area_y_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
       "distance beyond which a track and a target are not paired")                                 \
-    X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0, "simulate: mean clutter plots a scan and area") \
-    X(CLUTTER_PER_SCAN, "clutter_per_scan", "-", 0, 0, 1e4, 0, 0, "simulate: mean clutter plots a scan") \
-    X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0, "simulate: probability of detection that happens") \
+    X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0,                               \
+      "simulate: mean clutter plots a scan and area")                                              \
+    X(CLUTTER_PER_SCAN, "clutter_per_scan", "-", 0, 0, 1e4, 0, 0,                                  \
+      "simulate: mean clutter plots a scan")                                                       \
+    X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0,                                                   \
+      "simulate: probability of detection that happens")                                           \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
     X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
-    X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0, "simulate: number of targets, where the scenario leaves it open") \
-    X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0, "simulate parallel, same-line: distance of the two targets") \
-    X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0, "simulate crossing-angle: angle between the tracks") \
-    X(TURN_DEG, "turn_deg", "deg", 2, -90, 90, 0, 0, "simulate slow-turn: change of heading a scan") \
+    X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0,                                                   \
+      "simulate: number of targets, where the scenario leaves it open")                            \
+    X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
+      "simulate parallel, same-line: distance of the two targets")                                 \
+    X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0,                                       \
+      "simulate crossing-angle: angle between the tracks")                                         \
+    X(TURN_DEG, "turn_deg", "deg", 2, -90, 90, 0, 0,                                               \
+      "simulate slow-turn: change of heading a scan")                                              \
     X(SPEED_MPS, "speed_mps", "m/s", 250, 0.1, 2e4, 0, 0,                                          \
       "simulate parallel, crossing-angle, same-line, slow-turn: speed of the targets")             \
     X(SECOND_SPEED_MPS, "second_speed_mps", "m/s", 250, -2e4, 2e4, 0, 0,                           \
@@ -63,7 +73,7 @@ enum parameter_id {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,
     PARAMETERS(X)
 #undef X
-    NUM_PARAMETERS
+        NUM_PARAMETERS
 };
 
 enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONFIG, SOURCE_SET };
@@ -75,8 +85,9 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(SIGMA_MPS, "sigma_mps", "m/s", 0.001, 1e5, "velocity noise of a plot, each axis")            \
     X(RANGE_MIN_M, "range_min_m", "m", 0, 2e6, "nearest range it sees")                            \
     X(RANGE_MAX_M, "range_max_m", "m", 1, 2e6, "farthest range it sees")                           \
-    X(SECTOR_FROM_RAD, "sector_from_rad", "rad", -6.2831853, 6.2831853, "it can look counter-clockwise from here") \
-    X(SECTOR_TO_RAD, "sector_to_rad", "rad", -6.2831853, 6.2831853, "to here; equal: all round") \
+    X(SECTOR_FROM_RAD, "sector_from_rad", "rad", -6.2831853, 6.2831853,                            \
+      "it can look counter-clockwise from here")                                                   \
+    X(SECTOR_TO_RAD, "sector_to_rad", "rad", -6.2831853, 6.2831853, "to here; equal: all round")   \
     X(X_M, "x_m", "m", -2e6, 2e6, "its place")                                                     \
     X(Y_M, "y_m", "m", -2e6, 2e6, "")                                                              \
     X(Z_M, "z_m", "m", -2e6, 2e6, "")
@@ -85,7 +96,7 @@ enum sensor_parameter_id {
 #define X(id, name, unit, min, max, text) SENSOR_##id,
     SENSOR_PARAMETERS(X)
 #undef X
-    NUM_SENSOR_PARAMETERS
+        NUM_SENSOR_PARAMETERS
 };
 
 struct sensor_parameters {
@@ -149,7 +160,8 @@ double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_
  */
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
                           struct rho_sensor *sensor);
-void parameters_to_initiator(const struct parameters *parameters, struct rho_initiator_config *config);
+void parameters_to_initiator(const struct parameters *parameters,
+                             struct rho_initiator_config *config);
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config);
 
 #endif

@@ -41,7 +41,7 @@ static bool section_prefix(const char *section, char *prefix, size_t bytes)
     *prefix = '\0';
     if (!*section || !strcmp(section, "rhotrack"))
         return true;
-    if (strncmp(section, "sensor", strlen("sensor")) || !isspace((unsigned char)*number))
+    if (strncmp(section, "sensor", strlen("sensor")) != 0 || !isspace((unsigned char)*number))
         return false;
     while (isspace((unsigned char)*number))
         number++;

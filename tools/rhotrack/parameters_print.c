@@ -32,7 +32,8 @@ static void print_sensor(FILE *out, const struct sensor_parameters *sensor)
 
 static void print_sensor_keys(FILE *out)
 {
-    fputs("\nA sensor's own (--set sensor.N.key=value, or [sensor N] in the --config file):\n", out);
+    fputs("\nA sensor's own (--set sensor.N.key=value, or [sensor N] in the --config file):\n",
+          out);
     for (int i = 0; i < NUM_SENSOR_PARAMETERS; i++) {
         struct parameter_text text = parameters_sensor_text((enum sensor_parameter_id)i);
         char range[48];

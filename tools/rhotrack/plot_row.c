@@ -223,11 +223,12 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
                    const struct parameters *parameters, struct plot_row *plot_row,
                    char reason[PLOT_ROW_REASON_BYTES])
 {
-    const struct checking checking = {table, columns, row, reason};
+    struct checking checking = {.table = table, .columns = columns, .row = row};
     const int measured[] = {columns->x_m,    columns->y_m,    columns->z_m,
                             columns->vx_mps, columns->vy_mps, columns->vz_mps};
     bool has_measurement = false;
 
+    checking.reason = reason;
     *plot_row = (struct plot_row){.has_plot = false};
     if (!read_key(&checking, plot_row) || !read_sector(&checking, plot_row))
         return false;

@@ -98,8 +98,8 @@ static size_t entry_of(struct scan_reader *reader, const struct plot_row *row)
     if (open && joins(reader, open->entry, row->time_us))
         return open->entry;
     if (!open) {
-        reader->open = grown(reader->open, reader->num_open, &reader->open_capacity,
-                             sizeof *reader->open);
+        reader->open =
+            grown(reader->open, reader->num_open, &reader->open_capacity, sizeof *reader->open);
         open = &reader->open[reader->num_open++];
         open->sensor_id = row->sensor_id;
     }

@@ -22,8 +22,8 @@ struct scan_reader_counts {
 
 /* Opens and checks the files. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2; with keep_going bad rows are
  * skipped and counted instead. */
-struct scan_reader *scan_reader_open(char *const *paths, int num_paths, const struct parameters *parameters,
-                                     bool keep_going);
+struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
+                                     const struct parameters *parameters, bool keep_going);
 
 /* The next scan, or NULL after the last; valid until the next call. Scans come in the order of time. */
 const struct rho_scan *scan_reader_next(struct scan_reader *reader);

@@ -41,7 +41,8 @@ static void read_all(struct reading *reading, FILE *file)
     size_t capacity = 1 << 16, got;
 
     reading->content = must_alloc(capacity);
-    while ((got = fread(reading->content + reading->bytes, 1, capacity - reading->bytes, file)) > 0) {
+    while ((got = fread(reading->content + reading->bytes, 1, capacity - reading->bytes, file)) >
+           0) {
         reading->bytes += got;
         if (reading->bytes == capacity)
             reading->content = must_realloc(reading->content, capacity *= 2);
@@ -153,11 +154,14 @@ static void refuse_row(struct reading *reading, const char *what)
 static void keep_header(struct reading *reading)
 {
     struct table *table = reading->table;
+    double number;
 
     table->header_line = reading->row_line;
     table->num_columns = reading->row_cells;
     table->names = must_alloc(reading->row_cells * sizeof *table->names);
     memcpy(table->names, reading->row, reading->row_cells * sizeof *table->names);
+    if (!table_number(table->names[0], &number))
+        table_fail(table, TABLE_HEADER, "no header row: the first row begins with a number");
     for (size_t i = 0; i < table->num_columns; i++) {
         for (size_t j = 0; j < i && *table->names[i]; j++) {
             if (!strcmp(table->names[i], table->names[j]))
@@ -261,7 +265,7 @@ struct table *table_read(const char *path, bool keep_going)
     struct table *table = must_calloc(1, sizeof *table);
     struct reading reading = {.table = table, .keep_going = keep_going, .line = 1};
 
-    table->path = strcpy(must_alloc(strlen(path) + 1), path);
+    table->path = must_copy(path);
     read_file(&reading);
     table->text = must_alloc(reading.bytes + 2);
     start_parser(&reading);
@@ -333,7 +337,7 @@ static bool is_decimal(const char *cell)
         has_digits |= c > start;
     }
     if (has_digits && (*c == 'e' || *c == 'E')) {
-        start = ++c;
+        c++;
         start = c += *c == '+' || *c == '-';
         c = skip_digits(c);
         has_digits = c > start;

@@ -14,9 +14,10 @@
 struct table {
     char *path;
     size_t num_columns, num_rows;
-    char **names;     /* num_columns */
-    char **cells;     /* num_rows x num_columns; "" where a cell is empty */
-    uint32_t *lines;  /* num_rows: the row's line in the file (its first, where quoted cells span several) */
+    char **names; /* num_columns */
+    char **cells; /* num_rows x num_columns; "" where a cell is empty */
+    uint32_t *
+        lines; /* num_rows: the row's line in the file (its first, where quoted cells span several) */
     uint32_t header_line;
     uint64_t rows_skipped;
     char *text; /* what names and cells point into */

@@ -1,0 +1,194 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# track and initiate: what comes out, whatever form the same plots come in.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+
+# Two targets for 12 scans, 10 s apart: (200, 50) m/s and (-150, 100) m/s, some metres of noise; 2 plots a scan.
+awk 'BEGIN {
+    srand(7)
+    print "t_s,sensor_id,x_m,y_m"
+    for (k = 0; k < 12; k++) {
+        printf "%.1f,1,%.2f,%.2f\n", 10 * k, -9000 + 2000 * k + 20 * (rand() - .5), 500 * k + 20 * (rand() - .5)
+        printf "%.1f,1,%.2f,%.2f\n", 10 * k, 30000 - 1500 * k + 20 * (rand() - .5), 1000 * k + 20 * (rand() - .5)
+    } }' >plots.csv
+
+run track plots.csv
+cp stdout tracks.csv
+cp stderr summary
+check 'tracks on standard output' exits 0
+check 'columns of the tracks' matches "$(head -n 1 tracks.csv)" \
+    't_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_m,sigma_mps,hits,misses,sensor_id,plot'
+check 'one line of summary' matches "$(cat summary)" \
+    'rhotrack: 12 scans, 24 plots, 2 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; * us a scan, * at most'
+
+# Column numbers: 1 t_s, 2 track_id, 3 status, 4 x, 5 y, 6 z, 7 vx, 8 vy, 13 sigma_m, 15 hits, 16 misses, 18 plot.
+last_scan_is_true() {
+    awk -F, '$1 == "110.000000" && $3 == "confirmed" {
+            n++
+            if (($7 - 200)^2 + ($8 - 50)^2 < 25 && ($4 - 13000)^2 + ($5 - 5500)^2 < 900 && $18 == 0) a++
+            if (($7 + 150)^2 + ($8 - 100)^2 < 25 && ($4 - 13500)^2 + ($5 - 11000)^2 < 900 && $18 == 1) b++
+        } END { exit !(n == 2 && a == 1 && b == 1) }' tracks.csv
+}
+check 'both targets are confirmed, in place, at their velocities, with their plots' last_scan_is_true
+check 'unmeasured axes are 0' awk -F, 'NR > 1 && ($6 || $9 || $10 || $11 || $12) { exit 1 }' tracks.csv
+check 'one row a track and scan' awk -F, 'NR > 1 && seen[$1, $2]++ { exit 1 }' tracks.csv
+check 'numbers of rows' awk -F, 'NF != 18 { exit 1 }' tracks.csv
+
+# ---- the same plots in another form ----
+same() { # name, file
+    run track "$2"
+    check "$1" writes_same_as tracks.csv
+}
+sed 's/$/\r/' plots.csv >form.csv
+same 'lines with CR LF' form.csv
+{ printf '\xEF\xBB\xBF'; cat plots.csv; } >form.csv
+same 'a byte order mark' form.csv
+awk '{ print "# comment " NR; print; print "" }' plots.csv >form.csv
+same 'comments and blank lines' form.csv
+awk -F, '{ print $4 "," $2 "," $1 "," $3 }' plots.csv >form.csv
+same 'another order of columns' form.csv
+awk -F, '{ print (NR == 1 ? "note,more" : "\"quoted, with a comma\nand a line end\",x") "," $0 }' plots.csv >form.csv
+same 'extra columns, quoted' form.csv
+awk -F, 'NR > 1 { $3 = "\"" $3 "\""; $4 = " " $4 " " } { print }' OFS=, plots.csv >form.csv
+same 'quoted numbers and spaces' form.csv
+awk -F, 'NR > 1 { $1 = sprintf("%.3e", $1) } { print }' OFS=, plots.csv >form.csv
+same 'times with an exponent' form.csv
+head -c -1 plots.csv >form.csv
+same 'no end of the last line' form.csv
+"$program" track /dev/stdin <plots.csv >stdout 2>stderr
+status=$?
+check 'a pipe' writes_same_as tracks.csv
+
+# ---- outputs ----
+run track plots.csv -o out.csv
+check 'tracks to a file' cmp tracks.csv out.csv
+check 'nothing on standard output then' test ! -s stdout
+check 'nothing beside the file' matches "$(echo out*)" out.csv
+chmod 640 out.csv && ln -s out.csv link.csv
+run track plots.csv -o link.csv
+check 'an output that is a link stays one' test -L link.csv
+check 'an output keeps its mode' matches "$(stat -c %a out.csv)" 640
+run track plots.csv -o /dev/stdout
+check 'an output that is no plain file' writes_same_as tracks.csv
+cp plots.csv both.csv
+run track both.csv -o both.csv
+check 'an output that is the input' cmp tracks.csv both.csv
+
+run track plots.csv --json
+cp stdout results.json
+check 'json: one object' is_json results.json
+check 'json: what it must hold' json results.json \
+    '(o["scans"], o["plots"], o["tracks_confirmed"]) == (12, 24, 2) and o["max_us"] >= o["mean_us"] > 0'
+check 'json: state' json results.json 'o["state_bytes"] > 1000000'
+check 'json: fates add up' json results.json \
+    'sorted(o["fates"]) == ["claimed", "ghost", "held", "invalid", "no_room", "stale"] and sum(o["fates"].values()) == 24'
+run track plots.csv --json -o out.csv
+check 'json with -o: tracks in the file' cmp tracks.csv out.csv
+check 'json with -o: one object' is_json stdout
+
+run track plots.csv --covariance
+cut -d, -f1-18 stdout >first_columns.csv
+check 'covariance: the other columns are the same' cmp tracks.csv first_columns.csv
+check 'covariance: 21 columns more' awk -F, 'NF != 39 { exit 1 }' stdout
+check 'covariance: their names' matches "$(head -n 1 stdout)" '*,plot,cov_x_x,cov_y_x,cov_y_y,*,cov_vz_vz'
+check 'covariance: its diagonal gives sigma_m' awk -F, 'NR > 1 {
+    s = sqrt(($19 + $21) / 2) - $13; if (s * s > 1e-6 * $13 * $13) exit 1 }' stdout
+run track plots.csv --gate nearest
+check 'the nearest gate is what there is' writes_same_as tracks.csv
+
+# ---- where a value comes from: CSV column, --set, --config, default ----
+awk -F, '{ print $0 "," (NR == 1 ? "sigma_m" : 25) }' plots.csv >sigma25.csv
+printf 'sigma_m = 25\n' >sigma25.ini
+printf 'sigma_m = 3\n' >sigma3.ini
+run track plots.csv --set sigma_m=25
+cp stdout tracks25.csv
+check 'sigma_m by --set has an effect' bash -c '! cmp -s tracks.csv tracks25.csv'
+run track plots.csv --config sigma25.ini
+check 'sigma_m by --config' writes_same_as tracks25.csv
+run track plots.csv --set sigma_m=25 --config sigma3.ini
+check '--set goes before --config' writes_same_as tracks25.csv
+run track sigma25.csv --set sigma_m=3 --config sigma3.ini
+check 'the column goes before --set' writes_same_as tracks25.csv
+awk -F, 'NR > 1 { $5 = "" } { print }' OFS=, sigma25.csv >empty_sigma.csv
+run track empty_sigma.csv --set sigma_m=25
+check 'an empty cell leaves it to --set' writes_same_as tracks25.csv
+run track plots.csv --set sensor.1.sigma_m=25 --set sigma_m=3
+check "a sensor's own goes before that of all" writes_same_as tracks25.csv
+run track plots.csv --set sigma_m=10
+check 'the default is 10 m' writes_same_as tracks.csv
+run track plots.csv --set range_max_m=50000 --set sensor.1.pd=0.8 --json
+check 'limits of sensors are taken' exits 0
+
+# ---- scans ----
+{ cat plots.csv; for k in 12 13 14 15 16 17 18 19 20; do echo "$((10 * k)),1,,"; done; } >ends.csv
+run track ends.csv
+check 'a scan that saw nothing counts' grep -q 'rhotrack: 21 scans, 24 plots' stderr
+check 'and tracks coast' awk -F, '$3 == "coasting" && $18 == -1 { n++ } END { exit !n }' stdout
+check 'and end' awk -F, '$1 + 0 >= 200 { exit 1 }' stdout
+
+awk -F, 'NR > 1 { $2 = 2 - NR % 2 } { print }' OFS=, plots.csv >two_sensors.csv
+awk -F, 'NR == 1 || $2 == 1' two_sensors.csv >sensor1.csv
+awk -F, 'NR == 1 || $2 == 2' two_sensors.csv >sensor2.csv
+run track two_sensors.csv
+cp stdout two.csv
+first=$(awk -F, 'NR == 2 { print $2 }' two_sensors.csv)
+run track "sensor$first.csv" "sensor$((3 - first)).csv"
+check 'two inputs are merged by time' writes_same_as two.csv
+check 'and all of both counts' grep -q 'rhotrack: 24 scans, 24 plots' stderr
+run track plots.csv plots.csv --json
+check 'equal scans of two inputs stay two' json stdout 'o["scans"] == 24 and o["plots"] == 48'
+
+awk -F, 'NR > 1 { $1 += (NR % 2) * 4 } { print }' OFS=, plots.csv >rotating.csv
+run track rotating.csv --json
+check 'every t_s a scan' json stdout 'o["scans"] == 24'
+run track rotating.csv --set scan_interval_s=9 --json
+check 'scan_interval_s joins the rows of a turn' json stdout 'o["scans"] == 12 and o["plots"] == 24'
+
+awk -F, 'NR > 1 { $1 = sprintf("17000%05d.123457", $1) } { print }' OFS=, plots.csv >epoch.csv
+run track epoch.csv
+check 'large times keep their microseconds' grep -q '^1700000110.123457,' stdout
+sed 's/^17000\([0-9]*\).123457/\1.000000/; s/^0*\([0-9]\)/\1/' stdout >shifted.csv
+check 'and the tracks are the same' cmp tracks.csv shifted.csv
+awk -F, 'NR > 1 { $1 = $1 - 50 } { print }' OFS=, plots.csv >negative.csv
+run track negative.csv
+check 'times below zero' awk -F, 'NR > 1 && $1 + 0 > 60 { exit 1 } END { exit !(NR > 3) }' stdout
+printf 't_s,sensor_id,x_m,y_m\n-9e12,1,2,3\n0,1,2,3\n9e12,1,2,3\n' >far.csv
+run track far.csv
+check 'the farthest times' exits 0
+
+awk -F, 'NR == 1 { print $0 ",z_m,vx_mps,vy_mps,vz_mps" } NR > 1 {
+    print $0 ",3000," (NR % 2 ? "-150,100" : "200,50") ",0" }' plots.csv >full.csv
+run track full.csv
+check 'height is tracked' awk -F, '$1 == "110.000000" && ($6 < 2970 || $6 > 3030) { exit 1 }' stdout
+
+# ---- initiate ----
+run initiate plots.csv
+cp stdout initiated.csv
+check 'initiate says which scans it takes' matches "$(cat stderr)" 'rhotrack: the last 7 of 12 scans are taken'
+check 'columns of initiated tracks' matches "$(head -n 1 initiated.csv)" \
+    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+both_found() {
+    awk -F, 'NR > 1 {
+            n++
+            if (($5 - 200)^2 + ($6 - 50)^2 < 25 && ($3 - 13000)^2 + ($4 - 5500)^2 < 900) a++
+            if (($5 + 150)^2 + ($6 - 100)^2 < 25 && ($3 - 13500)^2 + ($4 - 11000)^2 < 900) b++
+            rho = $3 * cos($8) + $4 * sin($8)
+            if ((rho - $7)^2 > 1 || $8 < 0 || $8 >= 3.14159266 || $2 != "110.000000" || $9 != 7) bad++
+        } END { exit !(n == 2 && a == 1 && b == 1 && !bad) }' initiated.csv
+}
+check 'both targets are found at the last scan, on their lines' both_found
+run initiate plots.csv --method kernel --json
+check 'initiate: one JSON object' is_json stdout
+check 'initiate: what it must hold' json stdout '(o["method"], o["scans"], o["plots"], o["tracks"],
+    o["peak_votes"], o["votes"]) == ("kernel", 7, 14, 2, [7, 7], 14)'
+check 'initiate: and more' json stdout \
+    'all(k in o for k in ["pairs", "candidates", "state_bytes", "wall_us"])'
+run initiate plots.csv --json -o out.csv
+check 'initiate: tracks in the file' cmp initiated.csv out.csv
+run initiate plots.csv --set scans=12
+check 'initiate: as many scans as asked for' test ! -s stderr
+run initiate plots.csv --set score_min_nat=900
+check 'initiate: score_min_nat' matches "$(wc -l <stdout)" 1
+
+finish
