@@ -62,7 +62,7 @@ RHO_MUST_CHECK enum rho_status rho_assignment_add(struct rho_assignment *assignm
 /*
  * Solves: rho_assignment_column then answers. An object that was not initialised is left alone. Cost: a row's search
  * visits each pair of its cluster once and picks the nearest column from a list: at worst rows x (pairs + columns^2) of
- * the cluster. Stack: 128 bytes.
+ * the cluster. Stack: 112 bytes.
  */
 void rho_assignment_solve(struct rho_assignment *assignment);
 

@@ -65,6 +65,7 @@ struct rho_initiator {
     struct rho_initiator_config config;
     struct rho_initiator_work work;
     float density_per_m2;    /* plots a scan, mean over the area, of the last search */
+    float density_prior_plots; /* weight of that mean against a cell's own count */
     uint16_t density_columns, density_rows;
     uint16_t density[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS]; /* plots in the window, saturating */
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
@@ -107,8 +108,8 @@ RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initia
 unsigned rho_initiator_consume(struct rho_initiator *initiator, const struct rho_candidate *candidate);
 
 /*
- * Density of the held plots near a place, plots a m^2 and scan: counts of the map's cells over the window, drawn to the
- * mean where a cell has seen little, never below one plot in the area and window. 0 before the first search. Constant cost.
+ * Density of the held plots near a place, plots a m^2 and scan: the map's cell over the window, drawn towards the mean as
+ * far as the cells scatter no more than chance makes them. The mean is never below one plot in the area and scan. 0 before the first search. Constant cost.
  */
 float rho_initiator_density(const struct rho_initiator *initiator, float x_m, float y_m);
 

@@ -38,14 +38,15 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
  * each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2 dt], so that one long step equals
  * several short ones. Going back (dt_s < 0) adds no noise: forth and back without noise is the identity but for rounding.
  * Errors: NULL, VALUE (arguments, or a result beyond RHO_KALMAN_VARIANCE_MAX; unchanged).
- * Cost: about 240 instructions. Stack: 128 bytes.
+ * Cost: about 240 instructions. Stack: 64 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density);
 
 /*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0. *nis (may be NULL)
  * gets the normalised innovation squared. On an axis that is not open nothing else changes. Errors: NULL, VALUE (element,
- * value or variance, a result not finite), SINGULAR (innovation variance not positive and finite); unchanged. Cost: about 330 instructions. Stack: 176 bytes.
+ * value or variance, a result not finite), SINGULAR (innovation variance not positive and finite); unchanged.
+ * Cost: about 330 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
                                                  float variance, float *nis);

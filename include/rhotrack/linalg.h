@@ -19,7 +19,7 @@
  * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a itself).
  * RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is untouched. Also NULL,
  * CAPACITY (n). Cost: n^3 / 6 multiplications, n square
- * roots. Stack: 340 bytes.
+ * roots. Stack: 400 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
 
@@ -44,7 +44,7 @@ RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[
  * `innovation` is its measured minus predicted value, `variance` the measurement's noise. *nis (may be NULL) gets
  * innovation^2 / (p_ii + variance). No variance grows, and a positive definite p stays so in spite of rounding.
  * Errors: NULL, VALUE (index, innovation or a result not finite), SINGULAR (variance not positive, p_ii negative, or
- * their sum not a number one can divide by); x, p and *nis untouched. Cost: about 280 instructions. Stack: 96 bytes.
+ * their sum not a number one can divide by); x, p and *nis untouched. Cost: about 280 instructions. Stack: 112 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
                                                   float variance, float *nis);

@@ -49,6 +49,28 @@ static void order_votes(struct span *span)
     }
 }
 
+static float spread_s(const struct rho_window_scan *scan)
+{
+    return scan->offset_max_s - scan->offset_min_s;
+}
+
+static float ends_m2(const struct span *span, float al)
+{
+    float from_m = (1.0f - al) * span->scan_a->sigma_max_m, to_m = al * span->scan_b->sigma_max_m;
+    return from_m * from_m + to_m * to_m;
+}
+
+/* Reach of the widest gate in scan m. Plots' own times move al by up to `slack`; the variance is convex in al. */
+static float widest_reach_m(const struct search *search, const struct span *span, unsigned m)
+{
+    float sigma_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
+    float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
+    float slack = (spread_s(span->scan_a) + spread_s(span->scan_b)) / span->gap_s;
+    float low_m2 = ends_m2(span, al - slack), high_m2 = ends_m2(span, al + slack);
+    return rho_sqrt(GATE_CHI2 * (sigma_m * sigma_m + span->process_m2[m] +
+                                 (low_m2 > high_m2 ? low_m2 : high_m2)));
+}
+
 static void open_span(struct search *search, unsigned a, unsigned b, struct span *span)
 {
     struct rho_window *window = &search->initiator->window;
@@ -60,16 +82,10 @@ static void open_span(struct search *search, unsigned a, unsigned b, struct span
     order_votes(span);
     for (unsigned k = 0; k < span->num_between; k++) {
         unsigned m = span->between[k];
-        float sigma_a_m = span->scan_a->sigma_max_m, sigma_b_m = span->scan_b->sigma_max_m;
-        float sigma_m = rho_window_scan_at(window, m)->sigma_max_m;
-        float process_m2 = 0.0f;
         if (search->fit_process_m2 > 0.0f) {
-            process_m2 = rho_initiator_process_gap_m2(search, a, m, b);
+            span->process_m2[m] = rho_initiator_process_gap_m2(search, a, m, b);
         }
-        span->process_m2[m] = process_m2;
-        /* (1 - al)^2 and al^2 are at most 1: a bound that plots' own times do not break */
-        span->reach_m[m] = rho_sqrt(GATE_CHI2 * (sigma_m * sigma_m + process_m2 + sigma_a_m * sigma_a_m +
-                                                 sigma_b_m * sigma_b_m));
+        span->reach_m[m] = widest_reach_m(search, span, m);
     }
 }
 
@@ -157,6 +173,9 @@ static void pair_from(struct search *search, const struct span *span, const stru
 static void search_span(struct search *search, unsigned a, unsigned b)
 {
     struct span span;
+    if (!(search->time_s[b] > search->time_s[a])) {
+        return; /* scans of one instant make no kernel */
+    }
     open_span(search, a, b, &span);
     for (unsigned i = 0; i < span.scan_a->num_plots; i++) {
         const struct rho_window_plot *from = &span.scan_a->plots[i];
@@ -279,6 +298,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     if (search.num_scans == 0) {
         return RHO_OK;
     }
+    search.wanted_mask = kind == RHO_SEARCH_NEWEST ? 1u << (search.num_scans - 1u) : 0u;
     lay_times(&search);
     rho_initiator_prepare_process(&search);
     rho_initiator_prepare(&search);

@@ -7,9 +7,11 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
-/* The map gets as many cells as hold this many plots each in the mean; a cell counts as that many plots of the mean
- * density beside its own. Together they keep a cell's error near 12 %, or an eighth of a nat a hit. */
+/* The map gets as many cells as hold this many plots each in the mean. */
 #define PLOTS_PER_CELL 32u
+
+/* Plots of the mean density that a cell counts beside its own, at most: then the map is flat. */
+#define PRIOR_PLOTS_MAX 1.0e6f
 
 /* M is the smallest number of votes with at most this many chance tracks a search. */
 #define CHANCE_TRACKS_MAX 0.1f
@@ -60,7 +62,8 @@ static void lay_map(struct rho_initiator *initiator, uint32_t num_plots)
 {
     const struct rho_window *window = &initiator->window;
     float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
-    float cells = (float)(num_plots / PLOTS_PER_CELL + 1u);
+    uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
+    float cells = (float)wanted;
     float aspect = rho_extent_width_m(&window->extent, side_min_m) /
                    rho_extent_height_m(&window->extent, side_min_m);
     initiator->density_columns = (uint16_t)clamp_cells(rho_sqrt(cells * aspect));
@@ -88,12 +91,6 @@ static uint32_t count_plots(struct rho_initiator *initiator, int into_map)
     return count;
 }
 
-/* Mean of the map drawn towards by a cell of `count` plots. */
-static float shrunk_density(float mean_per_m2, float mean_cell_count, float count)
-{
-    return mean_per_m2 * (count + (float)PLOTS_PER_CELL) / (mean_cell_count + (float)PLOTS_PER_CELL);
-}
-
 static float mean_cell_count(const struct rho_initiator *initiator)
 {
     float cells = (float)initiator->density_columns * (float)initiator->density_rows;
@@ -101,13 +98,36 @@ static float mean_cell_count(const struct rho_initiator *initiator)
     return initiator->density_per_m2 * area_m2(initiator) * scans / cells;
 }
 
+/*
+ * How many plots of the mean density each cell's own count is weighed against (empirical Bayes, gamma prior): mean^2 /
+ * (variance - mean) over the cells. Where counts scatter no more than chance makes them, the mean is believed; where
+ * clutter is patchy, the cells are.
+ */
+static float prior_plots(const struct rho_initiator *initiator)
+{
+    unsigned cells = (unsigned)initiator->density_columns * initiator->density_rows;
+    float mean = mean_cell_count(initiator), variance = 0.0f;
+    for (unsigned c = 0; c < cells; c++) {
+        float excess = (float)initiator->density[c] - mean;
+        variance += excess * excess / (float)(cells > 1u ? cells - 1u : 1u);
+    }
+    float beyond_chance = variance - mean;
+    return beyond_chance * PRIOR_PLOTS_MAX > mean * mean ? mean * mean / beyond_chance : PRIOR_PLOTS_MAX;
+}
+
+/* The density where a cell of the map counts so many plots. */
+static float density_of(const struct rho_initiator *initiator, float count)
+{
+    float prior = initiator->density_prior_plots;
+    return initiator->density_per_m2 * (count + prior) / (mean_cell_count(initiator) + prior);
+}
+
 float rho_initiator_density(const struct rho_initiator *initiator, float x_m, float y_m)
 {
     if (initiator->density_columns == 0) {
         return 0.0f;
     }
-    return shrunk_density(initiator->density_per_m2, mean_cell_count(initiator),
-                          (float)initiator->density[map_cell(initiator, x_m, y_m)]);
+    return density_of(initiator, (float)initiator->density[map_cell(initiator, x_m, y_m)]);
 }
 
 /* The density that hit m of a set is measured against: the set's own plots are taken out of its cell. */
@@ -123,8 +143,7 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
         }
     }
     unsigned count = search->initiator->density[cell];
-    return rho_log(shrunk_density(search->mean_density_per_m2, search->mean_cell_count,
-                                  (float)(count > own ? count - own : 0u)));
+    return rho_log(density_of(search->initiator, (float)(count > own ? count - own : 0u)));
 }
 
 /* ---- how many votes --------------------------------------------------------------------------- */
@@ -156,7 +175,7 @@ static float log_chance(const struct search *search, unsigned h, float sigma_m, 
     float degrees = (float)(2u * h - 4u);
     float log_ball = 0.5f * degrees * (LOG_PI + rho_log(chi2_95(2u * h - 4u))) - log_factorial(h - 2u);
     float speeds = config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps;
-    return (float)h * rho_log(search->mean_density_per_m2) + degrees * rho_log(sigma_m) + log_ball +
+    return (float)h * rho_log(search->initiator->density_per_m2) + degrees * rho_log(sigma_m) + log_ball +
            rho_log(area_m2(search->initiator)) + LOG_PI + rho_log(speeds) +
            rho_log((float)h * spread_s2);
 }
@@ -207,8 +226,7 @@ void rho_initiator_prepare(struct search *search)
     initiator->density_per_m2 = mean > 1.0f / area ? mean : 1.0f / area;
     lay_map(initiator, plots);
     (void)count_plots(initiator, 1);
-    search->mean_density_per_m2 = initiator->density_per_m2;
-    search->mean_cell_count = mean_cell_count(initiator);
+    initiator->density_prior_plots = prior_plots(initiator);
     search->log_pd = rho_log(config->pd);
     search->log_miss = rho_log(1.0f - config->pd);
     /* targets are anywhere in the area, their velocities anywhere in the ring of allowed speeds */

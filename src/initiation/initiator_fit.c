@@ -190,8 +190,7 @@ static int is_same_set(const struct search *search, const struct plot_set *a, co
 
 static int is_wanted(const struct search *search, const struct plot_set *set)
 {
-    return set->hits >= search->min_scans &&
-           (search->kind != RHO_SEARCH_NEWEST || (set->mask >> (search->num_scans - 1u) & 1u));
+    return set->hits >= search->min_scans && (set->mask & search->wanted_mask) == search->wanted_mask;
 }
 
 static int is_fast_enough(const struct search *search, const struct line_fit *fit)

@@ -13,13 +13,12 @@
 struct search {
     struct rho_initiator *initiator;
     enum rho_search kind;
+    unsigned wanted_mask;          /* scans that must have voted: the newest, or none in particular */
     unsigned num_scans;            /* N: scans held */
     unsigned min_scans;            /* M */
     float time_s[RHO_MAX_SCANS];   /* of the scans, after the newest: <= 0 */
     float log_pd, log_miss;        /* ln pd, ln(1 - pd) */
     float log_prior;               /* ln of the births' density over area and velocity */
-    float mean_density_per_m2;     /* plots a scan */
-    float mean_cell_count;         /* plots a cell of the density map */
     float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2]; /* displacement covariance by process noise */
     float fit_process_m2;          /* its largest residual variance about a fitted line */
     uint16_t skip_flags;           /* plots that look-ups pass over */

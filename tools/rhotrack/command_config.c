@@ -12,16 +12,18 @@ static cJSON *parameter_json(const struct parameter_text *text, double value,
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddStringToObject(object, "unit", text->unit);
-    if (text->has_default)
+    if (text->has_default) {
         cJSON_AddNumberToObject(object, "default", text->value);
-    else
+    } else {
         cJSON_AddNullToObject(object, "default");
+    }
     cJSON_AddNumberToObject(object, "min", text->min);
     cJSON_AddNumberToObject(object, "max", text->max);
-    if (source != SOURCE_UNSET)
+    if (source != SOURCE_UNSET) {
         cJSON_AddNumberToObject(object, "value", value);
-    else
+    } else {
         cJSON_AddNullToObject(object, "value");
+    }
     cJSON_AddStringToObject(object, "source", parameters_source_name(source));
     return object;
 }
@@ -43,8 +45,9 @@ static void print_json(const struct parameters *parameters)
             struct parameter_text text = parameters_sensor_text((enum sensor_parameter_id)i);
             char name[40];
 
-            if (sensor->source[i] == SOURCE_UNSET)
+            if (sensor->source[i] == SOURCE_UNSET) {
                 continue;
+            }
             snprintf(name, sizeof name, "sensor.%d.%s", (int)sensor->sensor_id, text.name);
             cJSON_AddItemToObject(object, name,
                                   parameter_json(&text, sensor->value[i], sensor->source[i]));

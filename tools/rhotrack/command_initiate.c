@@ -19,14 +19,16 @@ struct batch {
 
 static void check_method(const char *method)
 {
-    if (method && strcmp(method, "kernel") != 0)
+    if (method && strcmp(method, "kernel") != 0) {
         fail(EXIT_USAGE, "method '%s' is not in this version; there is: kernel", method);
+    }
 }
 
 static void check_status(enum rho_status status)
 {
-    if (status != RHO_OK)
+    if (status != RHO_OK) {
         fail(EXIT_RUNTIME, "initiator: the library says '%s'", rho_status_name(status));
+    }
 }
 
 /* ---- The batch ---- */
@@ -38,8 +40,9 @@ static void push(struct batch *batch, const struct rho_scan *scan)
     uint32_t left_unused = 0;
     int64_t start_us;
 
-    if (held.num_plots > RHO_MAX_PLOTS)
+    if (held.num_plots > RHO_MAX_PLOTS) {
         held.num_plots = RHO_MAX_PLOTS;
+    }
     memset(fates, RHO_FATE_HELD, sizeof fates);
     start_us = clock_us();
     check_status(rho_initiator_push(batch->initiator, &held, fates, &left_unused));
@@ -56,12 +59,14 @@ static void push_last(struct batch *batch, struct scan_reader *reader)
     uint64_t total = scan_reader_total(reader), scans = batch->initiator->config.scans;
     const struct rho_scan *scan;
 
-    if (total > scans)
+    if (total > scans) {
         fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " scans are taken\n", scans,
                 total);
+    }
     for (uint64_t i = 0; (scan = scan_reader_next(reader)); i++) {
-        if (i + scans >= total)
+        if (i + scans >= total) {
             push(batch, scan);
+        }
     }
 }
 
@@ -80,12 +85,14 @@ static void search(struct batch *batch, const struct command_line *line)
     start_us = clock_us();
     check_status(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
     batch->wall_us += clock_us() - start_us;
-    if (scan_reader_counts(reader).rows_skipped)
+    if (scan_reader_counts(reader).rows_skipped) {
         fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n",
                 scan_reader_counts(reader).rows_skipped);
-    if (batch->plots_no_room)
+    }
+    if (batch->plots_no_room) {
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
                 batch->plots_no_room, RHO_MAX_PLOTS);
+    }
     scan_reader_close(reader);
 }
 
@@ -96,8 +103,9 @@ static void write_found(const struct batch *batch, const char *path)
     struct output output = output_open(path);
 
     initiated_write_header(output.file);
-    for (unsigned i = 0; i < batch->initiator->num_candidates; i++)
+    for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
         initiated_write_row(output.file, i + 1, batch->time_us, &batch->initiator->candidates[i]);
+    }
     output_close(&output);
 }
 
@@ -119,8 +127,9 @@ static cJSON *peaks_json(const struct rho_initiator *initiator, double *sum)
     }
     qsort(hits, initiator->num_candidates, sizeof *hits, compare_descending);
     list = cJSON_CreateIntArray(hits, initiator->num_candidates);
-    if (!list)
+    if (!list) {
         fail(EXIT_RUNTIME, "out of memory");
+    }
     return list;
 }
 
@@ -156,10 +165,12 @@ int command_initiate(struct command_line *line)
 
     check_method(line->method);
     search(&batch, line);
-    if (line->output || !line->json)
+    if (line->output || !line->json) {
         write_found(&batch, line->output);
-    if (line->json)
+    }
+    if (line->json) {
         print_json(&batch);
+    }
     free(batch.initiator);
     return 0;
 }

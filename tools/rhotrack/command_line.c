@@ -49,8 +49,9 @@ void command_line_help(const struct command *command, FILE *file)
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         char left[48];
 
-        if (!takes(command, options[i].letter) || !options[i].text)
+        if (!takes(command, options[i].letter) || !options[i].text) {
             continue;
+        }
         snprintf(left, sizeof left, "%s--%s%s%s",
                  options[i].letter == 'o'   ? "-o, "
                  : options[i].letter == 'h' ? "-h, "
@@ -79,11 +80,13 @@ static uint64_t read_count(const char *option, const char *text, uint64_t min, u
 
     errno = 0;
     number = strtoull(text, &end, 10);
-    if (*text < '0' || *text > '9' || *end)
+    if (*text < '0' || *text > '9' || *end) {
         fail(EXIT_USAGE, "--%s '%s' is not a whole number", option, text);
-    if (errno || number < min || number > max)
+    }
+    if (errno || number < min || number > max) {
         fail(EXIT_USAGE, "--%s %s is outside %llu .. %llu", option, text, (unsigned long long)min,
              (unsigned long long)max);
+    }
     return number;
 }
 
@@ -127,21 +130,26 @@ static void take_option(struct command_line *line, char letter, char *argument)
 
 /* ---- The whole line ---- */
 
-/* getopt's table of all options: those of other commands are refused with a better message than its own. */
+/*
+ * getopt's table of all options: those of other commands are refused with a better message than its
+ * own.
+ */
 static void fill_table(struct option table[NUM_OPTIONS + 1])
 {
-    for (size_t i = 0; i < NUM_OPTIONS; i++)
+    for (size_t i = 0; i < NUM_OPTIONS; i++) {
         table[i] =
             (struct option){options[i].name, options[i].argument ? required_argument : no_argument,
                             NULL, options[i].letter};
+    }
     table[NUM_OPTIONS] = (struct option){NULL, 0, NULL, 0};
 }
 
 static const char *name_of(int letter)
 {
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
-        if (options[i].letter == letter)
+        if (options[i].letter == letter) {
             return options[i].name;
+        }
     }
     return NULL;
 }
@@ -151,16 +159,19 @@ static _Noreturn void refuse_option(const struct command *command, char **argv)
     const char *typed = argv[optind - 1], *hint;
     char name[64];
 
-    if (optopt && strncmp(typed, "--", 2) == 0 && name_of(optopt))
+    if (optopt && strncmp(typed, "--", 2) == 0 && name_of(optopt)) {
         fail(EXIT_USAGE, "%s: --%s takes no value", command->name, name_of(optopt));
-    if (optopt)
+    }
+    if (optopt) {
         fail(EXIT_USAGE, "%s: unknown option '-%c'; see rhotrack %s --help", command->name, optopt,
              command->name);
+    }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(typed + 2, "="), typed + 2);
     hint = hint_nearest(name, option_name);
-    if (hint)
+    if (hint) {
         fail(EXIT_USAGE, "%s: unknown option '%s', did you mean '--%s'?", command->name, typed,
              hint);
+    }
     fail(EXIT_USAGE, "%s: unknown option '%s'; see rhotrack %s --help", command->name, typed,
          command->name);
 }
@@ -174,15 +185,19 @@ static void read_options(struct command_line *line, const struct command *comman
     fill_table(table);
     opterr = 0;
     while ((letter = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
-        if (letter == '?')
+        if (letter == '?') {
             refuse_option(command, argv);
-        if (letter == ':')
+        }
+        if (letter == ':') {
             fail(EXIT_USAGE, "%s: --%s needs a value", command->name, name_of(optopt));
-        if (letter == 'h')
+        }
+        if (letter == 'h') {
             show_help(command);
-        if (!takes(command, (char)letter))
+        }
+        if (!takes(command, (char)letter)) {
             fail(EXIT_USAGE, "%s takes no --%s; see rhotrack %s --help", command->name,
                  name_of(letter), command->name);
+        }
         take_option(line, (char)letter, optarg);
     }
 }
@@ -195,10 +210,12 @@ void command_line_read(struct command_line *line, const struct command *command,
     read_options(line, command, argc, argv);
     line->arguments = argv + optind;
     line->num_arguments = argc - optind;
-    if (line->num_arguments < command->min_arguments)
+    if (line->num_arguments < command->min_arguments) {
         fail(EXIT_USAGE, "%s: too few arguments; usage: rhotrack %s %s", command->name,
              command->name, command->usage);
-    if (line->num_arguments > command->max_arguments)
+    }
+    if (line->num_arguments > command->max_arguments) {
         fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
              line->arguments[command->max_arguments], command->name, command->usage);
+    }
 }

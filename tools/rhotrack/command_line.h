@@ -18,7 +18,10 @@ struct command {
     const char *text;    /* paragraphs; lines end with a newline */
 };
 
-/* Reads argv, argv[0] being the command's name. Errors: one line, exit 2. --help: prints and exits with 0. */
+/*
+ * Reads argv, argv[0] being the command's name. Errors: one line, exit 2. --help: prints and exits
+ * with 0.
+ */
 void command_line_read(struct command_line *line, const struct command *command, int argc,
                        char **argv);
 

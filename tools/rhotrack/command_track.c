@@ -22,16 +22,19 @@ struct tracking {
 
 static void check_status(enum rho_status status, const char *what)
 {
-    if (status != RHO_OK)
+    if (status != RHO_OK) {
         fail(EXIT_RUNTIME, "%s: the library says '%s'", what, rho_status_name(status));
+    }
 }
 
 static void check_gate(const char *gate)
 {
-    if (!gate || !strcmp(gate, "nearest"))
+    if (!gate || !strcmp(gate, "nearest")) {
         return;
-    if (!strcmp(gate, "best") || !strcmp(gate, "hough"))
+    }
+    if (!strcmp(gate, "best") || !strcmp(gate, "hough")) {
         fail(EXIT_USAGE, "--gate %s is not in this version; there is: nearest", gate);
+    }
     fail(EXIT_USAGE, "unknown gate '%s'; there is: nearest", gate);
 }
 
@@ -68,8 +71,9 @@ static void finish(struct tracking *tracking)
 static bool is_known_sensor(const struct tracking *tracking, int32_t sensor_id)
 {
     for (size_t i = 0; i < tracking->num_sensors; i++) {
-        if (tracking->sensor_ids[i] == sensor_id)
+        if (tracking->sensor_ids[i] == sensor_id) {
             return true;
+        }
     }
     return false;
 }
@@ -80,19 +84,22 @@ static void meet_sensor(struct tracking *tracking, int32_t sensor_id)
     struct rho_sensor sensor;
     enum rho_status status;
 
-    if (is_known_sensor(tracking, sensor_id))
+    if (is_known_sensor(tracking, sensor_id)) {
         return;
+    }
     if (tracking->num_sensors == tracking->sensors_capacity) {
         tracking->sensors_capacity = 2 * tracking->sensors_capacity + 8;
         tracking->sensor_ids = must_realloc(tracking->sensor_ids, tracking->sensors_capacity *
                                                                       sizeof *tracking->sensor_ids);
     }
     tracking->sensor_ids[tracking->num_sensors++] = sensor_id;
-    if (!parameters_to_sensor(tracking->parameters, sensor_id, &sensor))
+    if (!parameters_to_sensor(tracking->parameters, sensor_id, &sensor)) {
         return;
+    }
     status = rho_tracker_set_sensor(tracking->tracker, &sensor);
-    if (status == RHO_ERROR_CAPACITY)
+    if (status == RHO_ERROR_CAPACITY) {
         fail(EXIT_USAGE, "more than %d sensors with limits of their own", RHO_MAX_SENSORS);
+    }
     check_status(status, "sensor");
 }
 
@@ -106,8 +113,9 @@ static void step(struct tracking *tracking, const struct rho_scan *scan)
                  "step");
     took_us = clock_us() - start_us;
     tracking->sum_us += took_us;
-    if (took_us > tracking->max_us)
+    if (took_us > tracking->max_us) {
         tracking->max_us = took_us;
+    }
 }
 
 static void step_all(struct tracking *tracking, struct scan_reader *reader, FILE *file,
@@ -117,12 +125,14 @@ static void step_all(struct tracking *tracking, struct scan_reader *reader, FILE
     const struct rho_scan *scan;
     uint64_t done = 0;
 
-    if (file)
+    if (file) {
         tracks_write_header(file, with_covariance);
+    }
     while ((scan = scan_reader_next(reader))) {
         step(tracking, scan);
-        if (file)
+        if (file) {
             tracks_write_report(file, tracking->report, with_covariance);
+        }
         progress_show(&progress, ++done);
     }
     progress_end(&progress);
@@ -145,8 +155,9 @@ static void print_summary(const struct tracking *tracking, const struct scan_rea
             counts->scans, counts->plots, counters->tracks_confirmed,
             counters->fates[RHO_FATE_INVALID], counters->fates[RHO_FATE_STALE],
             counters->fates[RHO_FATE_NO_ROOM]);
-    if (counts->rows_skipped)
+    if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
+    }
     fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),
             tracking->max_us);
 }
@@ -155,8 +166,9 @@ static cJSON *fates_json(const struct rho_tracker_counters *counters)
 {
     cJSON *object = cJSON_CreateObject();
 
-    for (int i = 0; i < RHO_NUM_FATES; i++)
+    for (int i = 0; i < RHO_NUM_FATES; i++) {
         cJSON_AddNumberToObject(object, rho_fate_name((enum rho_fate)i), counters->fates[i]);
+    }
     return object;
 }
 
@@ -208,14 +220,17 @@ int command_track(struct command_line *line)
     reader =
         scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     counts = scan_reader_counts(reader);
-    if (has_file)
+    if (has_file) {
         output = output_open(line->output);
+    }
     step_all(&tracking, reader, has_file ? output.file : NULL, line->covariance);
-    if (has_file)
+    if (has_file) {
         output_close(&output);
+    }
     print_summary(&tracking, &counts);
-    if (line->json)
+    if (line->json) {
         print_json(&tracking, &counts);
+    }
     scan_reader_close(reader);
     finish(&tracking);
     return 0;

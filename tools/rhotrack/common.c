@@ -20,11 +20,13 @@ static volatile sig_atomic_t progress_visible;
 
 static void remove_unfinished(void)
 {
-    if (unfinished_owner != getpid())
+    if (unfinished_owner != getpid()) {
         return;
+    }
     for (int i = 0; i < OUTPUTS_MAX; i++) {
-        if (unfinished[i])
+        if (unfinished[i]) {
             unlink(unfinished[i]);
+        }
     }
 }
 
@@ -44,8 +46,9 @@ void fail(int exit_code, const char *format, ...)
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     for (char *c = message; *c; c++) {
-        if ((unsigned char)*c < ' ' || *c == 127)
+        if ((unsigned char)*c < ' ' || *c == 127) {
             *c = '?';
+        }
     }
     fprintf(stderr, "%srhotrack: %s\n", progress_visible ? "\r\033[K" : "", message);
     remove_unfinished();
@@ -56,8 +59,9 @@ void fail(int exit_code, const char *format, ...)
 
 static void *check_memory(void *memory, size_t bytes)
 {
-    if (!memory)
+    if (!memory) {
         fail(EXIT_RUNTIME, "out of memory: %zu bytes more are not there", bytes);
+    }
     return memory;
 }
 
@@ -105,8 +109,9 @@ static void remember_unfinished(char *path)
 static void forget_unfinished(const char *path)
 {
     for (int i = 0; i < OUTPUTS_MAX; i++) {
-        if (unfinished[i] == path)
+        if (unfinished[i] == path) {
             unfinished[i] = NULL;
+        }
     }
 }
 
@@ -114,8 +119,9 @@ static FILE *open_directly(const char *path)
 {
     FILE *file = fopen(path, "w");
 
-    if (!file)
+    if (!file) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
+    }
     return file;
 }
 
@@ -128,12 +134,14 @@ static void open_beside(struct output *output, mode_t mode)
     output->temporary_path = must_alloc(bytes);
     snprintf(output->temporary_path, bytes, "%s.XXXXXX", output->path);
     descriptor = mkstemp(output->temporary_path);
-    if (descriptor < 0)
+    if (descriptor < 0) {
         fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
+    }
     remember_unfinished(output->temporary_path);
     output->file = fchmod(descriptor, mode) ? NULL : fdopen(descriptor, "w");
-    if (!output->file)
+    if (!output->file) {
         fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
+    }
 }
 
 static mode_t new_file_mode(void)
@@ -150,22 +158,25 @@ struct output output_open(const char *path)
     struct stat status;
     char *real_path;
 
-    if (!path || !strcmp(path, "-"))
+    if (!path || !strcmp(path, "-")) {
         return output;
+    }
     if (stat(path, &status)) {
         output.path = must_copy(path);
         open_beside(&output, new_file_mode());
         return output;
     }
-    if (S_ISDIR(status.st_mode))
+    if (S_ISDIR(status.st_mode)) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(EISDIR));
+    }
     real_path = realpath(path, NULL); /* a link stays one: the file that it names is replaced */
     output.path = must_copy(real_path ? real_path : path);
     free(real_path);
-    if (S_ISREG(status.st_mode))
+    if (S_ISREG(status.st_mode)) {
         open_beside(&output, status.st_mode & 07777);
-    else
+    } else {
         output.file = open_directly(path);
+    }
     return output;
 }
 
@@ -174,15 +185,18 @@ void output_close(struct output *output)
     const char *name = output->path ? output->path : "standard output";
     int is_bad = ferror(output->file);
 
-    if (output->file == stdout)
+    if (output->file == stdout) {
         is_bad |= fflush(stdout);
-    else
+    } else {
         is_bad |= fclose(output->file);
-    if (is_bad)
+    }
+    if (is_bad) {
         fail(EXIT_RUNTIME, "%s: cannot be written: %s", name, strerror(errno));
+    }
     if (output->temporary_path) {
-        if (rename(output->temporary_path, output->path))
+        if (rename(output->temporary_path, output->path)) {
             fail(EXIT_RUNTIME, "%s: %s", name, strerror(errno));
+        }
         forget_unfinished(output->temporary_path);
     }
     free(output->temporary_path);
@@ -200,17 +214,21 @@ void make_folder(const char *path)
     for (char *c = partial + 1; *partial; c++) {
         char end = *c;
 
-        if (end != '/' && end != '\0')
+        if (end != '/' && end != '\0') {
             continue;
+        }
         *c = '\0';
-        if (mkdir(partial, 0777) && errno != EEXIST)
+        if (mkdir(partial, 0777) && errno != EEXIST) {
             fail(EXIT_RUNTIME, "%s: %s", partial, strerror(errno));
+        }
         *c = end;
-        if (!end)
+        if (!end) {
             break;
+        }
     }
-    if (stat(path, &status) || !S_ISDIR(status.st_mode))
+    if (stat(path, &status) || !S_ISDIR(status.st_mode)) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(*path ? ENOTDIR : ENOENT));
+    }
     free(partial);
 }
 
@@ -228,12 +246,14 @@ char *path_join(const char *folder, const char *name)
 
 const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
 {
-    if (value == 0.0f)
+    if (value == 0.0f) {
         value = 0.0f; /* not -0 */
+    }
     for (int digits = 6; digits <= 9; digits++) {
         snprintf(text, FLOAT_TEXT_BYTES, "%.*g", digits, (double)value);
-        if (strtof(text, NULL) == value)
+        if (strtof(text, NULL) == value) {
             break;
+        }
     }
     return text;
 }
@@ -243,8 +263,9 @@ void json_print(struct cJSON *object)
     struct output output = output_open(NULL);
     char *text = cJSON_Print(object);
 
-    if (!text)
+    if (!text) {
         fail(EXIT_RUNTIME, "out of memory");
+    }
     fprintf(output.file, "%s\n", text);
     output_close(&output);
     cJSON_free(text);
@@ -265,8 +286,9 @@ struct progress progress_start(const char *what, uint64_t total)
 {
     struct progress progress = {what, clock_us(), 0, total};
 
-    if (!isatty(STDERR_FILENO))
+    if (!isatty(STDERR_FILENO)) {
         progress.shown_us = INT64_MAX; /* never due */
+    }
     return progress;
 }
 
@@ -276,8 +298,9 @@ static void print_bar(double fraction)
     int filled = (int)(fraction * WIDTH);
 
     fputc('[', stderr);
-    for (int i = 0; i < WIDTH; i++)
+    for (int i = 0; i < WIDTH; i++) {
         fputc(i < filled ? '#' : '.', stderr);
+    }
     fprintf(stderr, "] %3.0f %%  ", 100 * fraction);
 }
 
@@ -287,11 +310,13 @@ void progress_show(struct progress *progress, uint64_t done)
     int64_t now_us;
     double seconds, fraction;
 
-    if (progress->shown_us == INT64_MAX)
+    if (progress->shown_us == INT64_MAX) {
         return;
+    }
     now_us = clock_us();
-    if (now_us - progress->start_us < QUIET_US || now_us - progress->shown_us < PERIOD_US)
+    if (now_us - progress->start_us < QUIET_US || now_us - progress->shown_us < PERIOD_US) {
         return;
+    }
     progress->shown_us = now_us;
     progress_visible = 1;
     fputs("\r\033[K", stderr);
@@ -304,14 +329,16 @@ void progress_show(struct progress *progress, uint64_t done)
     print_bar(fraction);
     fprintf(stderr, "%llu of %llu %s", (unsigned long long)done,
             (unsigned long long)progress->total, progress->what);
-    if (done)
+    if (done) {
         fprintf(stderr, ", %.0f s left", seconds * (1 - fraction) / fraction);
+    }
 }
 
 void progress_end(struct progress *progress)
 {
-    if (progress_visible)
+    if (progress_visible) {
         fputs("\r\033[K", stderr);
+    }
     progress_visible = 0;
     progress->shown_us = INT64_MAX;
 }

@@ -16,8 +16,8 @@
 #define EXIT_USAGE 2
 
 /*
- * Prints `rhotrack: ` and the message as one line on standard error (control characters as ?), removes unfinished
- * outputs, and exits.
+ * Prints `rhotrack: ` and the message as one line on standard error (control characters as ?),
+ * removes unfinished outputs, and exits.
  */
 _Noreturn void fail(int exit_code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -30,9 +30,9 @@ void *must_realloc(void *memory, size_t bytes);
 char *must_copy(const char *text);
 
 /*
- * Output file that appears under its name only when it is complete: written beside, then renamed. path NULL or "-":
- * standard output. A device or pipe is written directly. Unfinished ones are removed by fail() and on SIGINT and
- * SIGTERM; OUTPUTS_MAX can be open at a time.
+ * Output file that appears under its name only when it is complete: written beside, then renamed.
+ * path NULL or "-": standard output. A device or pipe is written directly. Unfinished ones are
+ * removed by fail() and on SIGINT and SIGTERM; OUTPUTS_MAX can be open at a time.
  */
 #define OUTPUTS_MAX 64
 struct output {
@@ -60,7 +60,8 @@ char *path_join(const char *folder, const char *name);
 int64_t clock_us(void);
 
 /*
- * Progress on standard error: only on a terminal, only after two seconds. `what` names the work ("scans", "runs").
+ * Progress on standard error: only on a terminal, only after two seconds. `what` names the work
+ * ("scans", "runs").
  */
 struct progress {
     const char *what;

@@ -15,8 +15,9 @@ static size_t edits(const char *a, const char *b)
 {
     size_t length = strlen(b), row[LENGTH_MAX + 1];
 
-    for (size_t j = 0; j <= length; j++)
+    for (size_t j = 0; j <= length; j++) {
         row[j] = j;
+    }
     for (size_t i = 1; a[i - 1]; i++) {
         size_t diagonal = row[0];
 
@@ -36,8 +37,9 @@ const char *hint_nearest(const char *wanted, hint_name name)
     size_t length = strlen(wanted), best_edits = length / 3 + 2;
     const char *best = NULL, *known;
 
-    if (length > LENGTH_MAX)
+    if (length > LENGTH_MAX) {
         return NULL;
+    }
     for (size_t i = 0; (known = name(i)); i++) {
         size_t n = strlen(known) <= LENGTH_MAX ? edits(wanted, known) : LENGTH_MAX;
 

@@ -68,8 +68,9 @@ static void print_help(void)
 
     fputs("rhotrack: from radar plots to tracks.\n\nUsage: rhotrack COMMAND ...\n\nCommands:\n",
           output.file);
-    for (size_t i = 0; command_name(i); i++)
+    for (size_t i = 0; command_name(i); i++) {
         fprintf(output.file, "  %-11s %s\n", commands[i].name, commands[i].summary);
+    }
     fputs("\n`rhotrack COMMAND --help` says more; `rhotrack --version` prints the version.\n\n"
           "Exit codes: 0 success, 1 a failure at run time, 2 bad usage or bad input.\n",
           output.file);
@@ -88,18 +89,22 @@ static const struct command *find_command(const char *name)
 {
     const char *hint;
 
-    if (*name == '-')
+    if (*name == '-') {
         fail(EXIT_USAGE, "unknown option '%s'; see rhotrack --help", name);
+    }
     for (size_t i = 0; i < NUM_COMMANDS; i++) {
-        if (strcmp(commands[i].name, name) != 0)
+        if (strcmp(commands[i].name, name) != 0) {
             continue;
-        if (!commands[i].run)
+        }
+        if (!commands[i].run) {
             fail(EXIT_USAGE, "command '%s' is not in this version; see rhotrack --help", name);
+        }
         return &commands[i];
     }
     hint = hint_nearest(name, command_name);
-    if (hint)
+    if (hint) {
         fail(EXIT_USAGE, "unknown command '%s', did you mean '%s'?", name, hint);
+    }
     fail(EXIT_USAGE, "unknown command '%s'; see rhotrack --help", name);
 }
 
@@ -110,8 +115,9 @@ int main(int argc, char **argv)
     const struct command *command;
 
     cJSON_InitHooks(&hooks);
-    if (argc < 2)
+    if (argc < 2) {
         fail(EXIT_USAGE, "no command; see rhotrack --help");
+    }
     if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
         print_help();
         return 0;

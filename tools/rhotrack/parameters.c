@@ -65,8 +65,9 @@ static int find_name(const char *key, hint_name name, char *reason)
     const char *known, *hint;
 
     for (size_t i = 0; (known = name(i)); i++) {
-        if (!strcmp(key, known))
+        if (!strcmp(key, known)) {
             return (int)i;
+        }
     }
     hint = hint_nearest(key, name);
     snprintf(reason, PARAMETER_REASON_BYTES, "unknown parameter '%.60s'%s%s%s", key,
@@ -80,15 +81,15 @@ static bool read_value(const struct parameter_text *text, const char *cell, doub
     double number;
     const char *why = table_number(cell, &number);
 
-    if (why)
+    if (why) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' %s", text->name, cell, why);
-    else if (text->is_integer && number != floor(number))
+    } else if (text->is_integer && number != floor(number)) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not a whole number", text->name,
                  cell);
-    else if (number < text->min || number > text->max)
+    } else if (number < text->min || number > text->max) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s %.60s is outside %.9g .. %.9g %s", text->name,
                  cell, text->min, text->max, strcmp(text->unit, "-") ? text->unit : "");
-    else {
+    } else {
         *value = number;
         return true;
     }
@@ -109,8 +110,9 @@ static const struct sensor_parameters *find_sensor(const struct parameters *para
                                                    int32_t sensor_id)
 {
     for (size_t i = 0; i < parameters->num_sensors; i++) {
-        if (parameters->sensors[i].sensor_id == sensor_id)
+        if (parameters->sensors[i].sensor_id == sensor_id) {
             return &parameters->sensors[i];
+        }
     }
     return NULL;
 }
@@ -121,10 +123,12 @@ static struct sensor_parameters *have_sensor(struct parameters *parameters, int3
     const struct sensor_parameters *found = find_sensor(parameters, sensor_id);
     struct sensor_parameters *sensor;
 
-    if (found)
+    if (found) {
         return &parameters->sensors[found - parameters->sensors];
-    if (parameters->num_sensors == RHO_MAX_SENSORS)
+    }
+    if (parameters->num_sensors == RHO_MAX_SENSORS) {
         return NULL;
+    }
     sensor = &parameters->sensors[parameters->num_sensors++];
     *sensor = (struct sensor_parameters){.sensor_id = sensor_id};
     return sensor;
@@ -141,16 +145,18 @@ static bool assign_sensor(struct parameters *parameters, const char *key, const 
     double number;
     int id;
 
-    if (dot && (size_t)(dot - key) < sizeof digits)
+    if (dot && (size_t)(dot - key) < sizeof digits) {
         memcpy(digits, key, (size_t)(dot - key));
-    if (table_int32(digits, &sensor_id)) {
+    }
+    if (!dot || table_int32(digits, &sensor_id)) {
         snprintf(reason, PARAMETER_REASON_BYTES,
                  "'sensor.%.60s' is not sensor.N.key with a whole number N", key);
         return false;
     }
     id = find_name(dot + 1, sensor_text_name, reason);
-    if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason))
+    if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason)) {
         return false;
+    }
     sensor = have_sensor(parameters, sensor_id);
     if (!sensor) {
         snprintf(reason, PARAMETER_REASON_BYTES, "more than %d sensors", RHO_MAX_SENSORS);
@@ -167,11 +173,13 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
     double number;
     int id;
 
-    if (!strncmp(key, prefix, sizeof prefix - 1))
+    if (!strncmp(key, prefix, sizeof prefix - 1)) {
         return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);
+    }
     id = find_name(key, text_name, reason);
-    if (id < 0 || !read_value(&texts[id], value, &number, reason))
+    if (id < 0 || !read_value(&texts[id], value, &number, reason)) {
         return false;
+    }
     store(&parameters->value[id], &parameters->source[id], number, source);
     return true;
 }
@@ -197,11 +205,13 @@ void parameters_set(struct parameters *parameters, const char *assignment)
     const char *equals = strchr(assignment, '=');
     char reason[PARAMETER_REASON_BYTES], key[80] = "";
 
-    if (!equals)
+    if (!equals) {
         fail(EXIT_USAGE, "--set %s: not of the form key=value", assignment);
+    }
     snprintf(key, sizeof key, "%.*s", (int)(equals - assignment), assignment);
-    if (!parameters_assign(parameters, key, equals + 1, SOURCE_SET, reason))
+    if (!parameters_assign(parameters, key, equals + 1, SOURCE_SET, reason)) {
         fail(EXIT_USAGE, "--set %s: %s", assignment, reason);
+    }
 }
 
 bool parameters_is_set(const struct parameters *parameters, enum parameter_id id)
@@ -222,9 +232,10 @@ double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_
 static void check_below(const struct parameters *parameters, enum parameter_id low,
                         enum parameter_id high)
 {
-    if (parameters->value[low] >= parameters->value[high])
+    if (parameters->value[low] >= parameters->value[high]) {
         fail(EXIT_USAGE, "%s %.9g is not below %s %.9g", texts[low].name, parameters->value[low],
              texts[high].name, parameters->value[high]);
+    }
 }
 
 static void check_scans(const struct parameters *parameters)
@@ -232,25 +243,30 @@ static void check_scans(const struct parameters *parameters)
     double scans = parameters->value[PARAMETER_SCANS];
     double min_scans = parameters->value[PARAMETER_MIN_SCANS];
 
-    if (min_scans > scans)
+    if (min_scans > scans) {
         fail(EXIT_USAGE, "min_scans %.9g is more than scans %.9g", min_scans, scans);
-    if (min_scans > 0 && min_scans < 3)
+    }
+    if (min_scans > 0 && min_scans < 3) {
         fail(EXIT_USAGE, "min_scans %.9g is neither 0 nor 3 or more", min_scans);
+    }
 }
 
 static void check_area(const struct parameters *parameters)
 {
     int num_set = 0;
 
-    for (int i = PARAMETER_AREA_X_MIN_M; i <= PARAMETER_AREA_Y_MAX_M; i++)
+    for (int i = PARAMETER_AREA_X_MIN_M; i <= PARAMETER_AREA_Y_MAX_M; i++) {
         num_set += parameters_is_set(parameters, (enum parameter_id)i);
-    if (!num_set)
+    }
+    if (!num_set) {
         return;
-    if (num_set < 4)
+    }
+    if (num_set < 4) {
         fail(EXIT_USAGE,
              "area_x_min_m, area_x_max_m, area_y_min_m and area_y_max_m go together: "
              "%d of 4 are set",
              num_set);
+    }
     check_below(parameters, PARAMETER_AREA_X_MIN_M, PARAMETER_AREA_X_MAX_M);
     check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
 }
@@ -269,9 +285,10 @@ void parameters_check(const struct parameters *parameters)
         double low = parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
         double high = parameters_of_sensor(parameters, id, SENSOR_RANGE_MAX_M, range_max_m);
 
-        if (low >= high)
+        if (low >= high) {
             fail(EXIT_USAGE, "sensor %d: range_min_m %.9g is not below range_max_m %.9g", (int)id,
                  low, high);
+        }
     }
 }
 
@@ -290,8 +307,9 @@ void parameters_to_initiator(const struct parameters *parameters,
     config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     config->pd = (float)value[PARAMETER_PD];
     config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
-    if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT))
+    if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT)) {
         config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
+    }
     config->area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
     if (config->area_is_fixed) {
         config->area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
@@ -312,8 +330,9 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
     config->false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
     config->score_is_fixed = parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT);
-    if (config->score_is_fixed)
+    if (config->score_is_fixed) {
         config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
+    }
     config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
 }
 
@@ -328,10 +347,12 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
     const double *value = parameters->value;
     bool has_min = is_asked_for(parameters, PARAMETER_RANGE_MIN_M);
     bool has_max = is_asked_for(parameters, PARAMETER_RANGE_MAX_M);
-    double range_max_m = has_max ? value[PARAMETER_RANGE_MAX_M] : (double)RHO_LIMIT_POSITION_M;
+    double range_max_m =
+        has_max ? value[PARAMETER_RANGE_MAX_M] : 2.0 * (double)RHO_LIMIT_POSITION_M;
 
-    if (!find_sensor(parameters, sensor_id) && !has_min && !has_max)
+    if (!find_sensor(parameters, sensor_id) && !has_min && !has_max) {
         return false;
+    }
 #define OF_SENSOR(id, otherwise) (float)parameters_of_sensor(parameters, sensor_id, id, otherwise)
     *sensor = (struct rho_sensor){
         .sensor_id = sensor_id,

@@ -2,8 +2,8 @@
 /*
  * parameters: every --set name with its unit, default and range, and where its value came from.
  *
- * Precedence, highest first: CSV column (the readers'), --set, --config FILE (INI), the method's or scenario's own
- * default, the default of the table below.
+ * Precedence, highest first: CSV column (the readers'), --set, --config FILE (INI), the method's or
+ * scenario's own default, the default of the table below.
  */
 #ifndef RHOTRACK_TOOL_PARAMETERS_H
 #define RHOTRACK_TOOL_PARAMETERS_H
@@ -16,7 +16,10 @@
 #include "rhotrack/initiator.h"
 #include "rhotrack/tracker.h"
 
-/* X(id, name, unit, default, min, max, is_integer, has_default, text). has_default 0: unset until someone sets it. */
+/*
+ * X(id, name, unit, default, min, max, is_integer, has_default, text). has_default 0: unset until
+ * someone sets it.
+ */
 #define PARAMETERS(X)                                                                              \
     X(SCANS, "scans", "-", 7, 3, 12, 1, 1, "N: scans in the initiation window")                    \
     X(MIN_SCANS, "min_scans", "-", 0, 0, 12, 1, 1,                                                 \
@@ -78,7 +81,10 @@ enum parameter_id {
 
 enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONFIG, SOURCE_SET };
 
-/* A sensor's own: INI section [sensor N], or --set sensor.N.key=value. X(id, name, unit, min, max, text). */
+/*
+ * A sensor's own: INI section [sensor N], or --set sensor.N.key=value. X(id, name, unit, min, max,
+ * text).
+ */
 #define SENSOR_PARAMETERS(X)                                                                       \
     X(PD, "pd", "-", 0.01, 0.999, "assumed probability of detection")                              \
     X(SIGMA_M, "sigma_m", "m", 0.001, 1e5, "position noise of a plot, each axis")                  \
@@ -117,21 +123,30 @@ void parameters_default(struct parameters *parameters);
 /* A method's or scenario's own default: counts only where nobody set the parameter. */
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
 
-/* "key=value" or "sensor.N.key=value" from --set. On error prints `rhotrack: --set key=value: what is wrong` and exits with 2. */
+/*
+ * "key=value" or "sensor.N.key=value" from --set. On error prints `rhotrack: --set key=value: what
+ * is wrong` and exits with 2.
+ */
 void parameters_set(struct parameters *parameters, const char *assignment);
 
-/* INI file (no section, [rhotrack], or [sensor N]); errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. */
+/*
+ * INI file (no section, [rhotrack], or [sensor N]); errors as `rhotrack: FILE:LINE: what is wrong`,
+ * exit 2.
+ */
 void parameters_load(struct parameters *parameters, const char *path);
 
-/* Checks what only holds together (v_min < v_max, min_scans <= scans, all four area sides or none, min < max); exit 2. */
+/*
+ * Checks what only holds together (v_min < v_max, min_scans <= scans, all four area sides or none,
+ * min < max); exit 2.
+ */
 void parameters_check(const struct parameters *parameters);
 
 bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);
 
 /*
- * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher precedence stays. Returns
- * false and the reason.
+ * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher
+ * precedence stays. Returns false and the reason.
  */
 #define PARAMETER_REASON_BYTES 256
 bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
@@ -155,8 +170,9 @@ double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_
                             enum sensor_parameter_id id, double otherwise);
 
 /*
- * The library's configs from the parameters, checked (parameters_check). A sensor is described only where somebody set
- * something of it, or the range limits of all: else false, and *sensor is unchanged.
+ * The library's configs from the parameters, checked (parameters_check). A sensor is described only
+ * where somebody set something of it, or the range limits of all: else false, and *sensor is
+ * unchanged.
  */
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
                           struct rho_sensor *sensor);

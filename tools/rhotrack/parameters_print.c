@@ -8,8 +8,9 @@ static void print_row(FILE *out, const struct parameter_text *text, const char *
 {
     char initial[32] = "unset", range[48];
 
-    if (text->has_default)
+    if (text->has_default) {
         snprintf(initial, sizeof initial, "%.9g", text->value);
+    }
     snprintf(range, sizeof range, "%.9g .. %.9g", text->min, text->max);
     fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", text->name, text->unit, initial, range,
             value, parameters_source_name(source), text->text);
@@ -21,8 +22,9 @@ static void print_sensor(FILE *out, const struct sensor_parameters *sensor)
         struct parameter_text text = parameters_sensor_text((enum sensor_parameter_id)i);
         char name[40], value[32];
 
-        if (sensor->source[i] == SOURCE_UNSET)
+        if (sensor->source[i] == SOURCE_UNSET) {
             continue;
+        }
         snprintf(name, sizeof name, "sensor.%d.%s", (int)sensor->sensor_id, text.name);
         snprintf(value, sizeof value, "%.9g", sensor->value[i]);
         text.name = name;
@@ -52,11 +54,13 @@ void parameters_print(const struct parameters *parameters, FILE *out)
         struct parameter_text text = parameters_text((enum parameter_id)i);
         char value[32] = "-";
 
-        if (parameters->source[i] != SOURCE_UNSET)
+        if (parameters->source[i] != SOURCE_UNSET) {
             snprintf(value, sizeof value, "%.9g", parameters->value[i]);
+        }
         print_row(out, &text, value, parameters->source[i]);
     }
-    for (size_t i = 0; i < parameters->num_sensors; i++)
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
         print_sensor(out, &parameters->sensors[i]);
+    }
     print_sensor_keys(out);
 }

@@ -20,14 +20,16 @@ static void check_kind(const struct table *table)
     static const char *const others[][2] = {
         {"range_m", "polar plots"}, {"bearing_rad", "bearings"}, {"lat_deg", "geographic plots"}};
 
-    if (table_find(table, "x_m") >= 0)
+    if (table_find(table, "x_m") >= 0) {
         return;
+    }
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        if (table_find(table, others[i][0]) >= 0)
+        if (table_find(table, others[i][0]) >= 0) {
             table_fail(table, TABLE_HEADER,
                        "%s (column '%s'): this version reads Cartesian plots, columns 'x_m' and "
                        "'y_m' are missing",
                        others[i][1], others[i][0]);
+        }
     }
 }
 
@@ -35,8 +37,9 @@ static void check_kind(const struct table *table)
 static void check_pair(const struct table *table, int first, int second, const char *name,
                        const char *beside)
 {
-    if (first >= 0 && second < 0)
+    if (first >= 0 && second < 0) {
         table_fail(table, TABLE_HEADER, "no column '%s' beside '%s'", name, beside);
+    }
 }
 
 struct plot_columns plot_columns_find(const struct table *table)
@@ -88,8 +91,9 @@ static bool refuse_cell(const struct checking *checking, int column, const char 
     const char *cell = table_cell(checking->table, checking->row, column);
     const char *name = checking->table->names[column];
 
-    if (!*cell)
+    if (!*cell) {
         return refuse(checking, "%s is empty", name);
+    }
     return refuse(checking, "%s '%.40s' %s", name, cell, why);
 }
 
@@ -105,11 +109,13 @@ static bool read_float(const struct checking *checking, int column, float min, f
     double number;
     const char *why = table_number(cell, &number);
 
-    if (why)
+    if (why) {
         return refuse_cell(checking, column, why);
-    if (number < (double)min || number > (double)max)
+    }
+    if (number < (double)min || number > (double)max) {
         return refuse(checking, "%s %.40s is outside %.9g .. %.9g", checking->table->names[column],
                       cell, (double)min, (double)max);
+    }
     *value = (float)number;
     return true;
 }
@@ -132,13 +138,16 @@ static bool read_velocity(const struct checking *checking, struct plot_row *row)
     bool has_vx = is_there(checking, columns->vx_mps), has_vy = is_there(checking, columns->vy_mps);
     bool has_vz = is_there(checking, columns->vz_mps);
 
-    if (!has_vx && !has_vy && !has_vz)
+    if (!has_vx && !has_vy && !has_vz) {
         return true;
-    if (!has_vx || !has_vy)
+    }
+    if (!has_vx || !has_vy) {
         return refuse(checking, "%s is missing beside the other velocity",
                       has_vx ? "vy_mps" : "vx_mps");
-    if (!has_vz && (row->measures & RHO_MEASURES_Z))
+    }
+    if (!has_vz && (row->measures & RHO_MEASURES_Z)) {
         return refuse(checking, "vz_mps is missing beside z_m and vx_mps");
+    }
     row->measures |= RHO_MEASURES_VELOCITY;
     return read_speed(checking, columns->vx_mps, &row->plot.vx_mps) &&
            read_speed(checking, columns->vy_mps, &row->plot.vy_mps) &&
@@ -148,8 +157,9 @@ static bool read_velocity(const struct checking *checking, struct plot_row *row)
 /* A sigma: the row's own, else the sensor's, else the one for all. */
 static bool read_sigma(const struct checking *checking, int column, double otherwise, float *value)
 {
-    if (is_there(checking, column))
+    if (is_there(checking, column)) {
         return read_float(checking, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX, value);
+    }
     *value = (float)otherwise;
     return true;
 }
@@ -164,8 +174,9 @@ static bool read_sigmas(const struct checking *checking, const struct parameters
     struct rho_plot *plot = &row->plot;
 
     if (!read_sigma(checking, checking->columns->sigma_m, sigma_m, &plot->sigma_range_m) ||
-        !read_sigma(checking, checking->columns->sigma_mps, sigma_mps, &plot->sigma_mps))
+        !read_sigma(checking, checking->columns->sigma_mps, sigma_mps, &plot->sigma_mps)) {
         return false;
+    }
     plot->sigma_cross_m = plot->sigma_up_m = plot->sigma_range_m;
     plot->sigma_range_rate_mps = plot->sigma_mps;
     return true;
@@ -188,8 +199,9 @@ static bool read_plot(const struct checking *checking, const struct parameters *
     row->has_plot = true;
     if (!read_position(checking, columns->x_m, &row->plot.x_m) ||
         !read_position(checking, columns->y_m, &row->plot.y_m) ||
-        (has_z && !read_position(checking, columns->z_m, &row->plot.z_m)))
+        (has_z && !read_position(checking, columns->z_m, &row->plot.z_m))) {
         return false;
+    }
     row->measures = has_z ? RHO_MEASURES_Z : 0;
     return read_velocity(checking, row) && read_sigmas(checking, parameters, row) &&
            read_snr(checking, row);
@@ -200,8 +212,9 @@ static bool read_sector(const struct checking *checking, struct plot_row *row)
     static const float turn = 6.2831855f;
     int from = checking->columns->sector_from_rad, to = checking->columns->sector_to_rad;
 
-    if (!is_there(checking, from) && !is_there(checking, to))
+    if (!is_there(checking, from) && !is_there(checking, to)) {
         return true;
+    }
     return read_float(checking, from, -turn, turn, &row->sector_from_rad) &&
            read_float(checking, to, -turn, turn, &row->sector_to_rad);
 }
@@ -212,8 +225,9 @@ static bool read_key(const struct checking *checking, struct plot_row *row)
     const char *why;
 
     why = table_time_us(table_cell(checking->table, checking->row, columns->t_s), &row->time_us);
-    if (why)
+    if (why) {
         return refuse_cell(checking, columns->t_s, why);
+    }
     why = table_int32(table_cell(checking->table, checking->row, columns->sensor_id),
                       &row->sensor_id);
     return why ? refuse_cell(checking, columns->sensor_id, why) : true;
@@ -230,9 +244,11 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
 
     checking.reason = reason;
     *plot_row = (struct plot_row){.has_plot = false};
-    if (!read_key(&checking, plot_row) || !read_sector(&checking, plot_row))
+    if (!read_key(&checking, plot_row) || !read_sector(&checking, plot_row)) {
         return false;
-    for (size_t i = 0; i < sizeof measured / sizeof *measured; i++)
+    }
+    for (size_t i = 0; i < sizeof measured / sizeof *measured; i++) {
         has_measurement |= is_there(&checking, measured[i]);
+    }
     return !has_measurement || read_plot(&checking, parameters, plot_row);
 }

@@ -26,7 +26,10 @@ struct plot_columns {
     int sector_from_rad, sector_to_rad, snr_db;
 };
 
-/* Finds the columns; exit 2 where one is missing that is needed, or the file holds polar plots or bearings. */
+/*
+ * Finds the columns; exit 2 where one is missing that is needed, or the file holds polar plots or
+ * bearings.
+ */
 struct plot_columns plot_columns_find(const struct table *table);
 
 /* Reads a row. Returns false and the reason where it is bad. */

@@ -48,8 +48,9 @@ struct scan_reader {
 /* Room for one element more. */
 static void *grown(void *array, size_t count, size_t *capacity, size_t size)
 {
-    if (count < *capacity)
+    if (count < *capacity) {
         return array;
+    }
     *capacity = 2 * *capacity + 16;
     return must_realloc(array, *capacity * size);
 }
@@ -76,8 +77,9 @@ static size_t add_entry(struct scan_reader *reader, const struct plot_row *row)
 static struct open_scan *find_open(const struct scan_reader *reader, int32_t sensor_id)
 {
     for (size_t i = 0; i < reader->num_open; i++) {
-        if (reader->open[i].sensor_id == sensor_id)
+        if (reader->open[i].sensor_id == sensor_id) {
             return &reader->open[i];
+        }
     }
     return NULL;
 }
@@ -95,8 +97,9 @@ static size_t entry_of(struct scan_reader *reader, const struct plot_row *row)
 {
     struct open_scan *open = find_open(reader, row->sensor_id);
 
-    if (open && joins(reader, open->entry, row->time_us))
+    if (open && joins(reader, open->entry, row->time_us)) {
         return open->entry;
+    }
     if (!open) {
         reader->open =
             grown(reader->open, reader->num_open, &reader->open_capacity, sizeof *reader->open);
@@ -126,8 +129,9 @@ static void add_row(struct scan_reader *reader, const struct plot_row *row)
 {
     size_t entry = entry_of(reader, row);
 
-    if (row->has_plot)
+    if (row->has_plot) {
         add_member(reader, entry, row);
+    }
 }
 
 /* What a row must have in common with the scan that it would join. */
@@ -136,14 +140,17 @@ static const char *why_not_same_scan(const struct scan_reader *reader, const str
     const struct open_scan *open = find_open(reader, row->sensor_id);
     const struct entry *entry;
 
-    if (!open || !joins(reader, open->entry, row->time_us))
+    if (!open || !joins(reader, open->entry, row->time_us)) {
         return NULL;
+    }
     entry = &reader->entries[open->entry];
     if (row->sector_from_rad != entry->scan.sector_from_rad ||
-        row->sector_to_rad != entry->scan.sector_to_rad)
+        row->sector_to_rad != entry->scan.sector_to_rad) {
         return "the sector is not that of the scan's first row";
-    if (row->has_plot && entry->has_measures && row->measures != entry->scan.measures)
+    }
+    if (row->has_plot && entry->has_measures && row->measures != entry->scan.measures) {
         return "height or velocity must be given in all rows of a scan or in none";
+    }
     return NULL;
 }
 
@@ -157,8 +164,9 @@ static bool check_order(const struct scan_reader *reader, const struct plot_row 
                  (double)*last_us * 1e-6, (double)row->time_us * 1e-6);
         return false;
     }
-    if (why)
+    if (why) {
         snprintf(reason, PLOT_ROW_REASON_BYTES, "%s", why);
+    }
     return !why;
 }
 
@@ -173,8 +181,9 @@ static void read_table(struct scan_reader *reader, const struct table *table)
     for (size_t i = 0; i < table->num_rows; i++) {
         if (!plot_row_read(table, &columns, i, reader->parameters, &row, reason) ||
             !check_order(reader, &row, has_last ? &last_us : NULL, reason)) {
-            if (!reader->keep_going)
+            if (!reader->keep_going) {
                 table_fail(table, i, "%s", reason);
+            }
             reader->rows_skipped++;
             continue;
         }
@@ -182,8 +191,9 @@ static void read_table(struct scan_reader *reader, const struct table *table)
         has_last = true;
         add_row(reader, &row);
     }
-    if (!has_last)
+    if (!has_last) {
         table_fail(table, TABLE_HEADER, "not one good row after the header");
+    }
 }
 
 static void read_path(struct scan_reader *reader, const char *path)
@@ -222,8 +232,9 @@ static int compare_entries(const void *a, const void *b)
 {
     const struct entry *first = a, *second = b;
 
-    if (first->scan.time_us != second->scan.time_us)
+    if (first->scan.time_us != second->scan.time_us) {
         return first->scan.time_us < second->scan.time_us ? -1 : 1;
+    }
     return first->order < second->order ? -1 : 1;
 }
 
@@ -235,8 +246,9 @@ struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
     reader->parameters = parameters;
     reader->keep_going = keep_going;
     reader->interval_us = llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6);
-    for (int i = 0; i < num_paths; i++)
+    for (int i = 0; i < num_paths; i++) {
         read_path(reader, paths[i]);
+    }
     place_plots(reader);
     qsort(reader->entries, reader->num_entries, sizeof *reader->entries, compare_entries);
     return reader;
@@ -260,8 +272,9 @@ struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader)
 
 void scan_reader_close(struct scan_reader *reader)
 {
-    if (!reader)
+    if (!reader) {
         return;
+    }
     free(reader->entries);
     free(reader->open);
     free(reader->plots);

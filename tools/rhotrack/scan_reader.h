@@ -2,9 +2,9 @@
 /*
  * scan_reader: plot files in, scans out, merged by time.
  *
- * Columns by name: t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps]; others are ignored. Rows of
- * one sensor with the same t_s (or within scan_interval_s) are one scan; a row whose measurement columns are empty is
- * a scan that saw nothing.
+ * Columns by name: t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps]; others
+ * are ignored. Rows of one sensor with the same t_s (or within scan_interval_s) are one scan; a row
+ * whose measurement columns are empty is a scan that saw nothing.
  */
 #ifndef RHOTRACK_TOOL_SCAN_READER_H
 #define RHOTRACK_TOOL_SCAN_READER_H
@@ -20,12 +20,17 @@ struct scan_reader_counts {
     uint64_t scans, plots, rows_skipped; /* skipped: with keep_going */
 };
 
-/* Opens and checks the files. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2; with keep_going bad rows are
- * skipped and counted instead. */
+/*
+ * Opens and checks the files. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2; with
+ * keep_going bad rows are skipped and counted instead.
+ */
 struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
                                      const struct parameters *parameters, bool keep_going);
 
-/* The next scan, or NULL after the last; valid until the next call. Scans come in the order of time. */
+/*
+ * The next scan, or NULL after the last; valid until the next call. Scans come in the order of
+ * time.
+ */
 const struct rho_scan *scan_reader_next(struct scan_reader *reader);
 
 /* How many scans there are in all (for progress bars). */

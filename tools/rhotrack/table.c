@@ -12,7 +12,10 @@
 
 #include "common.h"
 
-/* libcsv knows no lines, so the file is given to it line by line, and each row keeps the line that it began on. */
+/*
+ * libcsv knows no lines, so the file is given to it line by line, and each row keeps the line that
+ * it began on.
+ */
 struct reading {
     struct table *table;
     bool keep_going;
@@ -44,11 +47,13 @@ static void read_all(struct reading *reading, FILE *file)
     while ((got = fread(reading->content + reading->bytes, 1, capacity - reading->bytes, file)) >
            0) {
         reading->bytes += got;
-        if (reading->bytes == capacity)
+        if (reading->bytes == capacity) {
             reading->content = must_realloc(reading->content, capacity *= 2);
+        }
     }
-    if (ferror(file))
+    if (ferror(file)) {
         fail(EXIT_USAGE, "%s: %s", reading->table->path, strerror(errno));
+    }
 }
 
 static void read_file(struct reading *reading)
@@ -56,14 +61,17 @@ static void read_file(struct reading *reading)
     static const char byte_order_mark[3] = "\xEF\xBB\xBF";
     FILE *file = fopen(reading->table->path, "rb");
 
-    if (!file)
+    if (!file) {
         fail(EXIT_USAGE, "%s: %s", reading->table->path, strerror(errno));
+    }
     read_all(reading, file);
     fclose(file);
-    if (!reading->bytes)
+    if (!reading->bytes) {
         fail_at(reading->table->path, 1, "the file is empty");
-    if (reading->bytes >= 3 && !memcmp(reading->content, byte_order_mark, 3))
+    }
+    if (reading->bytes >= 3 && !memcmp(reading->content, byte_order_mark, 3)) {
         reading->position = 3;
+    }
 }
 
 /* Length of the line at the current position with its end. */
@@ -72,17 +80,20 @@ static size_t line_length(const struct reading *reading)
     const char *start = reading->content + reading->position, *c = start;
     const char *end = reading->content + reading->bytes;
 
-    while (c < end && *c != '\n' && *c != '\r')
+    while (c < end && *c != '\n' && *c != '\r') {
         c++;
-    if (c < end && *c++ == '\r' && c < end && *c == '\n')
+    }
+    if (c < end && *c++ == '\r' && c < end && *c == '\n') {
         c++;
+    }
     return (size_t)(c - start);
 }
 
 static void check_binary(const struct reading *reading, size_t length)
 {
-    if (memchr(reading->content + reading->position, '\0', length))
+    if (memchr(reading->content + reading->position, '\0', length)) {
         fail_at(reading->table->path, reading->line, "not a text file: it has a NUL byte");
+    }
 }
 
 /* True where a line outside a row says nothing: blank, or a comment. */
@@ -90,8 +101,9 @@ static bool is_idle(const char *line, size_t length)
 {
     size_t i = 0;
 
-    while (i < length && strchr(" \t\r\n", line[i]))
+    while (i < length && strchr(" \t\r\n", line[i])) {
         i++;
+    }
     return i == length || line[i] == '#';
 }
 
@@ -120,8 +132,9 @@ static void on_row_end(int end, void *user)
 
 static void start_parser(struct reading *reading)
 {
-    if (csv_init(&reading->parser, CSV_STRICT | CSV_STRICT_FINI))
+    if (csv_init(&reading->parser, CSV_STRICT | CSV_STRICT_FINI)) {
         fail(EXIT_RUNTIME, "out of memory");
+    }
     csv_set_blk_size(&reading->parser, 4096);
     reading->row_is_open = reading->row_is_complete = false;
 }
@@ -136,13 +149,14 @@ static void begin_row(struct reading *reading, size_t length)
 }
 
 /*
- * A bad row is the end, or with keep_going forgotten: reading goes on behind its first line, since the others may belong
- * to it only by a wrong quotation mark. The header must be good.
+ * A bad row is the end, or with keep_going forgotten: reading goes on behind its first line, since
+ * the others may belong to it only by a wrong quotation mark. The header must be good.
  */
 static void refuse_row(struct reading *reading, const char *what)
 {
-    if (!reading->keep_going || !reading->table->names)
+    if (!reading->keep_going || !reading->table->names) {
         fail_at(reading->table->path, reading->row_line, what);
+    }
     reading->table->rows_skipped++;
     reading->text_used = reading->row_text;
     reading->position = reading->row_next;
@@ -160,12 +174,14 @@ static void keep_header(struct reading *reading)
     table->num_columns = reading->row_cells;
     table->names = must_alloc(reading->row_cells * sizeof *table->names);
     memcpy(table->names, reading->row, reading->row_cells * sizeof *table->names);
-    if (!table_number(table->names[0], &number))
+    if (!table_number(table->names[0], &number)) {
         table_fail(table, TABLE_HEADER, "no header row: the first row begins with a number");
+    }
     for (size_t i = 0; i < table->num_columns; i++) {
         for (size_t j = 0; j < i && *table->names[i]; j++) {
-            if (!strcmp(table->names[i], table->names[j]))
+            if (!strcmp(table->names[i], table->names[j])) {
                 table_fail(table, TABLE_HEADER, "column '%.60s' is there twice", table->names[i]);
+            }
         }
     }
 }
@@ -210,14 +226,16 @@ static void parse_line(struct reading *reading, size_t length)
 {
     const char *line = reading->content + reading->position;
 
-    if (!reading->row_is_open)
+    if (!reading->row_is_open) {
         begin_row(reading, length);
+    }
     reading->position += length;
     reading->line++;
     if (csv_parse(&reading->parser, line, length, on_cell, on_row_end, reading) != length) {
-        if (csv_error(&reading->parser) != CSV_EPARSE)
+        if (csv_error(&reading->parser) != CSV_EPARSE) {
             fail(EXIT_RUNTIME, "%s: %s", reading->table->path,
                  csv_strerror(csv_error(&reading->parser)));
+        }
         refuse_row(reading, "a quotation mark inside a cell");
     } else if (reading->row_is_complete) {
         end_row(reading);
@@ -242,22 +260,26 @@ static void parse_lines(struct reading *reading)
 /* The last row may have no line end, or no end of its quotes. */
 static void finish_rows(struct reading *reading)
 {
-    if (csv_fini(&reading->parser, on_cell, on_row_end, reading))
+    if (csv_fini(&reading->parser, on_cell, on_row_end, reading)) {
         refuse_row(reading, "a quoted cell has no end");
-    else if (reading->row_is_complete)
+    } else if (reading->row_is_complete) {
         end_row(reading);
+    }
 }
 
 static void check_content(const struct reading *reading)
 {
     const struct table *table = reading->table;
 
-    if (!table->names)
+    if (!table->names) {
         fail_at(table->path, reading->line - 1, "no header row");
-    if (!table->num_rows && table->rows_skipped)
+    }
+    if (!table->num_rows && table->rows_skipped) {
         fail_at(table->path, table->header_line, "not one good row after the header");
-    if (!table->num_rows)
+    }
+    if (!table->num_rows) {
         fail_at(table->path, table->header_line, "no rows after the header");
+    }
 }
 
 struct table *table_read(const char *path, bool keep_going)
@@ -282,8 +304,9 @@ struct table *table_read(const char *path, bool keep_going)
 
 void table_free(struct table *table)
 {
-    if (!table)
+    if (!table) {
         return;
+    }
     free(table->path);
     free(table->names);
     free(table->cells);
@@ -297,8 +320,9 @@ void table_free(struct table *table)
 int table_find(const struct table *table, const char *name)
 {
     for (size_t i = 0; i < table->num_columns; i++) {
-        if (!strcmp(table->names[i], name))
+        if (!strcmp(table->names[i], name)) {
             return (int)i;
+        }
     }
     return -1;
 }
@@ -307,8 +331,9 @@ int table_need(const struct table *table, const char *name)
 {
     int column = table_find(table, name);
 
-    if (column < 0)
+    if (column < 0) {
         table_fail(table, TABLE_HEADER, "no column '%s'", name);
+    }
     return column;
 }
 
@@ -319,8 +344,9 @@ const char *table_cell(const struct table *table, size_t row, int column)
 
 static const char *skip_digits(const char *c)
 {
-    while (*c >= '0' && *c <= '9')
+    while (*c >= '0' && *c <= '9') {
         c++;
+    }
     return c;
 }
 
@@ -349,10 +375,12 @@ static const char *why_not_decimal(const char *cell)
 {
     const char *word = cell + (*cell == '+' || *cell == '-');
 
-    if (!*cell)
+    if (!*cell) {
         return "is empty";
-    if (!strcasecmp(word, "nan") || !strcasecmp(word, "inf") || !strcasecmp(word, "infinity"))
+    }
+    if (!strcasecmp(word, "nan") || !strcasecmp(word, "inf") || !strcasecmp(word, "infinity")) {
         return "is not finite";
+    }
     return "is not a number";
 }
 
@@ -360,11 +388,13 @@ const char *table_number(const char *cell, double *value)
 {
     double number;
 
-    if (!is_decimal(cell))
+    if (!is_decimal(cell)) {
         return why_not_decimal(cell);
+    }
     number = strtod(cell, NULL);
-    if (!(fabs(number) <= (double)FLT_MAX))
+    if (!(fabs(number) <= (double)FLT_MAX)) {
         return "is out of the range of float32";
+    }
     *value = number;
     return NULL;
 }
@@ -375,14 +405,18 @@ static int64_t exact_time_us(const char *cell)
     const char *c = cell + (*cell == '+' || *cell == '-');
     int64_t time_us = 0;
 
-    for (; *c >= '0' && *c <= '9'; c++)
+    for (; *c >= '0' && *c <= '9'; c++) {
         time_us = 10 * time_us + (*c - '0');
-    if (*c == '.')
+    }
+    if (*c == '.') {
         c++;
-    for (int i = 0; i < 6; i++)
+    }
+    for (int i = 0; i < 6; i++) {
         time_us = 10 * time_us + (*c ? *c++ - '0' : 0);
-    if (*c >= '5')
+    }
+    if (*c >= '5') {
         time_us++;
+    }
     return *cell == '-' ? -time_us : time_us;
 }
 
@@ -391,10 +425,12 @@ const char *table_time_us(const char *cell, int64_t *time_us)
     double seconds;
     const char *reason = table_number(cell, &seconds);
 
-    if (reason)
+    if (reason) {
         return reason;
-    if (!(fabs(seconds) <= 9e12))
+    }
+    if (!(fabs(seconds) <= 9e12)) {
         return "is beyond 9e12 s";
+    }
     *time_us = strpbrk(cell, "eE") ? (int64_t)llround(seconds * 1e6) : exact_time_us(cell);
     return NULL;
 }
@@ -404,14 +440,17 @@ const char *table_int32(const char *cell, int32_t *value)
     const char *digits = cell + (*cell == '+' || *cell == '-');
     long number;
 
-    if (!*cell)
+    if (!*cell) {
         return "is empty";
-    if (digits == skip_digits(digits) || *skip_digits(digits))
+    }
+    if (digits == skip_digits(digits) || *skip_digits(digits)) {
         return "is not an integer";
+    }
     errno = 0;
     number = strtol(cell, NULL, 10);
-    if (errno || number < INT32_MIN || number > INT32_MAX)
+    if (errno || number < INT32_MIN || number > INT32_MAX) {
         return "is out of the range of a 32-bit integer";
+    }
     *value = (int32_t)number;
     return NULL;
 }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * table: a CSV file with a header row, read by libcsv, columns found by name, the file's own line numbers kept.
+ * table: a CSV file with a header row, read by libcsv, columns found by name, the file's own line
+ * numbers kept.
  *
- * `#` lines and blank lines are skipped and counted as lines. Every error is `rhotrack: FILE:LINE: what is wrong`, exit 2.
+ * `#` lines and blank lines are skipped and counted as lines. Every error is `rhotrack: FILE:LINE:
+ * what is wrong`, exit 2.
  */
 #ifndef RHOTRACK_TOOL_TABLE_H
 #define RHOTRACK_TOOL_TABLE_H
@@ -14,10 +16,9 @@
 struct table {
     char *path;
     size_t num_columns, num_rows;
-    char **names; /* num_columns */
-    char **cells; /* num_rows x num_columns; "" where a cell is empty */
-    uint32_t *
-        lines; /* num_rows: the row's line in the file (its first, where quoted cells span several) */
+    char **names;    /* num_columns */
+    char **cells;    /* num_rows x num_columns; "" where a cell is empty */
+    uint32_t *lines; /* num_rows: the first line of the row in the file */
     uint32_t header_line;
     uint64_t rows_skipped;
     char *text; /* what names and cells point into */
@@ -26,9 +27,9 @@ struct table {
 #define TABLE_HEADER SIZE_MAX /* the header as a row for table_fail */
 
 /*
- * Reads a whole file; lines end with LF, CR LF or CR, a byte order mark is skipped. Refused: no such file, a folder,
- * empty, no header, no row, a name twice, NUL bytes, a row with fewer or more cells than the header, bad quotes (bad rows
- * are skipped and counted with keep_going).
+ * Reads a whole file; lines end with LF, CR LF or CR, a byte order mark is skipped. Refused: no
+ * such file, a folder, empty, no header, no row, a name twice, NUL bytes, a row with fewer or more
+ * cells than the header, bad quotes (bad rows are skipped and counted with keep_going).
  */
 struct table *table_read(const char *path, bool keep_going);
 void table_free(struct table *table);
@@ -40,18 +41,22 @@ int table_need(const struct table *table, const char *name);
 const char *table_cell(const struct table *table, size_t row, int column);
 
 /*
- * A cell as a number: plain decimal, within float range; NaN, Inf, hexadecimal and trailing text are refused. Returns
- * NULL and sets *value, or the reason as a constant text.
+ * A cell as a number: plain decimal, within float range; NaN, Inf, hexadecimal and trailing text
+ * are refused. Returns NULL and sets *value, or the reason as a constant text.
  */
 const char *table_number(const char *cell, double *value);
 
 /*
- * A decimal number of seconds in microseconds, rounded to nearest without detour over floating point where it has no
- * exponent; |t| <= 9e12 s. Returns NULL and sets *time_us, or the reason as a constant text.
+ * A decimal number of seconds in microseconds, rounded to nearest without detour over floating
+ * point where it has no exponent; |t| <= 9e12 s. Returns NULL and sets *time_us, or the reason as a
+ * constant text.
  */
 const char *table_time_us(const char *cell, int64_t *time_us);
 
-/* A cell as a whole number within int32_t. Returns NULL and sets *value, or the reason as a constant text. */
+/*
+ * A cell as a whole number within int32_t. Returns NULL and sets *value, or the reason as a
+ * constant text.
+ */
 const char *table_int32(const char *cell, int32_t *value);
 
 /* `rhotrack: FILE:LINE: ` and the message; exit 2. */

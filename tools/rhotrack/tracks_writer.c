@@ -30,8 +30,9 @@ void tracks_write_header(FILE *file, bool with_covariance)
           "sigma_m,sigma_mps,hits,misses,sensor_id,plot",
           file);
     for (int i = 0; with_covariance && i < RHO_KALMAN_STATES; i++) {
-        for (int j = 0; j <= i; j++)
+        for (int j = 0; j <= i; j++) {
             fprintf(file, ",cov_%s_%s", states[i], states[j]);
+        }
     }
     fputc('\n', file);
 }
@@ -41,22 +42,25 @@ static void write_track(FILE *file, int64_t time_us, const struct rho_track_repo
 {
     write_time(file, time_us);
     fprintf(file, ",%" PRIu32 ",%s", track->track_id, rho_track_status_name(track->status));
-    for (int i = 0; i < RHO_KALMAN_STATES; i++)
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         write_float(file, track->state[i]);
+    }
     fputs(",0,0,0", file); /* this version's filter has no acceleration */
     write_float(file, track->sigma_m);
     write_float(file, track->sigma_mps);
     fprintf(file, ",%u,%u,%" PRId32 ",%" PRId32, (unsigned)track->hits, (unsigned)track->misses,
             track->sensor_id, track->plot);
-    for (int i = 0; with_covariance && i < RHO_TRIANGLE(RHO_KALMAN_STATES); i++)
+    for (int i = 0; with_covariance && i < RHO_TRIANGLE(RHO_KALMAN_STATES); i++) {
         write_float(file, track->covariance[i]);
+    }
     fputc('\n', file);
 }
 
 void tracks_write_report(FILE *file, const struct rho_report *report, bool with_covariance)
 {
-    for (int i = 0; i < report->num_tracks; i++)
+    for (int i = 0; i < report->num_tracks; i++) {
         write_track(file, report->time_us, &report->tracks[i], with_covariance);
+    }
 }
 
 void initiated_write_header(FILE *file)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracks_writer: tracks and initiated tracks as CSV. Times to the microsecond, numbers in the fewest digits that keep
- * float32.
+ * tracks_writer: tracks and initiated tracks as CSV. Times to the microsecond, numbers in the
+ * fewest digits that keep float32.
  */
 #ifndef RHOTRACK_TOOL_TRACKS_WRITER_H
 #define RHOTRACK_TOOL_TRACKS_WRITER_H
@@ -13,7 +13,10 @@
 #include "rhotrack/initiator.h"
 #include "rhotrack/tracker.h"
 
-/* t_s,track_id,status,...,plot; with covariance 21 columns more: cov_x_x,cov_y_x,cov_y_y,...,cov_vz_vz (SI units). */
+/*
+ * t_s,track_id,status,...,plot; with covariance 21 columns more:
+ * cov_x_x,cov_y_x,cov_y_y,...,cov_vz_vz (SI units).
+ */
 void tracks_write_header(FILE *file, bool with_covariance);
 
 /* One row a track of the report. */

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rhotrack/types.h"
+
+#define SECONDS_RELATIVE 1.2e-7
+
+static void every_fate_has_its_name(void **state)
+{
+    static const char *const names[RHO_NUM_FATES] = {"claimed", "held",    "ghost",
+                                                     "stale",   "invalid", "no_room"};
+
+    (void)state;
+    for (int i = 0; i < RHO_NUM_FATES; ++i) {
+        assert_string_equal(rho_fate_name((enum rho_fate)i), names[i]);
+    }
+}
+
+static void other_fates_are_unknown(void **state)
+{
+    const int others[] = {RHO_NUM_FATES, 255, 256, INT32_MAX, -1, INT32_MIN};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
+        enum rho_fate fate;
+
+        _Static_assert(sizeof fate == sizeof others[0], "an enum of another size");
+        memcpy(&fate, &others[i], sizeof fate);
+        assert_string_equal(rho_fate_name(fate), "unknown");
+    }
+}
+
+static void counters_saturate(void **state)
+{
+    (void)state;
+    assert_int_equal(rho_count(0, 0), 0);
+    assert_int_equal(rho_count(0, 1), 1);
+    assert_int_equal(rho_count(40, 2), 42);
+    assert_int_equal(rho_count(UINT32_MAX - 1, 1), UINT32_MAX);
+    assert_int_equal(rho_count(UINT32_MAX - 2, 1), UINT32_MAX - 1);
+    assert_int_equal(rho_count(UINT32_MAX, 0), UINT32_MAX);
+    assert_int_equal(rho_count(UINT32_MAX, 1), UINT32_MAX);
+    assert_int_equal(rho_count(1, UINT32_MAX), UINT32_MAX);
+    assert_int_equal(rho_count(0, UINT32_MAX), UINT32_MAX);
+    assert_int_equal(rho_count(UINT32_MAX, UINT32_MAX), UINT32_MAX);
+    assert_int_equal(rho_count(0x80000000u, 0x80000000u), UINT32_MAX);
+    assert_int_equal(rho_count(0x80000000u, 0x7fffffffu), UINT32_MAX);
+    assert_int_equal(rho_count(0x80000000u, 0x7ffffffeu), UINT32_MAX - 1);
+}
+
+static void short_spans_are_rounded_once(void **state)
+{
+    (void)state;
+    for (int64_t span = 0; span <= 1 << 24; span += 37) {
+        const float expected = (float)((double)span / 1e6);
+
+        assert_true(rho_seconds_between(1000, 1000 + span) == expected);
+        assert_true(rho_seconds_between(1000 + span, 1000) == -expected);
+    }
+}
+
+static void assert_span(int64_t from_us, int64_t to_us)
+{
+    const double expected = ((double)to_us - (double)from_us) / 1e6;
+    const double got = rho_seconds_between(from_us, to_us);
+
+    assert_true(fabs(got - expected) <= SECONDS_RELATIVE * fabs(expected));
+    assert_true(rho_seconds_between(to_us, from_us) == -rho_seconds_between(from_us, to_us));
+}
+
+/* The sanitizer sees signed overflow; the figures show wrapping. */
+static void any_two_times_have_a_span(void **state)
+{
+    const int64_t times[] = {INT64_MIN, INT64_MIN + 1, -(INT64_C(1) << 40), -1000001,
+                             -1,        0,             1,                   16777217,
+                             1700000000000000, INT64_C(1) << 62, INT64_MAX - 1, INT64_MAX};
+    const size_t n = sizeof times / sizeof times[0];
+
+    (void)state;
+    for (size_t i = 0; i < n; ++i) {
+        assert_true(rho_seconds_between(times[i], times[i]) == 0.0f);
+        for (size_t j = 0; j < n; ++j) {
+            /* Doubles cannot tell neighbours this far out apart. */
+            if (llabs((times[i] >> 1) - (times[j] >> 1)) > 4096) {
+                assert_span(times[i], times[j]);
+            }
+        }
+    }
+    assert_true(rho_seconds_between(INT64_MIN, INT64_MIN + 1) == 1e-6f);
+    assert_true(rho_seconds_between(INT64_MAX, INT64_MAX - 1) == -1e-6f);
+    assert_true(rho_seconds_between(-1, 1) == 2e-6f);
+}
+
+static void within_includes_its_ends(void **state)
+{
+    (void)state;
+    assert_int_equal(rho_is_within(1.0f, 1.0f, 2.0f), 1);
+    assert_int_equal(rho_is_within(2.0f, 1.0f, 2.0f), 1);
+    assert_int_equal(rho_is_within(1.5f, 1.0f, 2.0f), 1);
+    assert_int_equal(rho_is_within(-0.0f, 0.0f, 2.0f), 1);
+    assert_int_equal(rho_is_within(nextafterf(1.0f, 0.0f), 1.0f, 2.0f), 0);
+    assert_int_equal(rho_is_within(nextafterf(2.0f, 3.0f), 1.0f, 2.0f), 0);
+    assert_int_equal(rho_is_within(1.5f, 2.0f, 1.0f), 0);
+    assert_int_equal(rho_is_within(FLT_TRUE_MIN, 0.0f, FLT_MIN), 1);
+}
+
+static void within_refuses_what_is_not_finite(void **state)
+{
+    (void)state;
+    assert_int_equal(rho_is_within(NAN, -INFINITY, INFINITY), 0);
+    assert_int_equal(rho_is_within(INFINITY, -INFINITY, INFINITY), 0);
+    assert_int_equal(rho_is_within(-INFINITY, -INFINITY, INFINITY), 0);
+    assert_int_equal(rho_is_within(FLT_MAX, -INFINITY, INFINITY), 1);
+    assert_int_equal(rho_is_within(-FLT_MAX, -FLT_MAX, FLT_MAX), 1);
+    assert_int_equal(rho_is_within(0.0f, NAN, 1.0f), 0);
+    assert_int_equal(rho_is_within(0.0f, -1.0f, NAN), 0);
+}
+
+static void a_plots_noise_is_its_larger_horizontal_sigma(void **state)
+{
+    struct rho_plot plot = {.sigma_range_m = 15.0f, .sigma_cross_m = 180.0f, .sigma_up_m = 900.0f};
+
+    (void)state;
+    assert_true(rho_plot_sigma_m(&plot) == 180.0f);
+    plot.sigma_cross_m = 7.0f;
+    assert_true(rho_plot_sigma_m(&plot) == 15.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_fate_has_its_name),
+        cmocka_unit_test(other_fates_are_unknown),
+        cmocka_unit_test(counters_saturate),
+        cmocka_unit_test(short_spans_are_rounded_once),
+        cmocka_unit_test(any_two_times_have_a_span),
+        cmocka_unit_test(within_includes_its_ends),
+        cmocka_unit_test(within_refuses_what_is_not_finite),
+        cmocka_unit_test(a_plots_noise_is_its_larger_horizontal_sigma),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
