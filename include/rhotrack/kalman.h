@@ -43,10 +43,10 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
 RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density);
 
 /*
- * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0. *nis (may be NULL)
- * gets the normalised innovation squared. On an axis that is not open nothing else changes. Errors: NULL, VALUE (element,
- * value or variance, a result not finite), SINGULAR (innovation variance not positive and finite); unchanged.
- * Cost: about 330 instructions. Stack: 144 bytes.
+ * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0 (below
+ * RHO_KALMAN_VARIANCE_MIN it counts as that). *nis (may be NULL) gets the normalised innovation squared. On an axis that
+ * is not open nothing else changes. Errors: NULL, VALUE (element, value or variance, a result not finite), SINGULAR
+ * (innovation variance not positive and finite); unchanged. Cost: about 330 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
                                                  float variance, float *nis);

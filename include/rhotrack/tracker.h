@@ -124,7 +124,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
  *              A scan older than the last accepted one is late: all its plots are STALE, nothing else changes.
  *   report     filled whole, whatever it held before
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
- * VALUE (sector not finite); nothing is changed, *report neither.
+ * VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.
  * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of the newest scan.
  * Stack: 1.6 KB.
  */

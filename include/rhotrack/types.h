@@ -23,6 +23,7 @@
 #define RHO_LIMIT_SIGMA_MIN 1.0e-3f
 #define RHO_LIMIT_SIGMA_MAX 1.0e5f
 #define RHO_LIMIT_OFFSET_US 60000000 /* a plot's own time from its scan's */
+#define RHO_LIMIT_TIME_US INT64_C(4000000000000000000) /* either side of 0; differences then fit 64 bits */
 
 /* What the plots of a scan measure beside x_m and y_m; values to be or-ed. */
 #define RHO_MEASURES_Z 1u

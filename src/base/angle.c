@@ -44,12 +44,7 @@ float rho_angle_wrap(float angle_rad)
     }
     turns = (float)(int32_t)(angle_rad * TURNS_PER_RADIAN + (angle_rad < 0.0f ? -0.5f : 0.5f));
     wrapped = without_turns(angle_rad, turns);
-    /* The count was rounded: near the cut it may be one off. */
-    if (wrapped >= RHO_PI) {
-        wrapped = without_turns(angle_rad, turns + 1.0f);
-    } else if (wrapped < -RHO_PI) {
-        wrapped = without_turns(angle_rad, turns - 1.0f);
-    }
+    /* The count is rounded: of all floats in range, two end beside the interval, by one digit. */
     return wrapped >= -RHO_PI && wrapped < RHO_PI ? wrapped : -RHO_PI;
 }
 
@@ -102,7 +97,6 @@ struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
 int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells)
 {
     const float cell = theta_rad * ((float)num_cells / RHO_PI);
-    int32_t index;
 
     if (!(num_cells > 0 && cell > 0.0f)) {
         return 0;
@@ -110,6 +104,5 @@ int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells)
     if (cell >= (float)num_cells) {
         return num_cells - 1;
     }
-    index = (int32_t)cell;
-    return index < num_cells ? index : num_cells - 1;
+    return (int32_t)cell;
 }

@@ -209,7 +209,7 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
                                    float variance, float *nis)
 {
     float row[6], gain[6], next[6];
-    float predicted, sum, inverse, total = 0.0f;
+    float predicted, sum, inverse, kept, total = 0.0f;
     const uint8_t *place;
     int j;
 
@@ -238,8 +238,10 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     memcpy(x, next, sizeof next);
     lower_covariances(p, row, gain);
     lower_variances(p, row, gain);
+    /* The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1. */
+    kept = variance / sum;
     for (j = 0; j < 6; ++j) {
-        p[place[j]] = gain[j] * variance;
+        p[place[j]] = row[j] * kept;
     }
     if (nis != NULL) {
         *nis = innovation * inverse * innovation;

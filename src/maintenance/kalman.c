@@ -37,10 +37,12 @@ static int is_variance(float v)
     return v >= RHO_KALMAN_VARIANCE_MIN && v <= RHO_KALMAN_VARIANCE_MAX;
 }
 
-/* Zero marks an axis that is not open and stays. */
+/* Of an open axis; zero marks one that is not, and stays. A negative one is left to be refused. */
 static inline float at_least_floor(float variance, float before)
 {
-    return variance < RHO_KALMAN_VARIANCE_MIN && before > 0.0f ? RHO_KALMAN_VARIANCE_MIN : variance;
+    const int is_low = variance >= 0.0f && variance < RHO_KALMAN_VARIANCE_MIN && before > 0.0f;
+
+    return is_low ? RHO_KALMAN_VARIANCE_MIN : variance;
 }
 
 /*
@@ -66,7 +68,7 @@ static inline int predict_axis(struct prediction *next, const struct rho_kalman 
     next->velocity_variance = velocity + q;
     next->mixed = mixed + moved + 0.5f * dt_s * q;
     return is_finite(next->position_m) && next->position_variance >= 0.0f &&
-           next->position_variance <= RHO_KALMAN_VARIANCE_MAX &&
+           next->position_variance <= RHO_KALMAN_VARIANCE_MAX && next->velocity_variance >= 0.0f &&
            next->velocity_variance <= RHO_KALMAN_VARIANCE_MAX;
 }
 
@@ -165,6 +167,7 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
                                   float variance, float *nis)
 {
     enum rho_status status;
+    float noise;
 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
@@ -173,8 +176,10 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
         !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
     }
+    /* Smaller still, and the result could vanish: an axis that is open would look closed. */
+    noise = variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
     status = rho_linalg_update6(kalman->state, kalman->covariance, element,
-                                value - kalman->state[element], variance, nis);
+                                value - kalman->state[element], noise, nis);
     if (status == RHO_OK) {
         keep_floor(&kalman->covariance[DIAGONAL(0)]);
         keep_floor(&kalman->covariance[DIAGONAL(1)]);

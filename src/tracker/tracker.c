@@ -256,6 +256,9 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
         !rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI)) {
         return RHO_ERROR_VALUE;
     }
+    if (scan->time_us > RHO_LIMIT_TIME_US || scan->time_us < -RHO_LIMIT_TIME_US) {
+        return RHO_ERROR_VALUE;
+    }
     int late = tracker->has_time && scan->time_us < tracker->time_us;
     return !initiator || late || rho_initiator_accepts(initiator, scan->time_us) ? RHO_OK
                                                                                  : RHO_ERROR_STATE;

@@ -148,8 +148,12 @@ static void sectors_hold_their_ends_and_what_is_between(void **state)
 
 static void equal_ends_are_the_whole_circle(void **state)
 {
-    const float ends[][2] = {{0.0f, 0.0f},       {2.0f, 2.0f},     {-RHO_PI, RHO_PI},
-                             {0.0f, RHO_TWO_PI}, {-1.0f, RHO_TWO_PI - 1.0f}, {99.0f, 99.0f}};
+    const float ends[][2] = {{0.0f, 0.0f},
+                             {2.0f, 2.0f},
+                             {-RHO_PI, RHO_PI},
+                             {0.0f, RHO_TWO_PI},
+                             {-1.0f, RHO_TWO_PI - 1.0f},
+                             {99.0f, 99.0f}};
 
     (void)state;
     for (size_t i = 0; i < NUM(ends); ++i) {
@@ -236,8 +240,8 @@ static void a_line_has_no_sense_but_a_side(void **state)
 
 static void no_direction_is_no_line(void **state)
 {
-    const float bad[][2] = {{0.0f, 0.0f},     {-0.0f, 0.0f},     {NAN, 1.0f},  {1.0f, NAN},
-                            {INFINITY, 1.0f}, {1.0f, -INFINITY}, {NAN, NAN}, {INFINITY, INFINITY}};
+    const float bad[][2] = {{0.0f, 0.0f},     {-0.0f, 0.0f},     {NAN, 1.0f}, {1.0f, NAN},
+                            {INFINITY, 1.0f}, {1.0f, -INFINITY}, {NAN, NAN},  {INFINITY, INFINITY}};
 
     (void)state;
     for (size_t i = 0; i < NUM(bad); ++i) {

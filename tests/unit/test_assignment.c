@@ -3,7 +3,6 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -215,18 +214,15 @@ static void equals_go_to_the_first_row_and_column(void **state)
 /* Each row prefers its left neighbour's column; the last row pushes all others along. */
 static void a_long_chain_moves_as_one(void **state)
 {
-    const unsigned n = RHO_MAX_TRACKS < RHO_MAX_PLOTS - 1 ? RHO_MAX_TRACKS : RHO_MAX_PLOTS - 1;
+    const unsigned n = RHO_MAX_TRACKS < RHO_MAX_PLOTS ? RHO_MAX_TRACKS : RHO_MAX_PLOTS;
 
     (void)state;
-    if (RHO_MAX_GATE_PLOTS < 2) {
-        skip();
-    }
     begin(n, n);
     for (unsigned i = 0; i + 1 < n; ++i) {
-        add(i, i, -100);
-        add(i, i + 1, -99);
+        add(i, i, -100000);
+        add(i, i + 1, -99999);
     }
-    add(n - 1, 0, -1000);
+    add(n - 1, 0, -1000000);
     rho_assignment_solve(&assignment);
     for (unsigned i = 0; i + 1 < n; ++i) {
         assert_int_equal(answer(i), i + 1);
@@ -243,8 +239,6 @@ static void problems_without_pairs(void **state)
     begin(3, 0);
     rho_assignment_solve(&assignment);
     assert_int_equal(answer(2), RHO_ASSIGNMENT_NONE);
-    begin(0, 3);
-    rho_assignment_solve(&assignment);
     begin(2, 2);
     add(0, 0, 0);
     add(1, 1, RHO_ASSIGNMENT_COST_MAX);
@@ -350,7 +344,7 @@ static void pose_full_problem(void)
 }
 
 /*
- * Optimality by duality (Kuhn and Munkres): with the answer's prices, no row would rather have another
+ * Optimality by duality (Kuhn and Munkres): at the final prices no row would rather have another
  * column of its own, or none, and a column that nobody has costs nothing.
  */
 static void assert_optimal(void)
@@ -370,8 +364,7 @@ static void assert_optimal(void)
             gain = pair->column == answer(i) ? reduced : gain;
         }
         assert_int_equal(gain, least);
-        assert_true(answer(i) == RHO_ASSIGNMENT_NONE ||
-                    assignment.column_row[answer(i)] == (int)i);
+        assert_true(answer(i) == RHO_ASSIGNMENT_NONE || assignment.column_row[answer(i)] == (int)i);
     }
 }
 
@@ -411,18 +404,15 @@ static void refused_init_changes_nothing(void **state)
     before = assignment;
     assert_int_equal(rho_assignment_init(NULL, sizeof assignment), RHO_ERROR_NULL);
     assert_int_equal(rho_assignment_init(&assignment, sizeof assignment - 1), RHO_ERROR_SIZE);
-    assert_int_equal(rho_assignment_init(&assignment, sizeof assignment + 1), RHO_ERROR_SIZE);
     assert_int_equal(rho_assignment_init(&assignment, 0), RHO_ERROR_SIZE);
     assert_memory_equal(&assignment, &before, sizeof before);
 }
 
 static void an_object_without_init_is_refused(void **state)
 {
-    const int fillings[] = {0, 0xa5, 0xff};
-
     (void)state;
-    for (int i = 0; i < 3; ++i) {
-        memset(&assignment, fillings[i], sizeof assignment);
+    for (int filling = 0; filling <= 0xff; filling += 0x55) {
+        memset(&assignment, filling, sizeof assignment);
         before = assignment;
         assert_int_equal(rho_assignment_begin(&assignment, 1, 1), RHO_ERROR_STATE);
         assert_int_equal(rho_assignment_add(&assignment, 0, 0, -1), RHO_ERROR_STATE);
@@ -449,8 +439,7 @@ static void refused_sizes_change_nothing(void **state)
     before = assignment;
     assert_int_equal(rho_assignment_begin(&assignment, RHO_MAX_TRACKS + 1, 1), RHO_ERROR_CAPACITY);
     assert_int_equal(rho_assignment_begin(&assignment, 1, RHO_MAX_PLOTS + 1), RHO_ERROR_CAPACITY);
-    assert_int_equal(rho_assignment_begin(&assignment, UINT32_MAX, UINT32_MAX),
-                     RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_assignment_begin(&assignment, UINT32_MAX, UINT32_MAX), RHO_ERROR_CAPACITY);
     assert_int_equal(rho_assignment_begin(&assignment, 65536, 65536), RHO_ERROR_CAPACITY);
     assert_memory_equal(&assignment, &before, sizeof before);
 }

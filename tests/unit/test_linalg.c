@@ -155,8 +155,8 @@ static void cholesky_refuses_bad_numbers_anywhere(void **state)
             if (bad[k] < INFINITY && place == RHO_AT(STATES - 1, STATES - 1)) {
                 continue; /* a large variance is a good one */
             }
-            if (!(bad[k] == FLT_MAX && (place == 0 || place == 2 || place == 5 || place == 9 ||
-                                        place == 14))) {
+            if (!(bad[k] == FLT_MAX &&
+                  (place == 0 || place == 2 || place == 5 || place == 9 || place == 14))) {
                 assert_cholesky_refuses(STATES, a, RHO_ERROR_SINGULAR);
             }
         }
@@ -277,7 +277,7 @@ static void gates_refuse_bad_matrices_and_distances(void **state)
     }
 }
 
-/* Every principal minor of two is positive here; the determinant is not. And products beyond float. */
+/* Every principal minor of two is positive, the determinant is not; and products beyond float. */
 static void gate3_refuses_by_its_last_pivot(void **state)
 {
     const float s[6] = {1.0f, 0.9f, 1.0f, 0.9f, -0.9f, 1.0f}, zero[3] = {0.0f};
@@ -335,8 +335,8 @@ static void update_agrees_with_the_formula(void **state)
         const double sum = old.p[RHO_AT(index, index)] + variance;
         float nis = GUARD;
 
-        assert_int_equal(rho_linalg_update6(e.x, e.p, index, (float)innovation, (float)variance,
-                                            &nis), RHO_OK);
+        assert_int_equal(
+            rho_linalg_update6(e.x, e.p, index, (float)innovation, (float)variance, &nis), RHO_OK);
         assert_float_equal(nis, innovation * innovation / sum, 1e-6 * nis);
         for (int i = 0; i < STATES; ++i) {
             const double p_i = old.p[RHO_AT(i, index)];

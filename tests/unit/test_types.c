@@ -80,9 +80,9 @@ static void assert_span(int64_t from_us, int64_t to_us)
 /* The sanitizer sees signed overflow; the figures show wrapping. */
 static void any_two_times_have_a_span(void **state)
 {
-    const int64_t times[] = {INT64_MIN, INT64_MIN + 1, -(INT64_C(1) << 40), -1000001,
-                             -1,        0,             1,                   16777217,
-                             1700000000000000, INT64_C(1) << 62, INT64_MAX - 1, INT64_MAX};
+    const int64_t times[] = {
+        INT64_MIN, INT64_MIN + 1,    -(INT64_C(1) << 40), -1000001,      -1,       0, 1,
+        16777217,  1700000000000000, INT64_C(1) << 62,    INT64_MAX - 1, INT64_MAX};
     const size_t n = sizeof times / sizeof times[0];
 
     (void)state;

@@ -211,7 +211,7 @@ def predict(x, p, dt, density, axes):
 
 
 def update(x, p, elements, values, variances):
-    """The vector update of several elements at once; returns the innovation's Mahalanobis square."""
+    """The vector update of several elements at once; returns their joint NIS."""
     h = [[float(j == e) for j in range(6)] for e in elements]
     r = [[v if i == j else 0.0 for j in range(len(elements))] for i, v in enumerate(variances)]
     s = combined(product(product(h, p), transposed(h)), r, 1.0)
