@@ -199,6 +199,7 @@ static void read_table(struct scan_reader *reader, const struct table *table)
 static void read_path(struct scan_reader *reader, const char *path)
 {
     struct table *table = table_read(path, reader->keep_going);
+    table_need_rows(table);
 
     reader->rows_skipped += table->rows_skipped;
     reader->num_open = 0;

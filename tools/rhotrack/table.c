@@ -277,6 +277,10 @@ static void check_content(const struct reading *reading)
     if (!table->num_rows && table->rows_skipped) {
         fail_at(table->path, table->header_line, "not one good row after the header");
     }
+}
+
+void table_need_rows(const struct table *table)
+{
     if (!table->num_rows) {
         fail_at(table->path, table->header_line, "no rows after the header");
     }

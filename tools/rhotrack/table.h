@@ -28,11 +28,14 @@ struct table {
 
 /*
  * Reads a whole file; lines end with LF, CR LF or CR, a byte order mark is skipped. Refused: no
- * such file, a folder, empty, no header, no row, a name twice, NUL bytes, a row with fewer or more
+ * such file, a folder, empty, no header, a name twice, NUL bytes, a row with fewer or more
  * cells than the header, bad quotes (bad rows are skipped and counted with keep_going).
  */
 struct table *table_read(const char *path, bool keep_going);
 void table_free(struct table *table);
+
+/* A header without rows is refused here: exit 2. */
+void table_need_rows(const struct table *table);
 
 /* Index of a column, or -1; table_need exits with 2 where it is missing. */
 int table_find(const struct table *table, const char *name);

@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bench: what the library costs on this machine. Every figure is the minimum of rounds, all in one run, so that their
+ * ratios can be trusted where the absolute times cannot.
+ */
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "common.h"
+#include "grid.h"
+#include "scenario.h"
+
+#define ROUNDS 7
+#define FILTER_STEPS 20000
+#define FILTER_LIFE 200
+
+struct bench {
+    cJSON *json; /* NULL: tables are wanted */
+    uint64_t seed;
+};
+
+static void check(enum rho_status status, const char *what)
+{
+    if (status != RHO_OK) {
+        fail(EXIT_RUNTIME, "bench: %s: %s", what, rho_status_name(status));
+    }
+}
+
+/* ---- kalman ----------------------------------------------------------------------------------- */
+
+static void open_filter(struct rho_kalman *kalman)
+{
+    rho_kalman_init(kalman);
+    for (int axis = 0; axis < 3; axis++) {
+        check(rho_kalman_open_axis(kalman, axis, 100.0f, 100.0f, 1e4f), "open");
+    }
+}
+
+/* One predict and `updates` scalar updates, as a stream that the compiler cannot leave out. An axis without updates
+ * would drift beyond its limits: the filter starts anew from time to time. */
+static double filter_ns(int updates)
+{
+    struct rho_kalman kalman;
+    int64_t start_us = clock_us();
+    for (int step = 0; step < FILTER_STEPS; step++) {
+        if (step % FILTER_LIFE == 0) {
+            open_filter(&kalman);
+        }
+        check(rho_kalman_predict(&kalman, 1.0f, 1.0f), "predict");
+        for (int i = 0; i < updates; i++) {
+            check(rho_kalman_update(&kalman, i, 100.0f + (float)(step & 7), 100.0f, NULL), "update");
+        }
+    }
+    return (double)(clock_us() - start_us) * 1e3 / FILTER_STEPS;
+}
+
+static void bench_kalman(const struct bench *bench)
+{
+    static const int updates[] = {2, 3, 6};
+    struct grid grid = grid_start(1, "kalman step|ns");
+    for (size_t i = 0; i < 3; i++) {
+        double best = INFINITY;
+        char name[48];
+        for (int round = 0; round < ROUNDS; round++) {
+            best = fmin(best, filter_ns(updates[i]));
+        }
+        snprintf(name, sizeof name, "predict + %d scalar updates", updates[i]);
+        grid_row(&grid, "%s|%.0f", name, best);
+        if (bench->json) {
+            snprintf(name, sizeof name, "kalman_%d_updates_ns", updates[i]);
+            cJSON_AddNumberToObject(bench->json, name, best);
+        }
+    }
+    if (!bench->json) {
+        grid_print(&grid, stdout);
+        printf("\n");
+    }
+    grid_free(&grid);
+}
+
+/* ---- scans of a simulation -------------------------------------------------------------------- */
+
+static struct rho_plot *plots_of(const struct simulation *simulation, size_t index)
+{
+    const struct simulated_scan *scan = &simulation->scans[index];
+    struct rho_plot *plots = must_calloc(scan->num_plots + 1, sizeof *plots);
+    for (size_t i = 0; i < scan->num_plots; i++) {
+        plots[i].x_m = (float)scan->plots[i].x_m;
+        plots[i].y_m = (float)scan->plots[i].y_m;
+        plots[i].sigma_range_m = plots[i].sigma_cross_m = (float)simulation->sigma_m;
+    }
+    return plots;
+}
+
+static struct rho_scan *scans_of(const struct simulation *simulation)
+{
+    struct rho_scan *scans = must_calloc(simulation->num_scans, sizeof *scans);
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        scans[i].time_us = (int64_t)llround(simulation->scans[i].t_s * 1e6);
+        scans[i].num_plots = (uint32_t)simulation->scans[i].num_plots;
+        scans[i].plots = plots_of(simulation, i);
+    }
+    return scans;
+}
+
+static void free_scans(struct rho_scan *scans, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        free((void *)(uintptr_t)scans[i].plots);
+    }
+    free(scans);
+}
+
+/* ---- initiate --------------------------------------------------------------------------------- */
+
+static double window_us(struct rho_initiator *initiator, const struct rho_scan *scans, size_t count,
+                        const struct rho_initiator_config *config)
+{
+    static uint8_t fates[RHO_MAX_PLOTS];
+    uint32_t unused = 0;
+    check(rho_initiator_init(initiator, sizeof *initiator, config), "initiator");
+    for (size_t i = 0; i < count; i++) {
+        memset(fates, RHO_FATE_HELD, sizeof fates);
+        check(rho_initiator_push(initiator, &scans[i], fates, &unused), "push");
+    }
+    int64_t start_us = clock_us();
+    check(rho_initiator_search(initiator, RHO_SEARCH_BATCH), "search");
+    return (double)(clock_us() - start_us);
+}
+
+static void initiate_row(const struct bench *bench, struct grid *grid, struct rho_initiator *initiator,
+                         double clutter)
+{
+    struct parameters parameters;
+    struct rho_initiator_config config;
+    parameters_default(&parameters);
+    scenario_suggest("crossing", &parameters);
+    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_KM2, clutter / 10.0);
+    parameters_suggest(&parameters, PARAMETER_MIN_SCANS, 5);
+    struct simulation *simulation = scenario_simulate("crossing", &parameters, bench->seed, 0);
+    struct rho_scan *scans = scans_of(simulation);
+    parameters_to_initiator(&parameters, &config);
+    config.area_is_fixed = 1;
+    config.area = (struct rho_extent){(float)simulation->area.x_min_m, (float)simulation->area.x_max_m,
+                                      (float)simulation->area.y_min_m, (float)simulation->area.y_max_m};
+    double best = INFINITY;
+    for (int round = 0; round < ROUNDS; round++) {
+        best = fmin(best, window_us(initiator, scans, simulation->num_scans, &config));
+    }
+    grid_row(grid, "%.0f|%.0f|%u|%u|%u|%u", clutter, best, initiator->work.seeds,
+             initiator->work.window.lookups, initiator->work.window.distances, initiator->work.fits);
+    if (bench->json) {
+        char name[48];
+        snprintf(name, sizeof name, "initiate_%.0f_clutter_us", clutter);
+        cJSON_AddNumberToObject(bench->json, name, best);
+    }
+    free_scans(scans, simulation->num_scans);
+    simulation_free(simulation);
+}
+
+static void bench_initiate(const struct bench *bench)
+{
+    static const double clutter[] = {0, 10, 100, 300};
+    struct rho_initiator *initiator = must_alloc(sizeof *initiator);
+    struct grid grid = grid_start(0, "clutter plots a scan|us a window|seeds|look-ups|distances|fits");
+    for (size_t i = 0; i < sizeof clutter / sizeof clutter[0]; i++) {
+        initiate_row(bench, &grid, initiator, clutter[i]);
+    }
+    if (!bench->json) {
+        printf("initiate: one batch window, Table 1's targets, 7 scans, 5 votes\n");
+        grid_print(&grid, stdout);
+        printf("\n");
+    }
+    grid_free(&grid);
+    free(initiator);
+}
+
+/* ---- track ------------------------------------------------------------------------------------ */
+
+struct chain {
+    struct rho_tracker *tracker;
+    struct rho_initiator *initiator;
+    struct rho_report *report;
+};
+
+struct cost {
+    double mean_us, worst_us;
+    unsigned tracks;
+};
+
+static struct cost run_chain(struct chain *chain, const struct parameters *parameters,
+                             const struct rho_scan *scans, size_t count)
+{
+    struct rho_tracker_config maintain;
+    struct rho_initiator_config start;
+    struct cost cost = {0};
+    parameters_to_tracker(parameters, &maintain);
+    parameters_to_initiator(parameters, &start);
+    check(rho_tracker_init(chain->tracker, sizeof *chain->tracker, &maintain), "tracker");
+    check(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &start), "initiator");
+    for (size_t i = 0; i < count; i++) {
+        int64_t start_us = clock_us();
+        check(rho_tracker_step(chain->tracker, chain->initiator, &scans[i], chain->report), "step");
+        double us = (double)(clock_us() - start_us);
+        cost.mean_us += us / (double)count;
+        cost.worst_us = fmax(cost.worst_us, us);
+    }
+    cost.tracks = chain->tracker->counters.tracks_confirmed;
+    return cost;
+}
+
+static struct cost track_cost(const struct bench *bench, struct chain *chain, double plots)
+{
+    struct parameters parameters;
+    parameters_default(&parameters);
+    scenario_suggest("traffic", &parameters);
+    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, plots - 50.0);
+    struct simulation *simulation = scenario_simulate("traffic", &parameters, bench->seed, 0);
+    struct rho_scan *scans = scans_of(simulation);
+    struct cost best = {.mean_us = INFINITY, .worst_us = INFINITY};
+    for (int round = 0; round < ROUNDS; round++) {
+        struct cost cost = run_chain(chain, &parameters, scans, simulation->num_scans);
+        best.mean_us = fmin(best.mean_us, cost.mean_us);
+        best.worst_us = fmin(best.worst_us, cost.worst_us);
+        best.tracks = cost.tracks;
+    }
+    free_scans(scans, simulation->num_scans);
+    simulation_free(simulation);
+    return best;
+}
+
+static void bench_track(const struct bench *bench)
+{
+    static const double plots[] = {100, 300, 1000, 3000, 5000};
+    struct chain chain = {must_alloc(sizeof *chain.tracker), must_alloc(sizeof *chain.initiator),
+                          must_alloc(sizeof *chain.report)};
+    struct grid grid = grid_start(0, "plots a scan|us a scan|worst scan us|ratio|tracks confirmed");
+    double first_us = 0.0;
+    for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
+        struct cost cost = track_cost(bench, &chain, plots[i]);
+        first_us = i == 0 ? cost.mean_us : first_us;
+        grid_row(&grid, "%.0f|%.0f|%.0f|%.1f|%u", plots[i], cost.mean_us, cost.worst_us,
+                 cost.mean_us / first_us, cost.tracks);
+        if (bench->json) {
+            char name[48];
+            snprintf(name, sizeof name, "track_%.0f_plots_us", plots[i]);
+            cJSON_AddNumberToObject(bench->json, name, cost.mean_us);
+        }
+    }
+    if (!bench->json) {
+        printf("track: 120 scans, 10 s apart, 500 x 500 km, 50 targets, sigma 50 m\n");
+        grid_print(&grid, stdout);
+        printf("\n");
+    }
+    grid_free(&grid);
+    free(chain.tracker);
+    free(chain.initiator);
+    free(chain.report);
+}
+
+/* ---- all -------------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *name;
+    void (*run)(const struct bench *bench);
+} benches[] = {{"kalman", bench_kalman}, {"initiate", bench_initiate}, {"track", bench_track}};
+
+#define NUM_BENCHES (sizeof benches / sizeof benches[0])
+
+static void read_machine(char *name, size_t size)
+{
+    char line[256];
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    snprintf(name, size, "unknown");
+    while (file && fgets(line, sizeof line, file)) {
+        char *text = strstr(line, ": ");
+        if (strncmp(line, "model name", 10) == 0 && text) {
+            line[strcspn(line, "\n")] = '\0';
+            snprintf(name, size, "%s", text + 2);
+            break;
+        }
+    }
+    if (file) {
+        fclose(file);
+    }
+}
+
+static void check_name(const char *name)
+{
+    for (size_t i = 0; i < NUM_BENCHES; i++) {
+        if (strcmp(benches[i].name, name) == 0) {
+            return;
+        }
+    }
+    fail(EXIT_USAGE, "no bench '%s'; there is: kalman, initiate, track", name);
+}
+
+int command_bench(struct command_line *line)
+{
+    char machine[200];
+    const char *wanted = line->num_arguments > 0 ? line->arguments[0] : NULL;
+    struct bench bench = {.seed = line->seed};
+    if (line->num_arguments > 1) {
+        fail(EXIT_USAGE, "bench: give one name or none; there is: kalman, initiate, track");
+    }
+    if (wanted) {
+        check_name(wanted);
+    }
+    read_machine(machine, sizeof machine);
+    if (line->json) {
+        bench.json = cJSON_CreateObject();
+        cJSON_AddStringToObject(bench.json, "machine", machine);
+    } else {
+        printf("%s; minimum of %d rounds\n\n", machine, ROUNDS);
+    }
+    for (size_t i = 0; i < NUM_BENCHES; i++) {
+        if (!wanted || strcmp(benches[i].name, wanted) == 0) {
+            benches[i].run(&bench);
+        }
+    }
+    if (bench.json) {
+        json_print(bench.json);
+    }
+    return 0;
+}
