@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT */
+/* plot: pictures of plots, tracks, errors and of the parameter space. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "common.h"
+#include "gospa.h"
+#include "picture.h"
+#include "plot_data.h"
+#include "rhotrack/angle.h"
+
+#define PI 3.14159265358979323846
+#define LEGEND_TRACKS_MAX 8 /* more tracks than that get no line of their own in the legend */
+#define KILOMETRES_FROM_M 4000.0
+
+/* ---- maps ------------------------------------------------------------------------------------- */
+
+struct map {
+    FILE *script;
+    double unit_m; /* 1 or 1000 */
+};
+
+static double extent_m(const struct plot_points *points)
+{
+    double largest = 0.0;
+    for (size_t i = 1; i < points->count; i++) {
+        largest = fmax(largest, fabs(points->list[i].x_m - points->list[0].x_m));
+        largest = fmax(largest, fabs(points->list[i].y_m - points->list[0].y_m));
+    }
+    return largest;
+}
+
+static struct map map_start(struct picture *picture, const struct plot_data *data)
+{
+    double largest = fmax(extent_m(&data->plots), fmax(extent_m(&data->tracks), extent_m(&data->truth)));
+    struct map map = {picture->script, largest > KILOMETRES_FROM_M ? 1000.0 : 1.0};
+    const char *unit = map.unit_m > 1.0 ? "km" : "m";
+    fprintf(map.script, "set size ratio -1\nset xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n", unit, unit);
+    return map;
+}
+
+static void put_point(const struct map *map, const struct plot_point *point)
+{
+    fprintf(map->script, "%.6g %.6g %.6g %d\n", point->x_m / map->unit_m, point->y_m / map->unit_m,
+            (double)point->time_us * 1e-6, point->id);
+}
+
+/* One data block; identities are apart by two blank lines. */
+static void put_points(const struct map *map, const char *name, const struct plot_points *points)
+{
+    fprintf(map->script, "$%s << EOD\n", name);
+    for (size_t i = 0; i < points->count; i++) {
+        if (i > 0 && points->list[i].id != points->list[i - 1].id) {
+            fprintf(map->script, "\n\n");
+        }
+        put_point(map, &points->list[i]);
+    }
+    fprintf(map->script, "EOD\n");
+}
+
+static void draw_scans(struct picture *picture, const struct plot_data *data)
+{
+    struct map map = map_start(picture, data);
+    put_points(&map, "plots", &data->plots);
+    fprintf(map.script,
+            "set key off\nset cblabel 'time (s)'\nset palette defined (0 '#00204d', 0.5 '#7c7b78', 1 '#ffd940')\n"
+            "plot $plots using 1:2:3 with points pt 7 ps 0.45 lc palette\n");
+}
+
+/* The straight line on which a track was found, back from its first row to the first plot's time. */
+static void put_start_lines(const struct map *map, const struct plot_data *data)
+{
+    struct plot_points one;
+    size_t at = 0;
+    int64_t first_us = data->plots.count ? data->plots.list[0].time_us : INT64_MAX;
+    fprintf(map->script, "$starts << EOD\n");
+    while (plot_data_next(&data->tracks, &at, &one)) {
+        const struct plot_point *start = &one.list[0];
+        double back_s = (double)(start->time_us - first_us) * 1e-6;
+        struct plot_point origin = *start;
+        back_s = back_s > 0.0 ? fmin(back_s, 6.0 * (double)(one.count > 1 ? one.list[1].time_us - start->time_us : 0) * 1e-6)
+                              : 0.0;
+        origin.x_m -= back_s * start->vx_mps;
+        origin.y_m -= back_s * start->vy_mps;
+        put_point(map, &origin);
+        put_point(map, start);
+        fprintf(map->script, "\n\n");
+    }
+    fprintf(map->script, "EOD\n");
+}
+
+static void put_labels(const struct map *map, const struct plot_points *tracks)
+{
+    struct plot_points one;
+    size_t at = 0;
+    while (plot_data_next(tracks, &at, &one)) {
+        const struct plot_point *end = &one.list[one.count - 1];
+        fprintf(map->script, "set label '%d' at %.6g,%.6g offset 0.8,0.6 front\n", end->id,
+                end->x_m / map->unit_m, end->y_m / map->unit_m);
+    }
+}
+
+static size_t count_ids(const struct plot_points *points)
+{
+    struct plot_points one;
+    size_t at = 0, count = 0;
+    while (plot_data_next(points, &at, &one)) {
+        count++;
+    }
+    return count;
+}
+
+static void plot_track_lines(const struct map *map, const struct plot_points *tracks)
+{
+    struct plot_points one;
+    size_t at = 0, index = 0, many = count_ids(tracks) > LEGEND_TRACKS_MAX;
+    while (plot_data_next(tracks, &at, &one)) {
+        char title[32];
+        snprintf(title, sizeof title, many ? "" : "track %d", one.list[0].id);
+        if (many && index == 0) {
+            snprintf(title, sizeof title, "tracks");
+        }
+        fprintf(map->script,
+                ", \\\n $tracks index %zu using 1:2 with linespoints lw 2.5 pt %d ps 0.9 lc rgb '%s' %s%s%s", index,
+                picture_marker(index), picture_colour(index), *title ? "title '" : "notitle", title,
+                *title ? "'" : "");
+        index++;
+    }
+}
+
+static void draw_tracks(struct picture *picture, const struct plot_data *data)
+{
+    struct map map = map_start(picture, data);
+    put_points(&map, "plots", &data->plots);
+    put_points(&map, "truth", &data->truth);
+    put_points(&map, "tracks", &data->tracks);
+    put_start_lines(&map, data);
+    put_labels(&map, &data->tracks);
+    fprintf(map.script, "plot NaN notitle");
+    if (data->plots.count) {
+        fprintf(map.script, ", \\\n $plots using 1:2 with points pt 7 ps 0.3 lc rgb '#a8a8a8' title 'plots'");
+    }
+    if (data->truth.count) {
+        fprintf(map.script,
+                ", \\\n $truth using 1:2 with linespoints lw 1 dt 2 pt 6 ps 1.3 lc rgb '#000000' title 'truth'");
+    }
+    if (data->tracks.count) {
+        fprintf(map.script,
+                ", \\\n $starts using 1:2 with lines lw 1.5 dt 3 lc rgb '#444444' title 'line that started a track'");
+    }
+    plot_track_lines(&map, &data->tracks);
+    fprintf(map.script, "\n");
+}
+
+/* ---- parameter space -------------------------------------------------------------------------- */
+
+#define RHO_CELLS 240
+#define THETA_CELLS 360
+#define SCANS_SHOWN 16 /* one bit of a mask each */
+
+struct votes {
+    double rho_max_m;
+    uint16_t mask[RHO_CELLS][THETA_CELLS]; /* scans that voted: one vote a scan and cell */
+};
+
+static void vote(struct votes *votes, const struct plot_point *plot, int scan)
+{
+    for (int i = 0; i < THETA_CELLS; i++) {
+        double theta = (i + 0.5) * PI / THETA_CELLS;
+        double rho_m = plot->x_m * cos(theta) + plot->y_m * sin(theta);
+        int cell = (int)floor((rho_m / votes->rho_max_m + 1.0) * 0.5 * RHO_CELLS);
+        if (cell >= 0 && cell < RHO_CELLS) {
+            votes->mask[cell][i] |= (uint16_t)(1u << scan);
+        }
+    }
+}
+
+/* The last SCANS_SHOWN times of the file vote. */
+static void cast_votes(struct votes *votes, const struct plot_points *plots)
+{
+    int scan = 0;
+    for (size_t i = 0; i < plots->count; i++) {
+        votes->rho_max_m = fmax(votes->rho_max_m, 1.02 * hypot(plots->list[i].x_m, plots->list[i].y_m));
+    }
+    for (size_t i = plots->count; i-- > 0;) {
+        scan += i + 1 < plots->count && plots->list[i].time_us != plots->list[i + 1].time_us;
+        if (scan >= SCANS_SHOWN) {
+            return;
+        }
+        vote(votes, &plots->list[i], scan);
+    }
+}
+
+static void put_votes(FILE *script, const struct votes *votes, double unit_m)
+{
+    fprintf(script, "$votes << EOD\n");
+    for (int r = 0; r < RHO_CELLS; r++) {
+        double rho = ((r + 0.5) * 2.0 / RHO_CELLS - 1.0) * votes->rho_max_m / unit_m;
+        for (int t = 0; t < THETA_CELLS; t++) {
+            fprintf(script, "%.5g %.5g %d\n", (t + 0.5) * 180.0 / THETA_CELLS, rho,
+                    __builtin_popcount(votes->mask[r][t]));
+        }
+        fprintf(script, "\n");
+    }
+    fprintf(script, "EOD\n");
+}
+
+static void put_lines(FILE *script, const struct plot_points *tracks, double unit_m)
+{
+    struct plot_points one;
+    size_t at = 0;
+    fprintf(script, "$lines << EOD\n");
+    while (plot_data_next(tracks, &at, &one)) {
+        const struct plot_point *end = &one.list[one.count - 1];
+        struct rho_line line = rho_angle_line((float)end->x_m, (float)end->y_m, (float)end->vx_mps,
+                                              (float)end->vy_mps);
+        fprintf(script, "%.5g %.5g %d\n", line.theta_rad * 180.0 / PI, line.rho_m / unit_m, end->id);
+    }
+    fprintf(script, "EOD\n");
+}
+
+static void draw_parameter_space(struct picture *picture, const struct plot_data *data)
+{
+    struct votes *votes = must_calloc(1, sizeof *votes);
+    votes->rho_max_m = 1.0;
+    cast_votes(votes, &data->plots);
+    double unit_m = votes->rho_max_m > KILOMETRES_FROM_M ? 1000.0 : 1.0;
+    put_votes(picture->script, votes, unit_m);
+    put_lines(picture->script, &data->tracks, unit_m);
+    fprintf(picture->script,
+            "set key outside bottom center horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
+            "set xtics 30\nset xlabel 'theta, direction of the normal (degrees)'\n"
+            "set ylabel 'rho, signed distance from the origin (%s)'\nset cblabel 'scans that voted'\nset cbtics 1\n"
+            "set palette defined (0 '#ffffff', 0.3 '#c6dbef', 0.6 '#4292c6', 1 '#08306b')\nset cbrange [0:*]\n"
+            "plot $votes using 1:2:3 with image notitle",
+            -votes->rho_max_m / unit_m, votes->rho_max_m / unit_m, unit_m > 1.0 ? "km" : "m");
+    if (data->tracks.count) {
+        fprintf(picture->script,
+                ", \\\n $lines using 1:2 with points pt 6 ps 2.4 lw 4 lc rgb '#ffffff' notitle, \\\n"
+                " $lines using 1:2 with points pt 6 ps 2.4 lw 2.5 lc rgb '#d55e00' title 'the tracks'' lines', \\\n"
+                " $lines using 1:2:(sprintf('track %%d', $3)) with labels left offset 1.6,0.9 "
+                "tc rgb '#d55e00' notitle");
+    }
+    fprintf(picture->script, "\n");
+    free(votes);
+}
+
+/* ---- errors ----------------------------------------------------------------------------------- */
+
+static size_t points_at(const struct plot_points *points, int64_t time_us, const struct plot_point **at)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        if (points->list[i].time_us == time_us && !points->list[i].is_tentative) {
+            at[count++] = &points->list[i];
+        }
+    }
+    return count;
+}
+
+static struct gospa_place *places_of(const struct plot_point *const *points, size_t count)
+{
+    struct gospa_place *places = must_calloc(count + 1, sizeof *places);
+    for (size_t i = 0; i < count; i++) {
+        places[i] = (struct gospa_place){points[i]->x_m, points[i]->y_m, 0.0};
+    }
+    return places;
+}
+
+/* Distance of the track paired with this target at this time; NAN where there is none. */
+static double error_m(const struct plot_data *data, const struct plot_point *target, double cutoff_m)
+{
+    const struct plot_point **targets = must_calloc(data->truth.count + 1, sizeof *targets);
+    const struct plot_point **tracks = must_calloc(data->tracks.count + 1, sizeof *tracks);
+    size_t num_targets = points_at(&data->truth, target->time_us, targets);
+    size_t num_tracks = points_at(&data->tracks, target->time_us, tracks);
+    struct gospa_place *target_places = places_of(targets, num_targets);
+    struct gospa_place *track_places = places_of(tracks, num_tracks);
+    int *track_of = must_calloc(num_targets + 1, sizeof *track_of);
+    double error = NAN;
+    gospa_compare(target_places, num_targets, track_places, num_tracks, cutoff_m, track_of);
+    for (size_t i = 0; i < num_targets; i++) {
+        if (targets[i] == target && track_of[i] >= 0) {
+            const struct plot_point *track = tracks[track_of[i]];
+            error = hypot(track->x_m - target->x_m, track->y_m - target->y_m);
+        }
+    }
+    free(targets);
+    free(tracks);
+    free(target_places);
+    free(track_places);
+    free(track_of);
+    return error;
+}
+
+static void put_errors(FILE *script, const struct plot_data *data, double cutoff_m)
+{
+    fprintf(script, "$errors << EOD\n");
+    for (size_t i = 0; i < data->truth.count; i++) {
+        const struct plot_point *target = &data->truth.list[i];
+        double error = error_m(data, target, cutoff_m);
+        if (i > 0 && target->id != data->truth.list[i - 1].id) {
+            fprintf(script, "\n\n");
+        }
+        if (isnan(error)) {
+            fprintf(script, "%.6f NaN\n", (double)target->time_us * 1e-6);
+        } else {
+            fprintf(script, "%.6f %.6g\n", (double)target->time_us * 1e-6, error);
+        }
+    }
+    fprintf(script, "EOD\n");
+}
+
+static void draw_errors(struct picture *picture, const struct plot_data *data, double cutoff_m)
+{
+    struct plot_points one;
+    size_t at = 0, index = 0, many = count_ids(&data->truth) > LEGEND_TRACKS_MAX;
+    put_errors(picture->script, data, cutoff_m);
+    fprintf(picture->script,
+            "set xlabel 'time (s)'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN notitle",
+            many ? "set key off\n" : "");
+    while (plot_data_next(&data->truth, &at, &one)) {
+        fprintf(picture->script,
+                ", \\\n $errors index %zu using 1:2 with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' title 'target %d'",
+                index, picture_marker(index), picture_colour(index), one.list[0].id);
+        index++;
+    }
+    fprintf(picture->script, "\n");
+}
+
+/* ---- the command ------------------------------------------------------------------------------ */
+
+static void need(const struct plot_points *points, const char *kind, const char *what)
+{
+    if (points->count == 0) {
+        fail(EXIT_USAGE, "plot %s: no file with %s is given", kind, what);
+    }
+}
+
+static void check_content(const char *kind, const struct plot_data *data)
+{
+    if (strcmp(kind, "scans") == 0 || strcmp(kind, "parameter-space") == 0) {
+        need(&data->plots, kind, "plots (t_s, x_m, y_m)");
+    } else if (strcmp(kind, "errors") == 0) {
+        need(&data->truth, kind, "truth (target_id)");
+    } else if (strcmp(kind, "tracks") != 0) {
+        fail(EXIT_USAGE, "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors", kind);
+    } else if (data->plots.count + data->tracks.count + data->truth.count == 0) {
+        fail(EXIT_USAGE, "plot tracks: the files hold nothing to draw");
+    }
+}
+
+static void draw(const char *kind, struct picture *picture, const struct plot_data *data, double cutoff_m)
+{
+    if (strcmp(kind, "scans") == 0) {
+        draw_scans(picture, data);
+    } else if (strcmp(kind, "tracks") == 0) {
+        draw_tracks(picture, data);
+    } else if (strcmp(kind, "errors") == 0) {
+        draw_errors(picture, data, cutoff_m);
+    } else {
+        draw_parameter_space(picture, data);
+    }
+}
+
+int command_plot(struct command_line *line)
+{
+    if (line->num_arguments < 2 || !line->output) {
+        fail(EXIT_USAGE, "plot: give a picture (scans, tracks, parameter-space, errors), files, and -o FILE.svg");
+    }
+    const char *kind = line->arguments[0];
+    struct plot_data data = plot_data_read(line->arguments + 1, line->num_arguments - 1);
+    check_content(kind, &data);
+    struct picture picture = picture_open(line->output, 1100, 780);
+    draw(kind, &picture, &data, line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);
+    picture_close(&picture);
+    plot_data_free(&data);
+    return 0;
+}

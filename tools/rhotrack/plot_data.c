@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+#include "plot_data.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "common.h"
+#include "table.h"
+
+static double number_at(const struct table *table, size_t row, int column)
+{
+    double value = 0.0;
+    if (column < 0 || *table_cell(table, row, column) == '\0') {
+        return 0.0;
+    }
+    const char *reason = table_number(table_cell(table, row, column), &value);
+    if (reason) {
+        table_fail(table, row, "%s: '%s' %s", table->names[column], table_cell(table, row, column), reason);
+    }
+    return value;
+}
+
+static struct plot_point read_point(const struct table *table, size_t row, int id_column)
+{
+    struct plot_point point = {0};
+    int time_column = table_need(table, "t_s"), status = table_find(table, "status");
+    const char *reason = table_time_us(table_cell(table, row, time_column), &point.time_us);
+    if (!reason && id_column >= 0) {
+        reason = table_int32(table_cell(table, row, id_column), &point.id);
+    }
+    if (reason) {
+        table_fail(table, row, "time or identity: %s", reason);
+    }
+    point.x_m = number_at(table, row, table_need(table, "x_m"));
+    point.y_m = number_at(table, row, table_need(table, "y_m"));
+    point.vx_mps = number_at(table, row, table_find(table, "vx_mps"));
+    point.vy_mps = number_at(table, row, table_find(table, "vy_mps"));
+    point.is_tentative = status >= 0 && strcmp(table_cell(table, row, status), "tentative") == 0;
+    return point;
+}
+
+static void add_points(struct plot_points *points, const struct table *table, int id_column)
+{
+    int x_column = table_need(table, "x_m");
+    points->list =
+        must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
+    for (size_t row = 0; row < table->num_rows; row++) {
+        if (*table_cell(table, row, x_column) != '\0') { /* else: a scan that saw nothing */
+            points->list[points->count++] = read_point(table, row, id_column);
+        }
+    }
+}
+
+static void add_file(struct plot_data *data, const char *path)
+{
+    struct table *table = table_read(path, false);
+    int track = table_find(table, "track_id"), target = table_find(table, "target_id");
+    if (track >= 0) {
+        add_points(&data->tracks, table, track);
+    } else if (target >= 0) {
+        add_points(&data->truth, table, target);
+    } else {
+        add_points(&data->plots, table, -1);
+    }
+    table_free(table);
+}
+
+static int by_id_and_time(const void *a, const void *b)
+{
+    const struct plot_point *one = a, *other = b;
+    if (one->id != other->id) {
+        return one->id < other->id ? -1 : 1;
+    }
+    return one->time_us < other->time_us ? -1 : one->time_us > other->time_us;
+}
+
+bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_points *one)
+{
+    one->list = points->list + *at;
+    one->count = 0;
+    while (*at < points->count && points->list[*at].id == one->list[0].id) {
+        ++*at;
+        ++one->count;
+    }
+    return one->count > 0;
+}
+
+static bool was_confirmed(const struct plot_points *track)
+{
+    for (size_t i = 0; i < track->count; i++) {
+        if (!track->list[i].is_tentative) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void drop_unconfirmed(struct plot_points *tracks)
+{
+    struct plot_points one;
+    size_t at = 0, kept = 0;
+    while (plot_data_next(tracks, &at, &one)) {
+        if (was_confirmed(&one)) {
+            memmove(tracks->list + kept, one.list, one.count * sizeof one.list[0]);
+            kept += one.count;
+        }
+    }
+    tracks->count = kept;
+}
+
+static void sort_points(struct plot_points *points)
+{
+    if (points->count > 0) {
+        qsort(points->list, points->count, sizeof points->list[0], by_id_and_time);
+    }
+}
+
+struct plot_data plot_data_read(char *const *paths, int num_paths)
+{
+    struct plot_data data = {0};
+    for (int i = 0; i < num_paths; i++) {
+        add_file(&data, paths[i]);
+    }
+    sort_points(&data.tracks);
+    sort_points(&data.truth);
+    drop_unconfirmed(&data.tracks);
+    return data;
+}
+
+void plot_data_free(struct plot_data *data)
+{
+    free(data->plots.list);
+    free(data->tracks.list);
+    free(data->truth.list);
+}
