@@ -156,40 +156,60 @@ static void draw_tracks(struct picture *picture, const struct plot_data *data)
 
 /* ---- parameter space -------------------------------------------------------------------------- */
 
-#define RHO_CELLS 240
-#define THETA_CELLS 360
-#define SCANS_SHOWN 16 /* one bit of a mask each */
+#define RHO_CELLS 480
+#define THETA_CELLS 540
+#define SCANS_SHOWN 12 /* the newest times of the file vote: as many as an initiation window can hold */
 
 struct votes {
-    double rho_max_m;
-    uint16_t mask[RHO_CELLS][THETA_CELLS]; /* scans that voted: one vote a scan and cell */
+    double rho_min_m, rho_max_m;
+    uint16_t count[RHO_CELLS][THETA_CELLS];
 };
 
-static void vote(struct votes *votes, const struct plot_point *plot, int scan)
+static double theta_at(int cell)
 {
-    for (int i = 0; i < THETA_CELLS; i++) {
-        double theta = (i + 0.5) * PI / THETA_CELLS;
-        double rho_m = plot->x_m * cos(theta) + plot->y_m * sin(theta);
-        int cell = (int)floor((rho_m / votes->rho_max_m + 1.0) * 0.5 * RHO_CELLS);
-        if (cell >= 0 && cell < RHO_CELLS) {
-            votes->mask[cell][i] |= (uint16_t)(1u << scan);
+    return (cell + 0.5) * PI / THETA_CELLS;
+}
+
+static double rho_of(const struct plot_point *plot, double theta)
+{
+    return plot->x_m * cos(theta) + plot->y_m * sin(theta);
+}
+
+/* First of the newest SCANS_SHOWN times' plots. */
+static size_t first_shown(const struct plot_points *plots)
+{
+    size_t first = plots->count;
+    for (int scans = 0; first > 0; first--) {
+        scans += first == plots->count || plots->list[first - 1].time_us != plots->list[first].time_us;
+        if (scans > SCANS_SHOWN) {
+            break;
+        }
+    }
+    return first;
+}
+
+static void find_range(struct votes *votes, const struct plot_points *plots, size_t first)
+{
+    votes->rho_min_m = INFINITY;
+    votes->rho_max_m = -INFINITY;
+    for (size_t i = first; i < plots->count; i++) {
+        for (int t = 0; t < THETA_CELLS; t++) {
+            votes->rho_min_m = fmin(votes->rho_min_m, rho_of(&plots->list[i], theta_at(t)) - 1.0);
+            votes->rho_max_m = fmax(votes->rho_max_m, rho_of(&plots->list[i], theta_at(t)) + 1.0);
         }
     }
 }
 
-/* The last SCANS_SHOWN times of the file vote. */
 static void cast_votes(struct votes *votes, const struct plot_points *plots)
 {
-    int scan = 0;
-    for (size_t i = 0; i < plots->count; i++) {
-        votes->rho_max_m = fmax(votes->rho_max_m, 1.02 * hypot(plots->list[i].x_m, plots->list[i].y_m));
-    }
-    for (size_t i = plots->count; i-- > 0;) {
-        scan += i + 1 < plots->count && plots->list[i].time_us != plots->list[i + 1].time_us;
-        if (scan >= SCANS_SHOWN) {
-            return;
+    size_t first = first_shown(plots);
+    find_range(votes, plots, first);
+    double cells_per_m = RHO_CELLS / (votes->rho_max_m - votes->rho_min_m);
+    for (size_t i = first; i < plots->count; i++) {
+        for (int t = 0; t < THETA_CELLS; t++) {
+            int cell = (int)((rho_of(&plots->list[i], theta_at(t)) - votes->rho_min_m) * cells_per_m);
+            votes->count[cell][t] = (uint16_t)(votes->count[cell][t] + 1u);
         }
-        vote(votes, &plots->list[i], scan);
     }
 }
 
@@ -197,10 +217,10 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
 {
     fprintf(script, "$votes << EOD\n");
     for (int r = 0; r < RHO_CELLS; r++) {
-        double rho = ((r + 0.5) * 2.0 / RHO_CELLS - 1.0) * votes->rho_max_m / unit_m;
+        double width_m = (votes->rho_max_m - votes->rho_min_m) / RHO_CELLS;
+        double rho = (votes->rho_min_m + (r + 0.5) * width_m) / unit_m;
         for (int t = 0; t < THETA_CELLS; t++) {
-            fprintf(script, "%.5g %.5g %d\n", (t + 0.5) * 180.0 / THETA_CELLS, rho,
-                    __builtin_popcount(votes->mask[r][t]));
+            fprintf(script, "%.5g %.5g %d\n", theta_at(t) * 180.0 / PI, rho, votes->count[r][t]);
         }
         fprintf(script, "\n");
     }
@@ -224,24 +244,24 @@ static void put_lines(FILE *script, const struct plot_points *tracks, double uni
 static void draw_parameter_space(struct picture *picture, const struct plot_data *data)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
-    votes->rho_max_m = 1.0;
     cast_votes(votes, &data->plots);
-    double unit_m = votes->rho_max_m > KILOMETRES_FROM_M ? 1000.0 : 1.0;
+    double unit_m = votes->rho_max_m - votes->rho_min_m > KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
     put_lines(picture->script, &data->tracks, unit_m);
     fprintf(picture->script,
-            "set key outside bottom center horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
+            "set key outside top left horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
             "set xtics 30\nset xlabel 'theta, direction of the normal (degrees)'\n"
-            "set ylabel 'rho, signed distance from the origin (%s)'\nset cblabel 'scans that voted'\nset cbtics 1\n"
-            "set palette defined (0 '#ffffff', 0.3 '#c6dbef', 0.6 '#4292c6', 1 '#08306b')\nset cbrange [0:*]\n"
+            "set ylabel 'rho, signed distance from the origin (%s)'\nset cblabel 'plots that voted'\n"
+            "set palette defined (0 '#ffffff', 0.15 '#d0dff0', 0.5 '#5a9bd0', 1 '#08306b')\nset cbrange [0:*]\n"
+            "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.6,0.4\n"
             "plot $votes using 1:2:3 with image notitle",
-            -votes->rho_max_m / unit_m, votes->rho_max_m / unit_m, unit_m > 1.0 ? "km" : "m");
+            votes->rho_min_m / unit_m, votes->rho_max_m / unit_m, unit_m > 1.0 ? "km" : "m");
     if (data->tracks.count) {
         fprintf(picture->script,
                 ", \\\n $lines using 1:2 with points pt 6 ps 2.4 lw 4 lc rgb '#ffffff' notitle, \\\n"
                 " $lines using 1:2 with points pt 6 ps 2.4 lw 2.5 lc rgb '#d55e00' title 'the tracks'' lines', \\\n"
-                " $lines using 1:2:(sprintf('track %%d', $3)) with labels left offset 1.6,0.9 "
-                "tc rgb '#d55e00' notitle");
+                " $lines using 1:2:(sprintf('track %%d', $3)) with labels left boxed offset 1.8,1.1 "
+                "tc rgb '#000000' notitle");
     }
     fprintf(picture->script, "\n");
     free(votes);
@@ -373,7 +393,7 @@ int command_plot(struct command_line *line)
     const char *kind = line->arguments[0];
     struct plot_data data = plot_data_read(line->arguments + 1, line->num_arguments - 1);
     check_content(kind, &data);
-    struct picture picture = picture_open(line->output, 1100, 780);
+    struct picture picture = picture_open(line->output, 1100, 680);
     draw(kind, &picture, &data, line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);
     picture_close(&picture);
     plot_data_free(&data);
