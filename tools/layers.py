@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-SYSTEM = {"stdint.h", "stdbool.h", "stddef.h", "string.h", "math.h"}
+SYSTEM = {"float.h", "stdint.h", "stdbool.h", "stddef.h", "string.h", "math.h"}
 COMMON = {"status", "config", "types"}
 COMMON_FROM_ROW = 4
 

@@ -27,7 +27,7 @@ int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 
 /*
  * The line through (x_m, y_m) along (dx, dy), which is not (0, 0) but finite (else NaN); theta = atan2(dx, -dy) brought into [0, pi), rho
- * signed to match (the paper "A Neutrosophic Hough Transform", eqs. (9) and (10), corrected: taken literally they turn
+ * signed to match (Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method ...", eqs. (9), (10), corrected: taken literally they turn
  * the line by pi/2 and drop rho's sign, which merges mirror lines).
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy);

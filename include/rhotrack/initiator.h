@@ -10,9 +10,9 @@
  * these plots are one target's, over the likelihood that they are clutter of the local density. Candidates are accepted
  * best first; one that shares more than one plot with a better one is fitted again on what is left.
  *
- * src/DESIGN.md derives the gates, the score and the densities up to which this can work. Sources: "Track Initiation
- * Based on a Neutrosophic Hough Transform" (votes in parameter space, kernels, time-ordered scans); the score is the
- * integrated likelihood ratio over all straight tracks with speeds between v_min_mps and v_max_mps.
+ * src/DESIGN.md derives the gates, the score and the densities up to which this can work. Source: Fan et al.,
+ * "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple Target Tracking" (votes in parameter space by
+ * kernels of time-ordered scans); the score is the integrated likelihood ratio over all straight tracks with speeds between v_min_mps and v_max_mps.
  */
 #ifndef RHOTRACK_INITIATOR_H
 #define RHOTRACK_INITIATOR_H

@@ -15,7 +15,7 @@
 #define RADAR_TABLE_INTERVAL_S 10.0
 #define RADAR_TABLE_SIGMA_M 60.0 /* the targets turn slightly: what a straight line leaves, an axis */
 
-/* x, then y, in metres: the real plots of the paper "A Neutrosophic Hough Transform ...", Table 3. */
+/* x, then y, in metres: the real plots of Fan et al., "Neutrosophic Hough Transform-Based Track Initiation ...", Table 3. */
 extern const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2];
 
 struct scenario_plan {
