@@ -48,8 +48,8 @@ RHO_MUST_CHECK enum rho_status rho_assignment_init(struct rho_assignment *assign
  * Starts a problem of num_rows x num_columns without pairs. Errors: NULL, STATE, CAPACITY (rows beyond RHO_MAX_TRACKS,
  * columns beyond RHO_MAX_PLOTS). Cost: num_rows + num_columns.
  */
-RHO_MUST_CHECK enum rho_status rho_assignment_begin(struct rho_assignment *assignment, unsigned num_rows,
-                                                    unsigned num_columns);
+RHO_MUST_CHECK enum rho_status rho_assignment_begin(struct rho_assignment *assignment,
+                                                    unsigned num_rows, unsigned num_columns);
 
 /*
  * Adds a pair; one of cost >= 0 is ignored. A row holds RHO_MAX_GATE_PLOTS pairs: beyond, the dearest gives way and

@@ -89,11 +89,13 @@
  * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (initiator.c, tracker.c).
  * Embedded: initiator 64 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
  */
-#define RHO_RAM_WINDOW_BYTES (RHO_MAX_SCANS * (24 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 80) + 96)
+#define RHO_RAM_WINDOW_BYTES                                                                       \
+    (RHO_MAX_SCANS * (24 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 80) + 96)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 40) +                        \
      2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 384)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
-    (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 56 * RHO_MAX_SENSORS + 512)
+    (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 56 * RHO_MAX_SENSORS + \
+     512)
 
 #endif

@@ -23,9 +23,9 @@ struct rho_gate {
 };
 
 struct rho_gate_result {
-    float distance2;     /* squared Mahalanobis distance */
-    float log_det;       /* ln det of the innovation covariance, m^2 an axis */
-    int has_z;           /* three dimensions, else two */
+    float distance2; /* squared Mahalanobis distance */
+    float log_det;   /* ln det of the innovation covariance, m^2 an axis */
+    int has_z;       /* three dimensions, else two */
 };
 
 /* Takes the prediction over. Constant cost. */

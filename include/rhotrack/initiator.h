@@ -26,30 +26,33 @@
 #include "rhotrack/window.h"
 
 struct rho_initiator_config {
-    uint16_t scans;             /* N, the window: 3 .. RHO_MAX_SCANS */
-    uint16_t min_scans;         /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter */
+    uint16_t scans; /* N, the window: 3 .. RHO_MAX_SCANS */
+    /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter */
+    uint16_t min_scans;
     float v_min_mps, v_max_mps; /* speeds of targets, 0 <= v_min < v_max <= RHO_LIMIT_SPEED_MPS */
     float pd;                   /* probability that a scan sees the target: 0.01 .. 0.999 */
     float score_min_nat;        /* candidates below are none */
-    float process_noise_mps2;   /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
-    int area_is_fixed;          /* area below is meant; else the extent of the plots seen so far */
-    struct rho_extent area;     /* that clutter and births are spread over */
+    /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
+    float process_noise_mps2;
+    int area_is_fixed;      /* area below is meant; else the extent of the plots seen so far */
+    struct rho_extent area; /* that clutter and births are spread over */
 };
 
 /* A track found: the plots that voted, and the fit at the newest scan's time. */
 struct rho_candidate {
-    uint16_t mask;               /* bit m: the scan of age order m voted */
-    uint16_t hits;               /* number of votes */
-    uint16_t plot[RHO_MAX_SCANS]; /* by age order: index into that scan's plots where the bit is set, else 0 */
+    uint16_t mask; /* bit m: the scan of age order m voted */
+    uint16_t hits; /* number of votes */
+    /* by age order: index into that scan's plots where the bit is set, else 0 */
+    uint16_t plot[RHO_MAX_SCANS];
     int32_t score_mnat;
     float x_m, y_m, vx_mps, vy_mps;
 };
 
 /* Work of the last search, and what its capacities cut. All saturate. */
 struct rho_initiator_work {
-    uint32_t seeds;     /* kernels tried */
+    uint32_t seeds; /* kernels tried */
     struct rho_window_work window;
-    uint32_t fits;      /* least-squares fits */
+    uint32_t fits;               /* least-squares fits */
     uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES */
 };
 
@@ -64,10 +67,11 @@ struct rho_initiator {
     uint16_t min_scans;      /* M in use at the last search */
     struct rho_initiator_config config;
     struct rho_initiator_work work;
-    float density_per_m2;    /* plots a scan, mean over the area, of the last search */
+    float density_per_m2;      /* plots a scan, mean over the area, of the last search */
     float density_prior_plots; /* weight of that mean against a cell's own count */
     uint16_t density_columns, density_rows;
-    uint16_t density[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS]; /* plots in the window, saturating */
+    /* plots in the window, saturating */
+    uint16_t density[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
     struct rho_window window;
 };
@@ -99,13 +103,15 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
  * or N - M + 1 (newest) times n^2 f kernels, two look-ups each unless clutter is dense; fits are few. Bins make n f
  * the plots within v_max x time, so that cost grows with density, not with area. Stack: 1.2 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_search search);
+RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
+                                                    enum rho_search search);
 
 /*
  * Marks the plots of a candidate of the last search as used: they leave all later searches.
  * Returns how many were not used before. candidate is not checked against num_candidates. Cost: N.
  */
-unsigned rho_initiator_consume(struct rho_initiator *initiator, const struct rho_candidate *candidate);
+unsigned rho_initiator_consume(struct rho_initiator *initiator,
+                               const struct rho_candidate *candidate);
 
 /*
  * Density of the held plots near a place, plots a m^2 and scan: the map's cell over the window, drawn towards the mean as

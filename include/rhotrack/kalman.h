@@ -30,8 +30,9 @@ void rho_kalman_init(struct rho_kalman *kalman);
  * with the other axes become 0. Errors: NULL, VALUE (axis, not finite, variance outside
  * RHO_KALMAN_VARIANCE_MIN .. MAX). Constant cost.
  */
-RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float position_m,
-                                                    float position_variance, float velocity_variance);
+RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis,
+                                                    float position_m, float position_variance,
+                                                    float velocity_variance);
 
 /*
  * Moves the estimate on by dt_s, -1e5 .. 1e5. noise_density is the power spectral density of white acceleration on
@@ -40,7 +41,8 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
  * Errors: NULL, VALUE (arguments, or a result beyond RHO_KALMAN_VARIANCE_MAX; unchanged).
  * Cost: about 240 instructions. Stack: 64 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density);
+RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s,
+                                                  float noise_density);
 
 /*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0 (below
@@ -48,8 +50,8 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
  * is not open nothing else changes. Errors: NULL, VALUE (element, value or variance, a result not finite), SINGULAR
  * (innovation variance not positive and finite); unchanged. Cost: about 330 instructions. Stack: 144 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
-                                                 float variance, float *nis);
+RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element,
+                                                 float value, float variance, float *nis);
 
 /* True where axis 0 .. 2 was opened. */
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis);

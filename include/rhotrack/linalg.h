@@ -34,10 +34,10 @@ float rho_linalg_log_determinant(int n, const float *l);
  * RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs untouched. Also NULL. Cost: 25 and 60
  * operations and a logarithm.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *distance2,
-                                                float *log_det);
-RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *distance2,
-                                                float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_gate2(const float s[3], const float d[2],
+                                                float *distance2, float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[3],
+                                                float *distance2, float *log_det);
 
 /*
  * One scalar Kalman update of a six-element state x with covariance p (21 floats): element `index` was measured,
@@ -46,7 +46,7 @@ RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[
  * Errors: NULL, VALUE (index, innovation or a result not finite), SINGULAR (variance not positive, p_ii negative, or
  * their sum not a number one can divide by); x, p and *nis untouched. Cost: about 280 instructions. Stack: 112 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
-                                                  float variance, float *nis);
+RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index,
+                                                  float innovation, float variance, float *nis);
 
 #endif

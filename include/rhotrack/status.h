@@ -16,8 +16,9 @@
 
 enum rho_status {
     RHO_OK = 0,
-    RHO_ERROR_NULL,     /* a pointer that must point somewhere is NULL */
-    RHO_ERROR_SIZE,     /* sizeof(object) differs: library and caller were built with other capacities */
+    RHO_ERROR_NULL, /* a pointer that must point somewhere is NULL */
+    /* sizeof(object) differs: library and caller were built with other capacities */
+    RHO_ERROR_SIZE,
     RHO_ERROR_CONFIG,   /* a parameter is outside its range */
     RHO_ERROR_VALUE,    /* a number is not finite or outside its range */
     RHO_ERROR_CAPACITY, /* more than a RHO_MAX_... allows */

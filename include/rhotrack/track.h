@@ -65,7 +65,8 @@ struct rho_track_limits {
 const char *rho_track_status_name(enum rho_track_status status);
 
 /* The life cycle above as a pure function; an event that a status does not know changes nothing. Constant cost. */
-enum rho_track_status rho_track_next_status(enum rho_track_status status, enum rho_track_event event);
+enum rho_track_status rho_track_next_status(enum rho_track_status status,
+                                            enum rho_track_event event);
 
 /* What targets may do, as maintenance assumes it. */
 struct rho_track_model {
@@ -88,8 +89,9 @@ struct rho_track_plot {
  * Errors: NULL, VALUE (num_plots, numbers), SINGULAR; *track is unchanged. Cost: num_plots filter steps. Stack: 400 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
-                                               const struct rho_track_plot *plots, unsigned num_plots,
-                                               int64_t time_us, const struct rho_track_model *model,
+                                               const struct rho_track_plot *plots,
+                                               unsigned num_plots, int64_t time_us,
+                                               const struct rho_track_model *model,
                                                int32_t score_mnat);
 
 /* Predicts to time_us, not before the estimate's. Errors: NULL, VALUE (time, a covariance beyond its limit). */
@@ -102,15 +104,17 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
  * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: 2 to 6 scalar updates, 2 predictions where the plot has an
  * own time. Stack: 300 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track, const struct rho_scan *scan,
-                                                uint32_t row, const struct rho_track_model *model,
+RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
+                                                const struct rho_scan *scan, uint32_t row,
+                                                const struct rho_track_model *model,
                                                 int32_t gain_mnat);
 
 /* Counts a scan that looked and saw nothing; loss_mnat >= 0 is taken from the score. Constant cost. */
 void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
 
 /* Applies the limits to the evidence: confirm and drop. Returns the status, RHO_TRACK_FREE where it ended. Constant cost. */
-enum rho_track_status rho_track_judge(struct rho_track *track, const struct rho_track_limits *limits);
+enum rho_track_status rho_track_judge(struct rho_track *track,
+                                      const struct rho_track_limits *limits);
 
 /* Root of the mean position (velocity) variance over the open axes, metres (metres a second). Constant cost. */
 float rho_track_sigma_m(const struct rho_track *track);

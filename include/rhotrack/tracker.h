@@ -34,13 +34,15 @@
 #include "rhotrack/window.h"
 
 struct rho_tracker_config {
-    float pd;                    /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
-    float v_max_mps;             /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
+    float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
+    /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
+    float v_max_mps;
     float accel_max_mps2;        /* manoeuvres to follow: 0 .. 1000 */
     float false_tracks_per_hour; /* wanted rate of confirmed tracks from clutter: 1e-6 .. 1e6 */
-    int score_is_fixed;          /* score_min_nat below is the confirm threshold, whatever the rate above */
-    float score_min_nat;         /* -100 .. 1000 */
-    uint16_t coast_scans_max;    /* misses in a row that end a track: 1 .. 255 */
+    /* score_min_nat below is the confirm threshold, whatever the rate above */
+    int score_is_fixed;
+    float score_min_nat;      /* -100 .. 1000 */
+    uint16_t coast_scans_max; /* misses in a row that end a track: 1 .. 255 */
 };
 
 /* Since init; all saturate. The fates' counters add up to plots_in. */
@@ -51,7 +53,8 @@ struct rho_tracker_counters {
     uint32_t plots_initiated; /* of the held: started a track */
     uint32_t plots_clutter;   /* of the held: left the window unused */
     uint32_t tracks_started, tracks_confirmed, tracks_ended;
-    uint32_t tracks_no_room;     /* starts refused, or tentative tracks that gave way: RHO_MAX_TRACKS */
+    /* starts refused, or tentative tracks that gave way: RHO_MAX_TRACKS */
+    uint32_t tracks_no_room;
     uint32_t gate_plots_dropped; /* RHO_MAX_GATE_PLOTS */
     uint32_t candidates_dropped; /* RHO_MAX_CANDIDATES */
     uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
@@ -91,12 +94,14 @@ struct rho_track_report {
 /* What one step did. Tracks in the order of their identities. */
 struct rho_report {
     int64_t time_us;
-    uint32_t num_plots; /* of the scan: fates of the first RHO_MAX_PLOTS follow, the others are NO_ROOM */
+    /* of the scan: fates of the first RHO_MAX_PLOTS follow, the others are NO_ROOM */
+    uint32_t num_plots;
     uint16_t num_tracks, num_ended;
     uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
     uint8_t fates[RHO_MAX_PLOTS];        /* enum rho_fate */
     struct rho_track_report tracks[RHO_MAX_TRACKS];
-    uint32_t ended[RHO_MAX_TRACKS]; /* identities of confirmed or coasting tracks that ended in this step */
+    /* identities of confirmed or coasting tracks that ended in this step */
+    uint32_t ended[RHO_MAX_TRACKS];
 };
 
 /* pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, 1 false track an hour, coast_scans_max 5. Constant cost. */
@@ -130,6 +135,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
                                                 struct rho_initiator *initiator,
-                                                const struct rho_scan *scan, struct rho_report *report);
+                                                const struct rho_scan *scan,
+                                                struct rho_report *report);
 
 #endif

@@ -23,7 +23,8 @@
 #define RHO_LIMIT_SIGMA_MIN 1.0e-3f
 #define RHO_LIMIT_SIGMA_MAX 1.0e5f
 #define RHO_LIMIT_OFFSET_US 60000000 /* a plot's own time from its scan's */
-#define RHO_LIMIT_TIME_US INT64_C(4000000000000000000) /* either side of 0; differences then fit 64 bits */
+/* either side of 0; differences then fit 64 bits */
+#define RHO_LIMIT_TIME_US INT64_C(4000000000000000000)
 
 /* What the plots of a scan measure beside x_m and y_m; values to be or-ed. */
 #define RHO_MEASURES_Z 1u
@@ -43,7 +44,7 @@ struct rho_plot {
     float vx_mps, vy_mps, vz_mps;
     float range_rate_mps; /* positive: receding */
     float sigma_range_m, sigma_cross_m, sigma_up_m;
-    float sigma_mps;            /* of each velocity component */
+    float sigma_mps; /* of each velocity component */
     float sigma_range_rate_mps;
     float snr_db; /* 0 where unknown; passed on, not used */
 };
@@ -53,7 +54,8 @@ struct rho_scan {
     int64_t time_us;
     int32_t sensor_id;
     uint32_t measures; /* RHO_MEASURES_... */
-    float sector_from_rad, sector_to_rad; /* counter-clockwise from .. to; equal: the whole circle */
+    /* counter-clockwise from .. to; equal: the whole circle */
+    float sector_from_rad, sector_to_rad;
     uint32_t num_plots;
     const struct rho_plot *plots; /* num_plots of them; may be NULL for 0 */
 };
@@ -62,10 +64,12 @@ struct rho_scan {
 struct rho_sensor {
     int32_t sensor_id;
     float x_m, y_m, z_m;
-    float pd;           /* probability that a target in the sensor's reach yields a plot, 0 < pd < 1 */
-    float range_min_m;  /* no plots are expected below; 0: none */
-    float range_max_m;  /* nor beyond */
-    float sector_from_rad, sector_to_rad; /* where the sensor can look at all; equal: the whole circle */
+    /* probability that a target in the sensor's reach yields a plot, 0 < pd < 1 */
+    float pd;
+    float range_min_m; /* no plots are expected below; 0: none */
+    float range_max_m; /* nor beyond */
+    /* where the sensor can look at all; equal: the whole circle */
+    float sector_from_rad, sector_to_rad;
 };
 
 /*

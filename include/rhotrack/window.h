@@ -43,8 +43,8 @@ struct rho_window_scan {
     uint16_t bins_x, bins_y;
     float bin_x0_m, bin_y0_m;
     float bins_per_m_x, bins_per_m_y;
-    float sigma_max_m;                  /* over the plots */
-    float offset_min_s, offset_max_s;   /* over the plots */
+    float sigma_max_m;                /* over the plots */
+    float offset_min_s, offset_max_s; /* over the plots */
     uint16_t bin_start[RHO_MAX_BINS + 1];
     struct rho_window_plot plots[RHO_MAX_PLOTS];
 };
@@ -67,9 +67,10 @@ struct rho_window_query {
     float vx_mps, vy_mps; /* moves on with the plot's offset */
     float variance_m2;    /* of the place, an axis */
     float sigma_factor;   /* a plot's sigma^2 counts this many times */
-    float gate_chi2;      /* plots with distance^2 / (variance_m2 + sigma_factor sigma^2) there or beyond are none */
-    float reach_m;        /* no plot in the gate is farther, before its own time moves the place */
-    uint16_t skip_flags;  /* plots with any of these flags are not there */
+    /* plots with distance^2 / (variance_m2 + sigma_factor sigma^2) there or beyond are none */
+    float gate_chi2;
+    float reach_m;       /* no plot in the gate is farther, before its own time moves the place */
+    uint16_t skip_flags; /* plots with any of these flags are not there */
 };
 
 /* Work done, for measurement: moves with each look-up and saturates. */
@@ -101,8 +102,9 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
  * Errors: NULL, STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
  * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions. Stack: 96 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
-                                               uint8_t *fates, uint32_t *left_unused);
+RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
+                                               const struct rho_scan *scan, uint8_t *fates,
+                                               uint32_t *left_unused);
 
 /* The scan of age order m, 0 (oldest) .. num_scans - 1 (newest); m is not checked. Constant cost. */
 struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m);
@@ -121,8 +123,8 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 struct rho_window_bins {
     int column_first, column_last, row_first, row_last;
 };
-struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m, float x1_m,
-                                             float y0_m, float y1_m);
+struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m,
+                                             float x1_m, float y0_m, float y1_m);
 
 /* Sides and content of an extent, at least side_min_m a side; 0 where it is empty and side_min_m is 0. */
 float rho_extent_width_m(const struct rho_extent *extent, float side_min_m);

@@ -10,7 +10,8 @@
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
 typedef char rho_assert_window_ram[sizeof(struct rho_window) <= RHO_RAM_WINDOW_BYTES ? 1 : -1];
-typedef char rho_assert_initiator_ram[sizeof(struct rho_initiator) <= RHO_RAM_INITIATOR_BYTES ? 1 : -1];
+typedef char
+    rho_assert_initiator_ram[sizeof(struct rho_initiator) <= RHO_RAM_INITIATOR_BYTES ? 1 : -1];
 
 /* ---- kernels ---------------------------------------------------------------------------------- */
 
@@ -18,12 +19,13 @@ typedef char rho_assert_initiator_ram[sizeof(struct rho_initiator) <= RHO_RAM_IN
 struct span {
     unsigned a, b;
     const struct rho_window_scan *scan_a, *scan_b;
-    float gap_s;                      /* between the scans' times */
+    float gap_s; /* between the scans' times */
     unsigned num_between;
-    unsigned between[RHO_MAX_SCANS];  /* scans that vote, the narrowest gate first */
-    float process_m2[RHO_MAX_SCANS];  /* by scan: process noise of its place between a and b */
-    float reach_m[RHO_MAX_SCANS];     /* by scan: of the widest gate */
-    unsigned misses_outside;          /* scans before a and after b: they cannot vote for this kernel */
+    unsigned between[RHO_MAX_SCANS]; /* scans that vote, the narrowest gate first */
+    float process_m2[RHO_MAX_SCANS]; /* by scan: process noise of its place between a and b */
+    float reach_m[RHO_MAX_SCANS];    /* by scan: of the widest gate */
+    /* scans before a and after b: they cannot vote for this kernel */
+    unsigned misses_outside;
 };
 
 /* One pair of plots. */
@@ -90,9 +92,11 @@ static void open_span(struct search *search, unsigned a, unsigned b, struct span
 }
 
 /* The plot of scan m nearest to where the kernel says, in the gate of all three plots' noise; -1: none. */
-static int vote(struct search *search, const struct span *span, const struct kernel *kernel, unsigned m)
+static int vote(struct search *search, const struct span *span, const struct kernel *kernel,
+                unsigned m)
 {
-    float al = (search->time_s[m] - search->time_s[span->a] - kernel->from->offset_s) / kernel->duration_s;
+    float al =
+        (search->time_s[m] - search->time_s[span->a] - kernel->from->offset_s) / kernel->duration_s;
     float from_m2 = kernel->from->sigma_m * kernel->from->sigma_m;
     float to_m2 = kernel->to->sigma_m * kernel->to->sigma_m;
     struct rho_window_query query = {
@@ -100,8 +104,7 @@ static int vote(struct search *search, const struct span *span, const struct ker
         .y_m = kernel->from->y_m + al * kernel->dy_m,
         .vx_mps = kernel->dx_m / kernel->duration_s,
         .vy_mps = kernel->dy_m / kernel->duration_s,
-        .variance_m2 =
-            (1.0f - al) * (1.0f - al) * from_m2 + al * al * to_m2 + span->process_m2[m],
+        .variance_m2 = (1.0f - al) * (1.0f - al) * from_m2 + al * al * to_m2 + span->process_m2[m],
         .sigma_factor = 1.0f,
         .gate_chi2 = GATE_CHI2,
         .reach_m = span->reach_m[m],
@@ -154,11 +157,12 @@ static void pair_with(struct search *search, const struct span *span,
 }
 
 /* Pairs a plot of scan a with every plot of scan b that the speed limits allow. */
-static void pair_from(struct search *search, const struct span *span, const struct rho_window_plot *from)
+static void pair_from(struct search *search, const struct span *span,
+                      const struct rho_window_plot *from)
 {
     const struct rho_window_scan *scan = span->scan_b;
-    float far_m = search->initiator->config.v_max_mps *
-                  (span->gap_s + scan->offset_max_s - from->offset_s);
+    float far_m =
+        search->initiator->config.v_max_mps * (span->gap_s + scan->offset_max_s - from->offset_s);
     struct rho_window_bins bins = rho_window_bins_under(scan, from->x_m - far_m, from->x_m + far_m,
                                                         from->y_m - far_m, from->y_m + far_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -234,8 +238,8 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     }
     const struct rho_extent *area = config->area_is_fixed ? &config->area : 0;
     struct rho_initiator_config copy = *config;
-    enum rho_status status = rho_window_init(&initiator->window, sizeof initiator->window,
-                                             copy.scans, area, 0.0f);
+    enum rho_status status =
+        rho_window_init(&initiator->window, sizeof initiator->window, copy.scans, area, 0.0f);
     if (status != RHO_OK) {
         return status;
     }
@@ -309,7 +313,8 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     return RHO_OK;
 }
 
-unsigned rho_initiator_consume(struct rho_initiator *initiator, const struct rho_candidate *candidate)
+unsigned rho_initiator_consume(struct rho_initiator *initiator,
+                               const struct rho_candidate *candidate)
 {
     unsigned used = 0;
     for (unsigned m = 0; m < initiator->window.num_scans; m++) {

@@ -51,10 +51,12 @@ static unsigned map_cell(const struct rho_initiator *initiator, float x_m, float
 {
     const struct rho_window *window = &initiator->window;
     float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
-    unsigned column = cell_at(x_m, window->extent.x_min_m,
-                              rho_extent_width_m(&window->extent, side_min_m), initiator->density_columns);
-    unsigned row = cell_at(y_m, window->extent.y_min_m,
-                           rho_extent_height_m(&window->extent, side_min_m), initiator->density_rows);
+    unsigned column =
+        cell_at(x_m, window->extent.x_min_m, rho_extent_width_m(&window->extent, side_min_m),
+                initiator->density_columns);
+    unsigned row =
+        cell_at(y_m, window->extent.y_min_m, rho_extent_height_m(&window->extent, side_min_m),
+                initiator->density_rows);
     return row * initiator->density_columns + column;
 }
 
@@ -112,7 +114,8 @@ static float prior_plots(const struct rho_initiator *initiator)
         variance += excess * excess / (float)(cells > 1u ? cells - 1u : 1u);
     }
     float beyond_chance = variance - mean;
-    return beyond_chance * PRIOR_PLOTS_MAX > mean * mean ? mean * mean / beyond_chance : PRIOR_PLOTS_MAX;
+    return beyond_chance * PRIOR_PLOTS_MAX > mean * mean ? mean * mean / beyond_chance
+                                                         : PRIOR_PLOTS_MAX;
 }
 
 /* The density where a cell of the map counts so many plots. */
@@ -173,10 +176,11 @@ static float log_chance(const struct search *search, unsigned h, float sigma_m, 
 {
     const struct rho_initiator_config *config = &search->initiator->config;
     float degrees = (float)(2u * h - 4u);
-    float log_ball = 0.5f * degrees * (LOG_PI + rho_log(chi2_95(2u * h - 4u))) - log_factorial(h - 2u);
+    float log_ball =
+        0.5f * degrees * (LOG_PI + rho_log(chi2_95(2u * h - 4u))) - log_factorial(h - 2u);
     float speeds = config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps;
-    return (float)h * rho_log(search->initiator->density_per_m2) + degrees * rho_log(sigma_m) + log_ball +
-           rho_log(area_m2(search->initiator)) + LOG_PI + rho_log(speeds) +
+    return (float)h * rho_log(search->initiator->density_per_m2) + degrees * rho_log(sigma_m) +
+           log_ball + rho_log(area_m2(search->initiator)) + LOG_PI + rho_log(speeds) +
            rho_log((float)h * spread_s2);
 }
 
@@ -195,8 +199,8 @@ static float chance_tracks(const struct search *search, unsigned h)
 {
     float span_s = search->time_s[search->num_scans - 1u] - search->time_s[0];
     float spread_s2 = (float)(h * (h + 1u)) * span_s * span_s / (12.0f * (float)(h - 1u));
-    float log_subsets = log_factorial(search->num_scans) - log_factorial(h) -
-                        log_factorial(search->num_scans - h);
+    float log_subsets =
+        log_factorial(search->num_scans) - log_factorial(h) - log_factorial(search->num_scans - h);
     return rho_exp(log_subsets + log_chance(search, h, largest_sigma_m(search), spread_s2));
 }
 
@@ -230,9 +234,9 @@ void rho_initiator_prepare(struct search *search)
     search->log_pd = rho_log(config->pd);
     search->log_miss = rho_log(1.0f - config->pd);
     /* targets are anywhere in the area, their velocities anywhere in the ring of allowed speeds */
-    search->log_prior = LOG_TARGETS_EXPECTED - rho_log(area) - LOG_PI -
-                        rho_log(config->v_max_mps * config->v_max_mps -
-                                config->v_min_mps * config->v_min_mps);
+    search->log_prior =
+        LOG_TARGETS_EXPECTED - rho_log(area) - LOG_PI -
+        rho_log(config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps);
     search->min_scans = config->min_scans ? config->min_scans : choose_min_scans(search);
     initiator->min_scans = (uint16_t)search->min_scans;
 }

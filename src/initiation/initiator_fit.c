@@ -175,7 +175,8 @@ void rho_initiator_collect(struct search *search, const struct line_fit *fit, fl
     }
 }
 
-static int is_same_set(const struct search *search, const struct plot_set *a, const struct plot_set *b)
+static int is_same_set(const struct search *search, const struct plot_set *a,
+                       const struct plot_set *b)
 {
     if (a->mask != b->mask) {
         return 0;
@@ -190,7 +191,8 @@ static int is_same_set(const struct search *search, const struct plot_set *a, co
 
 static int is_wanted(const struct search *search, const struct plot_set *set)
 {
-    return set->hits >= search->min_scans && (set->mask & search->wanted_mask) == search->wanted_mask;
+    return set->hits >= search->min_scans &&
+           (set->mask & search->wanted_mask) == search->wanted_mask;
 }
 
 static int is_fast_enough(const struct search *search, const struct line_fit *fit)
@@ -270,8 +272,8 @@ static float residual_chi2(unsigned n, const float *one, const float *t, const f
                            const float fisher[3], float determinant)
 {
     float by_one = dot(n, one, y), by_t = dot(n, t, y);
-    float explained = by_one * by_one * fisher[2] - 2.0f * by_one * by_t * fisher[1] +
-                      by_t * by_t * fisher[0];
+    float explained =
+        by_one * by_one * fisher[2] - 2.0f * by_one * by_t * fisher[1] + by_t * by_t * fisher[0];
     float chi2 = dot(n, y, y) - explained / determinant;
     return chi2 > 0.0f ? chi2 : 0.0f;
 }
@@ -344,7 +346,8 @@ static int32_t to_mnat(float nat)
  * the plots' joint density with position and velocity integrated out (both axes, hence no factor 1/2 but chi2's).
  * Returns 0 where the plots do not determine a line.
  */
-int rho_initiator_score(const struct search *search, const struct plot_set *set, int32_t *score_mnat)
+int rho_initiator_score(const struct search *search, const struct plot_set *set,
+                        int32_t *score_mnat)
 {
     struct evidence evidence;
     if (search->fit_process_m2 > 0.0f) {

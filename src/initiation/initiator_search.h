@@ -13,15 +13,17 @@
 struct search {
     struct rho_initiator *initiator;
     enum rho_search kind;
-    unsigned wanted_mask;          /* scans that must have voted: the newest, or none in particular */
-    unsigned num_scans;            /* N: scans held */
-    unsigned min_scans;            /* M */
-    float time_s[RHO_MAX_SCANS];   /* of the scans, after the newest: <= 0 */
-    float log_pd, log_miss;        /* ln pd, ln(1 - pd) */
-    float log_prior;               /* ln of the births' density over area and velocity */
-    float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2]; /* displacement covariance by process noise */
-    float fit_process_m2;          /* its largest residual variance about a fitted line */
-    uint16_t skip_flags;           /* plots that look-ups pass over */
+    /* scans that must have voted: the newest, or none in particular */
+    unsigned wanted_mask;
+    unsigned num_scans;          /* N: scans held */
+    unsigned min_scans;          /* M */
+    float time_s[RHO_MAX_SCANS]; /* of the scans, after the newest: <= 0 */
+    float log_pd, log_miss;      /* ln pd, ln(1 - pd) */
+    float log_prior;             /* ln of the births' density over area and velocity */
+    /* displacement covariance by process noise */
+    float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2];
+    float fit_process_m2; /* its largest residual variance about a fitted line */
+    uint16_t skip_flags;  /* plots that look-ups pass over */
 };
 
 /* A straight track at speed: position at the newest scan's time. */
@@ -38,7 +40,8 @@ struct plot_set {
 
 /* initiator_density.c: what the scans tell of clutter, and what follows from it */
 void rho_initiator_prepare(struct search *search);
-float rho_initiator_log_density(const struct search *search, const struct plot_set *set, unsigned m);
+float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
+                                unsigned m);
 
 /* initiator_fit.c: least squares and the score */
 void rho_initiator_prepare_process(struct search *search);
@@ -46,7 +49,8 @@ float rho_initiator_process_gap_m2(const struct search *search, unsigned a, unsi
 int rho_initiator_settle(struct search *search, struct plot_set *set, struct line_fit *fit);
 void rho_initiator_collect(struct search *search, const struct line_fit *fit, float factor,
                            struct plot_set *set);
-int rho_initiator_score(const struct search *search, const struct plot_set *set, int32_t *score_mnat);
+int rho_initiator_score(const struct search *search, const struct plot_set *set,
+                        int32_t *score_mnat);
 
 /* initiator_select.c: the list of candidates */
 void rho_initiator_offer(struct search *search, struct plot_set *set);

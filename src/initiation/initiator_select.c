@@ -30,7 +30,8 @@ static int is_known(const struct rho_initiator *initiator, const struct rho_cand
 }
 
 /* Settles and scores a set of plots. 0 where it is no candidate, or one that is already listed. */
-static int make_candidate(struct search *search, struct plot_set *set, struct rho_candidate *candidate)
+static int make_candidate(struct search *search, struct plot_set *set,
+                          struct rho_candidate *candidate)
 {
     struct line_fit fit;
     int32_t score_mnat;

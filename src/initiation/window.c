@@ -87,7 +87,8 @@ struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan,
 }
 
 /* Nearly square bins over the area, as many as the plots are worth. */
-static void lay_bins(struct rho_window_scan *scan, const struct rho_window *window, unsigned num_plots)
+static void lay_bins(struct rho_window_scan *scan, const struct rho_window *window,
+                     unsigned num_plots)
 {
     float width_m = rho_extent_width_m(&window->extent, at_least(window->side_min_m, 1.0f));
     float height_m = rho_extent_height_m(&window->extent, at_least(window->side_min_m, 1.0f));
@@ -228,7 +229,8 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us)
     if (window->magic != WINDOW_MAGIC) {
         return 0;
     }
-    unsigned newest = ((unsigned)window->first + window->num_scans + window->scans_max - 1u) % window->scans_max;
+    unsigned newest =
+        ((unsigned)window->first + window->num_scans + window->scans_max - 1u) % window->scans_max;
     return window->num_scans == 0 || window->ring[newest].time_us <= time_us;
 }
 
@@ -273,7 +275,8 @@ static void compare_plots(struct nearest *best, const struct rho_window_scan *sc
         float dx_m = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
         float dy_m = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
         float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
-        float variance_m2 = query->variance_m2 + query->sigma_factor * plot->sigma_m * plot->sigma_m;
+        float variance_m2 =
+            query->variance_m2 + query->sigma_factor * plot->sigma_m * plot->sigma_m;
         if (distance2_m2 * best->variance_m2 < best->distance2_m2 * variance_m2 &&
             !(plot->flags & query->skip_flags)) {
             best->index = (int)i;
@@ -297,11 +300,11 @@ static float shift_max(const struct rho_window_scan *scan, float v_mps)
 int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
                        struct rho_window_work *work)
 {
-    struct rho_window_bins bins = rho_window_bins_under(
-        scan, query->x_m - query->reach_m + shift_min(scan, query->vx_mps),
-        query->x_m + query->reach_m + shift_max(scan, query->vx_mps),
-        query->y_m - query->reach_m + shift_min(scan, query->vy_mps),
-        query->y_m + query->reach_m + shift_max(scan, query->vy_mps));
+    struct rho_window_bins bins =
+        rho_window_bins_under(scan, query->x_m - query->reach_m + shift_min(scan, query->vx_mps),
+                              query->x_m + query->reach_m + shift_max(scan, query->vx_mps),
+                              query->y_m - query->reach_m + shift_min(scan, query->vy_mps),
+                              query->y_m + query->reach_m + shift_max(scan, query->vy_mps));
     /* a plot exactly on the gate counts as outside */
     struct nearest best = {.index = -1, .distance2_m2 = query->gate_chi2, .variance_m2 = 1.0f};
     unsigned compared = 0;

@@ -18,7 +18,8 @@ const char *rho_track_status_name(enum rho_track_status status)
     return (unsigned)status < RHO_NUM_TRACK_STATUS ? names[status] : "unknown";
 }
 
-enum rho_track_status rho_track_next_status(enum rho_track_status status, enum rho_track_event event)
+enum rho_track_status rho_track_next_status(enum rho_track_status status,
+                                            enum rho_track_event event)
 {
     /* one row a status, one column an event: start, confirm, update, miss, drop */
     static const uint8_t next[RHO_NUM_TRACK_STATUS][RHO_NUM_TRACK_EVENTS] = {
@@ -66,7 +67,8 @@ static void count_hit(struct rho_track *track)
 void rho_track_miss(struct rho_track *track, int32_t loss_mnat)
 {
     track->misses = (uint16_t)(track->misses < UINT16_MAX ? track->misses + 1 : UINT16_MAX);
-    track->misses_in_row = (uint8_t)(track->misses_in_row < UINT8_MAX ? track->misses_in_row + 1 : UINT8_MAX);
+    track->misses_in_row =
+        (uint8_t)(track->misses_in_row < UINT8_MAX ? track->misses_in_row + 1 : UINT8_MAX);
     track->plot = -1;
     add_score(track, -loss_mnat);
     apply(track, RHO_TRACK_MISS);
@@ -83,7 +85,8 @@ static int has_ended(const struct rho_track *track, const struct rho_track_limit
     return track->score_max_mnat - track->score_mnat >= limits->fall_mnat;
 }
 
-enum rho_track_status rho_track_judge(struct rho_track *track, const struct rho_track_limits *limits)
+enum rho_track_status rho_track_judge(struct rho_track *track,
+                                      const struct rho_track_limits *limits)
 {
     if (track->status == RHO_TRACK_TENTATIVE && track->score_mnat >= limits->confirm_mnat) {
         apply(track, RHO_TRACK_CONFIRM);

@@ -162,7 +162,8 @@ static void note_unclaimed(struct step *step)
     for (uint32_t i = 0; i < step->num_gated; i++) {
         unclaimed += step->report->fates[i] == RHO_FATE_CLAIMED ? 0.0f : 1.0f;
     }
-    step->tracker->unclaimed_plots += CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_plots);
+    step->tracker->unclaimed_plots +=
+        CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_plots);
 }
 
 static void report_all(struct step *step)
@@ -238,7 +239,8 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
         return RHO_ERROR_CAPACITY;
     }
     tracker->sensors[place] = *sensor;
-    tracker->num_sensors = (uint16_t)(place < tracker->num_sensors ? tracker->num_sensors : place + 1u);
+    tracker->num_sensors =
+        (uint16_t)(place < tracker->num_sensors ? tracker->num_sensors : place + 1u);
     return RHO_OK;
 }
 

@@ -67,12 +67,14 @@ static void gate_plots(struct step *step, unsigned row)
     const struct rho_track *track = &tracker->tracks[row];
     struct rho_gate gate;
     struct rho_gate_result result;
-    float log_density = rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
+    float log_density =
+        rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
     rho_gate_open(&gate, &track->kalman);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD &&
             rho_gate_test(&gate, &step->scan->plots[i], step->scan->measures, &result)) {
-            int32_t gain = rho_tracker_mnat(step->log_pd + log_ratio(&result, log_density) - step->log_miss);
+            int32_t gain =
+                rho_tracker_mnat(step->log_pd + log_ratio(&result, log_density) - step->log_miss);
             (void)!rho_assignment_add(&tracker->assignment, row, i, gain > 1 ? -gain : -1);
         }
     }

@@ -34,9 +34,10 @@ static int looked_at(const struct step *step, const struct rho_track *track)
     if (!rho_angle_in_sector(azimuth_rad, step->scan->sector_from_rad, step->scan->sector_to_rad)) {
         return 0;
     }
-    return !sensor || (range2_m2 >= sensor->range_min_m * sensor->range_min_m &&
-                       range2_m2 <= sensor->range_max_m * sensor->range_max_m &&
-                       rho_angle_in_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad));
+    return !sensor ||
+           (range2_m2 >= sensor->range_min_m * sensor->range_min_m &&
+            range2_m2 <= sensor->range_max_m * sensor->range_max_m &&
+            rho_angle_in_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad));
 }
 
 /*
@@ -61,8 +62,8 @@ static struct rho_track_limits limits_of(const struct step *step)
         .fall_mnat = rho_tracker_mnat(-step->log_miss * (float)tracker->config.coast_scans_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
-    int32_t start_mnat =
-        step->initiator ? rho_tracker_mnat(step->initiator->config.score_min_nat) : limits.confirm_mnat;
+    int32_t start_mnat = step->initiator ? rho_tracker_mnat(step->initiator->config.score_min_nat)
+                                         : limits.confirm_mnat;
     limits.tentative_mnat =
         (start_mnat < limits.confirm_mnat ? start_mnat : limits.confirm_mnat) - TENTATIVE_FALL_MNAT;
     return limits;
@@ -75,7 +76,8 @@ static void judge(struct step *step, struct rho_track *track, const struct rho_t
     if (is == RHO_TRACK_FREE) {
         rho_tracker_end_track(step, track, was);
     } else if (was == RHO_TRACK_TENTATIVE && is != RHO_TRACK_TENTATIVE) {
-        step->tracker->counters.tracks_confirmed = rho_count(step->tracker->counters.tracks_confirmed, 1);
+        step->tracker->counters.tracks_confirmed =
+            rho_count(step->tracker->counters.tracks_confirmed, 1);
     }
 }
 
@@ -170,8 +172,8 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
     tracker->tracks[tracker->num_tracks++] = track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
     tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);
-    tracker->counters.plots_initiated =
-        rho_count(tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
+    tracker->counters.plots_initiated = rho_count(
+        tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
 }
 
 static void refuse_unclaimed(struct step *step)
@@ -194,7 +196,8 @@ void rho_tracker_initiate(struct step *step)
     /* only the plots with a fate of their own are offered; pointers were checked before the step began */
     struct rho_scan held = *step->scan;
     held.num_plots = step->num_gated;
-    (void)!rho_initiator_push(initiator, &held, step->report->fates, &tracker->counters.plots_clutter);
+    (void)!rho_initiator_push(initiator, &held, step->report->fates,
+                              &tracker->counters.plots_clutter);
     (void)!rho_initiator_search(initiator, RHO_SEARCH_NEWEST);
     tracker->counters.candidates_dropped =
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);

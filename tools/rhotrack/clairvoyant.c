@@ -21,14 +21,15 @@ static double covariance(const struct clairvoyant_model *model, double ta_s, dou
     double sum = 0.0;
     for (size_t i = 0; i + 1 < model->num_scans; i++) {
         double change_t_s = (double)i * model->interval_s;
-        sum += reach_s(ta_s, change_t_s, model->interval_s) * reach_s(tb_s, change_t_s, model->interval_s);
+        sum += reach_s(ta_s, change_t_s, model->interval_s) *
+               reach_s(tb_s, change_t_s, model->interval_s);
     }
     return change_mps * change_mps * sum + (ta_s == tb_s ? model->sigma_m * model->sigma_m : 0.0);
 }
 
 /* Cholesky factor of the plots' covariance along one axis; returns ln det. */
-static double factor(const struct clairvoyant_model *model, const struct clairvoyant_plot *plots, size_t n,
-                     double l[MAX][MAX])
+static double factor(const struct clairvoyant_model *model, const struct clairvoyant_plot *plots,
+                     size_t n, double l[MAX][MAX])
 {
     double log_det = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -69,7 +70,8 @@ struct line_columns {
 };
 
 /* Velocity and chi-square of one axis. */
-static double fit_axis(const struct line_columns *columns, size_t n, const double *z, double *velocity)
+static double fit_axis(const struct line_columns *columns, size_t n, const double *z,
+                       double *velocity)
 {
     double s11 = dot(columns->one, columns->one, n), s12 = dot(columns->one, columns->time, n);
     double s22 = dot(columns->time, columns->time, n);
@@ -84,10 +86,11 @@ static double fit_axis(const struct line_columns *columns, size_t n, const doubl
     return chi2;
 }
 
-static double score(const struct clairvoyant_model *model, const struct clairvoyant_plot *plots, size_t n,
-                    double log_det, double log_det_normal, double chi2)
+static double score(const struct clairvoyant_model *model, const struct clairvoyant_plot *plots,
+                    size_t n, double log_det, double log_det_normal, double chi2)
 {
-    double speeds_m2ps2 = PI * (model->v_max_mps * model->v_max_mps - model->v_min_mps * model->v_min_mps);
+    double speeds_m2ps2 =
+        PI * (model->v_max_mps * model->v_max_mps - model->v_min_mps * model->v_min_mps);
     double sum = ((double)(model->num_scans - n)) * log(1.0 - model->pd) -
                  log(model->area_m2 * speeds_m2ps2) + log(TARGETS_EXPECTED);
     for (size_t i = 0; i < n; i++) {
@@ -113,9 +116,11 @@ struct clairvoyant_fit clairvoyant_fit(const struct clairvoyant_model *model,
     whiten(l, num_plots, columns.time);
     whiten(l, num_plots, x);
     whiten(l, num_plots, y);
-    columns.det = dot(columns.one, columns.one, num_plots) * dot(columns.time, columns.time, num_plots) -
-                  pow(dot(columns.one, columns.time, num_plots), 2.0);
-    fit.chi2 = fit_axis(&columns, num_plots, x, &fit.vx_mps) + fit_axis(&columns, num_plots, y, &fit.vy_mps);
+    columns.det =
+        dot(columns.one, columns.one, num_plots) * dot(columns.time, columns.time, num_plots) -
+        pow(dot(columns.one, columns.time, num_plots), 2.0);
+    fit.chi2 = fit_axis(&columns, num_plots, x, &fit.vx_mps) +
+               fit_axis(&columns, num_plots, y, &fit.vy_mps);
     fit.score_nat = score(model, plots, num_plots, log_det, log(columns.det), fit.chi2);
     return fit;
 }

@@ -51,7 +51,8 @@ static double filter_ns(int updates)
         }
         check(rho_kalman_predict(&kalman, 1.0f, 1.0f), "predict");
         for (int i = 0; i < updates; i++) {
-            check(rho_kalman_update(&kalman, i, 100.0f + (float)(step & 7), 100.0f, NULL), "update");
+            check(rho_kalman_update(&kalman, i, 100.0f + (float)(step & 7), 100.0f, NULL),
+                  "update");
         }
     }
     return (double)(clock_us() - start_us) * 1e3 / FILTER_STEPS;
@@ -131,8 +132,8 @@ static double window_us(struct rho_initiator *initiator, const struct rho_scan *
     return (double)(clock_us() - start_us);
 }
 
-static void initiate_row(const struct bench *bench, struct grid *grid, struct rho_initiator *initiator,
-                         double clutter)
+static void initiate_row(const struct bench *bench, struct grid *grid,
+                         struct rho_initiator *initiator, double clutter)
 {
     struct parameters parameters;
     struct rho_initiator_config config;
@@ -144,14 +145,16 @@ static void initiate_row(const struct bench *bench, struct grid *grid, struct rh
     struct rho_scan *scans = scans_of(simulation);
     parameters_to_initiator(&parameters, &config);
     config.area_is_fixed = 1;
-    config.area = (struct rho_extent){(float)simulation->area.x_min_m, (float)simulation->area.x_max_m,
-                                      (float)simulation->area.y_min_m, (float)simulation->area.y_max_m};
+    config.area =
+        (struct rho_extent){(float)simulation->area.x_min_m, (float)simulation->area.x_max_m,
+                            (float)simulation->area.y_min_m, (float)simulation->area.y_max_m};
     double best = INFINITY;
     for (int round = 0; round < ROUNDS; round++) {
         best = fmin(best, window_us(initiator, scans, simulation->num_scans, &config));
     }
     grid_row(grid, "%.0f|%.0f|%u|%u|%u|%u", clutter, best, initiator->work.seeds,
-             initiator->work.window.lookups, initiator->work.window.distances, initiator->work.fits);
+             initiator->work.window.lookups, initiator->work.window.distances,
+             initiator->work.fits);
     if (bench->json) {
         char name[48];
         snprintf(name, sizeof name, "initiate_%.0f_clutter_us", clutter);
@@ -165,7 +168,8 @@ static void bench_initiate(const struct bench *bench)
 {
     static const double clutter[] = {0, 10, 100, 300};
     struct rho_initiator *initiator = must_alloc(sizeof *initiator);
-    struct grid grid = grid_start(0, "clutter plots a scan|us a window|seeds|look-ups|distances|fits");
+    struct grid grid =
+        grid_start(0, "clutter plots a scan|us a window|seeds|look-ups|distances|fits");
     for (size_t i = 0; i < sizeof clutter / sizeof clutter[0]; i++) {
         initiate_row(bench, &grid, initiator, clutter[i]);
     }

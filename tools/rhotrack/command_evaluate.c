@@ -83,7 +83,8 @@ static double optional_at(const struct table *table, size_t row, int column, dou
                                                                  : number_at(table, row, column);
 }
 
-static void read_time_and_id(const struct table *table, size_t row, const char *id_name, struct point *point)
+static void read_time_and_id(const struct table *table, size_t row, const char *id_name,
+                             struct point *point)
 {
     int time_column = table_need(table, "t_s"), id_column = table_need(table, id_name);
     const char *reason = table_time_us(table_cell(table, row, time_column), &point->time_us);
@@ -182,7 +183,9 @@ static struct life *life_of(struct lives *lives, int32_t id)
 static double nees_of(const struct point *track, double ex_m, double ey_m)
 {
     double det = track->cov[0] * track->cov[2] - track->cov[1] * track->cov[1];
-    return (ex_m * ex_m * track->cov[2] - 2.0 * ex_m * ey_m * track->cov[1] + ey_m * ey_m * track->cov[0]) / det;
+    return (ex_m * ex_m * track->cov[2] - 2.0 * ex_m * ey_m * track->cov[1] +
+            ey_m * ey_m * track->cov[0]) /
+           det;
 }
 
 static void count_pair(struct evaluation *e, const struct point *target, const struct point *track)
@@ -221,8 +224,8 @@ static void evaluate_time(struct evaluation *e, const struct point *targets, siz
     struct gospa_place *target_places = places_of(targets, num_targets);
     struct gospa_place *track_places = places_of(tracks, num_tracks);
     int *track_of = must_calloc(num_targets + 1, sizeof *track_of);
-    struct gospa gospa = gospa_compare(target_places, num_targets, track_places, num_tracks,
-                                       e->cutoff_m, track_of);
+    struct gospa gospa =
+        gospa_compare(target_places, num_targets, track_places, num_tracks, e->cutoff_m, track_of);
     for (size_t i = 0; i < num_tracks; i++) {
         life_of(&e->track_lives, tracks[i].id)->rows++;
     }
@@ -252,7 +255,8 @@ static size_t end_of_time(const struct points *points, size_t from, int64_t time
     return from;
 }
 
-static void check_time(const struct evaluation *e, const struct table *table, size_t at, int64_t time_us)
+static void check_time(const struct evaluation *e, const struct table *table, size_t at,
+                       int64_t time_us)
 {
     if (at < e->tracks.count && e->tracks.list[at].time_us < time_us - TIME_TOLERANCE_US) {
         table_fail(table, e->tracks.list[at].row, "the truth has no such time within 1 ms");
@@ -342,7 +346,8 @@ static void print_results(const struct result *results, bool as_json)
         bool known = isfinite(results[i].value);
         if (as_json) {
             cJSON_AddItemToObject(object, results[i].name,
-                                  known ? cJSON_CreateNumber(results[i].value) : cJSON_CreateNull());
+                                  known ? cJSON_CreateNumber(results[i].value)
+                                        : cJSON_CreateNull());
         } else if (known) {
             printf("%-22s %12.6g\n", results[i].name, results[i].value);
         } else {

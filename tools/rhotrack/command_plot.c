@@ -34,10 +34,12 @@ static double extent_m(const struct plot_points *points)
 
 static struct map map_start(struct picture *picture, const struct plot_data *data)
 {
-    double largest = fmax(extent_m(&data->plots), fmax(extent_m(&data->tracks), extent_m(&data->truth)));
+    double largest =
+        fmax(extent_m(&data->plots), fmax(extent_m(&data->tracks), extent_m(&data->truth)));
     struct map map = {picture->script, largest > KILOMETRES_FROM_M ? 1000.0 : 1.0};
     const char *unit = map.unit_m > 1.0 ? "km" : "m";
-    fprintf(map.script, "set size ratio -1\nset xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n", unit, unit);
+    fprintf(map.script, "set size ratio -1\nset xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n",
+            unit, unit);
     return map;
 }
 
@@ -64,9 +66,9 @@ static void draw_scans(struct picture *picture, const struct plot_data *data)
 {
     struct map map = map_start(picture, data);
     put_points(&map, "plots", &data->plots);
-    fprintf(map.script,
-            "set key off\nset cblabel 'time (s)'\nset palette defined (0 '#00204d', 0.5 '#7c7b78', 1 '#ffd940')\n"
-            "plot $plots using 1:2:3 with points pt 7 ps 0.45 lc palette\n");
+    fprintf(map.script, "set key off\nset cblabel 'time (s)'\nset palette defined (0 '#00204d', "
+                        "0.5 '#7c7b78', 1 '#ffd940')\n"
+                        "plot $plots using 1:2:3 with points pt 7 ps 0.45 lc palette\n");
 }
 
 /* The straight line on which a track was found, back from its first row to the first plot's time. */
@@ -80,8 +82,12 @@ static void put_start_lines(const struct map *map, const struct plot_data *data)
         const struct plot_point *start = &one.list[0];
         double back_s = (double)(start->time_us - first_us) * 1e-6;
         struct plot_point origin = *start;
-        back_s = back_s > 0.0 ? fmin(back_s, 6.0 * (double)(one.count > 1 ? one.list[1].time_us - start->time_us : 0) * 1e-6)
-                              : 0.0;
+        back_s =
+            back_s > 0.0
+                ? fmin(back_s,
+                       6.0 * (double)(one.count > 1 ? one.list[1].time_us - start->time_us : 0) *
+                           1e-6)
+                : 0.0;
         origin.x_m -= back_s * start->vx_mps;
         origin.y_m -= back_s * start->vy_mps;
         put_point(map, &origin);
@@ -123,9 +129,10 @@ static void plot_track_lines(const struct map *map, const struct plot_points *tr
             snprintf(title, sizeof title, "tracks");
         }
         fprintf(map->script,
-                ", \\\n $tracks index %zu using 1:2 with linespoints lw 2.5 pt %d ps 0.9 lc rgb '%s' %s%s%s", index,
-                picture_marker(index), picture_colour(index), *title ? "title '" : "notitle", title,
-                *title ? "'" : "");
+                ", \\\n $tracks index %zu using 1:2 with linespoints lw 2.5 pt %d ps 0.9 lc rgb "
+                "'%s' %s%s%s",
+                index, picture_marker(index), picture_colour(index), *title ? "title '" : "notitle",
+                title, *title ? "'" : "");
         index++;
     }
 }
@@ -140,15 +147,16 @@ static void draw_tracks(struct picture *picture, const struct plot_data *data)
     put_labels(&map, &data->tracks);
     fprintf(map.script, "plot NaN notitle");
     if (data->plots.count) {
-        fprintf(map.script, ", \\\n $plots using 1:2 with points pt 7 ps 0.3 lc rgb '#a8a8a8' title 'plots'");
+        fprintf(map.script,
+                ", \\\n $plots using 1:2 with points pt 7 ps 0.3 lc rgb '#a8a8a8' title 'plots'");
     }
     if (data->truth.count) {
-        fprintf(map.script,
-                ", \\\n $truth using 1:2 with linespoints lw 1 dt 2 pt 6 ps 1.3 lc rgb '#000000' title 'truth'");
+        fprintf(map.script, ", \\\n $truth using 1:2 with linespoints lw 1 dt 2 pt 6 ps 1.3 lc rgb "
+                            "'#000000' title 'truth'");
     }
     if (data->tracks.count) {
-        fprintf(map.script,
-                ", \\\n $starts using 1:2 with lines lw 1.5 dt 3 lc rgb '#444444' title 'line that started a track'");
+        fprintf(map.script, ", \\\n $starts using 1:2 with lines lw 1.5 dt 3 lc rgb '#444444' "
+                            "title 'line that started a track'");
     }
     plot_track_lines(&map, &data->tracks);
     fprintf(map.script, "\n");
@@ -158,7 +166,8 @@ static void draw_tracks(struct picture *picture, const struct plot_data *data)
 
 #define RHO_CELLS 480
 #define THETA_CELLS 540
-#define SCANS_SHOWN 12 /* the newest times of the file vote: as many as an initiation window can hold */
+/* the newest times of the file vote: as many as an initiation window can hold */
+#define SCANS_SHOWN 12
 
 struct votes {
     double rho_min_m, rho_max_m;
@@ -180,7 +189,8 @@ static size_t first_shown(const struct plot_points *plots)
 {
     size_t first = plots->count;
     for (int scans = 0; first > 0; first--) {
-        scans += first == plots->count || plots->list[first - 1].time_us != plots->list[first].time_us;
+        scans +=
+            first == plots->count || plots->list[first - 1].time_us != plots->list[first].time_us;
         if (scans > SCANS_SHOWN) {
             break;
         }
@@ -207,7 +217,8 @@ static void cast_votes(struct votes *votes, const struct plot_points *plots)
     double cells_per_m = RHO_CELLS / (votes->rho_max_m - votes->rho_min_m);
     for (size_t i = first; i < plots->count; i++) {
         for (int t = 0; t < THETA_CELLS; t++) {
-            int cell = (int)((rho_of(&plots->list[i], theta_at(t)) - votes->rho_min_m) * cells_per_m);
+            int cell =
+                (int)((rho_of(&plots->list[i], theta_at(t)) - votes->rho_min_m) * cells_per_m);
             votes->count[cell][t] = (uint16_t)(votes->count[cell][t] + 1u);
         }
     }
@@ -236,7 +247,8 @@ static void put_lines(FILE *script, const struct plot_points *tracks, double uni
         const struct plot_point *end = &one.list[one.count - 1];
         struct rho_line line = rho_angle_line((float)end->x_m, (float)end->y_m, (float)end->vx_mps,
                                               (float)end->vy_mps);
-        fprintf(script, "%.5g %.5g %d\n", line.theta_rad * 180.0 / PI, line.rho_m / unit_m, end->id);
+        fprintf(script, "%.5g %.5g %d\n", line.theta_rad * 180.0 / PI, line.rho_m / unit_m,
+                end->id);
     }
     fprintf(script, "EOD\n");
 }
@@ -248,20 +260,24 @@ static void draw_parameter_space(struct picture *picture, const struct plot_data
     double unit_m = votes->rho_max_m - votes->rho_min_m > KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
     put_lines(picture->script, &data->tracks, unit_m);
-    fprintf(picture->script,
-            "set key outside top left horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
-            "set xtics 30\nset xlabel 'theta, direction of the normal (degrees)'\n"
-            "set ylabel 'rho, signed distance from the origin (%s)'\nset cblabel 'plots that voted'\n"
-            "set palette defined (0 '#ffffff', 0.15 '#d0dff0', 0.5 '#5a9bd0', 1 '#08306b')\nset cbrange [0:*]\n"
-            "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.6,0.4\n"
-            "plot $votes using 1:2:3 with image notitle",
-            votes->rho_min_m / unit_m, votes->rho_max_m / unit_m, unit_m > 1.0 ? "km" : "m");
+    fprintf(
+        picture->script,
+        "set key outside top left horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
+        "set xtics 30\nset xlabel 'theta, direction of the normal (degrees)'\n"
+        "set ylabel 'rho, signed distance from the origin (%s)'\nset cblabel 'plots that voted'\n"
+        "set palette defined (0 '#ffffff', 0.15 '#d0dff0', 0.5 '#5a9bd0', 1 '#08306b')\nset "
+        "cbrange [0:*]\n"
+        "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.6,0.4\n"
+        "plot $votes using 1:2:3 with image notitle",
+        votes->rho_min_m / unit_m, votes->rho_max_m / unit_m, unit_m > 1.0 ? "km" : "m");
     if (data->tracks.count) {
-        fprintf(picture->script,
-                ", \\\n $lines using 1:2 with points pt 6 ps 2.4 lw 4 lc rgb '#ffffff' notitle, \\\n"
-                " $lines using 1:2 with points pt 6 ps 2.4 lw 2.5 lc rgb '#d55e00' title 'the tracks'' lines', \\\n"
-                " $lines using 1:2:(sprintf('track %%d', $3)) with labels left boxed offset 1.8,1.1 "
-                "tc rgb '#000000' notitle");
+        fprintf(
+            picture->script,
+            ", \\\n $lines using 1:2 with points pt 6 ps 2.4 lw 4 lc rgb '#ffffff' notitle, \\\n"
+            " $lines using 1:2 with points pt 6 ps 2.4 lw 2.5 lc rgb '#d55e00' title 'the tracks'' "
+            "lines', \\\n"
+            " $lines using 1:2:(sprintf('track %%d', $3)) with labels left boxed offset 1.8,1.1 "
+            "tc rgb '#000000' notitle");
     }
     fprintf(picture->script, "\n");
     free(votes);
@@ -269,7 +285,8 @@ static void draw_parameter_space(struct picture *picture, const struct plot_data
 
 /* ---- errors ----------------------------------------------------------------------------------- */
 
-static size_t points_at(const struct plot_points *points, int64_t time_us, const struct plot_point **at)
+static size_t points_at(const struct plot_points *points, int64_t time_us,
+                        const struct plot_point **at)
 {
     size_t count = 0;
     for (size_t i = 0; i < points->count; i++) {
@@ -290,7 +307,8 @@ static struct gospa_place *places_of(const struct plot_point *const *points, siz
 }
 
 /* Distance of the track paired with this target at this time; NAN where there is none. */
-static double error_m(const struct plot_data *data, const struct plot_point *target, double cutoff_m)
+static double error_m(const struct plot_data *data, const struct plot_point *target,
+                      double cutoff_m)
 {
     const struct plot_point **targets = must_calloc(data->truth.count + 1, sizeof *targets);
     const struct plot_point **tracks = must_calloc(data->tracks.count + 1, sizeof *tracks);
@@ -339,11 +357,13 @@ static void draw_errors(struct picture *picture, const struct plot_data *data, d
     size_t at = 0, index = 0, many = count_ids(&data->truth) > LEGEND_TRACKS_MAX;
     put_errors(picture->script, data, cutoff_m);
     fprintf(picture->script,
-            "set xlabel 'time (s)'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN notitle",
+            "set xlabel 'time (s)'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN "
+            "notitle",
             many ? "set key off\n" : "");
     while (plot_data_next(&data->truth, &at, &one)) {
         fprintf(picture->script,
-                ", \\\n $errors index %zu using 1:2 with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' title 'target %d'",
+                ", \\\n $errors index %zu using 1:2 with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' "
+                "title 'target %d'",
                 index, picture_marker(index), picture_colour(index), one.list[0].id);
         index++;
     }
@@ -366,13 +386,15 @@ static void check_content(const char *kind, const struct plot_data *data)
     } else if (strcmp(kind, "errors") == 0) {
         need(&data->truth, kind, "truth (target_id)");
     } else if (strcmp(kind, "tracks") != 0) {
-        fail(EXIT_USAGE, "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors", kind);
+        fail(EXIT_USAGE, "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors",
+             kind);
     } else if (data->plots.count + data->tracks.count + data->truth.count == 0) {
         fail(EXIT_USAGE, "plot tracks: the files hold nothing to draw");
     }
 }
 
-static void draw(const char *kind, struct picture *picture, const struct plot_data *data, double cutoff_m)
+static void draw(const char *kind, struct picture *picture, const struct plot_data *data,
+                 double cutoff_m)
 {
     if (strcmp(kind, "scans") == 0) {
         draw_scans(picture, data);
@@ -388,7 +410,8 @@ static void draw(const char *kind, struct picture *picture, const struct plot_da
 int command_plot(struct command_line *line)
 {
     if (line->num_arguments < 2 || !line->output) {
-        fail(EXIT_USAGE, "plot: give a picture (scans, tracks, parameter-space, errors), files, and -o FILE.svg");
+        fail(EXIT_USAGE, "plot: give a picture (scans, tracks, parameter-space, errors), files, "
+                         "and -o FILE.svg");
     }
     const char *kind = line->arguments[0];
     struct plot_data data = plot_data_read(line->arguments + 1, line->num_arguments - 1);

@@ -14,8 +14,8 @@ static void write_plots(const struct simulation *simulation, const char *folder)
     for (size_t i = 0; i < simulation->num_scans; i++) {
         const struct simulated_scan *scan = &simulation->scans[i];
         for (size_t j = 0; j < scan->num_plots; j++) {
-            fprintf(output.file, "%.6f,0,%.3f,%.3f,%g\n", scan->t_s, scan->plots[j].x_m, scan->plots[j].y_m,
-                    simulation->sigma_m);
+            fprintf(output.file, "%.6f,0,%.3f,%.3f,%g\n", scan->t_s, scan->plots[j].x_m,
+                    scan->plots[j].y_m, simulation->sigma_m);
         }
         if (scan->num_plots == 0) {
             fprintf(output.file, "%.6f,0,,,\n", scan->t_s);
@@ -32,8 +32,8 @@ static void write_truth(const struct simulation *simulation, const char *folder)
     fprintf(output.file, "t_s,target_id,x_m,y_m,vx_mps,vy_mps\n");
     for (size_t i = 0; i < simulation->num_truth; i++) {
         const struct truth_point *point = &simulation->truth[i];
-        fprintf(output.file, "%.6f,%d,%.3f,%.3f,%.4f,%.4f\n", point->t_s, point->target_id, point->x_m,
-                point->y_m, point->vx_mps, point->vy_mps);
+        fprintf(output.file, "%.6f,%d,%.3f,%.3f,%.4f,%.4f\n", point->t_s, point->target_id,
+                point->x_m, point->y_m, point->vx_mps, point->vy_mps);
     }
     output_close(&output);
     free(path);

@@ -46,7 +46,8 @@ struct initiation_summary *initiation_summaries(uint64_t seed, size_t num_runs)
     experiment.runs = must_calloc(num_cases * num_runs, sizeof *experiment.runs);
     workers_run(num_cases * num_runs, "runs", run_one, &experiment);
     for (size_t i = 0; i < num_cases; i++) {
-        summaries[i] = initiation_summarise(initiation_case_at(i), &experiment.runs[i * num_runs], num_runs);
+        summaries[i] =
+            initiation_summarise(initiation_case_at(i), &experiment.runs[i * num_runs], num_runs);
     }
     for (size_t i = 0; i < WORKERS_MAX; i++) {
         free(experiment.initiators[i]);
@@ -87,11 +88,13 @@ static const char *verdict_text(const struct initiation_summary *summary)
 
 struct grid initiation_grid(const struct initiation_summary *summaries, size_t count)
 {
-    struct grid grid = grid_start(2, "bar|case|Pd|all found|must be|clairvoyant Pd|false a run|at most|error m|ms|verdict");
+    struct grid grid = grid_start(
+        2, "bar|case|Pd|all found|must be|clairvoyant Pd|false a run|at most|error m|ms|verdict");
     for (size_t i = 0; i < count; i++) {
         const struct initiation_summary *of = &summaries[i];
         char pd[32], all[32], clairvoyant[32], at_most[32], error[32], bars[64];
-        snprintf(at_most, sizeof at_most, isnan(of->of->bars.false_max) ? "" : "%g", of->of->bars.false_max);
+        snprintf(at_most, sizeof at_most, isnan(of->of->bars.false_max) ? "" : "%g",
+                 of->of->bars.false_max);
         grid_row(&grid, "%s|%s|%s|%s|%s|%s|%.3f|%s|%s|%.2f|%s", of->of->group, of->of->name,
                  number(pd, 3, of->pd), number(all, 3, of->all_found), bars_text(bars, of->of),
                  number(clairvoyant, 3, of->clairvoyant), of->false_a_run, at_most,
@@ -112,10 +115,12 @@ static const struct initiation_summary *work_case(const struct initiation_summar
     return &summaries[0];
 }
 
-size_t initiation_work(const struct initiation_summary *summaries, struct initiation_verdict verdicts[3])
+size_t initiation_work(const struct initiation_summary *summaries,
+                       struct initiation_verdict verdicts[3])
 {
     const struct initiation_summary *of = work_case(summaries);
-    verdicts[0] = (struct initiation_verdict){"seeds", of->seeds, WORK_SEEDS_MAX, of->seeds <= WORK_SEEDS_MAX};
+    verdicts[0] = (struct initiation_verdict){"seeds", of->seeds, WORK_SEEDS_MAX,
+                                              of->seeds <= WORK_SEEDS_MAX};
     verdicts[1] = (struct initiation_verdict){"look-ups", of->lookups, WORK_LOOKUPS_MAX,
                                               of->lookups <= WORK_LOOKUPS_MAX};
     verdicts[2] = (struct initiation_verdict){"distances", of->distances, WORK_DISTANCES_MAX,
@@ -128,11 +133,12 @@ struct grid initiation_work_grid(const struct initiation_summary *summaries)
     const struct initiation_summary *of = work_case(summaries);
     const double most[3] = {of->seeds_max, of->lookups_max, of->distances_max};
     struct initiation_verdict verdicts[3];
-    struct grid grid = grid_start(1, "work a window, 100 clutter plots a scan|mean|most|mean at most|verdict");
+    struct grid grid =
+        grid_start(1, "work a window, 100 clutter plots a scan|mean|most|mean at most|verdict");
     size_t count = initiation_work(summaries, verdicts);
     for (size_t i = 0; i < count; i++) {
-        grid_row(&grid, "%s|%.0f|%.0f|%.0f|%s", verdicts[i].what, verdicts[i].value, most[i], verdicts[i].bar,
-                 verdicts[i].is_held ? "ok" : "MISSED");
+        grid_row(&grid, "%s|%.0f|%.0f|%.0f|%s", verdicts[i].what, verdicts[i].value, most[i],
+                 verdicts[i].bar, verdicts[i].is_held ? "ok" : "MISSED");
     }
     grid_row(&grid, "least-squares fits|%.0f|||", of->fits);
     return grid;
@@ -211,8 +217,8 @@ static void print_json(const struct initiation_summary *summaries, const struct 
     cJSON_Delete(root);
 }
 
-static void print_tables(const struct initiation_summary *summaries, const struct command_line *line,
-                         size_t num_runs)
+static void print_tables(const struct initiation_summary *summaries,
+                         const struct command_line *line, size_t num_runs)
 {
     struct initiation_score score = initiation_score(summaries);
     struct grid grid = initiation_grid(summaries, initiation_num_cases());

@@ -62,19 +62,21 @@ struct initiation_run {
 };
 
 /* One run, with the generator of (seed, case, run). The initiator is only memory; it holds the result. */
-struct initiation_run initiation_run(const struct initiation_case *of, struct rho_initiator *initiator,
-                                     struct random *random);
+struct initiation_run initiation_run(const struct initiation_case *of,
+                                     struct rho_initiator *initiator, struct random *random);
 
 /* The same for given data; plan may be NULL where no target is known. */
-struct initiation_run initiation_judge(const struct initiation_case *of, const struct scenario_plan *plan,
-                                       const struct simulation *simulation, struct rho_initiator *initiator);
+struct initiation_run initiation_judge(const struct initiation_case *of,
+                                       const struct scenario_plan *plan,
+                                       const struct simulation *simulation,
+                                       struct rho_initiator *initiator);
 
 struct initiation_summary {
     const struct initiation_case *of;
     size_t runs;
     double pd, all_found, clairvoyant; /* NAN without targets */
     double false_a_run, error_m;
-    double time_us; /* median */
+    double time_us;                         /* median */
     double seeds, lookups, distances, fits; /* means */
     double seeds_max, lookups_max, distances_max;
 };
@@ -90,6 +92,7 @@ struct initiation_verdict {
 };
 
 /* The verdicts of a case: at most 3. Returns how many. */
-size_t initiation_verdicts(const struct initiation_summary *summary, struct initiation_verdict verdicts[3]);
+size_t initiation_verdicts(const struct initiation_summary *summary,
+                           struct initiation_verdict verdicts[3]);
 
 #endif

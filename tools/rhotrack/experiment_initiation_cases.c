@@ -10,47 +10,86 @@
 #define INTERVAL_S 2.0
 #define SIGMA_M 10.0
 
-#define CROSSING_BOX {0, 4000, -1000, 1500}
-#define RADAR_BOX {-25000, -1000, 13000, 29000}
-#define SQUARE_BOX {-2500, 2500, -2500, 2500}
+#define CROSSING_BOX                                                                               \
+    {                                                                                              \
+        0, 4000, -1000, 1500                                                                       \
+    }
+#define RADAR_BOX                                                                                  \
+    {                                                                                              \
+        -25000, -1000, 13000, 29000                                                                \
+    }
+#define SQUARE_BOX                                                                                 \
+    {                                                                                              \
+        -2500, 2500, -2500, 2500                                                                   \
+    }
 
 /* Settings that most cases share. */
 #define USUAL .min_scans = 5, .score_min_nat = -3.0
-#define UNBARRED {.found_min = NAN, .false_max = NAN, .behind_max = NAN}
+#define UNBARRED                                                                                   \
+    {                                                                                              \
+        .found_min = NAN, .false_max = NAN, .behind_max = NAN                                      \
+    }
 
 #define CROSSING(lambda, pd, scans, found, wrong)                                                  \
-    {.group = "B1", .name = "Table 1, " #lambda "/km^2, P_D " #pd, .paths = PATHS_CROSSING,        \
-     .box = CROSSING_BOX, .clutter_per_km2 = (lambda), .true_pd = (pd), .min_scans = (scans),      \
-     .score_min_nat = -3.0, .tolerance_m = 30.0, .bars = {(found), (wrong), 0.02}}
+    {                                                                                              \
+        .group = "B1", .name = "Table 1, " #lambda "/km^2, P_D " #pd, .paths = PATHS_CROSSING,     \
+        .box = CROSSING_BOX, .clutter_per_km2 = (lambda), .true_pd = (pd), .min_scans = (scans),   \
+        .score_min_nat = -3.0, .tolerance_m = 30.0, .bars = {                                      \
+            (found),                                                                               \
+            (wrong),                                                                               \
+            0.02                                                                                   \
+        }                                                                                          \
+    }
 
 #define RADAR(clutter)                                                                             \
-    {.group = "B2", .name = "Table 3, " #clutter " clutter plots a scan", .paths = PATHS_RADAR,    \
-     .box = RADAR_BOX, .clutter_per_scan = (clutter), .true_pd = 1.0, USUAL, .tolerance_m = 120.0, \
-     .all_count = true, .bars = {0.99, 0.05, NAN}}
+    {                                                                                              \
+        .group = "B2", .name = "Table 3, " #clutter " clutter plots a scan", .paths = PATHS_RADAR, \
+        .box = RADAR_BOX, .clutter_per_scan = (clutter), .true_pd = 1.0, USUAL,                    \
+        .tolerance_m = 120.0, .all_count = true, .bars = {                                         \
+            0.99,                                                                                  \
+            0.05,                                                                                  \
+            NAN                                                                                    \
+        }                                                                                          \
+    }
 
 #define SQUARE(label, found, ...)                                                                  \
-    {.group = "B3", .name = label, .paths = PATHS_STRAIGHT, .box = SQUARE_BOX,                     \
-     .clutter_per_km2 = 1.0, .true_pd = 0.99, USUAL, .tolerance_m = 30.0, .all_count = true,       \
-     .bars = {(found), 0.05, NAN}, __VA_ARGS__}
+    {                                                                                              \
+        .group = "B3", .name = label, .paths = PATHS_STRAIGHT, .box = SQUARE_BOX,                  \
+        .clutter_per_km2 = 1.0, .true_pd = 0.99, USUAL, .tolerance_m = 30.0, .all_count = true,    \
+        .bars = {(found), 0.05, NAN}, __VA_ARGS__                                                  \
+    }
 
 #define TWO(x1, vx1, y1, vy1, x2, vx2, y2, vy2)                                                    \
     .start = {{x1, vx1, y1, vy1}, {x2, vx2, y2, vy2}}, .num_starts = 2
 #define ONE(x, vx, y, vy) .start = {{x, vx, y, vy}}, .num_starts = 1
 
 #define CLUTTER(score, wrong)                                                                      \
-    {.group = "B4", .name = "clutter only, 10/km^2, score_min " #score " nat", .box = CROSSING_BOX, \
-     .clutter_per_km2 = 10.0, .true_pd = 0.99, .min_scans = 5, .score_min_nat = (score),           \
-     .tolerance_m = 30.0, .bars = {NAN, (wrong), NAN}}
+    {                                                                                              \
+        .group = "B4", .name = "clutter only, 10/km^2, score_min " #score " nat",                  \
+        .box = CROSSING_BOX, .clutter_per_km2 = 10.0, .true_pd = 0.99, .min_scans = 5,             \
+        .score_min_nat = (score), .tolerance_m = 30.0, .bars = {                                   \
+            NAN,                                                                                   \
+            (wrong),                                                                               \
+            NAN                                                                                    \
+        }                                                                                          \
+    }
 
 #define MANOEUVRE(label, path, lambda, noise)                                                      \
-    {.group = "-", .name = label ", " #lambda "/km^2, process noise " #noise " m/s^2",             \
-     .paths = (path), ONE(-1500, 250, 0, 0), .box = SQUARE_BOX, .clutter_per_km2 = (lambda),       \
-     .true_pd = 0.99, USUAL, .process_noise_mps2 = (noise), .tolerance_m = 60.0, .bars = UNBARRED}
+    {                                                                                              \
+        .group = "-", .name = label ", " #lambda "/km^2, process noise " #noise " m/s^2",          \
+        .paths = (path), ONE(-1500, 250, 0, 0), .box = SQUARE_BOX, .clutter_per_km2 = (lambda),    \
+        .true_pd = 0.99, USUAL, .process_noise_mps2 = (noise), .tolerance_m = 60.0,                \
+        .bars = UNBARRED                                                                           \
+    }
 
 #define WANDER(lambda, noise)                                                                      \
-    {.group = "-", .name = "Table 1 wandering 10 m/s a scan, " #lambda "/km^2, process noise " #noise " m/s^2", \
-     .paths = PATHS_WANDER, .box = CROSSING_BOX, .clutter_per_km2 = (lambda), .true_pd = 0.99,     \
-     USUAL, .process_noise_mps2 = (noise), .tolerance_m = 60.0, .bars = UNBARRED}
+    {                                                                                              \
+        .group = "-",                                                                              \
+        .name =                                                                                    \
+            "Table 1 wandering 10 m/s a scan, " #lambda "/km^2, process noise " #noise " m/s^2",   \
+        .paths = PATHS_WANDER, .box = CROSSING_BOX, .clutter_per_km2 = (lambda), .true_pd = 0.99,  \
+        USUAL, .process_noise_mps2 = (noise), .tolerance_m = 60.0, .bars = UNBARRED                \
+    }
 
 static const struct initiation_case cases[] = {
     CROSSING(0, 1, 5, 0.995, 0.01),
@@ -119,12 +158,13 @@ static const struct scenario_state crossing_starts[3] = {
 
 static struct scenario_plan paths_of(const struct initiation_case *of, struct random *random)
 {
-    static const size_t fixed_targets[] = {[PATHS_CROSSING] = 3, [PATHS_WANDER] = 3,
-                                           [PATHS_RADAR] = RADAR_TABLE_TARGETS};
-    bool is_fixed = of->paths == PATHS_CROSSING || of->paths == PATHS_WANDER || of->paths == PATHS_RADAR;
-    struct scenario_plan plan = plan_start(is_fixed ? fixed_targets[of->paths] : of->num_starts,
-                                           INITIATION_SCANS,
-                                           of->paths == PATHS_RADAR ? RADAR_TABLE_INTERVAL_S : INTERVAL_S);
+    static const size_t fixed_targets[] = {
+        [PATHS_CROSSING] = 3, [PATHS_WANDER] = 3, [PATHS_RADAR] = RADAR_TABLE_TARGETS};
+    bool is_fixed =
+        of->paths == PATHS_CROSSING || of->paths == PATHS_WANDER || of->paths == PATHS_RADAR;
+    struct scenario_plan plan =
+        plan_start(is_fixed ? fixed_targets[of->paths] : of->num_starts, INITIATION_SCANS,
+                   of->paths == PATHS_RADAR ? RADAR_TABLE_INTERVAL_S : INTERVAL_S);
     for (size_t i = 0; i < plan.num_targets; i++) {
         struct scenario_state start = is_fixed ? crossing_starts[i] : of->start[i];
         switch (of->paths) {

@@ -62,12 +62,14 @@ static void draw_found(const struct initiation_summary *summaries, const char *p
 {
     struct picture picture = picture_open(path, 1100, 900);
     put_rows(picture.script, summaries, true);
-    fprintf(picture.script,
-            "set key bottom left inside\nset xrange [-0.02:1.02]\nset offsets 0,0,0.7,0.7\n"
-            "set xlabel 'targets found (of the runs with all found, where the bar is about these)'\n"
-            "plot $rows using 4:0:ytic(1) with points pt 2 ps 1.1 lw 2 lc rgb '#7f7f7f' title 'bar', \\\n"
-            " '' using 3:0 with points pt 6 ps 1.5 lw 2 lc rgb '#d55e00' title 'clairvoyant fit', \\\n"
-            " '' using 2:0 with points pt 7 ps 0.9 lc rgb '#0072b2' title 'rhotrack'\n");
+    fprintf(
+        picture.script,
+        "set key bottom left inside\nset xrange [-0.02:1.02]\nset offsets 0,0,0.7,0.7\n"
+        "set xlabel 'targets found (of the runs with all found, where the bar is about these)'\n"
+        "plot $rows using 4:0:ytic(1) with points pt 2 ps 1.1 lw 2 lc rgb '#7f7f7f' title 'bar', "
+        "\\\n"
+        " '' using 3:0 with points pt 6 ps 1.5 lw 2 lc rgb '#d55e00' title 'clairvoyant fit', \\\n"
+        " '' using 2:0 with points pt 7 ps 0.9 lc rgb '#0072b2' title 'rhotrack'\n");
     picture_close(&picture);
 }
 
@@ -78,7 +80,8 @@ static void draw_false(const struct initiation_summary *summaries, const char *p
     fprintf(picture.script,
             "set key bottom right inside\nset xrange [-0.01:*]\nset offsets 0,0,0.7,0.7\n"
             "set xlabel 'false tracks a run'\n"
-            "plot $rows using 6:0:ytic(1) with points pt 2 ps 1.1 lw 2 lc rgb '#7f7f7f' title 'bar', \\\n"
+            "plot $rows using 6:0:ytic(1) with points pt 2 ps 1.1 lw 2 lc rgb '#7f7f7f' title "
+            "'bar', \\\n"
             " '' using 5:0 with points pt 7 ps 0.9 lc rgb '#0072b2' title 'rhotrack'\n");
     picture_close(&picture);
 }
@@ -168,14 +171,18 @@ static void write_page(const struct initiation_summary *summaries, size_t num_ru
     struct grid work = initiation_work_grid(summaries);
     struct initiation_score score = initiation_score(summaries);
     page_text(&page,
-              "Method kernel, %zu runs a case, seed %llu: %d bars held, %d missed. A target is found when a track is, "
-              "in the mean over the scans, within the case's tolerance of it, one to one. The clairvoyant fit knows "
+              "Method kernel, %zu runs a case, seed %llu: %d bars held, %d missed. A target is "
+              "found when a track is, "
+              "in the mean over the scans, within the case's tolerance of it, one to one. The "
+              "clairvoyant fit knows "
               "which plots are the target's, and is held against the same threshold.",
               num_runs, (unsigned long long)seed, score.held, score.missed);
     page_figure(&page, "example.svg",
-                "One run: Table 1's three targets among 100 clutter plots a scan, 7 scans, and the tracks found.");
+                "One run: Table 1's three targets among 100 clutter plots a scan, 7 scans, and the "
+                "tracks found.");
     page_heading(&page, "Targets found");
-    page_figure(&page, "found.svg", "Share of the targets found, beside what the clairvoyant fit finds.");
+    page_figure(&page, "found.svg",
+                "Share of the targets found, beside what the clairvoyant fit finds.");
     page_heading(&page, "False tracks");
     page_figure(&page, "false.svg", "Tracks that are no target's, in the mean over the runs.");
     page_heading(&page, "All figures");

@@ -17,7 +17,8 @@ struct grid initiation_grid(const struct initiation_summary *summaries, size_t c
 struct grid initiation_work_grid(const struct initiation_summary *summaries);
 
 /* The work figures against their bars. Returns 3. */
-size_t initiation_work(const struct initiation_summary *summaries, struct initiation_verdict verdicts[3]);
+size_t initiation_work(const struct initiation_summary *summaries,
+                       struct initiation_verdict verdicts[3]);
 
 /* Bars over all cases and the work figures. */
 struct initiation_score initiation_score(const struct initiation_summary *summaries);

@@ -53,8 +53,9 @@ static void push(struct rho_initiator *initiator, const struct simulated_scan *f
         plots[i].sigma_range_m = plots[i].sigma_cross_m = plots[i].sigma_up_m = (float)sigma_m;
         fates[i] = RHO_FATE_HELD;
     }
-    struct rho_scan scan = {
-        .time_us = llround(from->t_s * 1e6), .num_plots = (uint32_t)from->num_plots, .plots = plots};
+    struct rho_scan scan = {.time_us = llround(from->t_s * 1e6),
+                            .num_plots = (uint32_t)from->num_plots,
+                            .plots = plots};
     enum rho_status status = rho_initiator_push(initiator, &scan, fates, &left_unused);
     free(fates);
     free(plots);
@@ -140,18 +141,20 @@ static double mean_density(const struct simulation *simulation, double area_m2)
 }
 
 /* Density where it is known to be uneven, else the window's mean, as the initiator estimates it. */
-static double density_at(const struct initiation_case *of, double mean_per_m2, double x_m, double y_m)
+static double density_at(const struct initiation_case *of, double mean_per_m2, double x_m,
+                         double y_m)
 {
     if (of->spot_per_km2 <= 0.0) {
         return mean_per_m2;
     }
-    bool is_inside = x_m >= of->spot.x_min_m && x_m <= of->spot.x_max_m && y_m >= of->spot.y_min_m &&
-                     y_m <= of->spot.y_max_m;
+    bool is_inside = x_m >= of->spot.x_min_m && x_m <= of->spot.x_max_m &&
+                     y_m >= of->spot.y_min_m && y_m <= of->spot.y_max_m;
     return 1e-6 * (of->clutter_per_km2 + (is_inside ? of->spot_per_km2 : 0.0));
 }
 
-static size_t plots_of(const struct initiation_case *of, const struct simulation *simulation, int target,
-                       double mean_per_m2, struct clairvoyant_plot plots[CLAIRVOYANT_PLOTS_MAX])
+static size_t plots_of(const struct initiation_case *of, const struct simulation *simulation,
+                       int target, double mean_per_m2,
+                       struct clairvoyant_plot plots[CLAIRVOYANT_PLOTS_MAX])
 {
     size_t count = 0;
     for (size_t scan = 0; scan < simulation->num_scans; scan++) {
@@ -192,15 +195,18 @@ static int clairvoyant_found(const struct initiation_case *of, const struct scen
         }
         struct clairvoyant_fit fit = clairvoyant_fit(&model, plots, count);
         double speed_mps = hypot(fit.vx_mps, fit.vy_mps);
-        found += fit.score_nat >= of->score_min_nat && speed_mps >= V_MIN_MPS && speed_mps <= V_MAX_MPS;
+        found +=
+            fit.score_nat >= of->score_min_nat && speed_mps >= V_MIN_MPS && speed_mps <= V_MAX_MPS;
     }
     return found;
 }
 
 /* ---- runs and their summary ------------------------------------------------------------------- */
 
-struct initiation_run initiation_judge(const struct initiation_case *of, const struct scenario_plan *plan,
-                                       const struct simulation *simulation, struct rho_initiator *initiator)
+struct initiation_run initiation_judge(const struct initiation_case *of,
+                                       const struct scenario_plan *plan,
+                                       const struct simulation *simulation,
+                                       struct rho_initiator *initiator)
 {
     struct initiation_run run = {.targets = (int)plan->num_targets};
     run.time_us = search(of, simulation, initiator);
@@ -212,8 +218,8 @@ struct initiation_run initiation_judge(const struct initiation_case *of, const s
     return run;
 }
 
-struct initiation_run initiation_run(const struct initiation_case *of, struct rho_initiator *initiator,
-                                     struct random *random)
+struct initiation_run initiation_run(const struct initiation_case *of,
+                                     struct rho_initiator *initiator, struct random *random)
 {
     struct scenario_plan plan = initiation_plan(of, random);
     struct simulation *simulation = plan_simulate(&plan, random);
@@ -275,7 +281,8 @@ struct initiation_summary initiation_summarise(const struct initiation_case *of,
     return summary;
 }
 
-size_t initiation_verdicts(const struct initiation_summary *summary, struct initiation_verdict verdicts[3])
+size_t initiation_verdicts(const struct initiation_summary *summary,
+                           struct initiation_verdict verdicts[3])
 {
     const struct initiation_bars *bars = &summary->of->bars;
     double found = summary->of->all_count ? summary->all_found : summary->pd;
@@ -283,16 +290,19 @@ size_t initiation_verdicts(const struct initiation_summary *summary, struct init
     const double rounding = 1e-9;
     size_t count = 0;
     if (!isnan(bars->found_min)) {
-        verdicts[count++] = (struct initiation_verdict){summary->of->all_count ? "all found" : "found", found,
-                                                        bars->found_min, found >= bars->found_min - rounding};
+        verdicts[count++] =
+            (struct initiation_verdict){summary->of->all_count ? "all found" : "found", found,
+                                        bars->found_min, found >= bars->found_min - rounding};
     }
     if (!isnan(bars->false_max)) {
-        verdicts[count++] = (struct initiation_verdict){"false a run", summary->false_a_run, bars->false_max,
-                                                        summary->false_a_run <= bars->false_max + rounding};
+        verdicts[count++] =
+            (struct initiation_verdict){"false a run", summary->false_a_run, bars->false_max,
+                                        summary->false_a_run <= bars->false_max + rounding};
     }
     if (!isnan(bars->behind_max)) {
-        verdicts[count++] = (struct initiation_verdict){"behind the clairvoyant fit", behind, bars->behind_max,
-                                                        behind <= bars->behind_max + rounding};
+        verdicts[count++] =
+            (struct initiation_verdict){"behind the clairvoyant fit", behind, bars->behind_max,
+                                        behind <= bars->behind_max + rounding};
     }
     return count;
 }

@@ -15,7 +15,7 @@
  */
 struct assignment {
     size_t rows, columns;
-    const double *cost;  /* rows x columns */
+    const double *cost; /* rows x columns */
     double *row_price, *column_price, *slack;
     size_t *row_of, *from; /* by column */
     bool *is_done;
@@ -23,7 +23,8 @@ struct assignment {
 
 static double reduced_cost(const struct assignment *a, size_t row, size_t column)
 {
-    return a->cost[(row - 1) * a->columns + column - 1] - a->row_price[row] - a->column_price[column];
+    return a->cost[(row - 1) * a->columns + column - 1] - a->row_price[row] -
+           a->column_price[column];
 }
 
 /* Scans the columns from `column`'s row: the nearest one not done, and how far on. */
@@ -144,7 +145,8 @@ static void count_pair(struct gospa *result, double squared_m2)
     result->localisation_m2 += squared_m2;
 }
 
-static double ospa(const struct gospa *result, size_t num_targets, size_t num_tracks, double cutoff2_m2)
+static double ospa(const struct gospa *result, size_t num_targets, size_t num_tracks,
+                   double cutoff2_m2)
 {
     size_t larger = num_targets > num_tracks ? num_targets : num_tracks;
     double unpaired = (double)(larger - result->pairs) * cutoff2_m2;
@@ -176,7 +178,8 @@ struct gospa gospa_compare(const struct gospa_place *targets, size_t num_targets
         }
         count_pair(&result, squared_m2);
         if (track_of != NULL) {
-            track_of[targets_are_few ? i : partner_of[i]] = (int)(targets_are_few ? partner_of[i] : i);
+            track_of[targets_are_few ? i : partner_of[i]] =
+                (int)(targets_are_few ? partner_of[i] : i);
         }
     }
     free(partner_of);

@@ -17,7 +17,8 @@ static char *copy_text(const char *text, size_t length)
 
 static void add_row(struct grid *grid, const char *text)
 {
-    grid->cells = must_realloc(grid->cells, (grid->num_rows + 1) * grid->num_columns * sizeof *grid->cells);
+    grid->cells =
+        must_realloc(grid->cells, (grid->num_rows + 1) * grid->num_columns * sizeof *grid->cells);
     char **row = &grid->cells[grid->num_rows++ * grid->num_columns];
     for (size_t column = 0; column < grid->num_columns; column++) {
         size_t length = strcspn(text, "|");

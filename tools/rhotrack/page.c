@@ -5,14 +5,16 @@
 #include <string.h>
 
 static const char style[] =
-    "body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:76rem;margin:2rem auto;padding:0 "
+    "body{font:16px/1.5 "
+    "system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:76rem;margin:2rem auto;padding:0 "
     "1rem}"
     "h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #ccc}"
     "table{border-collapse:collapse;font-size:.9rem;margin:1rem 0}"
     "th,td{padding:.2rem .7rem;border-bottom:1px solid #e4e4e4;text-align:right}"
     "th{border-bottom:2px solid #888}.l{text-align:left}"
     ".ok{color:#00663f}.missed{color:#a33c00;font-weight:bold}"
-    "figure{margin:1.5rem 0}figure img{max-width:100%;height:auto}figcaption{color:#555;font-size:.95rem}";
+    "figure{margin:1.5rem 0}figure "
+    "img{max-width:100%;height:auto}figcaption{color:#555;font-size:.95rem}";
 
 static void put_escaped(FILE *file, const char *text)
 {

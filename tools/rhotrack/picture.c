@@ -44,14 +44,16 @@ struct picture picture_open(const char *path, int width, int height)
     if (!picture.script) {
         fail(EXIT_RUNTIME, "%s: %s", picture.script_path, strerror(errno));
     }
-    fprintf(picture.script,
-            "set terminal svg size %d,%d enhanced background '#ffffff' font 'Helvetica,15'\n"
-            "set output '%s'\n"
-            "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
-            "set grid lc rgb '#dddddd' lt 1 lw 0.7\nset key outside right top vertical Left reverse\n",
-            width, height, picture.temporary_path);
+    fprintf(
+        picture.script,
+        "set terminal svg size %d,%d enhanced background '#ffffff' font 'Helvetica,15'\n"
+        "set output '%s'\n"
+        "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
+        "set grid lc rgb '#dddddd' lt 1 lw 0.7\nset key outside right top vertical Left reverse\n",
+        width, height, picture.temporary_path);
     for (size_t i = 0; i < NUM_COLOURS; i++) {
-        fprintf(picture.script, "set linetype %zu lc rgb '%s' pt %d lw 2\n", i + 1, colours[i], markers[i]);
+        fprintf(picture.script, "set linetype %zu lc rgb '%s' pt %d lw 2\n", i + 1, colours[i],
+                markers[i]);
     }
     return picture;
 }

@@ -15,7 +15,8 @@ static double number_at(const struct table *table, size_t row, int column)
     }
     const char *reason = table_number(table_cell(table, row, column), &value);
     if (reason) {
-        table_fail(table, row, "%s: '%s' %s", table->names[column], table_cell(table, row, column), reason);
+        table_fail(table, row, "%s: '%s' %s", table->names[column], table_cell(table, row, column),
+                   reason);
     }
     return value;
 }

@@ -55,7 +55,8 @@ double random_between(struct random *random, double lo, double hi)
 
 uint64_t random_below(struct random *random, uint64_t n)
 {
-    uint64_t limit = UINT64_MAX - UINT64_MAX % n; /* the last, incomplete block would favour small numbers */
+    /* the last, incomplete block would favour small numbers */
+    uint64_t limit = UINT64_MAX - UINT64_MAX % n;
     uint64_t bits = random_bits(random);
     while (bits >= limit) {
         bits = random_bits(random);

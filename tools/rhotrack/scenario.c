@@ -37,7 +37,8 @@ static struct scenario_plan radar(const struct parameters *parameters, struct ra
 {
     (void)random;
     if (count_of(parameters, PARAMETER_NUM_SCANS) > RADAR_TABLE_SCANS) {
-        fail(EXIT_USAGE, "scenario radar has %d scans, num_scans must not be greater", RADAR_TABLE_SCANS);
+        fail(EXIT_USAGE, "scenario radar has %d scans, num_scans must not be greater",
+             RADAR_TABLE_SCANS);
     }
     struct scenario_plan plan = plan_of(parameters, RADAR_TABLE_TARGETS);
     plan_radar_table(&plan);
@@ -50,19 +51,22 @@ static struct scenario_plan parallel(const struct parameters *parameters, struct
     double speed_mps = parameters->value[PARAMETER_SPEED_MPS];
     struct scenario_plan plan = plan_of(parameters, 2);
     plan_straight(&plan, 0, (struct scenario_state){-1500, speed_mps, 0, 0});
-    plan_straight(&plan, 1,
-                  (struct scenario_state){-1500, speed_mps, parameters->value[PARAMETER_SPACING_M], 0});
+    plan_straight(
+        &plan, 1,
+        (struct scenario_state){-1500, speed_mps, parameters->value[PARAMETER_SPACING_M], 0});
     return plan;
 }
 
 /* Both are in the origin at half time. */
-static struct scenario_plan crossing_angle(const struct parameters *parameters, struct random *random)
+static struct scenario_plan crossing_angle(const struct parameters *parameters,
+                                           struct random *random)
 {
     (void)random;
     struct scenario_plan plan = plan_of(parameters, 2);
     double half_s = plan.interval_s * ((double)plan.num_scans - 1.0) / 2.0;
     for (size_t target = 0; target < 2; target++) {
-        double heading_rad = parameters->value[PARAMETER_CROSSING_DEG] * DEG_RAD * (target == 0 ? 0.5 : -0.5);
+        double heading_rad =
+            parameters->value[PARAMETER_CROSSING_DEG] * DEG_RAD * (target == 0 ? 0.5 : -0.5);
         double vx_mps = parameters->value[PARAMETER_SPEED_MPS] * cos(heading_rad);
         double vy_mps = parameters->value[PARAMETER_SPEED_MPS] * sin(heading_rad);
         plan_straight(&plan, target,
@@ -75,9 +79,11 @@ static struct scenario_plan same_line(const struct parameters *parameters, struc
 {
     (void)random;
     double second_mps = parameters->value[PARAMETER_SECOND_SPEED_MPS];
-    double second_x_m = second_mps < 0.0 ? 1500.0 : -1500.0 + parameters->value[PARAMETER_SPACING_M];
+    double second_x_m =
+        second_mps < 0.0 ? 1500.0 : -1500.0 + parameters->value[PARAMETER_SPACING_M];
     struct scenario_plan plan = plan_of(parameters, 2);
-    plan_straight(&plan, 0, (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 300, 0});
+    plan_straight(&plan, 0,
+                  (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 300, 0});
     plan_straight(&plan, 1, (struct scenario_state){second_x_m, second_mps, 300, 0});
     return plan;
 }
@@ -92,7 +98,8 @@ static struct scenario_plan slow_turn(const struct parameters *parameters, struc
 {
     (void)random;
     struct scenario_plan plan = plan_of(parameters, 1);
-    plan_turn(&plan, 0, (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 0, 0},
+    plan_turn(&plan, 0,
+              (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 0, 0},
               parameters->value[PARAMETER_TURN_DEG] * DEG_RAD);
     return plan;
 }
@@ -123,7 +130,8 @@ static struct scenario_state straight_inside(const struct parameters *parameters
                                        .vx_mps = speed_mps * cos(heading_rad),
                                        .y_m = random_between(random, box.y_min_m, box.y_max_m),
                                        .vy_mps = speed_mps * sin(heading_rad)};
-        if (is_inside(&box, state.x_m + state.vx_mps * duration_s, state.y_m + state.vy_mps * duration_s)) {
+        if (is_inside(&box, state.x_m + state.vx_mps * duration_s,
+                      state.y_m + state.vy_mps * duration_s)) {
             return state;
         }
     }
@@ -148,24 +156,113 @@ static const struct scenario {
     struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
     double num_scans, interval_s, sigma_m, true_pd, v_min_mps, v_max_mps, accel_max_mps2;
     struct scenario_box box;
-    double clutter_per_km2;  /* where positive, else: */
+    double clutter_per_km2; /* where positive, else: */
     double clutter_per_scan;
 } scenarios[] = {
-    {"crossing", "three targets, two of which cross (the paper's Table 1)", crossing, 7, 2, 10, 0.99, 100,
-     400, 5, {0, 4000, -1000, 1500}, 1, 0},
-    {"radar", "the real plots of three aircraft (the paper's Table 3) in clutter", radar, RADAR_TABLE_SCANS,
-     RADAR_TABLE_INTERVAL_S, RADAR_TABLE_SIGMA_M, 1.0, 100, 400, 5, {-25000, -1000, 13000, 29000}, 0, 100},
-    {"parallel", "two targets side by side, spacing_m apart", parallel, 7, 2, 10, 0.99, 100, 400, 5,
-     {-2500, 2500, -2500, 2500}, 1, 0},
-    {"crossing-angle", "two targets that meet at crossing_deg", crossing_angle, 7, 2, 10, 0.99, 100, 400, 5,
-     {-2500, 2500, -2500, 2500}, 1, 0},
-    {"same-line", "two targets on one line, spacing_m apart, with speeds of their own", same_line, 7, 2, 10,
-     0.99, 100, 400, 5, {-2500, 2500, -2500, 2500}, 1, 0},
-    {"clutter", "no target at all", clutter, 7, 2, 10, 0.99, 100, 400, 5, {0, 4000, -1000, 1500}, 10, 0},
-    {"slow-turn", "one target that turns by turn_deg a scan", slow_turn, 20, 2, 10, 0.99, 100, 400, 10,
-     {-2500, 2500, -2500, 2500}, 1, 0},
-    {"traffic", "many straight targets in a large area", traffic, 120, 10, 50, 0.99, 50, 300, 5,
-     {-250000, 250000, -250000, 250000}, 0, 950},
+    {"crossing",
+     "three targets, two of which cross (the paper's Table 1)",
+     crossing,
+     7,
+     2,
+     10,
+     0.99,
+     100,
+     400,
+     5,
+     {0, 4000, -1000, 1500},
+     1,
+     0},
+    {"radar",
+     "the real plots of three aircraft (the paper's Table 3) in clutter",
+     radar,
+     RADAR_TABLE_SCANS,
+     RADAR_TABLE_INTERVAL_S,
+     RADAR_TABLE_SIGMA_M,
+     1.0,
+     100,
+     400,
+     5,
+     {-25000, -1000, 13000, 29000},
+     0,
+     100},
+    {"parallel",
+     "two targets side by side, spacing_m apart",
+     parallel,
+     7,
+     2,
+     10,
+     0.99,
+     100,
+     400,
+     5,
+     {-2500, 2500, -2500, 2500},
+     1,
+     0},
+    {"crossing-angle",
+     "two targets that meet at crossing_deg",
+     crossing_angle,
+     7,
+     2,
+     10,
+     0.99,
+     100,
+     400,
+     5,
+     {-2500, 2500, -2500, 2500},
+     1,
+     0},
+    {"same-line",
+     "two targets on one line, spacing_m apart, with speeds of their own",
+     same_line,
+     7,
+     2,
+     10,
+     0.99,
+     100,
+     400,
+     5,
+     {-2500, 2500, -2500, 2500},
+     1,
+     0},
+    {"clutter",
+     "no target at all",
+     clutter,
+     7,
+     2,
+     10,
+     0.99,
+     100,
+     400,
+     5,
+     {0, 4000, -1000, 1500},
+     10,
+     0},
+    {"slow-turn",
+     "one target that turns by turn_deg a scan",
+     slow_turn,
+     20,
+     2,
+     10,
+     0.99,
+     100,
+     400,
+     10,
+     {-2500, 2500, -2500, 2500},
+     1,
+     0},
+    {"traffic",
+     "many straight targets in a large area",
+     traffic,
+     120,
+     10,
+     50,
+     0.99,
+     50,
+     300,
+     5,
+     {-250000, 250000, -250000, 250000},
+     0,
+     950},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -250,21 +347,23 @@ static void grow_box(struct scenario_plan *plan, const struct parameters *parame
 static double clutter_mean(const struct parameters *parameters, const struct scenario_box *box)
 {
     double area_km2 = (box->x_max_m - box->x_min_m) * (box->y_max_m - box->y_min_m) * 1e-6;
-    if (parameters->source[PARAMETER_CLUTTER_PER_KM2] > parameters->source[PARAMETER_CLUTTER_PER_SCAN]) {
+    if (parameters->source[PARAMETER_CLUTTER_PER_KM2] >
+        parameters->source[PARAMETER_CLUTTER_PER_SCAN]) {
         return parameters->value[PARAMETER_CLUTTER_PER_KM2] * area_km2;
     }
     return parameters->value[PARAMETER_CLUTTER_PER_SCAN];
 }
 
-struct simulation *scenario_simulate(const char *name, const struct parameters *parameters, uint64_t seed,
-                                     uint64_t run)
+struct simulation *scenario_simulate(const char *name, const struct parameters *parameters,
+                                     uint64_t seed, uint64_t run)
 {
     const struct scenario *scenario = find_scenario(name);
     struct random random = random_start(seed, (uint64_t)(scenario - scenarios), run);
     struct scenario_plan plan = scenario->plan(parameters, &random);
     plan.pd = parameters->value[PARAMETER_TRUE_PD];
     plan.sigma_m = parameters->value[PARAMETER_SIGMA_M];
-    plan.noise_m = scenario->plan == radar ? 0.0 : plan.sigma_m; /* real plots bring their own noise */
+    /* real plots bring their own noise */
+    plan.noise_m = scenario->plan == radar ? 0.0 : plan.sigma_m;
     plan.box = box_of(parameters);
     grow_box(&plan, parameters);
     plan.clutter_mean = clutter_mean(parameters, &plan.box);

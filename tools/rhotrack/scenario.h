@@ -36,8 +36,8 @@ struct scenario_box {
 
 struct simulation {
     size_t num_scans, num_targets, num_truth;
-    double sigma_m;            /* noise that a tracker should reckon with */
-    struct scenario_box area;  /* clutter is spread over it */
+    double sigma_m;           /* noise that a tracker should reckon with */
+    struct scenario_box area; /* clutter is spread over it */
     struct simulated_scan *scans;
     struct truth_point *truth; /* by time, then target */
 };

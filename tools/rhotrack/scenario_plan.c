@@ -45,7 +45,8 @@ void plan_free(struct scenario_plan *plan)
     plan->truth = NULL;
 }
 
-static void put(const struct scenario_plan *plan, size_t scan, size_t target, struct scenario_state state)
+static void put(const struct scenario_plan *plan, size_t scan, size_t target,
+                struct scenario_state state)
 {
     struct truth_point *point = plan_truth(plan, scan, target);
     point->x_m = state.x_m;
@@ -67,8 +68,8 @@ void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_st
     }
 }
 
-void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start, double change_mps,
-                 struct random *random)
+void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start,
+                 double change_mps, struct random *random)
 {
     struct scenario_state now = start;
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
@@ -82,7 +83,8 @@ void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_stat
     }
 }
 
-void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start, double turn_rad)
+void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start,
+               double turn_rad)
 {
     struct scenario_state now = start;
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
@@ -96,7 +98,8 @@ void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state 
     }
 }
 
-void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start, double mps2)
+void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start,
+                     double mps2)
 {
     double speed_mps = hypot(start.vx_mps, start.vy_mps);
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
@@ -156,8 +159,9 @@ static void add_detection(const struct scenario_plan *plan, struct simulated_sca
     double noise_x_m = plan->noise_m * random_normal(random);
     double noise_y_m = plan->noise_m * random_normal(random);
     if (is_seen) {
-        scan->plots[scan->num_plots++] = (struct simulated_plot){
-            .x_m = truth->x_m + noise_x_m, .y_m = truth->y_m + noise_y_m, .target_id = truth->target_id};
+        scan->plots[scan->num_plots++] = (struct simulated_plot){.x_m = truth->x_m + noise_x_m,
+                                                                 .y_m = truth->y_m + noise_y_m,
+                                                                 .target_id = truth->target_id};
     }
 }
 
@@ -171,8 +175,8 @@ static void shuffle(struct simulated_scan *scan, struct random *random)
     }
 }
 
-static void simulate_scan(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
-                          struct random *random)
+static void simulate_scan(const struct scenario_plan *plan, size_t index,
+                          struct simulated_scan *scan, struct random *random)
 {
     uint64_t num_clutter = random_poisson(random, plan->clutter_mean);
     uint64_t num_spot = random_poisson(random, plan->spot_mean);

@@ -13,7 +13,8 @@
 #define RADAR_TABLE_SCANS 7
 #define RADAR_TABLE_TARGETS 3
 #define RADAR_TABLE_INTERVAL_S 10.0
-#define RADAR_TABLE_SIGMA_M 60.0 /* the targets turn slightly: what a straight line leaves, an axis */
+/* the targets turn slightly: what a straight line leaves, an axis */
+#define RADAR_TABLE_SIGMA_M 60.0
 
 /* x, then y, in metres: the real plots of Fan et al., "Neutrosophic Hough Transform-Based Track Initiation ...", Table 3. */
 extern const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2];
@@ -24,10 +25,10 @@ struct scenario_plan {
     double sigma_m; /* as the tracker is told */
     double noise_m; /* that is added to the positions, each axis */
     double pd;
-    struct scenario_box box; /* of the clutter */
-    double clutter_mean;     /* plots a scan */
-    struct scenario_box spot; /* more clutter there */
-    double spot_mean;         /* plots a scan; 0: none */
+    struct scenario_box box;   /* of the clutter */
+    double clutter_mean;       /* plots a scan */
+    struct scenario_box spot;  /* more clutter there */
+    double spot_mean;          /* plots a scan; 0: none */
     struct truth_point *truth; /* num_scans x num_targets, by time, then target */
 };
 
@@ -46,14 +47,16 @@ struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, si
 void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start);
 
 /* Straight, but each scan interval adds a normal velocity change of this standard deviation, each axis. */
-void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start, double change_mps,
-                 struct random *random);
+void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start,
+                 double change_mps, struct random *random);
 
 /* Constant speed, the heading changes by turn_rad at each scan. */
-void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start, double turn_rad);
+void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start,
+               double turn_rad);
 
 /* Constant acceleration along the first velocity. */
-void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start, double mps2);
+void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start,
+                     double mps2);
 
 /* The real plots as paths; velocities from a straight-line fit. The plan has RADAR_TABLE_... sizes, or fewer scans. */
 void plan_radar_table(struct scenario_plan *plan);

@@ -42,15 +42,16 @@ static void *work(void *argument)
     return NULL;
 }
 
-void workers_run(size_t num_jobs, const char *what, void (*job)(void *context, size_t worker, size_t index),
-                 void *context)
+void workers_run(size_t num_jobs, const char *what,
+                 void (*job)(void *context, size_t worker, size_t index), void *context)
 {
     struct crew crew = {.job = job, .context = context, .num_jobs = num_jobs};
     struct progress progress = progress_start(what, num_jobs);
     struct worker workers[WORKERS_MAX];
     size_t count = workers_count();
     for (size_t i = 0; i < count; i++) {
-        workers[i] = (struct worker){.crew = &crew, .number = i, .progress = i == 0 ? &progress : NULL};
+        workers[i] =
+            (struct worker){.crew = &crew, .number = i, .progress = i == 0 ? &progress : NULL};
     }
     for (size_t i = 1; i < count; i++) {
         if (pthread_create(&workers[i].thread, NULL, work, &workers[i]) != 0) {

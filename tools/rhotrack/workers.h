@@ -14,7 +14,7 @@ size_t workers_count(void);
  * Calls job(context, worker, index) for every index below num_jobs, in any order; worker < workers_count() tells
  * which thread calls, so that each can have memory of its own. Shows progress in `what`.
  */
-void workers_run(size_t num_jobs, const char *what, void (*job)(void *context, size_t worker, size_t index),
-                 void *context);
+void workers_run(size_t num_jobs, const char *what,
+                 void (*job)(void *context, size_t worker, size_t index), void *context);
 
 #endif
