@@ -109,9 +109,12 @@ static float prior_plots(const struct rho_initiator *initiator)
 {
     unsigned cells = (unsigned)initiator->density_columns * initiator->density_rows;
     float mean = mean_cell_count(initiator), variance = 0.0f;
+    if (cells < 2) {
+        return PRIOR_PLOTS_MAX; /* one cell is the mean */
+    }
     for (unsigned c = 0; c < cells; c++) {
         float excess = (float)initiator->density[c] - mean;
-        variance += excess * excess / (float)(cells > 1u ? cells - 1u : 1u);
+        variance += excess * excess / (float)(cells - 1u);
     }
     float beyond_chance = variance - mean;
     return beyond_chance * PRIOR_PLOTS_MAX > mean * mean ? mean * mean / beyond_chance

@@ -267,15 +267,21 @@ static float dot(unsigned n, const float *a, const float *b)
     return sum;
 }
 
-/* Residual of y off the columns one and t, all whitened; fisher = [one.one, one.t, t.t] and its determinant. */
+/*
+ * Squared residual of y off the columns one and t, all whitened; fisher = [one.one, one.t, t.t] and
+ * its determinant. The residuals are formed and then squared: a difference of squares would cancel.
+ */
 static float residual_chi2(unsigned n, const float *one, const float *t, const float *y,
                            const float fisher[3], float determinant)
 {
-    float by_one = dot(n, one, y), by_t = dot(n, t, y);
-    float explained =
-        by_one * by_one * fisher[2] - 2.0f * by_one * by_t * fisher[1] + by_t * by_t * fisher[0];
-    float chi2 = dot(n, y, y) - explained / determinant;
-    return chi2 > 0.0f ? chi2 : 0.0f;
+    float by_one = dot(n, one, y), by_t = dot(n, t, y), chi2 = 0.0f;
+    float place = (by_one * fisher[2] - by_t * fisher[1]) / determinant;
+    float slope = (by_t * fisher[0] - by_one * fisher[1]) / determinant;
+    for (unsigned i = 0; i < n; i++) {
+        float residual = y[i] - place * one[i] - slope * t[i];
+        chi2 += residual * residual;
+    }
+    return chi2;
 }
 
 /* The columns of the regression, one row a hit, about the moments' means. */

@@ -84,48 +84,61 @@ static void bench_kalman(const struct bench *bench)
 
 /* ---- scans of a simulation -------------------------------------------------------------------- */
 
-static struct rho_plot *plots_of(const struct simulation *simulation, size_t index)
+/* All scans of a run, over one array of plots. */
+struct recording {
+    struct rho_scan *scans;
+    struct rho_plot *plots;
+    size_t count;
+};
+
+static size_t copy_plots(const struct simulated_scan *scan, double sigma_m, struct rho_plot *plots)
 {
-    const struct simulated_scan *scan = &simulation->scans[index];
-    struct rho_plot *plots = must_calloc(scan->num_plots + 1, sizeof *plots);
     for (size_t i = 0; i < scan->num_plots; i++) {
-        plots[i].x_m = (float)scan->plots[i].x_m;
-        plots[i].y_m = (float)scan->plots[i].y_m;
-        plots[i].sigma_range_m = plots[i].sigma_cross_m = (float)simulation->sigma_m;
+        plots[i] = (struct rho_plot){.x_m = (float)scan->plots[i].x_m,
+                                     .y_m = (float)scan->plots[i].y_m,
+                                     .sigma_range_m = (float)sigma_m,
+                                     .sigma_cross_m = (float)sigma_m};
     }
-    return plots;
+    return scan->num_plots;
 }
 
-static struct rho_scan *scans_of(const struct simulation *simulation)
+static struct recording record(const struct simulation *simulation)
 {
-    struct rho_scan *scans = must_calloc(simulation->num_scans, sizeof *scans);
+    size_t total = 0, used = 0;
     for (size_t i = 0; i < simulation->num_scans; i++) {
-        scans[i].time_us = (int64_t)llround(simulation->scans[i].t_s * 1e6);
-        scans[i].num_plots = (uint32_t)simulation->scans[i].num_plots;
-        scans[i].plots = plots_of(simulation, i);
+        total += simulation->scans[i].num_plots;
     }
-    return scans;
+    struct recording recording = {
+        .scans = must_calloc(simulation->num_scans, sizeof(struct rho_scan)),
+        .plots = must_calloc(total + 1, sizeof(struct rho_plot)),
+        .count = simulation->num_scans};
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        const struct simulated_scan *scan = &simulation->scans[i];
+        recording.scans[i].time_us = (int64_t)llround(scan->t_s * 1e6);
+        recording.scans[i].num_plots = (uint32_t)scan->num_plots;
+        recording.scans[i].plots = recording.plots + used;
+        used += copy_plots(scan, simulation->sigma_m, recording.plots + used);
+    }
+    return recording;
 }
 
-static void free_scans(struct rho_scan *scans, size_t count)
+static void free_recording(struct recording *recording)
 {
-    for (size_t i = 0; i < count; i++) {
-        free((void *)(uintptr_t)scans[i].plots);
-    }
-    free(scans);
+    free(recording->scans);
+    free(recording->plots);
 }
 
 /* ---- initiate --------------------------------------------------------------------------------- */
 
-static double window_us(struct rho_initiator *initiator, const struct rho_scan *scans, size_t count,
+static double window_us(struct rho_initiator *initiator, const struct recording *recording,
                         const struct rho_initiator_config *config)
 {
     static uint8_t fates[RHO_MAX_PLOTS];
     uint32_t unused = 0;
     check(rho_initiator_init(initiator, sizeof *initiator, config), "initiator");
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < recording->count; i++) {
         memset(fates, RHO_FATE_HELD, sizeof fates);
-        check(rho_initiator_push(initiator, &scans[i], fates, &unused), "push");
+        check(rho_initiator_push(initiator, &recording->scans[i], fates, &unused), "push");
     }
     int64_t start_us = clock_us();
     check(rho_initiator_search(initiator, RHO_SEARCH_BATCH), "search");
@@ -142,7 +155,7 @@ static void initiate_row(const struct bench *bench, struct grid *grid,
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_KM2, clutter / 10.0);
     parameters_suggest(&parameters, PARAMETER_MIN_SCANS, 5);
     struct simulation *simulation = scenario_simulate("crossing", &parameters, bench->seed, 0);
-    struct rho_scan *scans = scans_of(simulation);
+    struct recording recording = record(simulation);
     parameters_to_initiator(&parameters, &config);
     config.area_is_fixed = 1;
     config.area =
@@ -150,7 +163,7 @@ static void initiate_row(const struct bench *bench, struct grid *grid,
                             (float)simulation->area.y_min_m, (float)simulation->area.y_max_m};
     double best = INFINITY;
     for (int round = 0; round < ROUNDS; round++) {
-        best = fmin(best, window_us(initiator, scans, simulation->num_scans, &config));
+        best = fmin(best, window_us(initiator, &recording, &config));
     }
     grid_row(grid, "%.0f|%.0f|%u|%u|%u|%u", clutter, best, initiator->work.seeds,
              initiator->work.window.lookups, initiator->work.window.distances,
@@ -160,7 +173,7 @@ static void initiate_row(const struct bench *bench, struct grid *grid,
         snprintf(name, sizeof name, "initiate_%.0f_clutter_us", clutter);
         cJSON_AddNumberToObject(bench->json, name, best);
     }
-    free_scans(scans, simulation->num_scans);
+    free_recording(&recording);
     simulation_free(simulation);
 }
 
@@ -196,7 +209,7 @@ struct cost {
 };
 
 static struct cost run_chain(struct chain *chain, const struct parameters *parameters,
-                             const struct rho_scan *scans, size_t count)
+                             const struct recording *recording)
 {
     struct rho_tracker_config maintain;
     struct rho_initiator_config start;
@@ -205,11 +218,11 @@ static struct cost run_chain(struct chain *chain, const struct parameters *param
     parameters_to_initiator(parameters, &start);
     check(rho_tracker_init(chain->tracker, sizeof *chain->tracker, &maintain), "tracker");
     check(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &start), "initiator");
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < recording->count; i++) {
         int64_t start_us = clock_us();
-        check(rho_tracker_step(chain->tracker, chain->initiator, &scans[i], chain->report), "step");
+        check(rho_tracker_step(chain->tracker, chain->initiator, &recording->scans[i], chain->report), "step");
         double us = (double)(clock_us() - start_us);
-        cost.mean_us += us / (double)count;
+        cost.mean_us += us / (double)recording->count;
         cost.worst_us = fmax(cost.worst_us, us);
     }
     cost.tracks = chain->tracker->counters.tracks_confirmed;
@@ -223,15 +236,15 @@ static struct cost track_cost(const struct bench *bench, struct chain *chain, do
     scenario_suggest("traffic", &parameters);
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, plots - 50.0);
     struct simulation *simulation = scenario_simulate("traffic", &parameters, bench->seed, 0);
-    struct rho_scan *scans = scans_of(simulation);
+    struct recording recording = record(simulation);
     struct cost best = {.mean_us = INFINITY, .worst_us = INFINITY};
     for (int round = 0; round < ROUNDS; round++) {
-        struct cost cost = run_chain(chain, &parameters, scans, simulation->num_scans);
+        struct cost cost = run_chain(chain, &parameters, &recording);
         best.mean_us = fmin(best.mean_us, cost.mean_us);
         best.worst_us = fmin(best.worst_us, cost.worst_us);
         best.tracks = cost.tracks;
     }
-    free_scans(scans, simulation->num_scans);
+    free_recording(&recording);
     simulation_free(simulation);
     return best;
 }

@@ -285,70 +285,100 @@ static void draw_parameter_space(struct picture *picture, const struct plot_data
 
 /* ---- errors ----------------------------------------------------------------------------------- */
 
-static size_t points_at(const struct plot_points *points, int64_t time_us,
-                        const struct plot_point **at)
+/* Indices of the points of one time; tracks count once they are confirmed. */
+static size_t points_at(const struct plot_points *points, int64_t time_us, size_t *at,
+                        struct gospa_place *places)
 {
     size_t count = 0;
     for (size_t i = 0; i < points->count; i++) {
         if (points->list[i].time_us == time_us && !points->list[i].is_tentative) {
-            at[count++] = &points->list[i];
+            places[count] = (struct gospa_place){points->list[i].x_m, points->list[i].y_m, 0.0};
+            at[count++] = i;
         }
     }
     return count;
 }
 
-static struct gospa_place *places_of(const struct plot_point *const *points, size_t count)
-{
-    struct gospa_place *places = must_calloc(count + 1, sizeof *places);
-    for (size_t i = 0; i < count; i++) {
-        places[i] = (struct gospa_place){points[i]->x_m, points[i]->y_m, 0.0};
-    }
-    return places;
-}
+struct error_finder {
+    const struct plot_data *data;
+    double cutoff_m;
+    double *error_m; /* by row of the truth; NAN: no track; negative: not yet known */
+    size_t *targets, *tracks;
+    struct gospa_place *target_places, *track_places;
+    int *track_of;
+};
 
-/* Distance of the track paired with this target at this time; NAN where there is none. */
-static double error_m(const struct plot_data *data, const struct plot_point *target,
-                      double cutoff_m)
+static void find_errors_at(struct error_finder *finder, int64_t time_us)
 {
-    const struct plot_point **targets = must_calloc(data->truth.count + 1, sizeof *targets);
-    const struct plot_point **tracks = must_calloc(data->tracks.count + 1, sizeof *tracks);
-    size_t num_targets = points_at(&data->truth, target->time_us, targets);
-    size_t num_tracks = points_at(&data->tracks, target->time_us, tracks);
-    struct gospa_place *target_places = places_of(targets, num_targets);
-    struct gospa_place *track_places = places_of(tracks, num_tracks);
-    int *track_of = must_calloc(num_targets + 1, sizeof *track_of);
-    double error = NAN;
-    gospa_compare(target_places, num_targets, track_places, num_tracks, cutoff_m, track_of);
+    const struct plot_data *data = finder->data;
+    size_t num_targets =
+        points_at(&data->truth, time_us, finder->targets, finder->target_places);
+    size_t num_tracks = points_at(&data->tracks, time_us, finder->tracks, finder->track_places);
+    gospa_compare(finder->target_places, num_targets, finder->track_places, num_tracks,
+                  finder->cutoff_m, finder->track_of);
     for (size_t i = 0; i < num_targets; i++) {
-        if (targets[i] == target && track_of[i] >= 0) {
-            const struct plot_point *track = tracks[track_of[i]];
-            error = hypot(track->x_m - target->x_m, track->y_m - target->y_m);
+        double *error_m = &finder->error_m[finder->targets[i]];
+        *error_m = NAN;
+        if (finder->track_of[i] >= 0) {
+            const struct gospa_place *track = &finder->track_places[finder->track_of[i]];
+            *error_m = hypot(track->x_m - finder->target_places[i].x_m,
+                             track->y_m - finder->target_places[i].y_m);
         }
     }
-    free(targets);
-    free(tracks);
-    free(target_places);
-    free(track_places);
-    free(track_of);
-    return error;
+}
+
+static struct error_finder find_errors(const struct plot_data *data, double cutoff_m)
+{
+    size_t targets = data->truth.count + 1, tracks = data->tracks.count + 1;
+    struct error_finder finder = {
+        .data = data,
+        .cutoff_m = cutoff_m,
+        .error_m = must_calloc(targets, sizeof(double)),
+        .targets = must_calloc(targets, sizeof(size_t)),
+        .tracks = must_calloc(tracks, sizeof(size_t)),
+        .target_places = must_calloc(targets, sizeof(struct gospa_place)),
+        .track_places = must_calloc(tracks, sizeof(struct gospa_place)),
+        .track_of = must_calloc(targets, sizeof(int)),
+    };
+    for (size_t i = 0; i < data->truth.count; i++) {
+        finder.error_m[i] = -1.0;
+    }
+    for (size_t i = 0; i < data->truth.count; i++) {
+        if (finder.error_m[i] < 0.0) {
+            find_errors_at(&finder, data->truth.list[i].time_us);
+        }
+    }
+    return finder;
+}
+
+static void free_errors(struct error_finder *finder)
+{
+    free(finder->error_m);
+    free(finder->targets);
+    free(finder->tracks);
+    free(finder->target_places);
+    free(finder->track_places);
+    free(finder->track_of);
 }
 
 static void put_errors(FILE *script, const struct plot_data *data, double cutoff_m)
 {
+    struct error_finder finder = find_errors(data, cutoff_m);
     fprintf(script, "$errors << EOD\n");
     for (size_t i = 0; i < data->truth.count; i++) {
         const struct plot_point *target = &data->truth.list[i];
-        double error = error_m(data, target, cutoff_m);
         if (i > 0 && target->id != data->truth.list[i - 1].id) {
             fprintf(script, "\n\n");
         }
-        if (isnan(error)) {
-            fprintf(script, "%.6f NaN\n", (double)target->time_us * 1e-6);
+        fprintf(script, "%.6f ", (double)target->time_us * 1e-6);
+        if (isnan(finder.error_m[i])) {
+            fprintf(script, "NaN\n");
         } else {
-            fprintf(script, "%.6f %.6g\n", (double)target->time_us * 1e-6, error);
+            fprintf(script, "%.6g\n", finder.error_m[i]);
         }
     }
     fprintf(script, "EOD\n");
+    free_errors(&finder);
 }
 
 static void draw_errors(struct picture *picture, const struct plot_data *data, double cutoff_m)

@@ -93,8 +93,10 @@ struct grid initiation_grid(const struct initiation_summary *summaries, size_t c
     for (size_t i = 0; i < count; i++) {
         const struct initiation_summary *of = &summaries[i];
         char pd[32], all[32], clairvoyant[32], at_most[32], error[32], bars[64];
-        snprintf(at_most, sizeof at_most, isnan(of->of->bars.false_max) ? "" : "%g",
-                 of->of->bars.false_max);
+        at_most[0] = '\0';
+        if (!isnan(of->of->bars.false_max)) {
+            snprintf(at_most, sizeof at_most, "%g", of->of->bars.false_max);
+        }
         grid_row(&grid, "%s|%s|%s|%s|%s|%s|%.3f|%s|%s|%.2f|%s", of->of->group, of->of->name,
                  number(pd, 3, of->pd), number(all, 3, of->all_found), bars_text(bars, of->of),
                  number(clairvoyant, 3, of->clairvoyant), of->false_a_run, at_most,

@@ -280,12 +280,13 @@ const char *scenario_text(size_t index)
 static const struct scenario *find_scenario(const char *name)
 {
     char list[256] = "";
-    for (size_t i = 0; i < NUM_SCENARIOS; i++) {
+    size_t length = 0;
+    for (size_t i = 0; i < NUM_SCENARIOS && length < sizeof list; i++) {
         if (strcmp(scenarios[i].name, name) == 0) {
             return &scenarios[i];
         }
-        strcat(list, i == 0 ? "" : ", ");
-        strcat(list, scenarios[i].name);
+        length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", i == 0 ? "" : ", ",
+                                   scenarios[i].name);
     }
     fail(EXIT_USAGE, "no scenario `%s`; there are: %s", name, list);
 }
