@@ -47,8 +47,8 @@ static void start(const struct rho_initiator_config *config)
 
 static void add(float x_m, float y_m)
 {
-    plots[num_plots++] = (struct rho_plot){
-        .x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
+    plots[num_plots++] =
+        (struct rho_plot){.x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
 }
 
 static void push(double t_s)
@@ -187,8 +187,7 @@ static void scores_and_fits_are_the_reference_s(void **state)
     config.v_max_mps = VECTOR_V_MAX_MPS;
     config.score_min_nat = -1000.0f;
     config.area_is_fixed = 1;
-    config.area =
-        (struct rho_extent){-VECTOR_SIDE_M, VECTOR_SIDE_M, -VECTOR_SIDE_M, VECTOR_SIDE_M};
+    config.area = (struct rho_extent){-VECTOR_SIDE_M, VECTOR_SIDE_M, -VECTOR_SIDE_M, VECTOR_SIDE_M};
     for (size_t i = 0; i < sizeof initiator_vectors / sizeof initiator_vectors[0]; i++) {
         config.process_noise_mps2 = (float)initiator_vectors[i].process_noise_mps2;
         config.min_scans = 4;
@@ -226,13 +225,13 @@ static void pairs_of_targets_are_two_tracks(void **state)
 {
     (void)state;
     static const struct path pairs[][2] = {
-        {{-1500, 250, 0, 0}, {-1500, 250, 100, 0}},       /* parallel */
-        {{-1500, 250, 0, 0}, {-1500, 250, 60, 0}},        /* parallel, six sigma */
+        {{-1500, 250, 0, 0}, {-1500, 250, 100, 0}},             /* parallel */
+        {{-1500, 250, 0, 0}, {-1500, 250, 60, 0}},              /* parallel, six sigma */
         {{-1500, 250, -130, 21.9f}, {-1500, 250, 130, -21.9f}}, /* crossing at 10 degrees */
-        {{-1500, 250, 0, 0}, {0, 0, -1500, 250}},         /* crossing at 90 degrees */
-        {{-1500, 250, 300, 0}, {1500, -250, 300, 0}},     /* one line, opposite */
-        {{-1500, 250, 300, 0}, {-1200, 250, 300, 0}},     /* one line, following */
-        {{-1500, 250, 500, 0}, {-1500, 250, -500, 0}},    /* mirror lines */
+        {{-1500, 250, 0, 0}, {0, 0, -1500, 250}},               /* crossing at 90 degrees */
+        {{-1500, 250, 300, 0}, {1500, -250, 300, 0}},           /* one line, opposite */
+        {{-1500, 250, 300, 0}, {-1200, 250, 300, 0}},           /* one line, following */
+        {{-1500, 250, 500, 0}, {-1500, 250, -500, 0}},          /* mirror lines */
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         expect_found(pairs[i], 2);

@@ -42,7 +42,12 @@ static struct rho_scan scan_at(int64_t time_us, struct rho_plot *plot)
 static void every_status_meets_every_event(void **state)
 {
     (void)state;
-    enum { F = RHO_TRACK_FREE, T = RHO_TRACK_TENTATIVE, C = RHO_TRACK_CONFIRMED, O = RHO_TRACK_COASTING };
+    enum {
+        F = RHO_TRACK_FREE,
+        T = RHO_TRACK_TENTATIVE,
+        C = RHO_TRACK_CONFIRMED,
+        O = RHO_TRACK_COASTING
+    };
     static const int expected[RHO_NUM_TRACK_STATUS][RHO_NUM_TRACK_EVENTS] = {
         /* start confirm update miss drop */
         {T, F, F, F, F}, /* free */
@@ -52,9 +57,9 @@ static void every_status_meets_every_event(void **state)
     };
     for (int status = 0; status < RHO_NUM_TRACK_STATUS; status++) {
         for (int event = 0; event < RHO_NUM_TRACK_EVENTS; event++) {
-            assert_int_equal(rho_track_next_status((enum rho_track_status)status,
-                                                   (enum rho_track_event)event),
-                             expected[status][event]);
+            assert_int_equal(
+                rho_track_next_status((enum rho_track_status)status, (enum rho_track_event)event),
+                expected[status][event]);
         }
     }
     assert_int_equal(rho_track_next_status((enum rho_track_status)77, RHO_TRACK_DROP), 77);

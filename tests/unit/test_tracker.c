@@ -54,8 +54,8 @@ static void start(void)
 
 static void add(float x_m, float y_m)
 {
-    plots[num_plots++] = (struct rho_plot){
-        .x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
+    plots[num_plots++] =
+        (struct rho_plot){.x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
 }
 
 static void check_sums(const struct rho_scan *scan)

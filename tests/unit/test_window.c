@@ -166,8 +166,9 @@ static struct rho_window_query random_query(const struct rho_window_scan *scan)
         .gate_chi2 = 13.8f,
         .skip_flags = seed & 0x10000u ? RHO_WINDOW_TAKEN : 0,
     };
-    query.reach_m = sqrtf(query.gate_chi2 * (query.variance_m2 + query.sigma_factor * scan->sigma_max_m *
-                                                                     scan->sigma_max_m));
+    query.reach_m =
+        sqrtf(query.gate_chi2 *
+              (query.variance_m2 + query.sigma_factor * scan->sigma_max_m * scan->sigma_max_m));
     return query;
 }
 

@@ -108,10 +108,10 @@ static struct recording record(const struct simulation *simulation)
     for (size_t i = 0; i < simulation->num_scans; i++) {
         total += simulation->scans[i].num_plots;
     }
-    struct recording recording = {
-        .scans = must_calloc(simulation->num_scans, sizeof(struct rho_scan)),
-        .plots = must_calloc(total + 1, sizeof(struct rho_plot)),
-        .count = simulation->num_scans};
+    struct recording recording = {.scans =
+                                      must_calloc(simulation->num_scans, sizeof(struct rho_scan)),
+                                  .plots = must_calloc(total + 1, sizeof(struct rho_plot)),
+                                  .count = simulation->num_scans};
     for (size_t i = 0; i < simulation->num_scans; i++) {
         const struct simulated_scan *scan = &simulation->scans[i];
         recording.scans[i].time_us = (int64_t)llround(scan->t_s * 1e6);
@@ -220,7 +220,9 @@ static struct cost run_chain(struct chain *chain, const struct parameters *param
     check(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &start), "initiator");
     for (size_t i = 0; i < recording->count; i++) {
         int64_t start_us = clock_us();
-        check(rho_tracker_step(chain->tracker, chain->initiator, &recording->scans[i], chain->report), "step");
+        check(
+            rho_tracker_step(chain->tracker, chain->initiator, &recording->scans[i], chain->report),
+            "step");
         double us = (double)(clock_us() - start_us);
         cost.mean_us += us / (double)recording->count;
         cost.worst_us = fmax(cost.worst_us, us);

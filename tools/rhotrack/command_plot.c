@@ -118,21 +118,28 @@ static size_t count_ids(const struct plot_points *points)
     return count;
 }
 
+/* What the legend calls track number `index`; empty: nothing. */
+static void name_track(char *title, size_t size, int32_t id, size_t index, bool many)
+{
+    if (!many) {
+        snprintf(title, size, "title 'track %d'", id);
+    } else {
+        snprintf(title, size, "%s", index == 0 ? "title 'tracks'" : "notitle");
+    }
+}
+
 static void plot_track_lines(const struct map *map, const struct plot_points *tracks)
 {
     struct plot_points one;
-    size_t at = 0, index = 0, many = count_ids(tracks) > LEGEND_TRACKS_MAX;
+    size_t at = 0, index = 0;
+    bool many = count_ids(tracks) > LEGEND_TRACKS_MAX;
     while (plot_data_next(tracks, &at, &one)) {
-        char title[32];
-        snprintf(title, sizeof title, many ? "" : "track %d", one.list[0].id);
-        if (many && index == 0) {
-            snprintf(title, sizeof title, "tracks");
-        }
+        char title[40];
+        name_track(title, sizeof title, one.list[0].id, index, many);
         fprintf(map->script,
                 ", \\\n $tracks index %zu using 1:2 with linespoints lw 2.5 pt %d ps 0.9 lc rgb "
-                "'%s' %s%s%s",
-                index, picture_marker(index), picture_colour(index), *title ? "title '" : "notitle",
-                title, *title ? "'" : "");
+                "'%s' %s",
+                index, picture_marker(index), picture_colour(index), title);
         index++;
     }
 }
@@ -311,8 +318,7 @@ struct error_finder {
 static void find_errors_at(struct error_finder *finder, int64_t time_us)
 {
     const struct plot_data *data = finder->data;
-    size_t num_targets =
-        points_at(&data->truth, time_us, finder->targets, finder->target_places);
+    size_t num_targets = points_at(&data->truth, time_us, finder->targets, finder->target_places);
     size_t num_tracks = points_at(&data->tracks, time_us, finder->tracks, finder->track_places);
     gospa_compare(finder->target_places, num_targets, finder->track_places, num_tracks,
                   finder->cutoff_m, finder->track_of);

@@ -432,8 +432,8 @@ const char *table_time_us(const char *cell, int64_t *time_us)
     if (reason) {
         return reason;
     }
-    if (!(fabs(seconds) <= 9e12)) {
-        return "is beyond 9e12 s";
+    if (!(fabs(seconds) <= 4e12)) {
+        return "is beyond 4e12 s";
     }
     *time_us = strpbrk(cell, "eE") ? (int64_t)llround(seconds * 1e6) : exact_time_us(cell);
     return NULL;

@@ -51,7 +51,7 @@ const char *table_number(const char *cell, double *value);
 
 /*
  * A decimal number of seconds in microseconds, rounded to nearest without detour over floating
- * point where it has no exponent; |t| <= 9e12 s. Returns NULL and sets *time_us, or the reason as a
+ * point where it has no exponent; |t| <= 4e12 s. Returns NULL and sets *time_us, or the reason as a
  * constant text.
  */
 const char *table_time_us(const char *cell, int64_t *time_us);
