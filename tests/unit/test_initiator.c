@@ -257,6 +257,21 @@ static void missing_scans_and_unequal_intervals_are_no_obstacle(void **state)
     assert_float_equal(initiator.candidates[0].x_m, 1400.0f, 1.0f);
 }
 
+static void the_longest_window_is_searched_whole(void **state)
+{
+    (void)state;
+    struct rho_initiator_config config = usual();
+    const struct path path = {-2400, 150, 0, 0};
+    config.scans = RHO_MAX_SCANS;
+    config.min_scans = RHO_MAX_SCANS;
+    start(&config);
+    push_paths(&path, 1, RHO_MAX_SCANS + 3);
+    search(RHO_SEARCH_BATCH);
+    assert_int_equal(initiator.num_candidates, 1);
+    assert_int_equal(initiator.candidates[0].hits, RHO_MAX_SCANS);
+    assert_int_equal(is_found(&path, 2.0f * (RHO_MAX_SCANS + 2)), 1);
+}
+
 static void plots_with_times_of_their_own_are_on_the_line(void **state)
 {
     (void)state;
@@ -491,6 +506,7 @@ int main(void)
         cmocka_unit_test(one_target_is_found_in_every_direction),
         cmocka_unit_test(pairs_of_targets_are_two_tracks),
         cmocka_unit_test(missing_scans_and_unequal_intervals_are_no_obstacle),
+        cmocka_unit_test(the_longest_window_is_searched_whole),
         cmocka_unit_test(plots_with_times_of_their_own_are_on_the_line),
         cmocka_unit_test(too_few_votes_too_slow_or_too_fast_is_no_track),
         cmocka_unit_test(process_noise_finds_a_turning_target),

@@ -66,23 +66,6 @@ struct evaluation {
 
 /* ---- reading ---------------------------------------------------------------------------------- */
 
-static double number_at(const struct table *table, size_t row, int column)
-{
-    double value;
-    const char *cell = table_cell(table, row, column);
-    const char *reason = table_number(cell, &value);
-    if (reason != NULL) {
-        table_fail(table, row, "%s: '%s' %s", table->names[column], cell, reason);
-    }
-    return value;
-}
-
-static double optional_at(const struct table *table, size_t row, int column, double otherwise)
-{
-    return column < 0 || *table_cell(table, row, column) == '\0' ? otherwise
-                                                                 : number_at(table, row, column);
-}
-
 static void read_time_and_id(const struct table *table, size_t row, const char *id_name,
                              struct point *point)
 {
@@ -101,14 +84,14 @@ static struct point read_point(const struct table *table, size_t row, const char
 {
     struct point point = {.row = row};
     read_time_and_id(table, row, id_name, &point);
-    point.place.x_m = number_at(table, row, table_need(table, "x_m"));
-    point.place.y_m = number_at(table, row, table_need(table, "y_m"));
-    point.place.z_m = optional_at(table, row, table_find(table, "z_m"), 0.0);
-    point.vx_mps = optional_at(table, row, table_find(table, "vx_mps"), NAN);
-    point.vy_mps = optional_at(table, row, table_find(table, "vy_mps"), NAN);
-    point.cov[0] = optional_at(table, row, table_find(table, "cov_x_x"), NAN);
-    point.cov[1] = optional_at(table, row, table_find(table, "cov_y_x"), NAN);
-    point.cov[2] = optional_at(table, row, table_find(table, "cov_y_y"), NAN);
+    point.place.x_m = table_number_at(table, row, table_need(table, "x_m"));
+    point.place.y_m = table_number_at(table, row, table_need(table, "y_m"));
+    point.place.z_m = table_number_or(table, row, table_find(table, "z_m"), 0.0);
+    point.vx_mps = table_number_or(table, row, table_find(table, "vx_mps"), NAN);
+    point.vy_mps = table_number_or(table, row, table_find(table, "vy_mps"), NAN);
+    point.cov[0] = table_number_or(table, row, table_find(table, "cov_x_x"), NAN);
+    point.cov[1] = table_number_or(table, row, table_find(table, "cov_y_x"), NAN);
+    point.cov[2] = table_number_or(table, row, table_find(table, "cov_y_y"), NAN);
     return point;
 }
 

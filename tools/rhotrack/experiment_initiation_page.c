@@ -65,7 +65,7 @@ static void draw_found(const struct initiation_summary *summaries, const char *p
     fprintf(
         picture.script,
         "set key bottom left inside\nset xrange [-0.02:1.02]\nset offsets 0,0,0.7,0.7\n"
-        "set xlabel 'targets found (of the runs with all found, where the bar is about these)'\n"
+        "set xlabel 'share found'\n"
         "plot $rows using 4:0:ytic(1) with points pt 2 ps 1.1 lw 2 lc rgb '#7f7f7f' title 'bar', "
         "\\\n"
         " '' using 3:0 with points pt 6 ps 1.5 lw 2 lc rgb '#d55e00' title 'clairvoyant fit', \\\n"
@@ -181,8 +181,10 @@ static void write_page(const struct initiation_summary *summaries, size_t num_ru
                 "One run: Table 1's three targets among 100 clutter plots a scan, 7 scans, and the "
                 "tracks found.");
     page_heading(&page, "Targets found");
-    page_figure(&page, "found.svg",
-                "Share of the targets found, beside what the clairvoyant fit finds.");
+    page_figure(
+        &page, "found.svg",
+        "Share of the targets found, or of the runs where all were found where the bar is about "
+        "these, beside what the clairvoyant fit finds.");
     page_heading(&page, "False tracks");
     page_figure(&page, "false.svg", "Tracks that are no target's, in the mean over the runs.");
     page_heading(&page, "All figures");

@@ -7,20 +7,6 @@
 #include "common.h"
 #include "table.h"
 
-static double number_at(const struct table *table, size_t row, int column)
-{
-    double value = 0.0;
-    if (column < 0 || *table_cell(table, row, column) == '\0') {
-        return 0.0;
-    }
-    const char *reason = table_number(table_cell(table, row, column), &value);
-    if (reason) {
-        table_fail(table, row, "%s: '%s' %s", table->names[column], table_cell(table, row, column),
-                   reason);
-    }
-    return value;
-}
-
 static struct plot_point read_point(const struct table *table, size_t row, int id_column)
 {
     struct plot_point point = {0};
@@ -32,10 +18,10 @@ static struct plot_point read_point(const struct table *table, size_t row, int i
     if (reason) {
         table_fail(table, row, "time or identity: %s", reason);
     }
-    point.x_m = number_at(table, row, table_need(table, "x_m"));
-    point.y_m = number_at(table, row, table_need(table, "y_m"));
-    point.vx_mps = number_at(table, row, table_find(table, "vx_mps"));
-    point.vy_mps = number_at(table, row, table_find(table, "vy_mps"));
+    point.x_m = table_number_at(table, row, table_need(table, "x_m"));
+    point.y_m = table_number_at(table, row, table_need(table, "y_m"));
+    point.vx_mps = table_number_or(table, row, table_find(table, "vx_mps"), 0.0);
+    point.vy_mps = table_number_or(table, row, table_find(table, "vy_mps"), 0.0);
     point.is_tentative = status >= 0 && strcmp(table_cell(table, row, status), "tentative") == 0;
     return point;
 }

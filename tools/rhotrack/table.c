@@ -470,3 +470,21 @@ void table_fail(const struct table *table, size_t row, const char *format, ...)
     va_end(arguments);
     fail_at(table->path, line, message);
 }
+
+double table_number_at(const struct table *table, size_t row, int column)
+{
+    double value = 0.0;
+    const char *cell = table_cell(table, row, column);
+    const char *reason = table_number(cell, &value);
+
+    if (reason) {
+        table_fail(table, row, "%s '%s' %s", table->names[column], cell, reason);
+    }
+    return value;
+}
+
+double table_number_or(const struct table *table, size_t row, int column, double otherwise)
+{
+    return column < 0 || !*table_cell(table, row, column) ? otherwise
+                                                          : table_number_at(table, row, column);
+}

@@ -49,6 +49,12 @@ const char *table_cell(const struct table *table, size_t row, int column);
  */
 const char *table_number(const char *cell, double *value);
 
+/* The cell as a number; exit 2 naming file, line and column where it is none. */
+double table_number_at(const struct table *table, size_t row, int column);
+
+/* The same, `otherwise` where there is no such column (-1) or the cell is empty. */
+double table_number_or(const struct table *table, size_t row, int column, double otherwise);
+
 /*
  * A decimal number of seconds in microseconds, rounded to nearest without detour over floating
  * point where it has no exponent; |t| <= 4e12 s. Returns NULL and sets *time_us, or the reason as a
