@@ -44,7 +44,7 @@ compare() {
         }' "$out/truth.csv" "$out/tracks.csv"
 }
 
-figure() { awk -v name="$1" '$1 == name { print $2 }' "$out/evaluation.txt"; }
+figure() { awk -v name="$1" '$1 == name { printf "%.3g", $2 }' "$out/evaluation.txt"; }
 mean_us=$(sed -n 's/.*"mean_us":[^0-9]*\([0-9]*\).*/\1/p' "$out/track.json")
 plots=$(sed -n 's/.*"plots":[^0-9]*\([0-9]*\).*/\1/p' "$out/track.json")
 

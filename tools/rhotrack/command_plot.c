@@ -38,7 +38,9 @@ static struct map map_start(struct picture *picture, const struct plot_data *dat
         fmax(extent_m(&data->plots), fmax(extent_m(&data->tracks), extent_m(&data->truth)));
     struct map map = {picture->script, largest > KILOMETRES_FROM_M ? 1000.0 : 1.0};
     const char *unit = map.unit_m > 1.0 ? "km" : "m";
-    fprintf(map.script, "set size ratio -1\nset xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n",
+    fprintf(map.script,
+            "set size ratio -1\nset key outside top center horizontal\nset xlabel 'x east "
+            "(%s)'\nset ylabel 'y north (%s)'\n",
             unit, unit);
     return map;
 }
