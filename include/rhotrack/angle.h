@@ -26,9 +26,9 @@ float rho_angle_difference(float a_rad, float b_rad);
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 
 /*
- * The line through (x_m, y_m) along (dx, dy), which is not (0, 0) but finite (else NaN); theta = atan2(dx, -dy) brought into [0, pi), rho
- * signed to match (Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method ...", eqs. (9), (10), corrected: taken literally they turn
- * the line by pi/2 and drop rho's sign, which merges mirror lines).
+ * The line through (x_m, y_m) along (dx, dy), which is not (0, 0) but finite (else NaN); theta = atan2(dx, -dy) brought
+ * into [0, pi), rho signed to match (Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method ...",
+ * eqs. (9), (10), corrected: taken literally theta falls outside [0, pi), and rho loses its sign, which merges mirror lines).
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy);
 

@@ -58,7 +58,7 @@ struct rho_track_limits {
     int32_t confirm_mnat;   /* confirmed at or above */
     int32_t tentative_mnat; /* a tentative track below is dropped */
     int32_t fall_mnat;      /* a confirmed track so far below its highest score is dropped; > 0 */
-    uint8_t misses_in_row_max;
+    uint8_t misses_in_row_max; /* any track ends at so many misses in a row */
 };
 
 /* Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value. Constant cost. */

@@ -94,7 +94,7 @@ struct rho_track_report {
 /* What one step did. Tracks in the order of their identities. */
 struct rho_report {
     int64_t time_us;
-    /* of the scan: fates of the first RHO_MAX_PLOTS follow, the others are NO_ROOM */
+    /* of the scan: fates of the first RHO_MAX_PLOTS follow; the others are NO_ROOM, or STALE of a late scan */
     uint32_t num_plots;
     uint16_t num_tracks, num_ended;
     uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
@@ -126,7 +126,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
  * Takes one scan through all phases above.
  *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held nowhere (fate NO_ROOM)
  *   scan       num_plots plots; bad ones get the fate INVALID, those beyond RHO_MAX_PLOTS get NO_ROOM.
- *              A scan older than the last accepted one is late: all its plots are STALE, nothing else changes.
+ *              A scan older than the last accepted one is late: all its plots are STALE, and but for counters
+ *              nothing else changes.
  *   report     filled whole, whatever it held before
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
  * VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.

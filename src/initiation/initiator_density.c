@@ -13,7 +13,7 @@
 /* Plots of the mean density that a cell counts beside its own, at most: then the map is flat. */
 #define PRIOR_PLOTS_MAX 1.0e6f
 
-/* M is the smallest number of votes with at most this many chance tracks a search. */
+/* M is the smallest number of votes, down from N, with at most this many chance tracks a search; N where there is none. */
 #define CHANCE_TRACKS_MAX 0.1f
 
 /* ln of the targets expected in the area and window before any plot was seen: a half, so that one target and none are
@@ -210,7 +210,7 @@ static float chance_tracks(const struct search *search, unsigned h)
 static unsigned choose_min_scans(const struct search *search)
 {
     unsigned m = search->num_scans;
-    float chance = 0.0f;
+    float chance = m > 3 ? chance_tracks(search, m) : 0.0f;
     while (m > 3) {
         chance += chance_tracks(search, m - 1u);
         if (!(chance <= CHANCE_TRACKS_MAX)) {

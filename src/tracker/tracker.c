@@ -160,7 +160,8 @@ static void note_unclaimed(struct step *step)
 {
     float unclaimed = 0.0f;
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        unclaimed += step->report->fates[i] == RHO_FATE_CLAIMED ? 0.0f : 1.0f;
+        uint8_t fate = step->report->fates[i];
+        unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
     }
     step->tracker->unclaimed_plots +=
         CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_plots);

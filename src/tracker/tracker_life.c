@@ -41,8 +41,8 @@ static int looked_at(const struct step *step, const struct rho_track *track)
 }
 
 /*
- * The score that confirms. A score is a likelihood ratio whose prior expects one target a search, so that chance passes
- * a threshold s at most e^-s times a search (Markov's inequality); the wanted rate gives s.
+ * The score that confirms. A score is a likelihood ratio whose prior expects no more than one target a search, so that
+ * chance passes a threshold s at most e^-s times a search (Markov's inequality); the wanted rate gives s.
  */
 static int32_t confirm_mnat(const struct rho_tracker *tracker)
 {

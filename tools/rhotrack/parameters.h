@@ -23,8 +23,8 @@
 #define PARAMETERS(X)                                                                              \
     X(SCANS, "scans", "-", 7, 3, 12, 1, 1, "N: scans in the initiation window")                    \
     X(MIN_SCANS, "min_scans", "-", 0, 0, 12, 1, 1,                                                 \
-      "M: scans of the window that must have voted; 0: chosen so that false_tracks_per_hour "      \
-      "holds")                                                                                     \
+      "M: scans of the window that must have voted; 0: chosen from the "                           \
+      "clutter density")                                                                           \
     X(FALSE_TRACKS_PER_HOUR, "false_tracks_per_hour", "1/h", 1, 1e-6, 1e6, 0, 1,                   \
       "wanted rate of confirmed tracks from clutter")                                              \
     X(SCORE_MIN_NAT, "score_min_nat", "nat", 0, -100, 1000, 0, 0,                                  \
