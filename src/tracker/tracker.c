@@ -8,8 +8,8 @@
 
 #define TRACKER_MAGIC 0x5452434bu /* "TRCK" */
 
-/* White acceleration that follows manoeuvres of accel_max: a third of it, kept up for a second. */
-#define ACCEL_SHARE (1.0f / 3.0f)
+/* White acceleration that follows manoeuvres of accel_max: half of it, kept up for a second. */
+#define ACCEL_SHARE 0.5f
 #define ACCEL_TIME_S 1.0f
 
 /* Memory of the smoothed clutter count: ten scans. */

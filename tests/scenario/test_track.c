@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Simulated scenarios through rho_tracker_step, scan by scan: are the targets tracked, each by one
+ * track, and nothing else? Tracks and targets are paired by gospa_compare. Seeds are fixed; the
+ * comment at each case holds what many other seeds give.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "gospa.h"
+#include "rhotrack/tracker.h"
+#include "scenario.h"
+
+#define CUTOFF_M 500.0
+#define TARGETS_MAX 64
+
+static struct rho_tracker tracker;
+static struct rho_initiator initiator;
+static struct rho_report report;
+static struct rho_plot plots[RHO_MAX_PLOTS];
+
+/* Counts from scan `from` on, when every target has had the time to be found. */
+struct outcome {
+    size_t targets, targets_found; /* found: at the last scan */
+    size_t points, points_tracked; /* targets times scans */
+    size_t false_rows, switches;
+    unsigned confirmed; /* tracks, ever */
+    double rmse_m;
+};
+
+struct following {
+    struct outcome outcome;
+    uint32_t track_of[TARGETS_MAX]; /* the last one; 0: none yet */
+    double squared_m2;
+};
+
+static void start(const struct parameters *parameters)
+{
+    struct rho_tracker_config tracker_config;
+    struct rho_initiator_config initiator_config;
+
+    parameters_to_tracker(parameters, &tracker_config);
+    parameters_to_initiator(parameters, &initiator_config);
+    assert_int_equal(RHO_OK, rho_tracker_init(&tracker, sizeof tracker, &tracker_config));
+    assert_int_equal(RHO_OK, rho_initiator_init(&initiator, sizeof initiator, &initiator_config));
+}
+
+static void step(const struct simulated_scan *simulated, double sigma_m)
+{
+    struct rho_scan scan = {.time_us = llround(simulated->t_s * 1e6),
+                            .num_plots = (uint32_t)simulated->num_plots,
+                            .plots = plots};
+
+    assert_true(simulated->num_plots <= RHO_MAX_PLOTS);
+    for (size_t i = 0; i < simulated->num_plots; i++) {
+        plots[i] = (struct rho_plot){.x_m = (float)simulated->plots[i].x_m,
+                                     .y_m = (float)simulated->plots[i].y_m,
+                                     .sigma_range_m = (float)sigma_m,
+                                     .sigma_cross_m = (float)sigma_m};
+    }
+    assert_int_equal(RHO_OK, rho_tracker_step(&tracker, &initiator, &scan, &report));
+}
+
+/* Confirmed and coasting tracks of the report. */
+static size_t tracks_of_report(struct gospa_place places[RHO_MAX_TRACKS],
+                               uint32_t ids[RHO_MAX_TRACKS])
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < report.num_tracks; i++) {
+        const struct rho_track_report *track = &report.tracks[i];
+        if (track->status != RHO_TRACK_TENTATIVE) {
+            ids[count] = track->track_id;
+            places[count++] = (struct gospa_place){.x_m = (double)track->state[0],
+                                                   .y_m = (double)track->state[1]};
+        }
+    }
+    return count;
+}
+
+static void count_pair(struct following *following, size_t target, uint32_t track_id)
+{
+    uint32_t *last = &following->track_of[target];
+
+    following->outcome.points_tracked++;
+    following->outcome.targets_found++;
+    following->outcome.switches += *last != 0 && *last != track_id;
+    *last = track_id;
+}
+
+static void judge(struct following *following, const struct truth_point *truth, size_t num_targets)
+{
+    static struct gospa_place places[RHO_MAX_TRACKS];
+    static uint32_t ids[RHO_MAX_TRACKS];
+    struct gospa_place targets[TARGETS_MAX];
+    int track_of[TARGETS_MAX];
+    size_t num_tracks = tracks_of_report(places, ids);
+    struct gospa gospa;
+
+    for (size_t i = 0; i < num_targets; i++) {
+        targets[i] = (struct gospa_place){.x_m = truth[i].x_m, .y_m = truth[i].y_m};
+    }
+    gospa = gospa_compare(targets, num_targets, places, num_tracks, CUTOFF_M, track_of);
+    following->outcome.targets_found = 0;
+    following->outcome.points += num_targets;
+    following->outcome.false_rows += gospa.false_tracks;
+    following->squared_m2 += gospa.localisation_m2;
+    for (size_t i = 0; i < num_targets; i++) {
+        if (track_of[i] >= 0) {
+            count_pair(following, i, ids[track_of[i]]);
+        }
+    }
+}
+
+static struct outcome follow(const char *name, const struct parameters *parameters, uint64_t seed,
+                             size_t from)
+{
+    struct simulation *simulation = scenario_simulate(name, parameters, seed, 0);
+    struct following following = {.outcome.targets = simulation->num_targets};
+    struct outcome *outcome = &following.outcome;
+
+    assert_true(simulation->num_targets <= TARGETS_MAX);
+    start(parameters);
+    for (size_t scan = 0; scan < simulation->num_scans; scan++) {
+        step(&simulation->scans[scan], simulation->sigma_m);
+        if (scan >= from) {
+            judge(&following, simulation->truth + scan * simulation->num_targets,
+                  simulation->num_targets);
+        }
+    }
+    outcome->confirmed = tracker.counters.tracks_confirmed;
+    outcome->rmse_m = sqrt(following.squared_m2 / (double)(outcome->points_tracked + 1));
+    simulation_free(simulation);
+    return *outcome;
+}
+
+/* Sum over seeds 1 .. num_seeds. */
+static struct outcome follow_seeds(const char *name, const struct parameters *parameters,
+                                   uint64_t num_seeds, size_t from)
+{
+    struct outcome sum = {0};
+
+    for (uint64_t seed = 1; seed <= num_seeds; seed++) {
+        struct outcome one = follow(name, parameters, seed, from);
+        sum.targets += one.targets;
+        sum.targets_found += one.targets_found;
+        sum.points += one.points;
+        sum.points_tracked += one.points_tracked;
+        sum.false_rows += one.false_rows;
+        sum.switches += one.switches;
+        sum.confirmed += one.confirmed;
+        sum.rmse_m += one.rmse_m / (double)num_seeds;
+    }
+    print_message("%s: %zu of %zu found, %.4f complete, %zu false rows, %zu switches, %u tracks "
+                  "confirmed, %.1f m\n",
+                  name, sum.targets_found, sum.targets,
+                  (double)sum.points_tracked / (double)(sum.points ? sum.points : 1),
+                  sum.false_rows, sum.switches, sum.confirmed, sum.rmse_m);
+    return sum;
+}
+
+static struct parameters parameters_of(const char *scenario)
+{
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    scenario_suggest(scenario, &parameters);
+    return parameters;
+}
+
+static void traffic_is_tracked_without_false_tracks_or_switches(void **state)
+{
+    struct parameters parameters = parameters_of("traffic");
+    struct outcome outcome;
+    (void)state;
+
+    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 40);
+    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, 250);
+    outcome = follow_seeds("traffic", &parameters, 4, 10);
+    assert_int_equal(outcome.targets, 200);
+    assert_true(outcome.targets_found >= 198);
+    assert_true((double)outcome.points_tracked >= 0.99 * (double)outcome.points);
+    assert_true(outcome.false_rows <= 10);
+    assert_true(outcome.switches <= 2);
+    assert_true(outcome.confirmed <= 203);
+    assert_true(outcome.rmse_m < 67.0); /* the plots' own error is 71 m */
+}
+
+static void crossing_targets_keep_their_tracks(void **state)
+{
+    struct parameters parameters = parameters_of("crossing");
+    struct outcome outcome;
+    (void)state;
+
+    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 20);
+    outcome = follow_seeds("crossing", &parameters, 40, 8);
+    assert_true(outcome.targets_found >= 117);
+    assert_true((double)outcome.points_tracked >= 0.98 * (double)outcome.points);
+    assert_true(outcome.switches <= 4);
+    assert_true(outcome.rmse_m < 14.0); /* the plots' own error is 14.1 m */
+}
+
+static void neighbours_at_a_small_angle_keep_their_tracks(void **state)
+{
+    struct parameters parameters = parameters_of("crossing-angle");
+    struct outcome outcome;
+    (void)state;
+
+    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 20);
+    parameters_suggest(&parameters, PARAMETER_CROSSING_DEG, 20);
+    outcome = follow_seeds("crossing-angle", &parameters, 40, 8);
+    assert_true(outcome.targets_found >= 77);
+    assert_true(outcome.switches <= 8);
+}
+
+static void a_slow_turn_is_followed(void **state)
+{
+    struct parameters parameters = parameters_of("slow-turn");
+    struct outcome outcome;
+    (void)state;
+
+    outcome = follow_seeds("slow-turn", &parameters, 40, 10);
+    assert_true(outcome.targets_found >= 33);
+    assert_true(outcome.switches <= 2);
+}
+
+static void clutter_alone_confirms_next_to_nothing(void **state)
+{
+    struct parameters parameters = parameters_of("clutter");
+    struct outcome outcome;
+    (void)state;
+
+    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 40);
+    outcome = follow_seeds("clutter", &parameters, 10, 0);
+    assert_int_equal(outcome.targets, 0);
+    assert_true(outcome.confirmed <= 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(traffic_is_tracked_without_false_tracks_or_switches),
+        cmocka_unit_test(crossing_targets_keep_their_tracks),
+        cmocka_unit_test(neighbours_at_a_small_angle_keep_their_tracks),
+        cmocka_unit_test(a_slow_turn_is_followed),
+        cmocka_unit_test(clutter_alone_confirms_next_to_nothing),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
