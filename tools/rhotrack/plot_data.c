@@ -63,13 +63,16 @@ static int by_id_and_time(const void *a, const void *b)
 
 bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_points *one)
 {
-    one->list = points->list + *at;
     one->count = 0;
+    if (*at >= points->count) {
+        return false; /* an empty list may have no memory to point into */
+    }
+    one->list = points->list + *at;
     while (*at < points->count && points->list[*at].id == one->list[0].id) {
         ++*at;
         ++one->count;
     }
-    return one->count > 0;
+    return true;
 }
 
 static bool was_confirmed(const struct plot_points *track)
