@@ -22,6 +22,11 @@
 #define RHO_LIMIT_SPEED_MPS 2.0e4f
 #define RHO_LIMIT_SIGMA_MIN 1.0e-3f
 #define RHO_LIMIT_SIGMA_MAX 1.0e5f
+#define RHO_LIMIT_SIGMA_RAD_MIN 1.0e-6f /* of an angle */
+#define RHO_LIMIT_SIGMA_RAD_MAX 0.5f
+#define RHO_LIMIT_BIAS_M 1.0e4f /* of a sensor, either way */
+#define RHO_LIMIT_BIAS_RAD 0.5f
+#define RHO_LIMIT_BIAS_S 10.0f
 #define RHO_LIMIT_OFFSET_US 60000000 /* a plot's own time from its scan's */
 /* either side of 0; differences then fit 64 bits */
 #define RHO_LIMIT_TIME_US INT64_C(4000000000000000000)
@@ -49,6 +54,20 @@ struct rho_plot {
     float snr_db; /* 0 where unknown; passed on, not used */
 };
 
+/*
+ * One plot as a radar measures it; rho_measurement_from_polar makes a rho_plot of it. Fields that the scan does not
+ * measure are ignored and may hold anything.
+ */
+struct rho_polar_plot {
+    int32_t offset_us; /* as above */
+    float range_m;     /* slant range; without elevation it is taken as ground range */
+    float azimuth_rad; /* counter-clockwise from +x, -pi .. pi */
+    float elevation_rad; /* with RHO_MEASURES_Z: up from the horizontal, -pi/2 .. pi/2 */
+    float range_rate_mps;
+    float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
+    float snr_db;
+};
+
 /* One look of one sensor: a whole turn, or a sector of it. The plots stay the caller's and are only read. */
 struct rho_scan {
     int64_t time_us;
@@ -70,6 +89,8 @@ struct rho_sensor {
     float range_max_m; /* nor beyond */
     /* where the sensor can look at all; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
+    /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said */
+    float range_bias_m, azimuth_bias_rad, time_bias_s;
 };
 
 /*

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
 #define TRACKER_MAGIC 0x5452434bu /* "TRCK" */
@@ -40,50 +41,20 @@ static int is_usable_sensor(const struct rho_sensor *sensor)
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            sensor->range_min_m < sensor->range_max_m &&
            rho_is_within(sensor->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
-           rho_is_within(sensor->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI);
+           rho_is_within(sensor->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
+           rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
+           rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
+           rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
 }
 
 /* ---- begin: which plots can be believed ------------------------------------------------------- */
-
-static int is_position(float v_m)
-{
-    return rho_is_within(v_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M);
-}
-
-static int is_velocity(float v_mps)
-{
-    return rho_is_within(v_mps, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS);
-}
-
-static int is_sigma(float sigma)
-{
-    return rho_is_within(sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
-}
-
-static int is_valid(const struct rho_plot *plot, uint32_t measures)
-{
-    int z = (measures & RHO_MEASURES_Z) != 0;
-    if (plot->offset_us > RHO_LIMIT_OFFSET_US || plot->offset_us < -RHO_LIMIT_OFFSET_US ||
-        !is_position(plot->x_m) || !is_position(plot->y_m) || !is_sigma(plot->sigma_range_m) ||
-        !is_sigma(plot->sigma_cross_m)) {
-        return 0;
-    }
-    if (z && !(is_position(plot->z_m) && is_sigma(plot->sigma_up_m))) {
-        return 0;
-    }
-    if (measures & RHO_MEASURES_VELOCITY) {
-        return is_velocity(plot->vx_mps) && is_velocity(plot->vy_mps) &&
-               (!z || is_velocity(plot->vz_mps)) && is_sigma(plot->sigma_mps);
-    }
-    return 1;
-}
 
 static void judge_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
-        int valid = is_valid(plot, step->scan->measures);
+        int valid = rho_measurement_is_valid(plot, step->scan->measures);
         step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (valid) {
             rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);

@@ -4,8 +4,8 @@
  */
 #include <string.h>
 
-#include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
 /* Wald's lower threshold: one true track in a hundred is given up while tentative. */
@@ -23,21 +23,11 @@ void rho_tracker_end_track(struct step *step, struct rho_track *track, enum rho_
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
 
-/* Did this scan look where the track is? A sensor that is not in the table sees everything, from the origin. */
 static int looked_at(const struct step *step, const struct rho_track *track)
 {
-    const struct rho_sensor *sensor = step->sensor;
-    float dx_m = track->kalman.state[0] - (sensor ? sensor->x_m : 0.0f);
-    float dy_m = track->kalman.state[1] - (sensor ? sensor->y_m : 0.0f);
-    float range2_m2 = dx_m * dx_m + dy_m * dy_m;
-    float azimuth_rad = rho_atan2(dy_m, dx_m);
-    if (!rho_angle_in_sector(azimuth_rad, step->scan->sector_from_rad, step->scan->sector_to_rad)) {
-        return 0;
-    }
-    return !sensor ||
-           (range2_m2 >= sensor->range_min_m * sensor->range_min_m &&
-            range2_m2 <= sensor->range_max_m * sensor->range_max_m &&
-            rho_angle_in_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad));
+    return rho_measurement_looks_at(step->sensor, step->scan->sector_from_rad,
+                                    step->scan->sector_to_rad, track->kalman.state[0],
+                                    track->kalman.state[1]);
 }
 
 /*

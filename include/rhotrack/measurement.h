@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * measurement: what a sensor measured, as places with a covariance, and as rows for scalar updates.
+ *
+ * A radar measures range and angles, so its noise is an ellipsoid with the axes of the line of sight: along it, across
+ * it in the horizontal plane, and upwards at right angles to both.
+ *
+ *        up                      along  = (cos e cos a,  cos e sin a, sin e)
+ *         |  / along, range      cross  = (-sin a,       cos a,       0)
+ *         | /                    up     = (-sin e cos a, -sin e sin a, cos e)
+ *     ----o---- cross            a azimuth, e elevation of the plot as the sensor sees it
+ *
+ * Turned into that frame a plot is two or three scalars of independent noise: no matrix has to be inverted.
+ * Plots of a scan without heights lie in the horizontal plane: elevation 0, two axes.
+ */
+#ifndef RHOTRACK_MEASUREMENT_H
+#define RHOTRACK_MEASUREMENT_H
+
+#include <stdint.h>
+
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+/* A plot opened up: its place, the frame of its noise, and the noise's variances. */
+struct rho_measurement {
+    float place_m[3]; /* x, y, z; z 0 where not measured */
+    float cos_azimuth, sin_azimuth;
+    float cos_elevation, sin_elevation; /* 1 and 0 where z is not measured */
+    float variance_m2[3];               /* along, cross, up */
+    int has_z;
+    int is_isotropic; /* the variances are equal, over two or three axes: the frame does not matter */
+};
+
+/*
+ * Makes a plot of a polar one: the sensor's biases are taken off (range, azimuth, time), the place is converted,
+ * unbiased, and the angles' noise becomes metres across.
+ *   measures  RHO_MEASURES_Z: the elevation counts; RHO_MEASURES_RANGE_RATE: the range rate counts
+ *   sensor    NULL: at the origin, without biases
+ *   plot      offset, place, range rate, snr and sigmas are filled, the rest is 0
+ * The mean of r cos(a + noise) is r cos(a) exp(-sigma^2 / 2): the converted place falls short of the true one by
+ * r sigma^2 / 2 along the line of sight, and is moved out again. The noise of the angles also spreads the place along the
+ * line of sight, with the variance r^2 sigma^4 / 2, which sigma_range_m gets.
+ * Errors: NULL, VALUE (range not in 0 .. RHO_LIMIT_POSITION_M, exclusive of 0, azimuth beyond +-pi, elevation beyond
+ * +-pi/2, a sigma outside its limits, range rate beyond RHO_LIMIT_SPEED_MPS, the place or offset beyond its limit, also
+ * once the biases are off; any of it not finite); *plot is unchanged. Cost: two sines and cosines. Stack: 128 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar,
+                                                          uint32_t measures,
+                                                          const struct rho_sensor *sensor,
+                                                          struct rho_plot *plot);
+
+/* True where everything that the scan measures of the plot is finite and within the limits of types.h. Constant cost. */
+int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures);
+
+/*
+ * Opens up a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from the origin). A plot in the
+ * sensor's own place has no line of sight: its noise is taken as isotropic, the largest of its sigmas.
+ * Cost: two square roots, two divisions. Stack: 64 bytes.
+ */
+void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
+                          const struct rho_sensor *sensor, struct rho_measurement *out);
+
+/* The noise's covariance in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant cost. */
+void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6]);
+
+/*
+ * The range rate that a sensor (NULL: at the origin) would see of a state [x y z vx vy vz], and its derivative by the
+ * state: u = (p - s) / |p - s|, rate = u . v, d rate / d v = u, d rate / d p = (v - rate u) / |p - s|.
+ * use_z 0: heights are not known; the sensor and the state count as level.
+ * Returns 0, and fills nothing, where the state is nearer than a metre to the sensor. Cost: a square root and two
+ * divisions. Stack: 48 bytes.
+ */
+int rho_measurement_range_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
+                               float row[6], float *rate_mps);
+
+/*
+ * Did this scan of the sensor look where a target is? Within the scan's sector, the sensor's own, and its range limits.
+ * NULL: at the origin, looking everywhere that the scan does. Constant cost, an arctangent.
+ */
+int rho_measurement_looks_at(const struct rho_sensor *sensor, float sector_from_rad,
+                             float sector_to_rad, float x_m, float y_m);
+
+#endif

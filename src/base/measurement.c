@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/measurement.h"
+
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+
+/* Nearer than this a line of sight says nothing. */
+#define RANGE_LEAST_M 1.0f
+
+#define RANGE_MAX_M RHO_LIMIT_POSITION_M
+#define HALF_PI 1.57079637f
+
+/* ---- what can be believed --------------------------------------------------------------------- */
+
+static int is_position(float v_m)
+{
+    return rho_is_within(v_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M);
+}
+
+static int is_speed(float v_mps)
+{
+    return rho_is_within(v_mps, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS);
+}
+
+static int is_sigma(float sigma)
+{
+    return rho_is_within(sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
+}
+
+static int is_sigma_rad(float sigma_rad)
+{
+    return rho_is_within(sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
+}
+
+static int is_offset(int64_t offset_us)
+{
+    return offset_us <= RHO_LIMIT_OFFSET_US && offset_us >= -RHO_LIMIT_OFFSET_US;
+}
+
+static int is_valid_velocity(const struct rho_plot *plot, uint32_t measures)
+{
+    return is_speed(plot->vx_mps) && is_speed(plot->vy_mps) &&
+           (!(measures & RHO_MEASURES_Z) || is_speed(plot->vz_mps)) && is_sigma(plot->sigma_mps);
+}
+
+int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
+{
+    if (!is_offset(plot->offset_us) || !is_position(plot->x_m) || !is_position(plot->y_m) ||
+        !is_sigma(plot->sigma_range_m) || !is_sigma(plot->sigma_cross_m)) {
+        return 0;
+    }
+    if ((measures & RHO_MEASURES_Z) && !(is_position(plot->z_m) && is_sigma(plot->sigma_up_m))) {
+        return 0;
+    }
+    if ((measures & RHO_MEASURES_RANGE_RATE) &&
+        !(is_speed(plot->range_rate_mps) && is_sigma(plot->sigma_range_rate_mps))) {
+        return 0;
+    }
+    return !(measures & RHO_MEASURES_VELOCITY) || is_valid_velocity(plot, measures);
+}
+
+/* ---- polar plots ------------------------------------------------------------------------------ */
+
+static int is_usable_polar(const struct rho_polar_plot *polar, uint32_t measures)
+{
+    if (!(polar->range_m > 0.0f && polar->range_m <= RANGE_MAX_M) ||
+        !rho_is_within(polar->azimuth_rad, -RHO_PI, RHO_PI) || !is_sigma(polar->sigma_range_m) ||
+        !is_sigma_rad(polar->sigma_azimuth_rad)) {
+        return 0;
+    }
+    if ((measures & RHO_MEASURES_Z) && !(rho_is_within(polar->elevation_rad, -HALF_PI, HALF_PI) &&
+                                         is_sigma_rad(polar->sigma_elevation_rad))) {
+        return 0;
+    }
+    return !(measures & RHO_MEASURES_RANGE_RATE) ||
+           (is_speed(polar->range_rate_mps) && is_sigma(polar->sigma_range_rate_mps));
+}
+
+/* A polar plot without its sensor's biases, and where it was seen from. */
+struct sighting {
+    float range_m, azimuth_rad, elevation_rad;
+    float variance_azimuth, variance_elevation; /* rad^2 */
+    int64_t offset_us;
+    float x_m, y_m, z_m;
+};
+
+static struct sighting sight(const struct rho_polar_plot *polar, uint32_t measures,
+                             const struct rho_sensor *sensor)
+{
+    struct sighting seen = {
+        .range_m = polar->range_m,
+        .azimuth_rad = polar->azimuth_rad,
+        .variance_azimuth = polar->sigma_azimuth_rad * polar->sigma_azimuth_rad,
+        .offset_us = polar->offset_us,
+    };
+    if (measures & RHO_MEASURES_Z) {
+        seen.elevation_rad = polar->elevation_rad;
+        seen.variance_elevation = polar->sigma_elevation_rad * polar->sigma_elevation_rad;
+    }
+    if (sensor) {
+        seen.range_m -= sensor->range_bias_m;
+        seen.azimuth_rad -= sensor->azimuth_bias_rad;
+        seen.offset_us -= (int64_t)(sensor->time_bias_s * 1e6f);
+        seen.x_m = sensor->x_m;
+        seen.y_m = sensor->y_m;
+        seen.z_m = sensor->z_m;
+    }
+    return seen;
+}
+
+static float root_sum(float a, float b)
+{
+    return rho_sqrt(a * a + b * b);
+}
+
+/* Keeps a derived sigma where it is believed: near the sensor the metres across vanish. */
+static float within_limits(float sigma_m)
+{
+    if (!(sigma_m > RHO_LIMIT_SIGMA_MIN)) {
+        return RHO_LIMIT_SIGMA_MIN;
+    }
+    return sigma_m < RHO_LIMIT_SIGMA_MAX ? sigma_m : RHO_LIMIT_SIGMA_MAX;
+}
+
+static void convert(const struct sighting *seen, const struct rho_polar_plot *polar,
+                    uint32_t measures, struct rho_plot *plot)
+{
+    int z = (measures & RHO_MEASURES_Z) != 0;
+    float cos_elevation = rho_cos(seen->elevation_rad);
+    /* e^(sigma^2 / 2) to the second order: exact to float32 for sigmas up to 0.1 rad, 3e-4 at 0.5 */
+    float half_azimuth = 0.5f * seen->variance_azimuth,
+          half_elevation = 0.5f * seen->variance_elevation;
+    float azimuth_gain = 1.0f + half_azimuth * (1.0f + 0.5f * half_azimuth);
+    float elevation_gain = 1.0f + half_elevation * (1.0f + 0.5f * half_elevation);
+    float level_m = seen->range_m * elevation_gain * cos_elevation;
+    float ground_m = level_m * azimuth_gain;
+    float spread_m =
+        0.70710678f * (level_m * seen->variance_azimuth + seen->range_m * seen->variance_elevation);
+
+    *plot = (struct rho_plot){
+        .offset_us = (int32_t)seen->offset_us,
+        .x_m = seen->x_m + ground_m * rho_cos(seen->azimuth_rad),
+        .y_m = seen->y_m + ground_m * rho_sin(seen->azimuth_rad),
+        .range_rate_mps = (measures & RHO_MEASURES_RANGE_RATE) ? polar->range_rate_mps : 0.0f,
+        .sigma_range_m = within_limits(root_sum(polar->sigma_range_m, spread_m)),
+        .sigma_cross_m = within_limits(level_m * polar->sigma_azimuth_rad),
+        .sigma_range_rate_mps =
+            (measures & RHO_MEASURES_RANGE_RATE) ? polar->sigma_range_rate_mps : 0.0f,
+        .snr_db = polar->snr_db,
+    };
+    if (z) {
+        plot->z_m = seen->z_m + seen->range_m * elevation_gain * rho_sin(seen->elevation_rad);
+        plot->sigma_up_m = within_limits(seen->range_m * polar->sigma_elevation_rad);
+    }
+}
+
+enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, uint32_t measures,
+                                           const struct rho_sensor *sensor, struct rho_plot *plot)
+{
+    struct rho_plot converted;
+    if (!polar || !plot) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_usable_polar(polar, measures)) {
+        return RHO_ERROR_VALUE;
+    }
+    struct sighting seen = sight(polar, measures, sensor);
+    if (!(seen.range_m > 0.0f && seen.range_m <= RANGE_MAX_M) || !is_offset(seen.offset_us)) {
+        return RHO_ERROR_VALUE;
+    }
+    convert(&seen, polar, measures, &converted);
+    if (!rho_measurement_is_valid(&converted, measures & ~RHO_MEASURES_VELOCITY)) {
+        return RHO_ERROR_VALUE;
+    }
+    *plot = converted;
+    return RHO_OK;
+}
+
+/* ---- the frame of the noise ------------------------------------------------------------------- */
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* No line of sight: one variance for all axes. */
+static void open_without_sight(const struct rho_plot *plot, struct rho_measurement *out)
+{
+    float sigma_m = rho_plot_sigma_m(plot);
+    if (out->has_z) {
+        sigma_m = larger(sigma_m, plot->sigma_up_m);
+    }
+    out->cos_azimuth = out->cos_elevation = 1.0f;
+    out->sin_azimuth = out->sin_elevation = 0.0f;
+    out->variance_m2[0] = out->variance_m2[1] = out->variance_m2[2] = sigma_m * sigma_m;
+    out->is_isotropic = 1;
+}
+
+static void open_elevation(float ground_m, float dz_m, struct rho_measurement *out)
+{
+    float range_m = out->has_z ? root_sum(ground_m, dz_m) : ground_m;
+    out->cos_elevation = out->has_z ? ground_m / range_m : 1.0f;
+    out->sin_elevation = out->has_z ? dz_m / range_m : 0.0f;
+}
+
+static int are_equal(const struct rho_plot *plot, int has_z)
+{
+    float spread_m = plot->sigma_range_m - plot->sigma_cross_m;
+    float spread_up_m = has_z ? plot->sigma_range_m - plot->sigma_up_m : 0.0f;
+    return !(spread_m < 0.0f || spread_m > 0.0f || spread_up_m < 0.0f || spread_up_m > 0.0f);
+}
+
+void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
+                          const struct rho_sensor *sensor, struct rho_measurement *out)
+{
+    float dx_m = plot->x_m - (sensor ? sensor->x_m : 0.0f);
+    float dy_m = plot->y_m - (sensor ? sensor->y_m : 0.0f);
+    float dz_m = plot->z_m - (sensor ? sensor->z_m : 0.0f);
+    float ground_m = root_sum(dx_m, dy_m);
+    out->has_z = (measures & RHO_MEASURES_Z) != 0;
+    out->place_m[0] = plot->x_m;
+    out->place_m[1] = plot->y_m;
+    out->place_m[2] = out->has_z ? plot->z_m : 0.0f;
+    if (!(ground_m >= RANGE_LEAST_M)) {
+        open_without_sight(plot, out);
+        return;
+    }
+    out->cos_azimuth = dx_m / ground_m;
+    out->sin_azimuth = dy_m / ground_m;
+    open_elevation(ground_m, dz_m, out);
+    out->variance_m2[0] = plot->sigma_range_m * plot->sigma_range_m;
+    out->variance_m2[1] = plot->sigma_cross_m * plot->sigma_cross_m;
+    out->variance_m2[2] = out->has_z ? plot->sigma_up_m * plot->sigma_up_m : 0.0f;
+    out->is_isotropic = are_equal(plot, out->has_z);
+}
+
+void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6])
+{
+    float ca = measurement->cos_azimuth, sa = measurement->sin_azimuth;
+    float ce = measurement->cos_elevation, se = measurement->sin_elevation;
+    const float *variance = measurement->variance_m2;
+    /* level: along the ground; slant: between ground and height */
+    float level = ce * ce * variance[0] + se * se * variance[2];
+    float slant = ce * se * (variance[0] - variance[2]);
+    float excess = level - variance[1];
+    if (measurement->is_isotropic) {
+        level = variance[1];
+        slant = excess = 0.0f;
+    }
+    covariance[0] = variance[1] + ca * ca * excess;
+    covariance[1] = ca * sa * excess;
+    covariance[2] = variance[1] + sa * sa * excess;
+    covariance[3] = ca * slant;
+    covariance[4] = sa * slant;
+    covariance[5] =
+        measurement->is_isotropic ? variance[2] : se * se * variance[0] + ce * ce * variance[2];
+}
+
+/* ---- range rate ------------------------------------------------------------------------------- */
+
+int rho_measurement_range_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
+                               float row[6], float *rate_mps)
+{
+    float along[3] = {state[0] - (sensor ? sensor->x_m : 0.0f),
+                      state[1] - (sensor ? sensor->y_m : 0.0f),
+                      use_z ? state[2] - (sensor ? sensor->z_m : 0.0f) : 0.0f};
+    const float velocity[3] = {state[3], state[4], use_z ? state[5] : 0.0f};
+    float range_m = rho_sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+    if (!(range_m >= RANGE_LEAST_M)) {
+        return 0;
+    }
+    float rate = 0.0f, per_m = 1.0f / range_m;
+    for (int i = 0; i < 3; i++) {
+        along[i] *= per_m;
+        rate += along[i] * velocity[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        row[i] = (velocity[i] - rate * along[i]) * per_m;
+        row[i + 3] = along[i];
+    }
+    *rate_mps = rate;
+    return 1;
+}
+
+/* ---- coverage --------------------------------------------------------------------------------- */
+
+int rho_measurement_looks_at(const struct rho_sensor *sensor, float sector_from_rad,
+                             float sector_to_rad, float x_m, float y_m)
+{
+    float dx_m = x_m - (sensor ? sensor->x_m : 0.0f);
+    float dy_m = y_m - (sensor ? sensor->y_m : 0.0f);
+    float range2_m2 = dx_m * dx_m + dy_m * dy_m;
+    float azimuth_rad = rho_atan2(dy_m, dx_m);
+    if (!rho_angle_in_sector(azimuth_rad, sector_from_rad, sector_to_rad)) {
+        return 0;
+    }
+    return !sensor ||
+           (range2_m2 >= sensor->range_min_m * sensor->range_min_m &&
+            range2_m2 <= sensor->range_max_m * sensor->range_max_m &&
+            rho_angle_in_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad));
+}
