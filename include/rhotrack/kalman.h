@@ -5,12 +5,14 @@
  * State [x y z vx vy vz] in metres and metres a second; covariance as the lower triangle row by row (linalg.h), 21
  * floats: symmetric by construction. An axis that was never measured has zero state and zero variance and stays so.
  * Scalar updates need no matrix inverse: a measurement whose noise couples no axes is one update an axis, and gives the
- * same estimate as the vector update.
+ * same estimate as the vector update. Noise along a line of sight couples x, y and z, but not the axes of its own frame:
+ * the estimate is turned there, updated, and turned back.
  */
 #ifndef RHOTRACK_KALMAN_H
 #define RHOTRACK_KALMAN_H
 
 #include "rhotrack/linalg.h"
+#include "rhotrack/measurement.h"
 #include "rhotrack/status.h"
 
 #define RHO_KALMAN_STATES 6
@@ -52,6 +54,33 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element,
                                                  float value, float variance, float *nis);
+
+/*
+ * One scalar update: row . state was measured, `innovation` is its measured minus predicted value, `variance` its noise.
+ * Errors as above. Cost: about 480 instructions. Stack: 200 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
+                                                     float innovation, float variance, float *nis);
+
+/*
+ * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened with its place and its
+ * noise, and a velocity of 0 with variance velocity_variance. After an error the filter is partly updated: work on a
+ * copy where that matters. Errors: as rho_kalman_update and rho_kalman_open_axis.
+ * Cost: a scalar update an axis, and where the noise is not isotropic 2 (with z 4) turns there and as many back, about
+ * 200 instructions each. Stack: 250 bytes.
+ */
+RHO_MUST_CHECK enum rho_status
+rho_kalman_update_position(struct rho_kalman *kalman, const struct rho_measurement *measurement,
+                           float velocity_variance);
+
+/*
+ * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate: after the position of the
+ * same plot. An estimate nearer than a metre to the sensor has no range rate: nothing is done, RHO_OK.
+ * Errors: as rho_kalman_update_row. Cost: that and rho_measurement_range_rate. Stack: 250 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
+                                                            const struct rho_sensor *sensor,
+                                                            float rate_mps, float variance);
 
 /* True where axis 0 .. 2 was opened. */
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis);

@@ -49,4 +49,20 @@ RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[
 RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index,
                                                   float innovation, float variance, float *nis);
 
+
+/*
+ * The same for a measurement of row . x: row (6 floats) need not be a unit vector, and `innovation` is the measured minus
+ * the predicted value. Errors as above. Cost: about 420 instructions. Stack: 144 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
+                                                      float innovation, float variance, float *nis);
+
+/*
+ * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p G^T with new a = c a +
+ * s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by 2^-20 of the larger one, more than
+ * rounding takes, so that a positive definite p stays so. a, b: 0 .. 5, not the same; not checked.
+ * Cost: about 90 instructions.
+ */
+void rho_linalg_turn6(float p[21], int a, int b, float c, float s);
+
 #endif

@@ -205,11 +205,28 @@ enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *dist
     return RHO_OK;
 }
 
+/* What an update does to the state; false, and nothing done, where a result is not finite. */
+static int move_state(float x[6], const float gain[6], float innovation, float inverse)
+{
+    float next[6], total = 0.0f;
+    int j;
+
+    for (j = 0; j < 6; ++j) {
+        next[j] = x[j] + gain[j] * innovation;
+        total += next[j];
+    }
+    if (!(is_finite(innovation * inverse * innovation) && is_finite(total))) {
+        return 0;
+    }
+    memcpy(x, next, sizeof next);
+    return 1;
+}
+
 enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
                                    float variance, float *nis)
 {
-    float row[6], gain[6], next[6];
-    float predicted, sum, inverse, kept, total = 0.0f;
+    float row[6], gain[6];
+    float predicted, sum, inverse, kept;
     const uint8_t *place;
     int j;
 
@@ -229,13 +246,10 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     for (j = 0; j < 6; ++j) {
         row[j] = p[place[j]];
         gain[j] = row[j] * inverse;
-        next[j] = x[j] + gain[j] * innovation;
-        total += next[j];
     }
-    if (!(is_finite(innovation * inverse * innovation) && is_finite(total))) {
+    if (!move_state(x, gain, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
-    memcpy(x, next, sizeof next);
     lower_covariances(p, row, gain);
     lower_variances(p, row, gain);
     /* The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1. */
@@ -247,4 +261,71 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
         *nis = innovation * inverse * innovation;
     }
     return RHO_OK;
+}
+
+/* p row, and row . p row. */
+static float project(const float p[21], const float row[6], float projected[6])
+{
+    float variance = 0.0f;
+    int i, j;
+
+    for (i = 0; i < 6; ++i) {
+        const uint8_t *place = row_places[i];
+        float sum = 0.0f;
+
+        for (j = 0; j < 6; ++j) {
+            sum += p[place[j]] * row[j];
+        }
+        projected[i] = sum;
+        variance += sum * row[i];
+    }
+    return variance;
+}
+
+enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
+                                       float innovation, float variance, float *nis)
+{
+    float projected[6], gain[6];
+    float predicted, sum, inverse;
+    int j;
+
+    if (x == NULL || p == NULL || row == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    predicted = project(p, row, projected);
+    sum = predicted + variance;
+    inverse = 1.0f / sum;
+    if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
+        return RHO_ERROR_SINGULAR;
+    }
+    for (j = 0; j < 6; ++j) {
+        gain[j] = projected[j] * inverse;
+    }
+    if (!move_state(x, gain, innovation, inverse)) {
+        return RHO_ERROR_VALUE;
+    }
+    lower_covariances(p, projected, gain);
+    lower_variances(p, projected, gain);
+    if (nis != NULL) {
+        *nis = innovation * inverse * innovation;
+    }
+    return RHO_OK;
+}
+
+void rho_linalg_turn6(float p[21], int a, int b, float c, float s)
+{
+    const uint8_t *row_a = row_places[a], *row_b = row_places[b];
+    const float aa = p[row_a[a]], ab = p[row_a[b]], bb = p[row_b[b]];
+    const float allowance = (aa > bb ? aa : bb) * (ROUNDING_ALLOWANCE - 1.0f);
+    int k;
+
+    for (k = 0; k < 6; ++k) {
+        const float ka = p[row_a[k]], kb = p[row_b[k]];
+
+        p[row_a[k]] = c * ka + s * kb;
+        p[row_b[k]] = c * kb - s * ka;
+    }
+    p[row_a[a]] = c * c * aa + 2.0f * c * s * ab + s * s * bb + allowance;
+    p[row_b[b]] = c * c * bb - 2.0f * c * s * ab + s * s * aa + allowance;
+    p[row_a[b]] = (c * c - s * s) * ab + c * s * (bb - aa);
 }

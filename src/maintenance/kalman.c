@@ -103,6 +103,16 @@ static inline void keep_floor(float *variance)
     }
 }
 
+static void keep_floors(struct rho_kalman *kalman)
+{
+    keep_floor(&kalman->covariance[DIAGONAL(0)]);
+    keep_floor(&kalman->covariance[DIAGONAL(1)]);
+    keep_floor(&kalman->covariance[DIAGONAL(2)]);
+    keep_floor(&kalman->covariance[DIAGONAL(3)]);
+    keep_floor(&kalman->covariance[DIAGONAL(4)]);
+    keep_floor(&kalman->covariance[DIAGONAL(5)]);
+}
+
 void rho_kalman_init(struct rho_kalman *kalman)
 {
     static const struct rho_kalman nothing_measured = {.state = {0.0f}, .covariance = {0.0f}};
@@ -181,14 +191,156 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
     status = rho_linalg_update6(kalman->state, kalman->covariance, element,
                                 value - kalman->state[element], noise, nis);
     if (status == RHO_OK) {
-        keep_floor(&kalman->covariance[DIAGONAL(0)]);
-        keep_floor(&kalman->covariance[DIAGONAL(1)]);
-        keep_floor(&kalman->covariance[DIAGONAL(2)]);
-        keep_floor(&kalman->covariance[DIAGONAL(3)]);
-        keep_floor(&kalman->covariance[DIAGONAL(4)]);
-        keep_floor(&kalman->covariance[DIAGONAL(5)]);
+        keep_floors(kalman);
     }
     return status;
+}
+
+enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
+                                      float innovation, float variance, float *nis)
+{
+    enum rho_status status;
+    float noise;
+
+    if (kalman == NULL || row == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_finite(innovation) || !(variance > 0.0f && variance <= FLT_MAX)) {
+        return RHO_ERROR_VALUE;
+    }
+    noise = variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
+    status = rho_linalg_update6_row(kalman->state, kalman->covariance, row, innovation, noise, nis);
+    if (status == RHO_OK) {
+        keep_floors(kalman);
+    }
+    return status;
+}
+
+/* ---- positions with noise of their own frame ---- */
+
+static void turn_vector(float v[3], int a, int b, float c, float s)
+{
+    const float was_a = v[a], was_b = v[b];
+
+    v[a] = c * was_a + s * was_b;
+    v[b] = c * was_b - s * was_a;
+}
+
+/* Turns the frame of the estimate in the plane of axes a and b. */
+static void turn(struct rho_kalman *kalman, int a, int b, float c, float s)
+{
+    turn_vector(&kalman->state[0], a, b, c, s);
+    turn_vector(&kalman->state[NUM_AXES], a, b, c, s);
+    rho_linalg_turn6(kalman->covariance, a, b, c, s);
+    rho_linalg_turn6(kalman->covariance, NUM_AXES + a, NUM_AXES + b, c, s);
+}
+
+/* Opens or updates one axis. */
+static enum rho_status measure_axis(struct rho_kalman *kalman, int axis, float place_m,
+                                    float variance, float velocity_variance)
+{
+    if (!rho_kalman_is_open(kalman, axis)) {
+        return rho_kalman_open_axis(kalman, axis, place_m, variance, velocity_variance);
+    }
+    return rho_kalman_update(kalman, axis, place_m, variance, NULL);
+}
+
+static enum rho_status measure_axes(struct rho_kalman *kalman, int num_axes, const float place_m[3],
+                                    const float variance[3], float velocity_variance)
+{
+    enum rho_status status = RHO_OK;
+    int axis;
+
+    for (axis = 0; axis < num_axes && status == RHO_OK; ++axis) {
+        status = measure_axis(kalman, axis, place_m[axis], variance[axis], velocity_variance);
+    }
+    return status;
+}
+
+/*
+ * In the frame of the noise, whose axes are all open there, or all closed. Where a place is far from the origin, turning
+ * it would cost digits: the estimate is taken relative to the plot.
+ */
+static enum rho_status measure_in_frame(struct rho_kalman *kalman, int num_axes,
+                                        const struct rho_measurement *seen, float velocity_variance)
+{
+    static const float here_m[3] = {0.0f, 0.0f, 0.0f};
+    const int has_elevation = num_axes == NUM_AXES;
+    enum rho_status status;
+    int axis;
+
+    for (axis = 0; axis < num_axes; ++axis) {
+        kalman->state[axis] -= seen->place_m[axis];
+    }
+    turn(kalman, 0, 1, seen->cos_azimuth, seen->sin_azimuth);
+    if (has_elevation) {
+        turn(kalman, 0, 2, seen->cos_elevation, seen->sin_elevation);
+    }
+    status = measure_axes(kalman, num_axes, here_m, seen->variance_m2, velocity_variance);
+    if (has_elevation) {
+        turn(kalman, 0, 2, seen->cos_elevation, -seen->sin_elevation);
+    }
+    turn(kalman, 0, 1, seen->cos_azimuth, -seen->sin_azimuth);
+    for (axis = 0; axis < num_axes; ++axis) {
+        kalman->state[axis] += seen->place_m[axis];
+    }
+    return status;
+}
+
+/* x and y were measured before and z was not, or the other way round: z goes by itself, with the noise that it has. */
+static enum rho_status measure_apart(struct rho_kalman *kalman,
+                                     const struct rho_measurement *seen, float velocity_variance)
+{
+    struct rho_measurement level = *seen;
+    float covariance[6];
+    enum rho_status status;
+
+    rho_measurement_covariance(seen, covariance);
+    level.variance_m2[0] = covariance[0] + covariance[2] - seen->variance_m2[1];
+    level.has_z = 0;
+    status = measure_in_frame(kalman, 2, &level, velocity_variance);
+    if (status == RHO_OK) {
+        status = measure_axis(kalman, 2, seen->place_m[2], covariance[5], velocity_variance);
+    }
+    return status;
+}
+
+enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
+                                           const struct rho_measurement *measurement,
+                                           float velocity_variance)
+{
+    const int num_axes = measurement != NULL && measurement->has_z ? NUM_AXES : 2;
+
+    if (kalman == NULL || measurement == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (measurement->is_isotropic) {
+        return measure_axes(kalman, num_axes, measurement->place_m, measurement->variance_m2,
+                            velocity_variance);
+    }
+    if (rho_kalman_is_open(kalman, 0) != rho_kalman_is_open(kalman, 1)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (measurement->has_z && rho_kalman_is_open(kalman, 0) != rho_kalman_is_open(kalman, 2)) {
+        return measure_apart(kalman, measurement, velocity_variance);
+    }
+    return measure_in_frame(kalman, num_axes, measurement, velocity_variance);
+}
+
+enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
+                                             const struct rho_sensor *sensor, float rate_mps,
+                                             float variance)
+{
+    float row[RHO_KALMAN_STATES], predicted_mps;
+
+    if (kalman == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_measurement_range_rate(kalman->state, sensor, rho_kalman_is_open(kalman, 2), row,
+                                    &predicted_mps)) {
+        return RHO_OK;
+    }
+    return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps, variance, NULL);
 }
 
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis)
