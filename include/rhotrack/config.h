@@ -25,14 +25,14 @@
 #define RHO_MAX_SCANS RHO_CONFIG_PICK(7, 12)
 #endif
 
-/* Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. RAM: linear. 1 .. 32767. */
+/* Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. RAM: linear. 1 .. 16383. */
 #ifndef RHO_MAX_PLOTS
 #define RHO_MAX_PLOTS RHO_CONFIG_PICK(256, 10000)
 #endif
 
 /* Bins of one scan's neighbour look-up. More bins mean fewer distance tests. RAM: 2 bytes a bin and scan. 1 .. 32767. */
 #ifndef RHO_MAX_BINS
-#define RHO_MAX_BINS RHO_CONFIG_PICK(640, 16384)
+#define RHO_MAX_BINS RHO_CONFIG_PICK(592, 16384)
 #endif
 
 /* Candidate tracks that one search keeps before the exclusive selection; the lowest score gives way. 1 .. 4096. */
@@ -63,8 +63,8 @@
 #if RHO_MAX_SCANS < 3 || RHO_MAX_SCANS > 12
 #error "RHO_MAX_SCANS must be 3 .. 12"
 #endif
-#if RHO_MAX_PLOTS < 1 || RHO_MAX_PLOTS > 32767
-#error "RHO_MAX_PLOTS must be 1 .. 32767"
+#if RHO_MAX_PLOTS < 1 || RHO_MAX_PLOTS > 16383
+#error "RHO_MAX_PLOTS must be 1 .. 16383"
 #endif
 #if RHO_MAX_BINS < 1 || RHO_MAX_BINS > 32767
 #error "RHO_MAX_BINS must be 1 .. 32767"
@@ -90,9 +90,9 @@
  * Embedded: initiator 64 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \
-    (RHO_MAX_SCANS * (24 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 80) + 96)
+    (RHO_MAX_SCANS * (30 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160) + 96)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
-    (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 40) +                        \
+    (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 384)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \

@@ -46,6 +46,8 @@ struct rho_candidate {
     uint16_t plot[RHO_MAX_SCANS];
     int32_t score_mnat;
     float x_m, y_m, vx_mps, vy_mps;
+    float z_m, vz_mps; /* 0 unless has_z */
+    uint8_t has_z;     /* two plots or more have heights */
 };
 
 /* Work of the last search, and what its capacities cut. All saturate. */
@@ -93,7 +95,8 @@ int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us
 
 /* rho_window_push on the initiator's window; what an earlier search found is forgotten. */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
-                                                  const struct rho_scan *scan, uint8_t *fates,
+                                                  const struct rho_scan *scan,
+                                                  const struct rho_sensor *sensor, uint8_t *fates,
                                                   uint32_t *left_unused);
 
 /*

@@ -69,9 +69,9 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, 
  * Cost: a scalar update an axis, and where the noise is not isotropic 2 (with z 4) turns there and as many back, about
  * 200 instructions each. Stack: 250 bytes.
  */
-RHO_MUST_CHECK enum rho_status
-rho_kalman_update_position(struct rho_kalman *kalman, const struct rho_measurement *measurement,
-                           float velocity_variance);
+RHO_MUST_CHECK enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
+                                                          const struct rho_measurement *measurement,
+                                                          float velocity_variance);
 
 /*
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate: after the position of the

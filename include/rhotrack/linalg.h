@@ -26,6 +26,9 @@ RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float 
 /* b := L^-1 b for a factor from rho_linalg_cholesky. Cost: n^2 / 2. */
 void rho_linalg_forward(int n, const float *l, float *b);
 
+/* b := L^-T b. After rho_linalg_forward b solves a x = b. Cost: n^2 / 2. */
+void rho_linalg_backward(int n, const float *l, float *b);
+
 /* ln det(L L^T) = 2 sum ln L_ii. Cost: n logarithms. */
 float rho_linalg_log_determinant(int n, const float *l);
 
@@ -48,7 +51,6 @@ RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index,
                                                   float innovation, float variance, float *nis);
-
 
 /*
  * The same for a measurement of row . x: row (6 floats) need not be a unit vector, and `innovation` is the measured minus

@@ -48,8 +48,8 @@ struct rho_track {
     int32_t sensor_id;     /* of the last claimed plot */
     int32_t score_mnat;
     int32_t score_max_mnat; /* highest since the start */
-    int64_t time_us;        /* of the estimate */
-    int64_t updated_us;     /* of the last claimed plot */
+    int64_t time_us;        /* of the estimate: a scan's, or the last claimed plot's own */
+    int64_t updated_us;     /* of the last claimed plot, its own */
     struct rho_kalman kalman;
 };
 
@@ -74,38 +74,41 @@ struct rho_track_model {
     float noise_density;   /* white acceleration, m^2/s^3 (rho_kalman_predict) */
 };
 
-/* One plot of a track to be started. */
+/* A plot, when it was seen, and by whom. */
 struct rho_track_plot {
-    int64_t time_us; /* its own */
-    float x_m, y_m, z_m;
-    float sigma_m;
-    int has_z;
-    int16_t row; /* in its scan */
+    int64_t time_us;   /* its own */
+    uint32_t measures; /* RHO_MEASURES_... */
+    int32_t sensor_id;
+    const struct rho_sensor *sensor; /* NULL: at the origin */
+    struct rho_plot plot;            /* offset_us is not looked at */
+    int16_t row;                     /* in its scan */
 };
 
 /*
  * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 2 plots: the first opens the filter, the
- * others predict and update it, and it is brought to time_us, the newest scan's time, whose plot comes last.
- * Errors: NULL, VALUE (num_plots, numbers), SINGULAR; *track is unchanged. Cost: num_plots filter steps. Stack: 400 bytes.
+ * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is that
+ * plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
+ * Errors: NULL, VALUE (num_plots, numbers), SINGULAR; *track is unchanged. Cost: num_plots filter steps. Stack: 600 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
-                                               const struct rho_track_plot *plots,
-                                               unsigned num_plots, int64_t time_us,
-                                               const struct rho_track_model *model,
-                                               int32_t score_mnat);
+RHO_MUST_CHECK enum rho_status
+rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
+                unsigned num_plots, const struct rho_track_model *model, int32_t score_mnat);
 
-/* Predicts to time_us, not before the estimate's. Errors: NULL, VALUE (time, a covariance beyond its limit). */
+/*
+ * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later within its scan), it goes
+ * back without noise. Errors: NULL, VALUE (a covariance beyond its limit); unchanged.
+ */
 RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                                  const struct rho_track_model *model);
 
 /*
- * Updates with plot `row` of the scan at the track's time. Its position, and velocity where measured, enter by scalar
- * updates at the plot's own time; a first z opens the third axis. gain_mnat is added to the score.
- * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: 2 to 6 scalar updates, 2 predictions where the plot has an
- * own time. Stack: 300 bytes.
+ * Updates with a plot: predicts to its own time, and takes its position, velocity and range rate, as far as measured,
+ * by scalar updates; a first z opens the third axis. The estimate stays at the plot's time. gain_mnat is added to the score.
+ * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: a prediction where the plot has an own time, and 2 to 7
+ * scalar updates. Stack: 500 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
-                                                const struct rho_scan *scan, uint32_t row,
+                                                const struct rho_track_plot *plot,
                                                 const struct rho_track_model *model,
                                                 int32_t gain_mnat);
 

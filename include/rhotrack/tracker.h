@@ -84,7 +84,8 @@ struct rho_track_report {
     uint16_t hits, misses;
     int32_t sensor_id; /* of the last claimed plot */
     int32_t plot;      /* row of the plot claimed in this scan; -1: none */
-    int32_t update_age_us;
+    int32_t
+        update_age_us; /* scan's time after the last claimed plot's own; 0 where that is later */
     float score_nat;
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];

@@ -59,9 +59,9 @@ struct rho_plot {
  * measure are ignored and may hold anything.
  */
 struct rho_polar_plot {
-    int32_t offset_us; /* as above */
-    float range_m;     /* slant range; without elevation it is taken as ground range */
-    float azimuth_rad; /* counter-clockwise from +x, -pi .. pi */
+    int32_t offset_us;   /* as above */
+    float range_m;       /* slant range; without elevation it is taken as ground range */
+    float azimuth_rad;   /* counter-clockwise from +x, -pi .. pi */
     float elevation_rad; /* with RHO_MEASURES_Z: up from the horizontal, -pi/2 .. pi/2 */
     float range_rate_mps;
     float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;

@@ -25,27 +25,32 @@ struct rho_extent {
 struct rho_window_plot {
     float x_m, y_m, z_m;
     float offset_s; /* own time after the scan's */
-    float sigma_m;  /* isotropic: the largest of the plot's sigmas in the measured axes */
-    uint16_t row;   /* 0-based place in the scan that brought it */
-    uint16_t flags; /* RHO_WINDOW_... */
+    float range_rate_mps;
+    /* standard deviations along, across and above the line of sight, and of the range rate: rho_window_sigma() */
+    uint16_t sigma_range, sigma_cross, sigma_up, sigma_range_rate;
 };
 
-#define RHO_WINDOW_TAKEN 1u     /* belongs to a candidate accepted in the search under way */
-#define RHO_WINDOW_INITIATED 2u /* started a track: no longer there for look-ups */
+/* What is remembered of a held plot beside: the row that it had in its scan, and flags. */
+#define RHO_WINDOW_TAKEN 0x8000u     /* belongs to a candidate accepted in the search under way */
+#define RHO_WINDOW_INITIATED 0x4000u /* started a track: no longer there for look-ups */
+#define RHO_WINDOW_ROW 0x3fffu
 
 /* One held scan. plots[bin_start[c]] .. plots[bin_start[c + 1] - 1] lie in bin c = row * bins_x + column. */
 struct rho_window_scan {
     int64_t time_us;
-    int32_t sensor_id;
     uint32_t measures; /* RHO_MEASURES_... */
+    float sector_from_rad, sector_to_rad;
+    struct rho_sensor sensor; /* pd 0: not described; then at the origin, seeing everything */
     uint16_t num_plots;
     uint16_t num_unused; /* plots that started no track */
     uint16_t bins_x, bins_y;
     float bin_x0_m, bin_y0_m;
     float bins_per_m_x, bins_per_m_y;
-    float sigma_max_m;                /* over the plots */
+    float sigma_max_m;                /* over the plots, along or across */
     float offset_min_s, offset_max_s; /* over the plots */
+    int is_isotropic;                 /* every plot has the same noise along and across */
     uint16_t bin_start[RHO_MAX_BINS + 1];
+    uint16_t marks[RHO_MAX_PLOTS]; /* row and flags of each plot */
     struct rho_window_plot plots[RHO_MAX_PLOTS];
 };
 
@@ -61,7 +66,7 @@ struct rho_window {
 };
 
 /* Which plot is asked for: the nearest, in units of its own standard deviation, to a place that moves with the plots'
- * own times. */
+ * own times. All noise is taken as isotropic, the larger sigma of a plot. */
 struct rho_window_query {
     float x_m, y_m;       /* where, at the scan's time */
     float vx_mps, vy_mps; /* moves on with the plot's offset */
@@ -72,6 +77,28 @@ struct rho_window_query {
     float reach_m;       /* no plot in the gate is farther, before its own time moves the place */
     uint16_t skip_flags; /* plots with any of these flags are not there */
 };
+
+/* Covariance in the plane, and the variance of the height. */
+struct rho_window_noise {
+    float xx_m2, xy_m2, yy_m2, zz_m2;
+};
+
+/* The same question where each plot has its own covariance, heights and range rates count as far as the scan has them. */
+struct rho_window_place {
+    float x_m, y_m, z_m;
+    float vx_mps, vy_mps, vz_mps;
+    struct rho_window_noise noise;          /* of the place */
+    struct rho_window_noise velocity_noise; /* of the velocity, (m/s)^2 */
+    float factor;                           /* of the plots' covariances, and of the sum's gate */
+    int has_z;                              /* z_m and vz_mps are known */
+    float reach_m;
+    uint16_t skip_flags;
+};
+
+/* 99.9 % of the squared Mahalanobis distances of normal errors in 2, 3 and 4 dimensions. */
+#define RHO_WINDOW_CHI2_2D 13.8155f
+#define RHO_WINDOW_CHI2_3D 16.2662f
+#define RHO_WINDOW_CHI2_4D 18.4668f
 
 /* Work done, for measurement: moves with each look-up and saturates. */
 struct rho_window_work {
@@ -97,13 +124,15 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 /*
  * Takes the plots of a scan whose fate is RHO_FATE_HELD; the oldest scan leaves when the window is full.
  *   scan    a valid scan, not older than the newest held; its plots are copied
- *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 65535 and up, becomes NO_ROOM
+ *   sensor  copied; NULL: not described, at the origin
+ *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 16384 and up, becomes NO_ROOM
  *   left_unused  counts the plots that leave the window without having started a track
  * Errors: NULL, STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
  * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions. Stack: 96 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
-                                               const struct rho_scan *scan, uint8_t *fates,
+                                               const struct rho_scan *scan,
+                                               const struct rho_sensor *sensor, uint8_t *fates,
                                                uint32_t *left_unused);
 
 /* The scan of age order m, 0 (oldest) .. num_scans - 1 (newest); m is not checked. Constant cost. */
@@ -115,6 +144,40 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
  */
 int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
                        struct rho_window_work *work);
+
+/*
+ * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus height
+ * plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the position are
+ * neglected. Cost: as above, 60 instructions a plot. Stack: 160 bytes.
+ */
+int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
+                          struct rho_window_work *work);
+
+/* A held plot's covariance, from its line of sight. Cost: a division, with z two more. */
+struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
+                                         const struct rho_window_plot *plot);
+
+/*
+ * Squared distance of a held plot's range rate from what the place's velocity would show there, in units of its variance.
+ * The line of sight is the plot's, whose own error turns the velocity. 0 for a plot in the sensor's place. Cost: 100
+ * instructions.
+ */
+float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
+                                      const struct rho_window_plot *plot,
+                                      const struct rho_window_place *place);
+
+/* The held plot as it was pushed; without own velocity. Constant cost. */
+struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned index);
+
+/* The scan's sensor, or NULL where it was not described. */
+const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan);
+
+/* A standard deviation as a window holds it: 5 bits of exponent and 11 of mantissa, 2^-12 relative error from
+ * RHO_LIMIT_SIGMA_MIN to RHO_LIMIT_SIGMA_MAX; numbers of 12 significant bits are exact. Constant cost. */
+float rho_window_sigma(uint16_t code);
+
+/* One number for a held plot's noise: the larger of its sigmas along and across. Constant cost. */
+float rho_window_sigma_m(const struct rho_window_plot *plot);
 
 /*
  * Bins whose columns and rows touch [x0, x1] x [y0, y1]; outside the area, its border bins. first and last are both

@@ -134,6 +134,21 @@ void rho_linalg_forward(int n, const float *l, float *b)
     }
 }
 
+void rho_linalg_backward(int n, const float *l, float *b)
+{
+    int i, j;
+
+    if (n < 1 || n > RHO_LINALG_MAX || l == NULL || b == NULL) {
+        return;
+    }
+    for (i = n - 1; i >= 0; --i) {
+        for (j = i + 1; j < n; ++j) {
+            b[i] -= l[RHO_AT(j, i)] * b[j];
+        }
+        b[i] /= l[RHO_AT(i, i)];
+    }
+}
+
 float rho_linalg_log_determinant(int n, const float *l)
 {
     float sum = 0.0f;

@@ -15,26 +15,6 @@ typedef char
 
 /* ---- kernels ---------------------------------------------------------------------------------- */
 
-/* What all kernels between scans a and b share. */
-struct span {
-    unsigned a, b;
-    const struct rho_window_scan *scan_a, *scan_b;
-    float gap_s; /* between the scans' times */
-    unsigned num_between;
-    unsigned between[RHO_MAX_SCANS]; /* scans that vote, the narrowest gate first */
-    float process_m2[RHO_MAX_SCANS]; /* by scan: process noise of its place between a and b */
-    float reach_m[RHO_MAX_SCANS];    /* by scan: of the widest gate */
-    /* scans before a and after b: they cannot vote for this kernel */
-    unsigned misses_outside;
-};
-
-/* One pair of plots. */
-struct kernel {
-    const struct rho_window_plot *from, *to;
-    float dx_m, dy_m;
-    float duration_s;
-};
-
 /* The scan in the middle has the narrowest gate, and rejects most: it votes first, then its neighbours outwards. */
 static void order_votes(struct span *span)
 {
@@ -81,6 +61,11 @@ static void open_span(struct search *search, unsigned a, unsigned b, struct span
     span->scan_b = rho_window_scan_at(window, b);
     span->gap_s = search->time_s[b] - search->time_s[a];
     span->misses_outside = search->num_scans - (b - a + 1u);
+    if (!search->is_isotropic) {
+        span->slack_m =
+            rho_sqrt(GATE_CHI2 * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
+                                  span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
+    }
     order_votes(span);
     for (unsigned k = 0; k < span->num_between; k++) {
         unsigned m = span->between[k];
@@ -97,14 +82,13 @@ static int vote(struct search *search, const struct span *span, const struct ker
 {
     float al =
         (search->time_s[m] - search->time_s[span->a] - kernel->from->offset_s) / kernel->duration_s;
-    float from_m2 = kernel->from->sigma_m * kernel->from->sigma_m;
-    float to_m2 = kernel->to->sigma_m * kernel->to->sigma_m;
     struct rho_window_query query = {
         .x_m = kernel->from->x_m + al * kernel->dx_m,
         .y_m = kernel->from->y_m + al * kernel->dy_m,
         .vx_mps = kernel->dx_m / kernel->duration_s,
         .vy_mps = kernel->dy_m / kernel->duration_s,
-        .variance_m2 = (1.0f - al) * (1.0f - al) * from_m2 + al * al * to_m2 + span->process_m2[m],
+        .variance_m2 = (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 +
+                       span->process_m2[m],
         .sigma_factor = 1.0f,
         .gate_chi2 = GATE_CHI2,
         .reach_m = span->reach_m[m],
@@ -119,10 +103,10 @@ static void try_kernel(struct search *search, const struct span *span, const str
 {
     struct plot_set set = {.mask = 1u << span->a | 1u << span->b, .hits = 2};
     unsigned misses = span->misses_outside;
-    search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     for (unsigned k = 0; k < span->num_between; k++) {
         unsigned m = span->between[k];
-        int plot = vote(search, span, kernel, m);
+        int plot = search->is_isotropic ? vote(search, span, kernel, m)
+                                        : rho_initiator_own_vote(search, span, kernel, m);
         if (plot >= 0) {
             set.mask |= 1u << m;
             set.hits++;
@@ -136,9 +120,26 @@ static void try_kernel(struct search *search, const struct span *span, const str
     rho_initiator_offer(search, &set);
 }
 
-static void pair_with(struct search *search, const struct span *span,
-                      const struct rho_window_plot *from, const struct rho_window_plot *to)
+static float squared(float v)
 {
+    return v * v;
+}
+
+/* The noise of a kernel's ends. 0 where their range rates or heights contradict it. */
+static int complete(const struct search *search, const struct span *span, struct kernel *kernel)
+{
+    search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
+    if (!search->is_isotropic) {
+        return rho_initiator_own_kernel(search, span, kernel);
+    }
+    kernel->from_m2 = squared(rho_window_sigma_m(kernel->from));
+    kernel->to_m2 = squared(rho_window_sigma_m(kernel->to));
+    return 1;
+}
+
+static void pair_with(struct search *search, const struct span *span, unsigned i, unsigned j)
+{
+    const struct rho_window_plot *from = &span->scan_a->plots[i], *to = &span->scan_b->plots[j];
     const struct rho_initiator_config *config = &search->initiator->config;
     struct kernel kernel = {
         .from = from,
@@ -148,28 +149,30 @@ static void pair_with(struct search *search, const struct span *span,
         .duration_s = span->gap_s + to->offset_s - from->offset_s,
     };
     float distance2_m2 = kernel.dx_m * kernel.dx_m + kernel.dy_m * kernel.dy_m;
-    float near_m = config->v_min_mps * kernel.duration_s;
-    float far_m = config->v_max_mps * kernel.duration_s;
-    if (kernel.duration_s > 0.0f && distance2_m2 >= near_m * near_m &&
-        distance2_m2 <= far_m * far_m && !(to->flags & search->skip_flags)) {
+    float near_m = config->v_min_mps * kernel.duration_s - span->slack_m;
+    float far_m = config->v_max_mps * kernel.duration_s + span->slack_m;
+    if (kernel.duration_s > 0.0f && (near_m < 0.0f || distance2_m2 >= near_m * near_m) &&
+        distance2_m2 <= far_m * far_m && !(span->scan_b->marks[j] & search->skip_flags) &&
+        complete(search, span, &kernel)) {
         try_kernel(search, span, &kernel);
     }
 }
 
 /* Pairs a plot of scan a with every plot of scan b that the speed limits allow. */
-static void pair_from(struct search *search, const struct span *span,
-                      const struct rho_window_plot *from)
+static void pair_from(struct search *search, const struct span *span, unsigned i)
 {
+    const struct rho_window_plot *from = &span->scan_a->plots[i];
     const struct rho_window_scan *scan = span->scan_b;
     float far_m =
-        search->initiator->config.v_max_mps * (span->gap_s + scan->offset_max_s - from->offset_s);
+        search->initiator->config.v_max_mps * (span->gap_s + scan->offset_max_s - from->offset_s) +
+        span->slack_m;
     struct rho_window_bins bins = rho_window_bins_under(scan, from->x_m - far_m, from->x_m + far_m,
                                                         from->y_m - far_m, from->y_m + far_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
         for (unsigned j = start[bins.column_first]; j < end; j++) {
-            pair_with(search, span, from, &scan->plots[j]);
+            pair_with(search, span, i, j);
         }
     }
 }
@@ -182,9 +185,8 @@ static void search_span(struct search *search, unsigned a, unsigned b)
     }
     open_span(search, a, b, &span);
     for (unsigned i = 0; i < span.scan_a->num_plots; i++) {
-        const struct rho_window_plot *from = &span.scan_a->plots[i];
-        if (!(from->flags & search->skip_flags)) {
-            pair_from(search, &span, from);
+        if (!(span.scan_a->marks[i] & search->skip_flags)) {
+            pair_from(search, &span, i);
         }
     }
 }
@@ -255,7 +257,8 @@ int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us
 }
 
 enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct rho_scan *scan,
-                                   uint8_t *fates, uint32_t *left_unused)
+                                   const struct rho_sensor *sensor, uint8_t *fates,
+                                   uint32_t *left_unused)
 {
     if (!initiator) {
         return RHO_ERROR_NULL;
@@ -263,11 +266,23 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    enum rho_status status = rho_window_push(&initiator->window, scan, fates, left_unused);
+    enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
         initiator->num_candidates = 0;
     }
     return status;
+}
+
+/* Noise of one axis in every scan, and nothing else measured: the fast path. */
+static int is_isotropic(const struct search *search)
+{
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+        if (!scan->is_isotropic || (scan->measures & (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE))) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* Times relative to the newest scan, and the least side of an area that is not given: what a target crosses meanwhile. */
@@ -303,6 +318,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
         return RHO_OK;
     }
     search.wanted_mask = kind == RHO_SEARCH_NEWEST ? 1u << (search.num_scans - 1u) : 0u;
+    search.is_isotropic = is_isotropic(&search);
     lay_times(&search);
     rho_initiator_prepare_process(&search);
     rho_initiator_prepare(&search);
@@ -320,10 +336,10 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
     for (unsigned m = 0; m < initiator->window.num_scans; m++) {
         struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
         if (!((unsigned)candidate->mask >> m & 1u) ||
-            (scan->plots[candidate->plot[m]].flags & RHO_WINDOW_INITIATED)) {
+            (scan->marks[candidate->plot[m]] & RHO_WINDOW_INITIATED)) {
             continue;
         }
-        scan->plots[candidate->plot[m]].flags |= RHO_WINDOW_INITIATED;
+        scan->marks[candidate->plot[m]] |= RHO_WINDOW_INITIATED;
         scan->num_unused--;
         used++;
     }

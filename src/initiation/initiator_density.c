@@ -80,7 +80,7 @@ static uint32_t count_plots(struct rho_initiator *initiator, int into_map)
         const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
         for (unsigned i = 0; i < scan->num_plots; i++) {
             const struct rho_window_plot *plot = &scan->plots[i];
-            if (plot->flags & RHO_WINDOW_INITIATED) {
+            if (scan->marks[i] & RHO_WINDOW_INITIATED) {
                 continue;
             }
             count++;
@@ -234,8 +234,12 @@ void rho_initiator_prepare(struct search *search)
     lay_map(initiator, plots);
     (void)count_plots(initiator, 1);
     initiator->density_prior_plots = prior_plots(initiator);
-    search->log_pd = rho_log(config->pd);
-    search->log_miss = rho_log(1.0f - config->pd);
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        float sensor_pd = rho_window_scan_at(&initiator->window, m)->sensor.pd;
+        float pd = sensor_pd > 0.0f ? sensor_pd : config->pd;
+        search->log_pd[m] = rho_log(pd);
+        search->log_miss[m] = rho_log(1.0f - pd);
+    }
     /* targets are anywhere in the area, their velocities anywhere in the ring of allowed speeds */
     search->log_prior =
         LOG_TARGETS_EXPECTED - rho_log(area) - LOG_PI -

@@ -5,6 +5,7 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
+#include "rhotrack/measurement.h"
 
 /* A plot misses the fitted track by its own noise and the fit's: 1 + leverage, which is 1.46 at the ends of seven evenly
  * spread hits. Fewer hits reach farther; their plots are gated a little too tightly, and the votes were cast before. */
@@ -19,7 +20,7 @@ const struct rho_window_plot *rho_initiator_plot(const struct search *search,
     return &rho_window_scan_at(&search->initiator->window, m)->plots[set->plot[m]];
 }
 
-static float plot_time_s(const struct search *search, const struct plot_set *set, unsigned m)
+float rho_initiator_plot_time_s(const struct search *search, const struct plot_set *set, unsigned m)
 {
     return search->time_s[m] + rho_initiator_plot(search, set, m)->offset_s;
 }
@@ -96,6 +97,12 @@ float rho_initiator_process_gap_m2(const struct search *search, unsigned a, unsi
     return sum > 0.0f ? sum : 0.0f;
 }
 
+static float variance_m2(const struct rho_window_plot *plot)
+{
+    float sigma_m = rho_window_sigma_m(plot);
+    return sigma_m * sigma_m;
+}
+
 /* ---- least squares ---------------------------------------------------------------------------- */
 
 /* Weighted moments of a set about its own mean: no large numbers are subtracted. */
@@ -110,9 +117,9 @@ static struct moments moments_of(const struct search *search, const struct plot_
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
             const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-            float w = 1.0f / (plot->sigma_m * plot->sigma_m);
+            float w = 1.0f / variance_m2(plot);
             sum.weight += w;
-            sum.time_s += w * plot_time_s(search, set, m);
+            sum.time_s += w * rho_initiator_plot_time_s(search, set, m);
             sum.x_m += w * plot->x_m;
             sum.y_m += w * plot->y_m;
         }
@@ -123,8 +130,8 @@ static struct moments moments_of(const struct search *search, const struct plot_
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
             const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-            float w = 1.0f / (plot->sigma_m * plot->sigma_m);
-            float t_s = plot_time_s(search, set, m) - sum.time_s;
+            float w = 1.0f / variance_m2(plot);
+            float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             sum.tt += w * t_s * t_s;
             sum.tx += w * t_s * (plot->x_m - sum.x_m);
             sum.ty += w * t_s * (plot->y_m - sum.y_m);
@@ -133,18 +140,39 @@ static struct moments moments_of(const struct search *search, const struct plot_
     return sum;
 }
 
-/* 0 where the plots have one time only. */
+/* 0 where the plots do not determine a line. */
 static int fit_line(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {
+    if (!search->is_isotropic) {
+        return rho_initiator_own_fit(search, set, fit);
+    }
     struct moments sum = moments_of(search, set);
     if (!(sum.tt > 0.0f)) {
         return 0;
     }
-    fit->vx_mps = sum.tx / sum.tt;
-    fit->vy_mps = sum.ty / sum.tt;
+    *fit = (struct line_fit){.vx_mps = sum.tx / sum.tt, .vy_mps = sum.ty / sum.tt};
     fit->x_m = sum.x_m - fit->vx_mps * sum.time_s;
     fit->y_m = sum.y_m - fit->vy_mps * sum.time_s;
     return 1;
+}
+
+/* The plot of scan m nearest to the fitted track; -1: none. */
+static int nearest(struct search *search, const struct line_fit *fit, float factor, unsigned m)
+{
+    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    float bend_m2 = factor * search->fit_process_m2;
+    struct rho_window_query query = {
+        .x_m = fit->x_m + fit->vx_mps * search->time_s[m],
+        .y_m = fit->y_m + fit->vy_mps * search->time_s[m],
+        .vx_mps = fit->vx_mps,
+        .vy_mps = fit->vy_mps,
+        .variance_m2 = bend_m2,
+        .sigma_factor = factor,
+        .gate_chi2 = GATE_CHI2,
+        .reach_m = rho_sqrt(GATE_CHI2 * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .skip_flags = search->skip_flags,
+    };
+    return rho_window_nearest(scan, &query, &search->initiator->work.window);
 }
 
 /* The plot nearest to the fitted track in every scan. factor widens the gate's variance. */
@@ -153,21 +181,8 @@ void rho_initiator_collect(struct search *search, const struct line_fit *fit, fl
 {
     set->mask = set->hits = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-        float variance_m2 = factor * search->fit_process_m2;
-        struct rho_window_query query = {
-            .x_m = fit->x_m + fit->vx_mps * search->time_s[m],
-            .y_m = fit->y_m + fit->vy_mps * search->time_s[m],
-            .vx_mps = fit->vx_mps,
-            .vy_mps = fit->vy_mps,
-            .variance_m2 = variance_m2,
-            .sigma_factor = factor,
-            .gate_chi2 = GATE_CHI2,
-            .reach_m = rho_sqrt(GATE_CHI2 *
-                                (variance_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
-            .skip_flags = search->skip_flags,
-        };
-        int plot = rho_window_nearest(scan, &query, &search->initiator->work.window);
+        int plot = search->is_isotropic ? nearest(search, fit, factor, m)
+                                        : rho_initiator_own_nearest(search, fit, factor, m);
         set->plot[m] = (uint16_t)(plot < 0 ? 0 : plot);
         if (plot >= 0) {
             set->mask |= 1u << m;
@@ -248,12 +263,12 @@ static struct evidence evidence_straight(const struct search *search, const stru
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
             const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-            float t_s = plot_time_s(search, set, m) - sum.time_s;
+            float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             float rx_m = plot->x_m - sum.x_m - vx_mps * t_s;
             float ry_m = plot->y_m - sum.y_m - vy_mps * t_s;
-            float variance_m2 = plot->sigma_m * plot->sigma_m;
-            evidence.chi2 += (rx_m * rx_m + ry_m * ry_m) / variance_m2;
-            evidence.log_det_noise += rho_log(variance_m2);
+            float noise_m2 = variance_m2(plot);
+            evidence.chi2 += (rx_m * rx_m + ry_m * ry_m) / noise_m2;
+            evidence.log_det_noise += rho_log(noise_m2);
         }
     }
     return evidence;
@@ -300,14 +315,14 @@ static unsigned fill_columns(const struct search *search, const struct plot_set 
         if (set->mask >> m & 1u) {
             const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
             columns->one[n] = 1.0f;
-            columns->t[n] = plot_time_s(search, set, m) - sum.time_s;
+            columns->t[n] = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             columns->x[n] = plot->x_m - sum.x_m;
             columns->y[n] = plot->y_m - sum.y_m;
             scan[n] = m;
             for (unsigned j = 0; j <= n; j++) {
                 columns->noise[RHO_AT(n, j)] = search->process_m2[RHO_AT(m, scan[j])];
             }
-            columns->noise[RHO_AT(n, n)] += plot->sigma_m * plot->sigma_m;
+            columns->noise[RHO_AT(n, n)] += variance_m2(plot);
             n++;
         }
     }
@@ -348,30 +363,65 @@ static int32_t to_mnat(float nat)
     return mnat < 1.0e9f ? (int32_t)(mnat + (mnat < 0.0f ? -0.5f : 0.5f)) : 1000000000;
 }
 
-/*
- * ln [ P(plots | one target) / P(plots | clutter) ]: each hit pd / density, each other scan 1 - pd, the birth prior, and
- * the plots' joint density with position and velocity integrated out (both axes, hence no factor 1/2 but chi2's).
- * Returns 0 where the plots do not determine a line.
- */
-int rho_initiator_score(const struct search *search, const struct plot_set *set,
-                        int32_t *score_mnat)
+/* Did the sensor of scan m look where the fitted track was? */
+static int looked(const struct search *search, const struct line_fit *fit, unsigned m)
 {
-    struct evidence evidence;
-    if (search->fit_process_m2 > 0.0f) {
-        if (!evidence_bent(search, set, &evidence)) {
-            return 0;
-        }
-    } else {
-        evidence = evidence_straight(search, set);
-    }
-    float score = search->log_prior + (float)(search->num_scans - set->hits) * search->log_miss;
+    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    float t_s = search->time_s[m];
+    return rho_measurement_looks_at(rho_window_sensor(scan), scan->sector_from_rad,
+                                    scan->sector_to_rad, fit->x_m + fit->vx_mps * t_s,
+                                    fit->y_m + fit->vy_mps * t_s);
+}
+
+/*
+ * ln of the pattern of hits and misses, each hit over the clutter's density there. A track that begins with the newest
+ * scans may have been born meanwhile: after every scan the search asks again, so its misses count from its first hit.
+ */
+static float log_pattern(const struct search *search, const struct plot_set *set,
+                         const struct line_fit *fit)
+{
+    float sum = 0.0f;
+    int is_born = search->kind == RHO_SEARCH_BATCH;
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            score += search->log_pd - rho_initiator_log_density(search, set, m);
+            sum += search->log_pd[m] - rho_initiator_log_density(search, set, m);
+            is_born = 1;
+        } else if (is_born && looked(search, fit, m)) {
+            sum += search->log_miss[m];
         }
     }
-    score -= (float)(set->hits - 2u) * LOG_TWO_PI + evidence.log_det_noise +
-             evidence.log_det_fisher + 0.5f * evidence.chi2;
-    *score_mnat = to_mnat(score);
+    return sum;
+}
+
+/* The plots' joint density with position and velocity integrated out (isotropic: both axes, hence no factor 1/2 but
+ * chi2's). 0 where the plots do not determine a line. */
+static int log_likelihood(const struct search *search, const struct plot_set *set,
+                          struct set_score *score, float *nat)
+{
+    struct evidence evidence;
+    if (!search->is_isotropic) {
+        return rho_initiator_own_evidence(search, set, nat, &score->chi2, &score->dimensions);
+    }
+    if (!(search->fit_process_m2 > 0.0f)) {
+        evidence = evidence_straight(search, set);
+    } else if (!evidence_bent(search, set, &evidence)) {
+        return 0;
+    }
+    score->chi2 = evidence.chi2;
+    score->dimensions = 2u * set->hits - 4u;
+    *nat = -((float)(set->hits - 2u) * LOG_TWO_PI + evidence.log_det_noise +
+             evidence.log_det_fisher + 0.5f * evidence.chi2);
+    return 1;
+}
+
+/* ln [ P(plots | one target) / P(plots | clutter) ]. Returns 0 where the plots do not determine a line. */
+int rho_initiator_score(const struct search *search, const struct plot_set *set,
+                        const struct line_fit *fit, struct set_score *score)
+{
+    float nat;
+    if (!log_likelihood(search, set, score, &nat)) {
+        return 0;
+    }
+    score->mnat = to_mnat(search->log_prior + log_pattern(search, set, fit) + nat);
     return 1;
 }

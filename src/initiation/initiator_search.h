@@ -18,8 +18,9 @@ struct search {
     unsigned num_scans;          /* N: scans held */
     unsigned min_scans;          /* M */
     float time_s[RHO_MAX_SCANS]; /* of the scans, after the newest: <= 0 */
-    float log_pd, log_miss;      /* ln pd, ln(1 - pd) */
-    float log_prior;             /* ln of the births' density over area and velocity */
+    int is_isotropic;            /* no scan has noise of two axes, heights or range rates */
+    float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
+    float log_prior; /* ln of the births' density over area and velocity */
     /* displacement covariance by process noise */
     float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2];
     float fit_process_m2; /* its largest residual variance about a fitted line */
@@ -29,6 +30,15 @@ struct search {
 /* A straight track at speed: position at the newest scan's time. */
 struct line_fit {
     float x_m, y_m, vx_mps, vy_mps;
+    int has_z; /* z_m and vz_mps are known; never in the isotropic path */
+    float z_m, vz_mps;
+};
+
+/* How good a set is as a track. */
+struct set_score {
+    int32_t mnat;
+    float chi2;          /* of the residual ... */
+    unsigned dimensions; /* ... that has so many */
 };
 
 /* The plots of a hypothesis, by age order. */
@@ -50,7 +60,46 @@ int rho_initiator_settle(struct search *search, struct plot_set *set, struct lin
 void rho_initiator_collect(struct search *search, const struct line_fit *fit, float factor,
                            struct plot_set *set);
 int rho_initiator_score(const struct search *search, const struct plot_set *set,
-                        int32_t *score_mnat);
+                        const struct line_fit *fit, struct set_score *score);
+
+/* initiator_fit.c, for initiator_own.c */
+float rho_initiator_plot_time_s(const struct search *search, const struct plot_set *set,
+                                unsigned m);
+
+/* What all kernels between scans a and b share. */
+struct span {
+    unsigned a, b;
+    const struct rho_window_scan *scan_a, *scan_b;
+    float gap_s; /* between the scans' times */
+    unsigned num_between;
+    unsigned between[RHO_MAX_SCANS]; /* scans that vote, the narrowest gate first */
+    float process_m2[RHO_MAX_SCANS]; /* by scan: process noise of its place between a and b */
+    float reach_m[RHO_MAX_SCANS];    /* by scan: of the widest gate */
+    float slack_m; /* what noise may add to the distance of a pair; 0: isotropic */
+    /* scans before a and after b: they cannot vote for this kernel */
+    unsigned misses_outside;
+};
+
+/* One pair of plots. */
+struct kernel {
+    const struct rho_window_plot *from, *to;
+    float dx_m, dy_m;
+    float duration_s;
+    float from_m2, to_m2;                     /* isotropic: the ends' variances */
+    struct rho_window_noise noise_a, noise_b; /* else: their covariances */
+};
+
+/* initiator_own.c: the same with each plot's own covariance, height and range rate */
+int rho_initiator_own_kernel(const struct search *search, const struct span *span,
+                             struct kernel *kernel);
+int rho_initiator_own_vote(struct search *search, const struct span *span,
+                           const struct kernel *kernel, unsigned m);
+int rho_initiator_own_fit(const struct search *search, const struct plot_set *set,
+                          struct line_fit *fit);
+int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit, float factor,
+                              unsigned m);
+int rho_initiator_own_evidence(const struct search *search, const struct plot_set *set,
+                               float *log_likelihood, float *chi2, unsigned *dimensions);
 
 /* initiator_select.c: the list of candidates */
 void rho_initiator_offer(struct search *search, struct plot_set *set);

@@ -34,20 +34,23 @@ static int make_candidate(struct search *search, struct plot_set *set,
                           struct rho_candidate *candidate)
 {
     struct line_fit fit;
-    int32_t score_mnat;
+    struct set_score score;
     if (!rho_initiator_settle(search, set, &fit) ||
-        !rho_initiator_score(search, set, &score_mnat) ||
-        (float)score_mnat < search->initiator->config.score_min_nat * 1000.0f) {
+        !rho_initiator_score(search, set, &fit, &score) ||
+        (float)score.mnat < search->initiator->config.score_min_nat * 1000.0f) {
         return 0;
     }
     *candidate = (struct rho_candidate){
         .mask = (uint16_t)set->mask,
         .hits = (uint16_t)set->hits,
-        .score_mnat = score_mnat,
+        .score_mnat = score.mnat,
         .x_m = fit.x_m,
         .y_m = fit.y_m,
         .vx_mps = fit.vx_mps,
         .vy_mps = fit.vy_mps,
+        .z_m = fit.z_m,
+        .vz_mps = fit.vz_mps,
+        .has_z = (uint8_t)fit.has_z,
     };
     for (unsigned m = 0; m < search->num_scans; m++) {
         candidate->plot[m] = set->plot[m];
@@ -110,7 +113,7 @@ static void mark_taken(struct search *search, const struct rho_candidate *candid
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
         if ((unsigned)candidate->mask >> m & 1u) {
-            rho_window_scan_at(&search->initiator->window, m)->plots[candidate->plot[m]].flags |=
+            rho_window_scan_at(&search->initiator->window, m)->marks[candidate->plot[m]] |=
                 RHO_WINDOW_TAKEN;
         }
     }
@@ -123,7 +126,7 @@ static void clear_taken(struct search *search)
         for (unsigned m = 0; m < search->num_scans; m++) {
             if ((unsigned)candidate->mask >> m & 1u) {
                 struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-                scan->plots[candidate->plot[m]].flags &= (uint16_t)~RHO_WINDOW_TAKEN;
+                scan->marks[candidate->plot[m]] &= (uint16_t)~RHO_WINDOW_TAKEN;
             }
         }
     }
@@ -132,7 +135,13 @@ static void clear_taken(struct search *search)
 /* What is left for a candidate along its own track once better ones have their plots. 0: nothing that counts. */
 static int associate_again(struct search *search, struct rho_candidate *candidate)
 {
-    struct line_fit fit = {candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps};
+    struct line_fit fit = {.x_m = candidate->x_m,
+                           .y_m = candidate->y_m,
+                           .vx_mps = candidate->vx_mps,
+                           .vy_mps = candidate->vy_mps,
+                           .has_z = candidate->has_z,
+                           .z_m = candidate->z_m,
+                           .vz_mps = candidate->vz_mps};
     struct plot_set set;
     uint16_t skip = search->skip_flags;
     search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);

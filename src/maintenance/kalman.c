@@ -288,8 +288,8 @@ static enum rho_status measure_in_frame(struct rho_kalman *kalman, int num_axes,
 }
 
 /* x and y were measured before and z was not, or the other way round: z goes by itself, with the noise that it has. */
-static enum rho_status measure_apart(struct rho_kalman *kalman,
-                                     const struct rho_measurement *seen, float velocity_variance)
+static enum rho_status measure_apart(struct rho_kalman *kalman, const struct rho_measurement *seen,
+                                     float velocity_variance)
 {
     struct rho_measurement level = *seen;
     float covariance[6];

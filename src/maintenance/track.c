@@ -99,33 +99,52 @@ enum rho_track_status rho_track_judge(struct rho_track *track,
 
 /* ---- estimate --------------------------------------------------------------------------------- */
 
-static enum rho_status measure(struct rho_kalman *kalman, int axis, float position_m, float sigma_m,
-                               const struct rho_track_model *model)
+static enum rho_status measure_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
+                                        int has_z)
 {
-    if (!rho_kalman_is_open(kalman, axis)) {
-        return rho_kalman_open_axis(kalman, axis, position_m, sigma_m * sigma_m,
-                                    model->speed_sigma_mps * model->speed_sigma_mps);
-    }
-    return rho_kalman_update(kalman, axis, position_m, sigma_m * sigma_m, 0);
-}
-
-static enum rho_status measure_start(struct rho_kalman *kalman, const struct rho_track_plot *plot,
-                                     const struct rho_track_model *model)
-{
-    enum rho_status status = measure(kalman, 0, plot->x_m, plot->sigma_m, model);
+    float variance = plot->sigma_mps * plot->sigma_mps;
+    enum rho_status status = rho_kalman_update(kalman, 3, plot->vx_mps, variance, 0);
     if (status == RHO_OK) {
-        status = measure(kalman, 1, plot->y_m, plot->sigma_m, model);
+        status = rho_kalman_update(kalman, 4, plot->vy_mps, variance, 0);
     }
-    if (status == RHO_OK && plot->has_z) {
-        status = measure(kalman, 2, plot->z_m, plot->sigma_m, model);
+    if (status == RHO_OK && has_z) {
+        status = rho_kalman_update(kalman, 5, plot->vz_mps, variance, 0);
     }
     return status;
 }
 
+/* All that a plot measures, at its own time; the range rate last, for it is linearised where the position was found. */
+static enum rho_status measure(struct rho_kalman *kalman, const struct rho_track_plot *seen,
+                               const struct rho_track_model *model)
+{
+    const struct rho_plot *plot = &seen->plot;
+    struct rho_measurement measurement;
+    rho_measurement_open(plot, seen->measures, seen->sensor, &measurement);
+    enum rho_status status = rho_kalman_update_position(
+        kalman, &measurement, model->speed_sigma_mps * model->speed_sigma_mps);
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
+        status = measure_velocity(kalman, plot, measurement.has_z);
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status =
+            rho_kalman_update_range_rate(kalman, seen->sensor, plot->range_rate_mps,
+                                         plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
+    }
+    return status;
+}
+
+static enum rho_status predict_and_measure(struct rho_kalman *kalman, int64_t at_us,
+                                           const struct rho_track_plot *seen,
+                                           const struct rho_track_model *model)
+{
+    enum rho_status status =
+        rho_kalman_predict(kalman, rho_seconds_between(at_us, seen->time_us), model->noise_density);
+    return status == RHO_OK ? measure(kalman, seen, model) : status;
+}
+
 enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
                                 const struct rho_track_plot *plots, unsigned num_plots,
-                                int64_t time_us, const struct rho_track_model *model,
-                                int32_t score_mnat)
+                                const struct rho_track_model *model, int32_t score_mnat)
 {
     if (!track || !plots || !model) {
         return RHO_ERROR_NULL;
@@ -133,30 +152,22 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     if (num_plots < 2) {
         return RHO_ERROR_VALUE;
     }
+    const struct rho_track_plot *last = &plots[num_plots - 1];
     struct rho_track start = {
         .track_id = track_id,
         .status = RHO_TRACK_FREE,
         .hits = (uint16_t)num_plots,
-        .plot = plots[num_plots - 1].row,
+        .plot = last->row,
+        .sensor_id = last->sensor_id,
         .score_mnat = score_mnat,
         .score_max_mnat = score_mnat,
-        .time_us = time_us,
-        .updated_us = time_us,
+        .time_us = last->time_us,
+        .updated_us = last->time_us,
     };
     rho_kalman_init(&start.kalman);
-    int64_t at_us = plots[0].time_us;
-    enum rho_status status = measure_start(&start.kalman, &plots[0], model);
+    enum rho_status status = measure(&start.kalman, &plots[0], model);
     for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
-        status = rho_kalman_predict(&start.kalman, rho_seconds_between(at_us, plots[i].time_us),
-                                    model->noise_density);
-        if (status == RHO_OK) {
-            status = measure_start(&start.kalman, &plots[i], model);
-        }
-        at_us = plots[i].time_us;
-    }
-    if (status == RHO_OK) {
-        status = rho_kalman_predict(&start.kalman, rho_seconds_between(at_us, time_us),
-                                    model->noise_density);
+        status = predict_and_measure(&start.kalman, plots[i - 1].time_us, &plots[i], model);
     }
     if (status == RHO_OK) {
         apply(&start, RHO_TRACK_START);
@@ -171,9 +182,6 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     if (!track || !model) {
         return RHO_ERROR_NULL;
     }
-    if (time_us < track->time_us) {
-        return RHO_ERROR_VALUE;
-    }
     enum rho_status status = rho_kalman_predict(
         &track->kalman, rho_seconds_between(track->time_us, time_us), model->noise_density);
     if (status == RHO_OK) {
@@ -182,73 +190,22 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     return status;
 }
 
-static enum rho_status measure_position(struct rho_kalman *kalman, const struct rho_plot *plot,
-                                        uint32_t measures, const struct rho_track_model *model)
-{
-    float sigma_m = rho_plot_sigma_m(plot);
-    enum rho_status status = measure(kalman, 0, plot->x_m, sigma_m, model);
-    if (status == RHO_OK) {
-        status = measure(kalman, 1, plot->y_m, sigma_m, model);
-    }
-    if (status == RHO_OK && (measures & RHO_MEASURES_Z)) {
-        status = measure(kalman, 2, plot->z_m, plot->sigma_up_m, model);
-    }
-    return status;
-}
-
-static enum rho_status measure_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
-                                        uint32_t measures)
-{
-    float variance = plot->sigma_mps * plot->sigma_mps;
-    enum rho_status status = rho_kalman_update(kalman, 3, plot->vx_mps, variance, 0);
-    if (status == RHO_OK) {
-        status = rho_kalman_update(kalman, 4, plot->vy_mps, variance, 0);
-    }
-    if (status == RHO_OK && (measures & RHO_MEASURES_Z)) {
-        status = rho_kalman_update(kalman, 5, plot->vz_mps, variance, 0);
-    }
-    return status;
-}
-
-/* A plot's own time: the estimate goes there and back, without noise, which measures position + offset x velocity. */
-static enum rho_status measure_at_own_time(struct rho_kalman *kalman, const struct rho_plot *plot,
-                                           uint32_t measures, const struct rho_track_model *model)
-{
-    float offset_s = (float)plot->offset_us * 1e-6f;
-    enum rho_status status = RHO_OK;
-    if (plot->offset_us != 0) {
-        status = rho_kalman_predict(kalman, offset_s, 0.0f);
-    }
-    if (status == RHO_OK) {
-        status = measure_position(kalman, plot, measures, model);
-    }
-    if (status == RHO_OK && (measures & RHO_MEASURES_VELOCITY)) {
-        status = measure_velocity(kalman, plot, measures);
-    }
-    if (status == RHO_OK && plot->offset_us != 0) {
-        status = rho_kalman_predict(kalman, -offset_s, 0.0f);
-    }
-    return status;
-}
-
-enum rho_status rho_track_update(struct rho_track *track, const struct rho_scan *scan, uint32_t row,
+enum rho_status rho_track_update(struct rho_track *track, const struct rho_track_plot *plot,
                                  const struct rho_track_model *model, int32_t gain_mnat)
 {
-    if (!track || !scan || !model) {
+    if (!track || !plot || !model) {
         return RHO_ERROR_NULL;
     }
-    if (row >= scan->num_plots || row > INT16_MAX) {
-        return RHO_ERROR_VALUE;
-    }
     struct rho_kalman kalman = track->kalman;
-    enum rho_status status = measure_at_own_time(&kalman, &scan->plots[row], scan->measures, model);
+    enum rho_status status = predict_and_measure(&kalman, track->time_us, plot, model);
     if (status != RHO_OK) {
         return status;
     }
     track->kalman = kalman;
-    track->plot = (int16_t)row;
-    track->sensor_id = scan->sensor_id;
-    track->updated_us = scan->time_us;
+    track->time_us = plot->time_us;
+    track->plot = plot->row;
+    track->sensor_id = plot->sensor_id;
+    track->updated_us = plot->time_us;
     count_hit(track);
     add_score(track, gain_mnat);
     apply(track, RHO_TRACK_UPDATE);

@@ -94,6 +94,9 @@ static void report_track(const struct step *step, const struct rho_track *track,
                          struct rho_track_report *out)
 {
     int64_t age_us = step->scan->time_us - track->updated_us;
+    struct rho_track at = *track;
+    /* back from the plot's own time to the scan's, without noise: nothing to refuse */
+    (void)!rho_track_predict(&at, step->scan->time_us, &step->model);
     *out = (struct rho_track_report){
         .track_id = track->track_id,
         .status = (enum rho_track_status)track->status,
@@ -101,13 +104,15 @@ static void report_track(const struct step *step, const struct rho_track *track,
         .misses = track->misses,
         .sensor_id = track->sensor_id,
         .plot = track->plot,
-        .update_age_us = age_us < INT32_MAX ? (int32_t)age_us : INT32_MAX,
+        .update_age_us = age_us < 0           ? 0
+                         : age_us < INT32_MAX ? (int32_t)age_us
+                                              : INT32_MAX,
         .score_nat = (float)track->score_mnat * 0.001f,
-        .sigma_m = rho_track_sigma_m(track),
-        .sigma_mps = rho_track_sigma_mps(track),
+        .sigma_m = rho_track_sigma_m(&at),
+        .sigma_mps = rho_track_sigma_mps(&at),
     };
-    memcpy(out->state, track->kalman.state, sizeof out->state);
-    memcpy(out->covariance, track->kalman.covariance, sizeof out->covariance);
+    memcpy(out->state, at.kalman.state, sizeof out->state);
+    memcpy(out->covariance, at.kalman.covariance, sizeof out->covariance);
 }
 
 /* Plots without a place in fates[] have a fate all the same: that of a late scan, or NO_ROOM. */

@@ -52,12 +52,21 @@ static float clutter_density(const struct step *step, float x_m, float y_m)
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
 }
 
-/* ln of the plot's density as the track's, over its density as clutter. */
-static float log_ratio(const struct rho_gate_result *result, float log_density)
+/* ln of the plot's density as the track's, over its density as clutter, whose range rates are any that a target may
+ * have. */
+static float log_ratio(const struct step *step, const struct rho_gate_result *result,
+                       float log_density)
 {
-    float clutter = result->has_z ? log_density - rho_log(CLUTTER_HEIGHT_M) : log_density;
-    float dimensions = result->has_z ? 3.0f : 2.0f;
-    return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - clutter;
+    float dimensions = 2.0f;
+    if (result->has_z) {
+        log_density -= rho_log(CLUTTER_HEIGHT_M);
+        dimensions += 1.0f;
+    }
+    if (result->has_range_rate) {
+        log_density -= rho_log(2.0f * step->tracker->config.v_max_mps);
+        dimensions += 1.0f;
+    }
+    return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
 }
 
 /* A pair's cost is minus what the plot gains over a miss, in mnat. A plot in the gate is always better than none. */
@@ -69,12 +78,12 @@ static void gate_plots(struct step *step, unsigned row)
     struct rho_gate_result result;
     float log_density =
         rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
-    rho_gate_open(&gate, &track->kalman);
+    rho_gate_open(&gate, &track->kalman, step->model.noise_density, step->sensor);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD &&
             rho_gate_test(&gate, &step->scan->plots[i], step->scan->measures, &result)) {
-            int32_t gain =
-                rho_tracker_mnat(step->log_pd + log_ratio(&result, log_density) - step->log_miss);
+            int32_t gain = rho_tracker_mnat(step->log_pd + log_ratio(step, &result, log_density) -
+                                            step->log_miss);
             (void)!rho_assignment_add(&tracker->assignment, row, i, gain > 1 ? -gain : -1);
         }
     }
@@ -101,12 +110,25 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
 {
     struct rho_gate gate;
     struct rho_gate_result result;
-    rho_gate_open(&gate, &track->kalman);
+    rho_gate_open(&gate, &track->kalman, step->model.noise_density, step->sensor);
     if (!rho_gate_test(&gate, &step->scan->plots[plot], step->scan->measures, &result)) {
         return 0;
     }
     float density = clutter_density(step, track->kalman.state[0], track->kalman.state[1]);
-    return rho_tracker_mnat(step->log_pd + log_ratio(&result, rho_log(density)));
+    return rho_tracker_mnat(step->log_pd + log_ratio(step, &result, rho_log(density)));
+}
+
+static struct rho_track_plot plot_of(const struct step *step, int row)
+{
+    const struct rho_plot *plot = &step->scan->plots[row];
+    return (struct rho_track_plot){
+        .time_us = step->scan->time_us + plot->offset_us,
+        .measures = step->scan->measures,
+        .sensor_id = step->scan->sensor_id,
+        .sensor = step->sensor,
+        .plot = *plot,
+        .row = (int16_t)row,
+    };
 }
 
 void rho_tracker_update(struct step *step)
@@ -119,7 +141,8 @@ void rho_tracker_update(struct step *step)
             continue;
         }
         int32_t gain = gain_of(step, track, (uint32_t)plot);
-        if (rho_track_update(track, step->scan, (uint32_t)plot, &step->model, gain) == RHO_OK) {
+        struct rho_track_plot seen = plot_of(step, plot);
+        if (rho_track_update(track, &seen, &step->model, gain) == RHO_OK) {
             step->report->fates[plot] = RHO_FATE_CLAIMED;
         } else {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);

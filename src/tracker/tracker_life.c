@@ -127,15 +127,14 @@ static unsigned gather_plots(struct rho_initiator *initiator, const struct rho_c
     for (unsigned m = 0; m < initiator->window.num_scans; m++) {
         if ((unsigned)candidate->mask >> m & 1u) {
             const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
-            const struct rho_window_plot *plot = &scan->plots[candidate->plot[m]];
+            struct rho_plot plot = rho_window_plot_of(scan, candidate->plot[m]);
             plots[n++] = (struct rho_track_plot){
-                .time_us = scan->time_us + (int64_t)(plot->offset_s * 1e6f),
-                .x_m = plot->x_m,
-                .y_m = plot->y_m,
-                .z_m = plot->z_m,
-                .sigma_m = plot->sigma_m,
-                .has_z = (scan->measures & RHO_MEASURES_Z) != 0,
-                .row = (int16_t)plot->row,
+                .time_us = scan->time_us + plot.offset_us,
+                .measures = scan->measures & ~RHO_MEASURES_VELOCITY, /* the window has none */
+                .sensor_id = scan->sensor.sensor_id,
+                .sensor = &scan->sensor,
+                .plot = plot,
+                .row = (int16_t)(scan->marks[candidate->plot[m]] & RHO_WINDOW_ROW),
             };
         }
     }
@@ -149,7 +148,7 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
     struct rho_track_plot plots[RHO_MAX_SCANS];
     struct rho_track track;
     unsigned n = gather_plots(step->initiator, candidate, plots);
-    if (rho_track_start(&track, tracker->next_track_id, plots, n, step->scan->time_us, &step->model,
+    if (rho_track_start(&track, tracker->next_track_id, plots, n, &step->model,
                         candidate->score_mnat) != RHO_OK) {
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         return;
@@ -157,7 +156,6 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
     if (!make_room(tracker, candidate->score_mnat)) {
         return;
     }
-    track.sensor_id = step->scan->sensor_id;
     judge(step, &track, limits);
     tracker->tracks[tracker->num_tracks++] = track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
@@ -186,7 +184,7 @@ void rho_tracker_initiate(struct step *step)
     /* only the plots with a fate of their own are offered; pointers were checked before the step began */
     struct rho_scan held = *step->scan;
     held.num_plots = step->num_gated;
-    (void)!rho_initiator_push(initiator, &held, step->report->fates,
+    (void)!rho_initiator_push(initiator, &held, step->sensor, step->report->fates,
                               &tracker->counters.plots_clutter);
     (void)!rho_initiator_search(initiator, RHO_SEARCH_NEWEST);
     tracker->counters.candidates_dropped =

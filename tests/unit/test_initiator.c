@@ -57,7 +57,7 @@ static void push(double t_s)
     struct rho_scan scan = {
         .time_us = (int64_t)(t_s * 1e6), .num_plots = num_plots, .plots = plots};
     memset(fates, RHO_FATE_HELD, sizeof fates);
-    assert_int_equal(rho_initiator_push(&initiator, &scan, fates, &unused), RHO_OK);
+    assert_int_equal(rho_initiator_push(&initiator, &scan, NULL, fates, &unused), RHO_OK);
     num_plots = 0;
 }
 
@@ -157,8 +157,8 @@ static void calls_on_nothing_are_refused(void **state)
     memset(&initiator, 0, sizeof initiator);
     assert_int_equal(rho_initiator_search(NULL, RHO_SEARCH_BATCH), RHO_ERROR_NULL);
     assert_int_equal(rho_initiator_search(&initiator, RHO_SEARCH_BATCH), RHO_ERROR_STATE);
-    assert_int_equal(rho_initiator_push(NULL, &scan, NULL, &unused), RHO_ERROR_NULL);
-    assert_int_equal(rho_initiator_push(&initiator, &scan, NULL, &unused), RHO_ERROR_STATE);
+    assert_int_equal(rho_initiator_push(NULL, &scan, NULL, NULL, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_initiator_push(&initiator, &scan, NULL, NULL, &unused), RHO_ERROR_STATE);
     assert_false(rho_initiator_accepts(&initiator, 0));
     struct rho_initiator_config config = usual();
     start(&config);

@@ -38,7 +38,7 @@ static void push_clutter(int k)
         fates[i] = RHO_FATE_HELD;
     }
     struct rho_scan scan = {.time_us = 2000000 * (int64_t)k, .num_plots = PLOTS, .plots = plots};
-    assert_int_equal(rho_initiator_push(&initiator, &scan, fates, &unused), RHO_OK);
+    assert_int_equal(rho_initiator_push(&initiator, &scan, NULL, fates, &unused), RHO_OK);
 }
 
 static void search_clutter(void)

@@ -40,7 +40,7 @@ static uint32_t push(int64_t time_us, uint32_t count)
 {
     uint32_t unused = 0;
     struct rho_scan scan = scan_of(time_us, count);
-    assert_int_equal(rho_window_push(&window, &scan, fates, &unused), RHO_OK);
+    assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_OK);
     return unused;
 }
 
@@ -78,18 +78,19 @@ static void push_refuses_and_changes_nothing(void **state)
     struct rho_scan scan = scan_of(5, 1);
     place(0, 1.0f, 2.0f, 1.0f);
     memset(&window, 0, sizeof window);
-    assert_int_equal(rho_window_push(&window, &scan, fates, &unused), RHO_ERROR_STATE);
+    assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_ERROR_STATE);
     start(3);
     push(10, 1);
     before = window;
-    assert_int_equal(rho_window_push(NULL, &scan, fates, &unused), RHO_ERROR_NULL);
-    assert_int_equal(rho_window_push(&window, NULL, fates, &unused), RHO_ERROR_NULL);
-    assert_int_equal(rho_window_push(&window, &scan, NULL, &unused), RHO_ERROR_NULL);
-    assert_int_equal(rho_window_push(&window, &scan, fates, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_window_push(NULL, &scan, NULL, fates, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_window_push(&window, NULL, NULL, fates, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_window_push(&window, &scan, NULL, NULL, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_window_push(&window, &scan, NULL, fates, NULL), RHO_ERROR_NULL);
     scan.plots = NULL;
-    assert_int_equal(rho_window_push(&window, &scan, fates, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_ERROR_NULL);
     scan.plots = plots;
-    assert_int_equal(rho_window_push(&window, &scan, fates, &unused), RHO_ERROR_STATE); /* older */
+    assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused),
+                     RHO_ERROR_STATE); /* older */
     assert_false(rho_window_accepts(&window, 9));
     assert_true(rho_window_accepts(&window, 10));
     assert_memory_equal(&window, &before, sizeof window);
@@ -125,7 +126,7 @@ static void plots_beyond_the_capacity_have_no_room(void **state)
     struct rho_scan scan = scan_of(0, RHO_MAX_PLOTS + 10);
     uint32_t unused = 0;
     fates[3] = RHO_FATE_CLAIMED;
-    assert_int_equal(rho_window_push(&window, &scan, fates, &unused), RHO_OK);
+    assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_OK);
     assert_int_equal(rho_window_scan_at(&window, 0)->num_plots, RHO_MAX_PLOTS);
     assert_int_equal(fates[3], RHO_FATE_CLAIMED);
     assert_int_equal(fates[RHO_MAX_PLOTS], RHO_FATE_HELD); /* in the place of the claimed one */

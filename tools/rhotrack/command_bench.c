@@ -138,7 +138,7 @@ static double window_us(struct rho_initiator *initiator, const struct recording 
     check(rho_initiator_init(initiator, sizeof *initiator, config), "initiator");
     for (size_t i = 0; i < recording->count; i++) {
         memset(fates, RHO_FATE_HELD, sizeof fates);
-        check(rho_initiator_push(initiator, &recording->scans[i], fates, &unused), "push");
+        check(rho_initiator_push(initiator, &recording->scans[i], NULL, fates, &unused), "push");
     }
     int64_t start_us = clock_us();
     check(rho_initiator_search(initiator, RHO_SEARCH_BATCH), "search");

@@ -45,7 +45,7 @@ static void push(struct batch *batch, const struct rho_scan *scan)
     }
     memset(fates, RHO_FATE_HELD, sizeof fates);
     start_us = clock_us();
-    check_status(rho_initiator_push(batch->initiator, &held, fates, &left_unused));
+    check_status(rho_initiator_push(batch->initiator, &held, NULL, fates, &left_unused));
     batch->wall_us += clock_us() - start_us;
     batch->time_us = scan->time_us;
     batch->scans++;

@@ -56,7 +56,7 @@ static void push(struct rho_initiator *initiator, const struct simulated_scan *f
     struct rho_scan scan = {.time_us = llround(from->t_s * 1e6),
                             .num_plots = (uint32_t)from->num_plots,
                             .plots = plots};
-    enum rho_status status = rho_initiator_push(initiator, &scan, fates, &left_unused);
+    enum rho_status status = rho_initiator_push(initiator, &scan, NULL, fates, &left_unused);
     free(fates);
     free(plots);
     if (status != RHO_OK) {

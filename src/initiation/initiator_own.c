@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * initiator_own: kernels, votes and fits where each plot has its own covariance, and heights and range rates count.
+ */
+#include "initiator_search.h"
+#include "rhotrack/approx.h"
+#include "rhotrack/linalg.h"
+#include "rhotrack/measurement.h"
+
+#define LOG_TWO_PI 1.83787707f
+
+/* 99.9 % of the squared errors of one dimension. */
+#define GATE_CHI2_1D 10.8276f
+
+/* Where heights are measured, targets and clutter are anywhere in so many metres of them ... */
+#define LOG_HEIGHT 9.90348755f /* ln 20 000 m */
+/* ... and targets climb or sink by up to this share of v_max. */
+#define CLIMB_SHARE 0.5f
+
+#define ROWS_MAX 4     /* along, cross, up, range rate */
+#define UNKNOWNS_MAX 6 /* place and velocity */
+
+static int all_measure(const struct span *span, uint32_t what)
+{
+    return (span->scan_a->measures & span->scan_b->measures & what) != 0;
+}
+
+/* ---- kernels ---------------------------------------------------------------------------------- */
+
+/* The kernel's velocity with its noise; the place is filled in by whoever asks. */
+static struct rho_window_place place_of(const struct search *search, const struct span *span,
+                                        const struct kernel *kernel)
+{
+    const struct rho_window_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
+    float per_s = 1.0f / kernel->duration_s, per_s2 = per_s * per_s;
+    struct rho_window_place place = {
+        .vx_mps = kernel->dx_m * per_s,
+        .vy_mps = kernel->dy_m * per_s,
+        .velocity_noise = {(a->xx_m2 + b->xx_m2) * per_s2, (a->xy_m2 + b->xy_m2) * per_s2,
+                           (a->yy_m2 + b->yy_m2) * per_s2, (a->zz_m2 + b->zz_m2) * per_s2},
+        .factor = 1.0f,
+        .has_z = all_measure(span, RHO_MEASURES_Z),
+        .skip_flags = search->skip_flags,
+    };
+    if (place.has_z) {
+        place.vz_mps = (kernel->to->z_m - kernel->from->z_m) * per_s;
+    }
+    return place;
+}
+
+static int is_range_rate(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
+                         const struct rho_window_place *place)
+{
+    return !(scan->measures & RHO_MEASURES_RANGE_RATE) ||
+           rho_window_range_rate_distance2(scan, plot, place) <= GATE_CHI2_1D;
+}
+
+static int climbs_too_fast(const struct search *search, const struct rho_window_place *place)
+{
+    float over_mps = (place->vz_mps < 0.0f ? -place->vz_mps : place->vz_mps) -
+                     CLIMB_SHARE * search->initiator->config.v_max_mps;
+    return place->has_z && over_mps > 0.0f &&
+           over_mps * over_mps > GATE_CHI2_1D * place->velocity_noise.zz_m2;
+}
+
+int rho_initiator_own_kernel(const struct search *search, const struct span *span,
+                             struct kernel *kernel)
+{
+    kernel->noise_a = rho_window_noise(span->scan_a, kernel->from);
+    kernel->noise_b = rho_window_noise(span->scan_b, kernel->to);
+    struct rho_window_place place = place_of(search, span, kernel);
+    return !climbs_too_fast(search, &place) && is_range_rate(span->scan_a, kernel->from, &place) &&
+           is_range_rate(span->scan_b, kernel->to, &place);
+}
+
+/* The plot of scan m nearest to where the kernel says, in the gate of all three plots' covariances; -1: none. */
+int rho_initiator_own_vote(struct search *search, const struct span *span,
+                           const struct kernel *kernel, unsigned m)
+{
+    const struct rho_window_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
+    struct rho_window_place place = place_of(search, span, kernel);
+    float al =
+        (search->time_s[m] - search->time_s[span->a] - kernel->from->offset_s) / kernel->duration_s;
+    float from = (1.0f - al) * (1.0f - al), to = al * al, process_m2 = span->process_m2[m];
+    place.x_m = kernel->from->x_m + al * kernel->dx_m;
+    place.y_m = kernel->from->y_m + al * kernel->dy_m;
+    place.z_m = kernel->from->z_m + al * (kernel->to->z_m - kernel->from->z_m);
+    place.noise = (struct rho_window_noise){
+        from * a->xx_m2 + to * b->xx_m2 + process_m2, from * a->xy_m2 + to * b->xy_m2,
+        from * a->yy_m2 + to * b->yy_m2 + process_m2, from * a->zz_m2 + to * b->zz_m2 + process_m2};
+    place.reach_m = span->reach_m[m];
+    return rho_window_nearest_to(rho_window_scan_at(&search->initiator->window, m), &place,
+                                 &search->initiator->work.window);
+}
+
+/* The plot of scan m nearest to a fitted track; -1: none. factor widens the gate's covariance. */
+int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit, float factor,
+                              unsigned m)
+{
+    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    float t_s = search->time_s[m], bend_m2 = factor * search->fit_process_m2;
+    struct rho_window_place place = {
+        .x_m = fit->x_m + fit->vx_mps * t_s,
+        .y_m = fit->y_m + fit->vy_mps * t_s,
+        .z_m = fit->z_m + fit->vz_mps * t_s,
+        .vx_mps = fit->vx_mps,
+        .vy_mps = fit->vy_mps,
+        .vz_mps = fit->vz_mps,
+        .noise = {bend_m2, 0.0f, bend_m2, bend_m2},
+        .factor = factor,
+        .has_z = fit->has_z,
+        .reach_m = rho_sqrt(GATE_CHI2 * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .skip_flags = search->skip_flags,
+    };
+    return rho_window_nearest_to(scan, &place, &search->initiator->work.window);
+}
+
+/* ---- regression ------------------------------------------------------------------------------- */
+
+/*
+ * A straight track through a set of plots: place and velocity are the unknowns, each plot gives a row along every axis of
+ * its noise, and one for its range rate, linearised where the places alone put the track. Times are taken from the
+ * middle in units of `unit_s`, places from the middle plot, so that the unknowns are alike.
+ */
+struct regression {
+    const struct search *search;
+    const struct plot_set *set;
+    int axes; /* 2, or 3 where heights count */
+    float middle_s, unit_s;
+    float origin_m[3];
+    int has_point; /* the unknowns below were found: range rates can be linearised there */
+    float unknown[UNKNOWNS_MAX];              /* place, then velocity times unit_s, `axes` each */
+    float factor[RHO_TRIANGLE(UNKNOWNS_MAX)]; /* Cholesky factor of the normal equations */
+};
+
+/* One scalar equation: row . unknown = value + noise. */
+struct equation {
+    float row[UNKNOWNS_MAX];
+    float value, variance;
+};
+
+static const struct rho_window_scan *scan_of(const struct regression *of, unsigned m)
+{
+    return rho_window_scan_at(&of->search->initiator->window, m);
+}
+
+static float time_of(const struct regression *of, unsigned m)
+{
+    float t_s = rho_initiator_plot_time_s(of->search, of->set, m);
+    return (t_s - of->middle_s) / of->unit_s;
+}
+
+static void add_axis(const struct regression *of, const float axis[3], float time,
+                     const float place_m[3], float variance, struct equation *equation)
+{
+    equation->value = 0.0f;
+    for (int i = 0; i < of->axes; i++) {
+        equation->row[i] = axis[i];
+        equation->row[of->axes + i] = time * axis[i];
+        equation->value += axis[i] * (place_m[i] - of->origin_m[i]);
+    }
+    equation->variance = variance + of->search->fit_process_m2;
+}
+
+static int place_equations(const struct regression *of, unsigned m, struct equation *equations)
+{
+    const struct rho_window_scan *scan = scan_of(of, m);
+    struct rho_plot plot = rho_window_plot_of(scan, of->set->plot[m]);
+    struct rho_measurement seen;
+    rho_measurement_open(&plot, of->axes == 3 ? scan->measures : 0u, &scan->sensor, &seen);
+    float ca = seen.cos_azimuth, sa = seen.sin_azimuth;
+    float ce = seen.cos_elevation, se = seen.sin_elevation;
+    const float axes[3][3] = {{ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
+    int count = seen.has_z ? 3 : 2;
+    for (int i = 0; i < count; i++) {
+        add_axis(of, axes[i], time_of(of, m), seen.place_m, seen.variance_m2[i], &equations[i]);
+    }
+    return count;
+}
+
+static int range_rate_equation(const struct regression *of, unsigned m, struct equation *equation)
+{
+    const struct rho_window_scan *scan = scan_of(of, m);
+    const struct rho_window_plot *plot = &scan->plots[of->set->plot[m]];
+    float state[6] = {0.0f}, derivative[6], rate_mps, time = time_of(of, m);
+    if (!of->has_point || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
+        return 0;
+    }
+    for (int i = 0; i < of->axes; i++) {
+        const float *v = &of->unknown[of->axes];
+        state[i] = of->origin_m[i] + of->unknown[i] + time * v[i];
+        state[i + 3] = v[i] / of->unit_s;
+    }
+    if (!rho_measurement_range_rate(state, &scan->sensor, of->axes == 3, derivative, &rate_mps)) {
+        return 0;
+    }
+    equation->value = plot->range_rate_mps - rate_mps;
+    for (int i = 0; i < of->axes; i++) {
+        equation->row[i] = derivative[i];
+        equation->row[of->axes + i] = time * derivative[i] + derivative[i + 3] / of->unit_s;
+        equation->value += equation->row[i] * of->unknown[i] +
+                           equation->row[of->axes + i] * of->unknown[of->axes + i];
+    }
+    float sigma_mps = rho_window_sigma(plot->sigma_range_rate);
+    equation->variance = sigma_mps * sigma_mps;
+    return 1;
+}
+
+static int equations_of(const struct regression *of, unsigned m, struct equation *equations)
+{
+    int count = place_equations(of, m, equations);
+    return count + range_rate_equation(of, m, &equations[count]);
+}
+
+static void add_equation(const struct equation *equation, int unknowns, float *normal, float *right)
+{
+    float weight = 1.0f / equation->variance;
+    for (int i = 0; i < unknowns; i++) {
+        float weighted = weight * equation->row[i];
+        right[i] += weighted * equation->value;
+        for (int j = 0; j <= i; j++) {
+            normal[RHO_AT(i, j)] += weighted * equation->row[j];
+        }
+    }
+}
+
+/* Solves for the unknowns. 0 where the plots do not determine them. */
+static int solve(struct regression *of)
+{
+    float normal[RHO_TRIANGLE(UNKNOWNS_MAX)] = {0.0f}, right[UNKNOWNS_MAX] = {0.0f};
+    int unknowns = 2 * of->axes;
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        struct equation equations[ROWS_MAX];
+        if (!(of->set->mask >> m & 1u)) {
+            continue;
+        }
+        int count = equations_of(of, m, equations);
+        for (int i = 0; i < count; i++) {
+            add_equation(&equations[i], unknowns, normal, right);
+        }
+    }
+    if (rho_linalg_cholesky(unknowns, normal, of->factor) != RHO_OK) {
+        return 0;
+    }
+    rho_linalg_forward(unknowns, of->factor, right);
+    rho_linalg_backward(unknowns, of->factor, right);
+    for (int i = 0; i < unknowns; i++) {
+        of->unknown[i] = right[i];
+    }
+    return 1;
+}
+
+/* What kind of regression the set allows; 0 where its plots have one time only. */
+static int lay_out(struct regression *of)
+{
+    const struct search *search = of->search;
+    float first_s = 0.0f, last_s = 0.0f;
+    unsigned seen = 0, heights = 0, range_rates = 0;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (!(of->set->mask >> m & 1u)) {
+            continue;
+        }
+        float t_s = rho_initiator_plot_time_s(search, of->set, m);
+        first_s = seen == 0 || t_s < first_s ? t_s : first_s;
+        last_s = seen == 0 || t_s > last_s ? t_s : last_s;
+        heights += (scan_of(of, m)->measures & RHO_MEASURES_Z) != 0;
+        range_rates += (scan_of(of, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
+        if (seen++ <= of->set->hits / 2u) {
+            const struct rho_window_plot *plot = &scan_of(of, m)->plots[of->set->plot[m]];
+            of->origin_m[0] = plot->x_m;
+            of->origin_m[1] = plot->y_m;
+            of->origin_m[2] = plot->z_m;
+        }
+    }
+    of->axes = heights >= 2u ? 3 : 2;
+    of->middle_s = 0.5f * (first_s + last_s);
+    of->unit_s = 0.5f * (last_s - first_s);
+    return of->unit_s > 0.0f ? range_rates > 0 ? 2 : 1 : 0;
+}
+
+/* Fits the places first, and where there are range rates again with them. */
+static int regress(struct regression *of)
+{
+    int rounds = lay_out(of);
+    for (int i = 0; i < rounds; i++) {
+        if (!solve(of)) {
+            return 0;
+        }
+        of->has_point = 1;
+    }
+    return rounds > 0;
+}
+
+int rho_initiator_own_fit(const struct search *search, const struct plot_set *set,
+                          struct line_fit *fit)
+{
+    struct regression of = {.search = search, .set = set};
+    float place_m[3] = {0.0f}, velocity_mps[3] = {0.0f};
+    if (!regress(&of)) {
+        return 0;
+    }
+    for (int i = 0; i < of.axes; i++) {
+        velocity_mps[i] = of.unknown[of.axes + i] / of.unit_s;
+        place_m[i] = of.origin_m[i] + of.unknown[i] - velocity_mps[i] * of.middle_s;
+    }
+    *fit = (struct line_fit){
+        .x_m = place_m[0],
+        .y_m = place_m[1],
+        .vx_mps = velocity_mps[0],
+        .vy_mps = velocity_mps[1],
+        .has_z = of.axes == 3,
+        .z_m = place_m[2],
+        .vz_mps = velocity_mps[2],
+    };
+    return 1;
+}
+
+/* ---- evidence --------------------------------------------------------------------------------- */
+
+static float residual2(const struct regression *of, const struct equation *equation)
+{
+    float residual = equation->value;
+    for (int i = 0; i < 2 * of->axes; i++) {
+        residual -= equation->row[i] * of->unknown[i];
+    }
+    return residual * residual / equation->variance;
+}
+
+/* ln of the space that clutter and births are spread over beyond the plane and its velocities. */
+static float log_room(const struct regression *of, unsigned heights, unsigned range_rates)
+{
+    float v_max_mps = of->search->initiator->config.v_max_mps;
+    float room = (float)range_rates * rho_log(2.0f * v_max_mps);
+    if (of->axes == 3) {
+        room += ((float)heights - 1.0f) * LOG_HEIGHT - rho_log(2.0f * CLIMB_SHARE * v_max_mps);
+    }
+    return room;
+}
+
+/*
+ * ln of the joint density of a set's plots with place and velocity integrated out, with heights and range rates over what
+ * they have as clutter. dimensions: of the residual, whose square is chi2.
+ */
+int rho_initiator_own_evidence(const struct search *search, const struct plot_set *set,
+                               float *log_likelihood, float *chi2, unsigned *dimensions)
+{
+    struct regression of = {.search = search, .set = set};
+    unsigned rows = 0, heights = 0, range_rates = 0;
+    float log_noise = 0.0f;
+    if (!regress(&of)) {
+        return 0;
+    }
+    *chi2 = 0.0f;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        struct equation equations[ROWS_MAX];
+        if (!(set->mask >> m & 1u)) {
+            continue;
+        }
+        unsigned count = (unsigned)equations_of(&of, m, equations);
+        for (unsigned i = 0; i < count; i++) {
+            *chi2 += residual2(&of, &equations[i]);
+            log_noise += rho_log(equations[i].variance);
+        }
+        rows += count;
+        unsigned has_z = of.axes == 3 && (scan_of(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
+        heights += has_z;
+        range_rates += count - 2u - has_z;
+    }
+    unsigned unknowns = 2u * (unsigned)of.axes;
+    float log_fisher =
+        rho_linalg_log_determinant((int)unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
+    *dimensions = rows - unknowns;
+    *log_likelihood = -0.5f * ((float)*dimensions * LOG_TWO_PI + log_noise + log_fisher + *chi2) +
+                      log_room(&of, heights, range_rates);
+    return 1;
+}
