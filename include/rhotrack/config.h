@@ -93,7 +93,7 @@
     (RHO_MAX_SCANS * (30 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160) + 96)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
-     2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 384)
+     2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 400)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \
      512)

@@ -31,7 +31,10 @@ struct rho_initiator_config {
     uint16_t min_scans;
     float v_min_mps, v_max_mps; /* speeds of targets, 0 <= v_min < v_max <= RHO_LIMIT_SPEED_MPS */
     float pd;                   /* probability that a scan sees the target: 0.01 .. 0.999 */
-    float score_min_nat;        /* candidates below are none */
+    /* wanted of chance tracks, 1e-6 .. 1e6, for searches after every scan: thresholds and M follow from it; 0: score_min_nat
+     * is the threshold */
+    float false_tracks_per_hour;
+    float score_min_nat; /* candidates below are none; a batch always goes by it */
     /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
     float process_noise_mps2;
     int area_is_fixed;      /* area below is meant; else the extent of the plots seen so far */
@@ -67,6 +70,8 @@ struct rho_initiator {
     uint32_t magic;
     uint16_t num_candidates; /* found by the last search, best first */
     uint16_t min_scans;      /* M in use at the last search */
+    /* scores that started a track in the last search, and that were enough to believe it */
+    int32_t start_mnat, confirm_mnat;
     struct rho_initiator_config config;
     struct rho_initiator_work work;
     float density_per_m2;      /* plots a scan, mean over the area, of the last search */
@@ -78,7 +83,7 @@ struct rho_initiator {
     struct rho_window window;
 };
 
-/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, score_min 0 nat, no process noise, area from the plots; scans
+/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise, area from the plots; scans
  * is cut to RHO_MAX_SCANS. Constant cost. */
 void rho_initiator_config_default(struct rho_initiator_config *config);
 

@@ -37,11 +37,7 @@ struct rho_tracker_config {
     float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
     /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
     float v_max_mps;
-    float accel_max_mps2;        /* manoeuvres to follow: 0 .. 1000 */
-    float false_tracks_per_hour; /* wanted rate of confirmed tracks from clutter: 1e-6 .. 1e6 */
-    /* score_min_nat below is the confirm threshold, whatever the rate above */
-    int score_is_fixed;
-    float score_min_nat;      /* -100 .. 1000 */
+    float accel_max_mps2;     /* manoeuvres to follow: 0 .. 1000 */
     uint16_t coast_scans_max; /* misses in a row that end a track: 1 .. 255 */
 };
 
@@ -65,7 +61,8 @@ struct rho_tracker {
     uint32_t next_track_id;
     int64_t time_us; /* of the last accepted scan */
     int has_time;
-    int32_t interval_us;   /* between the last two scans of different times; 0: not yet known */
+    /* scores that start and confirm a track: the initiator's, of its last search */
+    int32_t start_mnat, confirm_mnat;
     float unclaimed_plots; /* a scan, smoothed: the clutter density where no initiator tells it */
     struct rho_extent extent; /* of all valid plots so far */
     uint16_t num_sensors;
@@ -105,7 +102,7 @@ struct rho_report {
     uint32_t ended[RHO_MAX_TRACKS];
 };
 
-/* pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, 1 false track an hour, coast_scans_max 5. Constant cost. */
+/* pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5. Constant cost. */
 void rho_tracker_config_default(struct rho_tracker_config *config);
 
 /*

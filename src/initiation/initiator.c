@@ -211,6 +211,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config)
         .scans = RHO_MAX_SCANS < 7 ? RHO_MAX_SCANS : 7,
         .v_max_mps = 700.0f,
         .pd = 0.9f,
+        .false_tracks_per_hour = 1.0f,
     };
 }
 
@@ -222,6 +223,8 @@ static int is_usable(const struct rho_initiator_config *config)
            rho_is_within(config->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
            config->v_min_mps < config->v_max_mps && rho_is_within(config->pd, 0.01f, 0.999f) &&
+           (!(config->false_tracks_per_hour > 0.0f) ||
+            rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f)) &&
            rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
            rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f);
 }
@@ -298,6 +301,35 @@ static void lay_times(struct search *search)
     }
 }
 
+/* Without a rate to keep, the one threshold starts tracks and is enough to believe them. */
+static void set_thresholds(struct search *search)
+{
+    struct rate rate = {.start_nat = search->initiator->config.score_min_nat,
+                        .confirm_nat = search->initiator->config.score_min_nat,
+                        .min_scans = search->min_scans};
+    if (search->keeps_rate && search->num_scans >= 3) {
+        rho_initiator_find_rate(search, &rate);
+        if (search->initiator->config.min_scans == 0) {
+            search->min_scans = rate.min_scans;
+        }
+    }
+    rho_initiator_use_rate(search, &rate);
+    search->initiator->min_scans = (uint16_t)search->min_scans;
+}
+
+static void run(struct search *search)
+{
+    set_thresholds(search);
+    if (search->num_scans < 3 || search->num_scans < search->min_scans) {
+        return;
+    }
+    search_all_spans(search);
+    rho_initiator_select(search);
+    if (search->keeps_rate) {
+        rho_initiator_judge(search);
+    }
+}
+
 enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_search kind)
 {
     if (!initiator) {
@@ -311,6 +343,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
         .kind = kind,
         .num_scans = initiator->window.num_scans,
         .skip_flags = RHO_WINDOW_INITIATED,
+        .keeps_rate = kind == RHO_SEARCH_NEWEST && initiator->config.false_tracks_per_hour > 0.0f,
     };
     initiator->num_candidates = 0;
     memset(&initiator->work, 0, sizeof initiator->work);
@@ -322,10 +355,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     lay_times(&search);
     rho_initiator_prepare_process(&search);
     rho_initiator_prepare(&search);
-    if (search.num_scans >= 3 && search.num_scans >= search.min_scans) {
-        search_all_spans(&search);
-        rho_initiator_select(&search);
-    }
+    run(&search);
     return RHO_OK;
 }
 

@@ -73,14 +73,14 @@ static void lay_map(struct rho_initiator *initiator, uint32_t num_plots)
     memset(initiator->density, 0, sizeof initiator->density);
 }
 
-static uint32_t count_plots(struct rho_initiator *initiator, int into_map)
+static uint32_t count_plots(struct rho_initiator *initiator, uint16_t skip_flags, int into_map)
 {
     uint32_t count = 0;
     for (unsigned m = 0; m < initiator->window.num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
         for (unsigned i = 0; i < scan->num_plots; i++) {
             const struct rho_window_plot *plot = &scan->plots[i];
-            if (scan->marks[i] & RHO_WINDOW_INITIATED) {
+            if (scan->marks[i] & skip_flags) {
                 continue;
             }
             count++;
@@ -136,13 +136,14 @@ float rho_initiator_density(const struct rho_initiator *initiator, float x_m, fl
     return density_of(initiator, (float)initiator->density[map_cell(initiator, x_m, y_m)]);
 }
 
-/* The density that hit m of a set is measured against: the set's own plots are taken out of its cell. */
+/* The density that hit m of a set is measured against: the set's own plots are taken out of its cell, where they are in
+ * it. */
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set, unsigned m)
 {
     const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
     unsigned cell = map_cell(search->initiator, plot->x_m, plot->y_m);
     unsigned own = 0;
-    for (unsigned k = 0; k < search->num_scans; k++) {
+    for (unsigned k = 0; k < search->num_scans && !search->is_judging; k++) {
         if (set->mask >> k & 1u) {
             const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
             own += map_cell(search->initiator, other->x_m, other->y_m) == cell;
@@ -223,17 +224,37 @@ static unsigned choose_min_scans(const struct search *search)
 
 /* ---- before a search -------------------------------------------------------------------------- */
 
+/*
+ * A batch asks once: its density is never below one plot in the area and scan. Searches after every scan must tell clear
+ * skies from cluttered ones: half a plot in the area and window is what is expected where none was seen (the median of a
+ * density of which nothing else is known).
+ */
+#define PLOTS_UNSEEN 0.5f
+
+static float mean_density(const struct search *search, float plots, float area)
+{
+    float mean =
+        (plots + (search->keeps_rate ? PLOTS_UNSEEN : 0.0f)) / ((float)search->num_scans * area);
+    float floor = search->keeps_rate ? 0.0f : 1.0f / area;
+    return mean > floor ? mean : floor;
+}
+
+/* Counts the plots that are not skipped, and more_plots beside, over the area. */
+void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
+{
+    struct rho_initiator *initiator = search->initiator;
+    uint32_t plots = count_plots(initiator, skip_flags, 0);
+    initiator->density_per_m2 = mean_density(search, (float)plots + more_plots, area_m2(initiator));
+    lay_map(initiator, plots);
+    (void)count_plots(initiator, skip_flags, 1);
+    initiator->density_prior_plots = prior_plots(initiator);
+}
+
 void rho_initiator_prepare(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const struct rho_initiator_config *config = &initiator->config;
-    float area = area_m2(initiator);
-    uint32_t plots = count_plots(initiator, 0);
-    float mean = (float)plots / ((float)search->num_scans * area);
-    initiator->density_per_m2 = mean > 1.0f / area ? mean : 1.0f / area;
-    lay_map(initiator, plots);
-    (void)count_plots(initiator, 1);
-    initiator->density_prior_plots = prior_plots(initiator);
+    rho_initiator_measure_density(search, RHO_WINDOW_INITIATED, 0.0f);
     for (unsigned m = 0; m < search->num_scans; m++) {
         float sensor_pd = rho_window_scan_at(&initiator->window, m)->sensor.pd;
         float pd = sensor_pd > 0.0f ? sensor_pd : config->pd;
@@ -242,8 +263,9 @@ void rho_initiator_prepare(struct search *search)
     }
     /* targets are anywhere in the area, their velocities anywhere in the ring of allowed speeds */
     search->log_prior =
-        LOG_TARGETS_EXPECTED - rho_log(area) - LOG_PI -
+        LOG_TARGETS_EXPECTED - rho_log(area_m2(initiator)) - LOG_PI -
         rho_log(config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps);
-    search->min_scans = config->min_scans ? config->min_scans : choose_min_scans(search);
-    initiator->min_scans = (uint16_t)search->min_scans;
+    search->min_scans = config->min_scans    ? config->min_scans
+                        : search->keeps_rate ? 3u
+                                             : choose_min_scans(search);
 }

@@ -327,11 +327,12 @@ static float residual2(const struct regression *of, const struct equation *equat
 }
 
 /* ln of the space that clutter and births are spread over beyond the plane and its velocities. */
-static float log_room(const struct regression *of, unsigned heights, unsigned range_rates)
+float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
+                             unsigned range_rates)
 {
-    float v_max_mps = of->search->initiator->config.v_max_mps;
+    float v_max_mps = search->initiator->config.v_max_mps;
     float room = (float)range_rates * rho_log(2.0f * v_max_mps);
-    if (of->axes == 3) {
+    if (has_z) {
         room += ((float)heights - 1.0f) * LOG_HEIGHT - rho_log(2.0f * CLIMB_SHARE * v_max_mps);
     }
     return room;
@@ -371,6 +372,6 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
         rho_linalg_log_determinant((int)unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     *dimensions = rows - unknowns;
     *log_likelihood = -0.5f * ((float)*dimensions * LOG_TWO_PI + log_noise + log_fisher + *chi2) +
-                      log_room(&of, heights, range_rates);
+                      rho_initiator_log_room(search, of.axes == 3, heights, range_rates);
     return 1;
 }

@@ -25,6 +25,15 @@ struct search {
     float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2];
     float fit_process_m2; /* its largest residual variance about a fitted line */
     uint16_t skip_flags;  /* plots that look-ups pass over */
+    float score_min_nat;  /* sets below are no candidates */
+    int keeps_rate;       /* thresholds follow from false_tracks_per_hour, fits must be good */
+    int is_judging; /* after the selection: the map holds no plots of good candidates, so none are taken out of it */
+};
+
+/* Thresholds that clutter reaches as rarely as wanted. */
+struct rate {
+    float start_nat, confirm_nat;
+    unsigned min_scans;
 };
 
 /* A straight track at speed: position at the newest scan's time. */
@@ -50,8 +59,14 @@ struct plot_set {
 
 /* initiator_density.c: what the scans tell of clutter, and what follows from it */
 void rho_initiator_prepare(struct search *search);
+void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
                                 unsigned m);
+
+/* initiator_rate.c: thresholds for a wanted rate of chance tracks */
+void rho_initiator_find_rate(struct search *search, struct rate *rate);
+void rho_initiator_use_rate(struct search *search, const struct rate *rate);
+float rho_initiator_chi2_max(unsigned dimensions);
 
 /* initiator_fit.c: least squares and the score */
 void rho_initiator_prepare_process(struct search *search);
@@ -98,12 +113,15 @@ int rho_initiator_own_fit(const struct search *search, const struct plot_set *se
                           struct line_fit *fit);
 int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit, float factor,
                               unsigned m);
+float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
+                             unsigned range_rates);
 int rho_initiator_own_evidence(const struct search *search, const struct plot_set *set,
                                float *log_likelihood, float *chi2, unsigned *dimensions);
 
 /* initiator_select.c: the list of candidates */
 void rho_initiator_offer(struct search *search, struct plot_set *set);
 void rho_initiator_select(struct search *search);
+void rho_initiator_judge(struct search *search);
 
 const struct rho_window_plot *rho_initiator_plot(const struct search *search,
                                                  const struct plot_set *set, unsigned m);

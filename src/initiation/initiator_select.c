@@ -29,6 +29,12 @@ static int is_known(const struct rho_initiator *initiator, const struct rho_cand
     return 0;
 }
 
+static int is_good_enough(const struct search *search, const struct set_score *score)
+{
+    return (float)score->mnat >= search->score_min_nat * 1000.0f &&
+           (!search->keeps_rate || score->chi2 <= rho_initiator_chi2_max(score->dimensions));
+}
+
 /* Settles and scores a set of plots. 0 where it is no candidate, or one that is already listed. */
 static int make_candidate(struct search *search, struct plot_set *set,
                           struct rho_candidate *candidate)
@@ -36,8 +42,7 @@ static int make_candidate(struct search *search, struct plot_set *set,
     struct line_fit fit;
     struct set_score score;
     if (!rho_initiator_settle(search, set, &fit) ||
-        !rho_initiator_score(search, set, &fit, &score) ||
-        (float)score.mnat < search->initiator->config.score_min_nat * 1000.0f) {
+        !rho_initiator_score(search, set, &fit, &score) || !is_good_enough(search, &score)) {
         return 0;
     }
     *candidate = (struct rho_candidate){
@@ -132,16 +137,21 @@ static void clear_taken(struct search *search)
     }
 }
 
+static struct line_fit fit_of(const struct rho_candidate *candidate)
+{
+    return (struct line_fit){.x_m = candidate->x_m,
+                             .y_m = candidate->y_m,
+                             .vx_mps = candidate->vx_mps,
+                             .vy_mps = candidate->vy_mps,
+                             .has_z = candidate->has_z,
+                             .z_m = candidate->z_m,
+                             .vz_mps = candidate->vz_mps};
+}
+
 /* What is left for a candidate along its own track once better ones have their plots. 0: nothing that counts. */
 static int associate_again(struct search *search, struct rho_candidate *candidate)
 {
-    struct line_fit fit = {.x_m = candidate->x_m,
-                           .y_m = candidate->y_m,
-                           .vx_mps = candidate->vx_mps,
-                           .vy_mps = candidate->vy_mps,
-                           .has_z = candidate->has_z,
-                           .z_m = candidate->z_m,
-                           .vz_mps = candidate->vz_mps};
+    struct line_fit fit = fit_of(candidate);
     struct plot_set set;
     uint16_t skip = search->skip_flags;
     search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);
@@ -184,4 +194,64 @@ void rho_initiator_select(struct search *search)
         }
     }
     clear_taken(search);
+}
+
+/* ---- judgement -------------------------------------------------------------------------------- */
+
+/* Plots of likely targets are no clutter: but for one of the targets, which may be chance as well, they are left out of
+ * the density. Returns how many plots that one has, on average. */
+static float mark_likely(struct search *search)
+{
+    struct rho_initiator *initiator = search->initiator;
+    unsigned likely = 0, hits = 0;
+    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+        if (initiator->candidates[i].score_mnat >= 0) {
+            mark_taken(search, &initiator->candidates[i]);
+            hits += initiator->candidates[i].hits;
+            likely++;
+        }
+    }
+    return likely ? (float)hits / (float)likely : 0.0f;
+}
+
+static int judge_one(const struct search *search, struct rho_candidate *candidate)
+{
+    struct plot_set set = {.mask = candidate->mask, .hits = candidate->hits};
+    struct line_fit fit = fit_of(candidate);
+    struct set_score score;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        set.plot[m] = candidate->plot[m];
+    }
+    if (!rho_initiator_score(search, &set, &fit, &score)) {
+        return 0;
+    }
+    candidate->score_mnat = score.mnat;
+    return is_good_enough(search, &score);
+}
+
+/* Scores the accepted candidates again, against clutter without the likely targets, and keeps the order of scores. */
+void rho_initiator_judge(struct search *search)
+{
+    struct rho_initiator *initiator = search->initiator;
+    struct rate rate;
+    float more_plots = mark_likely(search);
+    rho_initiator_measure_density(search, RHO_WINDOW_INITIATED | RHO_WINDOW_TAKEN, more_plots);
+    clear_taken(search);
+    rho_initiator_find_rate(search, &rate);
+    rho_initiator_use_rate(search, &rate);
+    search->is_judging = 1;
+    unsigned kept = 0;
+    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+        struct rho_candidate candidate = initiator->candidates[i];
+        if (judge_one(search, &candidate)) {
+            unsigned place = kept++;
+            while (place > 0 &&
+                   initiator->candidates[place - 1u].score_mnat < candidate.score_mnat) {
+                initiator->candidates[place] = initiator->candidates[place - 1u];
+                place--;
+            }
+            initiator->candidates[place] = candidate;
+        }
+    }
+    initiator->num_candidates = (uint16_t)kept;
 }

@@ -62,17 +62,6 @@ static void judge_plots(struct step *step)
     }
 }
 
-/* Time since the scan before, as the false-track rate counts searches. Scans of one instant share an interval. */
-static void note_interval(struct rho_tracker *tracker, int64_t time_us)
-{
-    int64_t interval_us = time_us - tracker->time_us;
-    if (tracker->has_time && interval_us > 0) {
-        tracker->interval_us = interval_us < INT32_MAX ? (int32_t)interval_us : INT32_MAX;
-    }
-    tracker->time_us = time_us;
-    tracker->has_time = 1;
-}
-
 static void begin(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -84,7 +73,8 @@ static void begin(struct step *step)
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
-    note_interval(tracker, step->scan->time_us);
+    tracker->time_us = step->scan->time_us;
+    tracker->has_time = 1;
     judge_plots(step);
 }
 
@@ -161,7 +151,6 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .pd = 0.9f,
         .v_max_mps = 700.0f,
         .accel_max_mps2 = 30.0f,
-        .false_tracks_per_hour = 1.0f,
         .coast_scans_max = 5,
     };
 }
@@ -170,10 +159,8 @@ static int is_usable(const struct rho_tracker_config *config)
 {
     return rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
-           rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
-           rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f) &&
-           (!config->score_is_fixed || rho_is_within(config->score_min_nat, -100.0f, 1000.0f)) &&
-           config->coast_scans_max >= 1 && config->coast_scans_max <= UINT8_MAX;
+           rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) && config->coast_scans_max >= 1 &&
+           config->coast_scans_max <= UINT8_MAX;
 }
 
 enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,

@@ -30,32 +30,15 @@ static int looked_at(const struct step *step, const struct rho_track *track)
                                     track->kalman.state[1]);
 }
 
-/*
- * The score that confirms. A score is a likelihood ratio whose prior expects no more than one target a search, so that
- * chance passes a threshold s at most e^-s times a search (Markov's inequality); the wanted rate gives s.
- */
-static int32_t confirm_mnat(const struct rho_tracker *tracker)
-{
-    const struct rho_tracker_config *config = &tracker->config;
-    if (config->score_is_fixed) {
-        return rho_tracker_mnat(config->score_min_nat);
-    }
-    float interval_s = (float)(tracker->interval_us > 0 ? tracker->interval_us : 1000000) * 1e-6f;
-    return rho_tracker_mnat(-rho_log(config->false_tracks_per_hour * interval_s / 3600.0f));
-}
-
 static struct rho_track_limits limits_of(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     struct rho_track_limits limits = {
-        .confirm_mnat = confirm_mnat(tracker),
+        .confirm_mnat = tracker->confirm_mnat,
+        .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
         .fall_mnat = rho_tracker_mnat(-step->log_miss * (float)tracker->config.coast_scans_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
-    int32_t start_mnat = step->initiator ? rho_tracker_mnat(step->initiator->config.score_min_nat)
-                                         : limits.confirm_mnat;
-    limits.tentative_mnat =
-        (start_mnat < limits.confirm_mnat ? start_mnat : limits.confirm_mnat) - TENTATIVE_FALL_MNAT;
     return limits;
 }
 
@@ -189,6 +172,8 @@ void rho_tracker_initiate(struct step *step)
     (void)!rho_initiator_search(initiator, RHO_SEARCH_NEWEST);
     tracker->counters.candidates_dropped =
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
+    tracker->start_mnat = initiator->start_mnat;
+    tracker->confirm_mnat = initiator->confirm_mnat;
     struct rho_track_limits limits = limits_of(step);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         start_track(step, &initiator->candidates[i], &limits);

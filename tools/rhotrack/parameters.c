@@ -307,8 +307,10 @@ void parameters_to_initiator(const struct parameters *parameters,
     config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     config->pd = (float)value[PARAMETER_PD];
     config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
+    config->false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
     if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT)) {
         config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
+        config->false_tracks_per_hour = 0.0f;
     }
     config->area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
     if (config->area_is_fixed) {
@@ -328,11 +330,6 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->pd = (float)value[PARAMETER_PD];
     config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     config->accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
-    config->false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
-    config->score_is_fixed = parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT);
-    if (config->score_is_fixed) {
-        config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
-    }
     config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
 }
 
