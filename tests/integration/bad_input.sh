@@ -53,7 +53,7 @@ refuse 'sigma_m too large' '2: sigma_m 1e6 is outside *' 't_s,sensor_id,x_m,y_m,
 refuse 'sigma_m that is no number' "2: sigma_m 'x' is not a number" 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,x\n'
 refuse 'too fast' '2: vx_mps 30000 is outside *' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30000,0\n'
 refuse 'vx without vy' '2: vy_mps is missing*' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30,\n'
-refuse 'velocity of a part of a scan' '3: height or velocity must be given in all rows*' \
+refuse 'velocity of a part of a scan' '3: height, velocity or range rate must be given in all rows*' \
     't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30,4\n1,1,5,6,,\n'
 
 # ---- rows ----
@@ -88,10 +88,44 @@ refuse 'no column sensor_id' "1: no column 'sensor_id'" 't_s,x_m,y_m\n1,1,2\n'
 refuse 'a column twice' "1: column 'x_m' is there twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
 refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" 't_s,sensor_id,x_m,y_m,vx_mps\n1,1,2,3,4\n'
 refuse 'no header' '1: no header row: the first row begins with a number' '1,1,2,3\n2,1,3,4\n'
-refuse 'polar plots' "1: polar plots*Cartesian*'x_m' and 'y_m' are missing" \
-    't_s,sensor_id,range_m,azimuth_rad\n1,1,2,3\n'
 refuse 'bearings' "1: bearings*'x_m' and 'y_m' are missing" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n1,1,2,3,1\n'
+
+# ---- polar plots ----
+polar='t_s,sensor_id,range_m,azimuth_rad\n'
+refuse 'range 0' "2: range_m '0' is not above 0" "${polar}1,1,0,1\n"
+refuse 'negative range' "3: range_m '-5' is not above 0" "${polar}1,1,5,1\n2,1,-5,1\n"
+refuse 'range beyond the limit' '2: range_m 3e6 is outside -2000000 .. 2000000' "${polar}1,1,3e6,1\n"
+refuse 'range without azimuth' '2: azimuth_rad is empty' "${polar}1,1,5,\n"
+refuse 'azimuth without range' '2: range_m is empty' "${polar}1,1,,1\n"
+refuse 'azimuth beyond pi' '2: azimuth_rad 3.2 is outside -3.1415927* .. 3.1415927*' "${polar}1,1,5,3.2\n"
+refuse 'azimuth below -pi' '2: azimuth_rad -3.1417 is outside *' "${polar}1,1,5,-3.1417\n"
+refuse 'azimuth NaN' "2: azimuth_rad 'nan' is not finite" "${polar}1,1,5,nan\n"
+refuse 'compass beyond a turn' '2: azimuth_deg 361 is outside -360 .. 360' 't_s,sensor_id,range_m,azimuth_deg\n1,1,5,361\n'
+refuse 'elevation beyond pi/2' '2: elevation_rad 1.6 is outside *' "t_s,sensor_id,range_m,azimuth_rad,elevation_rad\n1,1,5,1,1.6\n"
+refuse 'elevation below -90 degrees' '2: elevation_deg -91 is outside -90 .. 90' \
+    "t_s,sensor_id,range_m,azimuth_rad,elevation_deg\n1,1,5,1,-91\n"
+refuse 'infinite range rate' "2: range_rate_mps 'inf' is not finite" "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,inf\n"
+refuse 'range rate beyond the limit' '2: range_rate_mps 30000 is outside *' \
+    "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,30000\n"
+refuse 'range rate of a part of a scan' '3: height, velocity or range rate must be given in all rows*' \
+    "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,3\n1,1,6,1,\n"
+for sigma in sigma_range_m sigma_azimuth_rad sigma_elevation_rad; do
+    refuse "$sigma zero" "2: $sigma 0 is outside *" "t_s,sensor_id,range_m,azimuth_rad,$sigma\n1,1,5,1,0\n"
+    refuse "$sigma negative" "2: $sigma -1 is outside *" "t_s,sensor_id,range_m,azimuth_rad,$sigma\n1,1,5,1,-1\n"
+done
+refuse 'sigma_range_rate_mps zero' '2: sigma_range_rate_mps 0 is outside *' \
+    "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sigma_range_rate_mps\n1,1,5,1,1,0\n"
+refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" 't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,3,4,5\n'
+refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" \
+    't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,3,4\n'
+refuse 'no azimuth' "1: no column 'azimuth_rad'" 't_s,sensor_id,range_m\n1,1,2\n'
+refuse 'half a place of a sensor' "1: no column 'sensor_y_m' beside 'sensor_x_m'" \
+    't_s,sensor_id,range_m,azimuth_rad,sensor_x_m\n1,1,2,3,4\n'
+refuse 'a sensor in two places' "3: the sensor's place is not that of the scan's first row" \
+    't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,2,3,0,0\n1,1,2,3,0,1\n'
+refuse 'a place beyond the limit' '2: range_m 1900000 at azimuth 0 rad is no place that is believed*' \
+    't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,1900000,0,1900000,0\n'
 
 # ---- files ----
 refuse 'empty file' '1: the file is empty' ''

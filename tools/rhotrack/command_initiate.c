@@ -33,7 +33,7 @@ static void check_status(enum rho_status status)
 
 /* ---- The batch ---- */
 
-static void push(struct batch *batch, const struct rho_scan *scan)
+static void push(struct batch *batch, const struct rho_scan *scan, const struct rho_sensor *sensor)
 {
     static uint8_t fates[RHO_MAX_PLOTS];
     struct rho_scan held = *scan;
@@ -45,7 +45,7 @@ static void push(struct batch *batch, const struct rho_scan *scan)
     }
     memset(fates, RHO_FATE_HELD, sizeof fates);
     start_us = clock_us();
-    check_status(rho_initiator_push(batch->initiator, &held, NULL, fates, &left_unused));
+    check_status(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused));
     batch->wall_us += clock_us() - start_us;
     batch->time_us = scan->time_us;
     batch->scans++;
@@ -65,7 +65,7 @@ static void push_last(struct batch *batch, struct scan_reader *reader)
     }
     for (uint64_t i = 0; (scan = scan_reader_next(reader)); i++) {
         if (i + scans >= total) {
-            push(batch, scan);
+            push(batch, scan, scan_reader_sensor(reader));
         }
     }
 }

@@ -14,9 +14,6 @@ struct tracking {
     struct rho_tracker *tracker;
     struct rho_initiator *initiator;
     struct rho_report *report;
-    const struct parameters *parameters;
-    int32_t *sensor_ids; /* met so far */
-    size_t num_sensors, sensors_capacity;
     int64_t sum_us, max_us;
 };
 
@@ -49,7 +46,6 @@ static void start(struct tracking *tracking, const struct parameters *parameters
         .tracker = must_alloc(sizeof *tracking->tracker),
         .initiator = must_alloc(sizeof *tracking->initiator),
         .report = must_alloc(sizeof *tracking->report),
-        .parameters = parameters,
     };
     parameters_to_initiator(parameters, &initiator_config);
     parameters_to_tracker(parameters, &tracker_config);
@@ -65,49 +61,28 @@ static void finish(struct tracking *tracking)
     free(tracking->tracker);
     free(tracking->initiator);
     free(tracking->report);
-    free(tracking->sensor_ids);
 }
 
-static bool is_known_sensor(const struct tracking *tracking, int32_t sensor_id)
+/* What is known of the sensor goes before its scan; it may have moved. */
+static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
 {
-    for (size_t i = 0; i < tracking->num_sensors; i++) {
-        if (tracking->sensor_ids[i] == sensor_id) {
-            return true;
-        }
-    }
-    return false;
-}
+    enum rho_status status = rho_tracker_set_sensor(tracking->tracker, sensor);
 
-/* Describes a sensor to the tracker when its first scan comes. */
-static void meet_sensor(struct tracking *tracking, int32_t sensor_id)
-{
-    struct rho_sensor sensor;
-    enum rho_status status;
-
-    if (is_known_sensor(tracking, sensor_id)) {
-        return;
-    }
-    if (tracking->num_sensors == tracking->sensors_capacity) {
-        tracking->sensors_capacity = 2 * tracking->sensors_capacity + 8;
-        tracking->sensor_ids = must_realloc(tracking->sensor_ids, tracking->sensors_capacity *
-                                                                      sizeof *tracking->sensor_ids);
-    }
-    tracking->sensor_ids[tracking->num_sensors++] = sensor_id;
-    if (!parameters_to_sensor(tracking->parameters, sensor_id, &sensor)) {
-        return;
-    }
-    status = rho_tracker_set_sensor(tracking->tracker, &sensor);
     if (status == RHO_ERROR_CAPACITY) {
-        fail(EXIT_USAGE, "more than %d sensors with limits of their own", RHO_MAX_SENSORS);
+        fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
+             RHO_MAX_SENSORS);
     }
     check_status(status, "sensor");
 }
 
-static void step(struct tracking *tracking, const struct rho_scan *scan)
+static void step(struct tracking *tracking, const struct rho_scan *scan,
+                 const struct rho_sensor *sensor)
 {
     int64_t start_us, took_us;
 
-    meet_sensor(tracking, scan->sensor_id);
+    if (sensor) {
+        describe(tracking, sensor);
+    }
     start_us = clock_us();
     check_status(rho_tracker_step(tracking->tracker, tracking->initiator, scan, tracking->report),
                  "step");
@@ -129,7 +104,7 @@ static void step_all(struct tracking *tracking, struct scan_reader *reader, FILE
         tracks_write_header(file, with_covariance);
     }
     while ((scan = scan_reader_next(reader))) {
-        step(tracking, scan);
+        step(tracking, scan, scan_reader_sensor(reader));
         if (file) {
             tracks_write_report(file, tracking->report, with_covariance);
         }

@@ -338,18 +338,14 @@ static bool is_asked_for(const struct parameters *parameters, enum parameter_id 
     return parameters->source[id] > SOURCE_DEFAULT;
 }
 
-bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
-                          struct rho_sensor *sensor)
+void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
+                              struct rho_sensor *sensor)
 {
     const double *value = parameters->value;
-    bool has_min = is_asked_for(parameters, PARAMETER_RANGE_MIN_M);
-    bool has_max = is_asked_for(parameters, PARAMETER_RANGE_MAX_M);
-    double range_max_m =
-        has_max ? value[PARAMETER_RANGE_MAX_M] : 2.0 * (double)RHO_LIMIT_POSITION_M;
+    double range_max_m = is_asked_for(parameters, PARAMETER_RANGE_MAX_M)
+                             ? value[PARAMETER_RANGE_MAX_M]
+                             : 2.0 * (double)RHO_LIMIT_POSITION_M;
 
-    if (!find_sensor(parameters, sensor_id) && !has_min && !has_max) {
-        return false;
-    }
 #define OF_SENSOR(id, otherwise) (float)parameters_of_sensor(parameters, sensor_id, id, otherwise)
     *sensor = (struct rho_sensor){
         .sensor_id = sensor_id,
@@ -361,7 +357,20 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
         .range_max_m = OF_SENSOR(SENSOR_RANGE_MAX_M, range_max_m),
         .sector_from_rad = OF_SENSOR(SENSOR_SECTOR_FROM_RAD, 0),
         .sector_to_rad = OF_SENSOR(SENSOR_SECTOR_TO_RAD, 0),
+        .range_bias_m = OF_SENSOR(SENSOR_RANGE_BIAS_M, 0),
+        .azimuth_bias_rad = OF_SENSOR(SENSOR_AZIMUTH_BIAS_RAD, 0),
+        .time_bias_s = OF_SENSOR(SENSOR_TIME_BIAS_S, 0),
     };
 #undef OF_SENSOR
+}
+
+bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
+                          struct rho_sensor *sensor)
+{
+    if (!find_sensor(parameters, sensor_id) && !is_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
+        !is_asked_for(parameters, PARAMETER_RANGE_MAX_M)) {
+        return false;
+    }
+    parameters_to_any_sensor(parameters, sensor_id, sensor);
     return true;
 }

@@ -31,6 +31,13 @@
       "score that starts and confirms a track; overrides false_tracks_per_hour")                   \
     X(SIGMA_M, "sigma_m", "m", 10, 0.001, 1e5, 0, 1, "position noise of a plot, each axis")        \
     X(SIGMA_MPS, "sigma_mps", "m/s", 1, 0.001, 1e5, 0, 1, "velocity noise of a plot, each axis")   \
+    X(SIGMA_RANGE_M, "sigma_range_m", "m", 15, 0.001, 1e5, 0, 1, "range noise of a polar plot")    \
+    X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 0.003, 1e-6, 0.5, 0, 1,                       \
+      "azimuth noise of a polar plot")                                                             \
+    X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 0.003, 1e-6, 0.5, 0, 1,                   \
+      "elevation noise of a polar plot")                                                           \
+    X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 1, 0.001, 1e5, 0, 1,                    \
+      "range-rate noise of a plot")                                                                \
     X(PD, "pd", "-", 0.9, 0.01, 0.999, 0, 1, "assumed probability of detection")                   \
     X(V_MIN_MPS, "v_min_mps", "m/s", 0, 0, 2e4, 0, 1, "slowest target")                            \
     X(V_MAX_MPS, "v_max_mps", "m/s", 700, 1, 2e4, 0, 1, "fastest target")                          \
@@ -58,6 +65,8 @@
     X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0,                                                   \
       "simulate: probability of detection that happens")                                           \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
+    X(RANGE_RATE, "range_rate", "-", 0, 0, 1, 1, 0,                                                \
+      "simulate polar: 1: the radar measures range rate")                                          \
     X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
     X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0,                                                   \
       "simulate: number of targets, where the scenario leaves it open")                            \
@@ -89,6 +98,16 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(PD, "pd", "-", 0.01, 0.999, "assumed probability of detection")                              \
     X(SIGMA_M, "sigma_m", "m", 0.001, 1e5, "position noise of a plot, each axis")                  \
     X(SIGMA_MPS, "sigma_mps", "m/s", 0.001, 1e5, "velocity noise of a plot, each axis")            \
+    X(SIGMA_RANGE_M, "sigma_range_m", "m", 0.001, 1e5, "range noise of a polar plot")              \
+    X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 1e-6, 0.5, "azimuth noise of a polar plot")   \
+    X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 1e-6, 0.5,                                \
+      "elevation noise of a polar plot")                                                           \
+    X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 0.001, 1e5,                             \
+      "range-rate noise of a plot")                                                                \
+    X(RANGE_BIAS_M, "range_bias_m", "m", -1e4, 1e4, "it measures ranges so much too long")         \
+    X(AZIMUTH_BIAS_RAD, "azimuth_bias_rad", "rad", -0.5, 0.5,                                      \
+      "it measures azimuths so much too far counter-clockwise")                                    \
+    X(TIME_BIAS_S, "time_bias_s", "s", -10, 10, "its plots are so much older than they say")       \
     X(RANGE_MIN_M, "range_min_m", "m", 0, 2e6, "nearest range it sees")                            \
     X(RANGE_MAX_M, "range_max_m", "m", 1, 2e6, "farthest range it sees")                           \
     X(SECTOR_FROM_RAD, "sector_from_rad", "rad", -6.2831853, 6.2831853,                            \
@@ -176,6 +195,10 @@ double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_
  */
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
                           struct rho_sensor *sensor);
+
+/* The same for any sensor: what nobody described is at the origin, without biases, sees everything. */
+void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
+                              struct rho_sensor *sensor);
 void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config);
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config);

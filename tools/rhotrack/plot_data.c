@@ -5,7 +5,23 @@
 #include <string.h>
 
 #include "common.h"
+#include "plot_row.h"
 #include "table.h"
+
+/* Places of polar plots, as the tracks have them: the same checks, the same conversion. */
+static void read_polar_place(const struct table *table, size_t row, struct plot_point *point)
+{
+    struct plot_columns columns = plot_columns_find(table);
+    char reason[PLOT_ROW_REASON_BYTES];
+    struct parameters parameters;
+    struct plot_row plot_row;
+    parameters_default(&parameters);
+    if (!plot_row_read(table, &columns, row, &parameters, &plot_row, reason)) {
+        table_fail(table, row, "%s", reason);
+    }
+    point->x_m = (double)plot_row.plot.x_m;
+    point->y_m = (double)plot_row.plot.y_m;
+}
 
 static struct plot_point read_point(const struct table *table, size_t row, int id_column)
 {
@@ -18,6 +34,10 @@ static struct plot_point read_point(const struct table *table, size_t row, int i
     if (reason) {
         table_fail(table, row, "time or identity: %s", reason);
     }
+    if (table_find(table, "range_m") >= 0) {
+        read_polar_place(table, row, &point);
+        return point;
+    }
     point.x_m = table_number_at(table, row, table_need(table, "x_m"));
     point.y_m = table_number_at(table, row, table_need(table, "y_m"));
     point.vx_mps = table_number_or(table, row, table_find(table, "vx_mps"), 0.0);
@@ -28,7 +48,8 @@ static struct plot_point read_point(const struct table *table, size_t row, int i
 
 static void add_points(struct plot_points *points, const struct table *table, int id_column)
 {
-    int x_column = table_need(table, "x_m");
+    int range_column = table_find(table, "range_m");
+    int x_column = range_column >= 0 ? range_column : table_need(table, "x_m");
     points->list =
         must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
     for (size_t row = 0; row < table->num_rows; row++) {

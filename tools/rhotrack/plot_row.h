@@ -16,20 +16,23 @@ struct plot_row {
     int32_t sensor_id;
     float sector_from_rad, sector_to_rad; /* of the scan; both 0 where not given */
     bool has_plot;
-    uint32_t measures; /* RHO_MEASURES_... of the plot */
-    struct rho_plot plot;
+    uint32_t measures;    /* RHO_MEASURES_... of the plot */
+    struct rho_plot plot; /* its offset: what a time bias makes of the row's time */
+    bool has_sensor;      /* the sensor below is described */
+    struct rho_sensor sensor;
 };
 
-/* Columns of a plot file by index, -1 where it has none. */
+/* Columns of a plot file by index, -1 where it has none. Either x_m and y_m are there, or range_m and an azimuth. */
 struct plot_columns {
     int t_s, sensor_id, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps, sigma_m, sigma_mps;
+    int range_m, azimuth_rad, azimuth_deg, elevation_rad, elevation_deg;
+    int range_rate_mps;
+    int sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
+    int sensor_x_m, sensor_y_m, sensor_z_m;
     int sector_from_rad, sector_to_rad, snr_db;
 };
 
-/*
- * Finds the columns; exit 2 where one is missing that is needed, or the file holds polar plots or
- * bearings.
- */
+/* Finds the columns; exit 2 where one is missing that is needed, or the file holds bearings. */
 struct plot_columns plot_columns_find(const struct table *table);
 
 /* Reads a row. Returns false and the reason where it is bad. */

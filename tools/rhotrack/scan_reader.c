@@ -16,6 +16,8 @@ struct entry {
     size_t order; /* of its first row, over all files */
     size_t first_plot;
     bool has_measures; /* scan.measures is settled, by its first plot */
+    bool has_sensor;
+    struct rho_sensor sensor;
 };
 
 /* A plot and the scan that it belongs to. */
@@ -70,6 +72,8 @@ static size_t add_entry(struct scan_reader *reader, const struct plot_row *row)
                  .sector_from_rad = row->sector_from_rad,
                  .sector_to_rad = row->sector_to_rad},
         .order = reader->num_entries,
+        .has_sensor = row->has_sensor,
+        .sensor = row->sensor,
     };
     return reader->num_entries++;
 }
@@ -119,7 +123,7 @@ static void add_member(struct scan_reader *reader, size_t index, const struct pl
     member = &reader->members[reader->num_members++];
     member->entry = index;
     member->plot = row->plot;
-    member->plot.offset_us = (int32_t)(row->time_us - entry->scan.time_us);
+    member->plot.offset_us += (int32_t)(row->time_us - entry->scan.time_us);
     entry->scan.num_plots++;
     entry->scan.measures = row->measures;
     entry->has_measures = true;
@@ -148,8 +152,12 @@ static const char *why_not_same_scan(const struct scan_reader *reader, const str
         row->sector_to_rad != entry->scan.sector_to_rad) {
         return "the sector is not that of the scan's first row";
     }
+    if (row->sensor.x_m != entry->sensor.x_m || row->sensor.y_m != entry->sensor.y_m ||
+        row->sensor.z_m != entry->sensor.z_m) {
+        return "the sensor's place is not that of the scan's first row";
+    }
     if (row->has_plot && entry->has_measures && row->measures != entry->scan.measures) {
-        return "height or velocity must be given in all rows of a scan or in none";
+        return "height, velocity or range rate must be given in all rows of a scan or in none";
     }
     return NULL;
 }
@@ -258,6 +266,13 @@ struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
 const struct rho_scan *scan_reader_next(struct scan_reader *reader)
 {
     return reader->next < reader->num_entries ? &reader->entries[reader->next++].scan : NULL;
+}
+
+const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader)
+{
+    const struct entry *entry = reader->next > 0 ? &reader->entries[reader->next - 1] : NULL;
+
+    return entry && entry->has_sensor ? &entry->sensor : NULL;
 }
 
 uint64_t scan_reader_total(const struct scan_reader *reader)

@@ -2,8 +2,10 @@
 /*
  * scan_reader: plot files in, scans out, merged by time.
  *
- * Columns by name: t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps]; others
- * are ignored. Rows of one sensor with the same t_s (or within scan_interval_s) are one scan; a row
+ * Columns by name: t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps], or polar:
+ * t_s,sensor_id,range_m,azimuth_rad[,elevation_rad][,range_rate_mps][,sensor_x_m,sensor_y_m,sensor_z_m]
+ * [,sigma_range_m,...]; azimuth_deg (clockwise from north) and elevation_deg may stand for the radians. Others are
+ * ignored. Rows of one sensor with the same t_s (or within scan_interval_s) are one scan; a row
  * whose measurement columns are empty is a scan that saw nothing.
  */
 #ifndef RHOTRACK_TOOL_SCAN_READER_H
@@ -32,6 +34,9 @@ struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
  * time.
  */
 const struct rho_scan *scan_reader_next(struct scan_reader *reader);
+
+/* Who saw the last scan that was handed out; NULL where nothing was said of the sensor. Valid until the close. */
+const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader);
 
 /* How many scans there are in all (for progress bars). */
 uint64_t scan_reader_total(const struct scan_reader *reader);
