@@ -28,6 +28,8 @@
 /* A tentative track's next place is known so much worse than its plot: determinants of both axes. */
 #define PREDICTION_SPREAD 4.0f
 
+#define NEVER_NAT (-1.0e6f)
+
 #define STEPS 12 /* of the integral over tentative starts */
 
 /* The chances of a tentative track, by how much it lacks. */
@@ -55,6 +57,7 @@ struct pattern {
     uint16_t first, hits;
     float log_weight; /* ln of births, pattern of hits, choices of scans and e^-c */
     float best_nat;   /* c */
+    float before_nat; /* c of the same track without its newest hit */
     float half_dimensions;
 };
 
@@ -249,29 +252,49 @@ static float dimensions_of_hit(const struct chance *chance)
     return 2.0f + (chance->has_z ? 1.0f : 0.0f) + (chance->has_range_rate ? 1.0f : 0.0f);
 }
 
+static float log_hits_and_misses(const struct search *search, unsigned first, unsigned hits)
+{
+    unsigned newest = search->num_scans - 1u;
+    return (float)hits * search->log_pd[newest] +
+           (float)(newest - first + 1u - hits) * search->log_miss[newest];
+}
+
+static float half_dimensions(const struct chance *chance, unsigned hits)
+{
+    return 0.5f * ((float)hits * dimensions_of_hit(chance) - (chance->has_z ? 6.0f : 4.0f));
+}
+
+/* The score of a perfect fit: rho_initiator_score with chi2 = 0. */
+static float best_score(const struct chance *chance, const struct place_class *place,
+                        unsigned first, unsigned hits)
+{
+    const struct search *search = chance->search;
+    float h = (float)hits;
+    float fisher = log_fisher(chance, place, h, mean_spread_s2(search, first, hits));
+    return search->log_prior + log_hits_and_misses(search, first, hits) - h * place->log_density -
+           half_dimensions(chance, hits) * LOG_TWO_PI - h * log_noise(chance, place) -
+           0.5f * fisher +
+           rho_initiator_log_room(search, chance->has_z, chance->has_z ? hits : 0u,
+                                  chance->has_range_rate ? hits : 0u);
+}
+
 static void add_pattern(struct chance *chance, const struct place_class *place, unsigned first,
-                        unsigned hits)
+                        unsigned hits, unsigned least)
 {
     const struct search *search = chance->search;
     unsigned newest = search->num_scans - 1u, between = newest - first - 1u;
-    float h = (float)hits, misses = (float)(newest - first + 1u - hits);
-    float unknowns = chance->has_z ? 6.0f : 4.0f;
-    float half = 0.5f * (h * dimensions_of_hit(chance) - unknowns);
-    float log_hits = h * search->log_pd[newest] + misses * search->log_miss[newest];
-    float fisher = log_fisher(chance, place, h, mean_spread_s2(search, first, hits));
-    float best = search->log_prior + log_hits - h * place->log_density - half * LOG_TWO_PI -
-                 h * log_noise(chance, place) - 0.5f * fisher +
-                 rho_initiator_log_room(search, chance->has_z, chance->has_z ? hits : 0u,
-                                        chance->has_range_rate ? hits : 0u);
+    float best = best_score(chance, place, first, hits), half = half_dimensions(chance, hits);
     float choices =
         log_factorial(between) - log_factorial(hits - 2u) - log_factorial(between + 2u - hits);
+    float inside = share_inside(search, search->time_s[newest] - search->time_s[first]);
     chance->patterns[chance->num_patterns++] = (struct pattern){
         .first = (uint16_t)first,
         .hits = (uint16_t)hits,
-        .log_weight = LOG_HALF + rho_log(place->share) + log_hits + choices - best -
-                      log_gamma(half) +
-                      rho_log(share_inside(search, search->time_s[newest] - search->time_s[first])),
+        .log_weight = LOG_HALF + rho_log(place->share) + log_hits_and_misses(search, first, hits) +
+                      choices - best - log_gamma(half) + rho_log(inside),
         .best_nat = best,
+        /* a scan ago it was as long, by a hit less */
+        .before_nat = hits > least ? best_score(chance, place, first + 1u, hits - 1u) : NEVER_NAT,
         .half_dimensions = half,
     };
 }
@@ -280,11 +303,12 @@ static void lay_patterns(struct chance *chance)
 {
     unsigned num_scans = chance->search->num_scans;
     unsigned least = chance->search->initiator->config.min_scans;
+    least = least > 3u ? least : 3u;
     chance->num_patterns = 0;
     for (unsigned i = 0; i < chance->num_classes; i++) {
         for (unsigned first = 0; first + 3u <= num_scans; first++) {
-            for (unsigned hits = least > 3u ? least : 3u; hits <= num_scans - first; hits++) {
-                add_pattern(chance, &chance->classes[i], first, hits);
+            for (unsigned hits = least; hits <= num_scans - first; hits++) {
+                add_pattern(chance, &chance->classes[i], first, hits, least);
             }
         }
     }
@@ -315,22 +339,42 @@ float rho_initiator_chi2_max(unsigned dimensions)
     return (float)dimensions * root * root * root;
 }
 
-static float sets_of(const struct pattern *pattern, float s_nat)
+/*
+ * Share of a pattern's sets whose track had not started without its newest hit: its chi2 / 2 then was above `before`, and
+ * is below y with it. Of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q = before / y.
+ */
+static float share_new(float k, float y, float before)
 {
-    float y = pattern->best_nat - s_nat;
-    float most = 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * pattern->half_dimensions + 0.5f));
+    float q = before / y;
+    if (!(before > 0.0f)) {
+        return 1.0f;
+    }
+    if (q >= 1.0f) {
+        return 0.0f;
+    }
+    float power = rho_exp((k - 1.0f) * rho_log(q));
+    return 1.0f - k * power + (k - 1.0f) * power * q;
+}
+
+/* Sets of a pattern that reach s, of tracks that had not started at start_nat before. */
+static float sets_of(const struct pattern *pattern, float s_nat, float start_nat)
+{
+    float k = pattern->half_dimensions, y = pattern->best_nat - s_nat;
+    float most = 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * k + 0.5f));
     if (!(y > 0.0f)) {
         return 0.0f;
     }
-    return rho_exp(pattern->log_weight + pattern->half_dimensions * rho_log(y < most ? y : most));
+    y = y < most ? y : most;
+    return rho_exp(pattern->log_weight + k * rho_log(y)) *
+           share_new(k, y, pattern->before_nat - start_nat);
 }
 
-/* Chance sets a search whose score reaches s, and whose fit is good. */
-static float sets_above(const struct chance *chance, float s_nat)
+/* Chance tracks a search that are new at start_nat, and whose score reaches s at once. */
+static float sets_above(const struct chance *chance, float s_nat, float start_nat)
 {
     float sum = 0.0f;
     for (unsigned i = 0; i < chance->num_patterns; i++) {
-        sum += sets_of(&chance->patterns[i], s_nat);
+        sum += sets_of(&chance->patterns[i], s_nat, start_nat);
     }
     return sum;
 }
@@ -347,7 +391,7 @@ static float stay_inside(const struct chance *chance, float start_nat)
         stay[first] = share_inside(search, span_s + interval_s) / share_inside(search, span_s);
     }
     for (unsigned i = 0; i < chance->num_patterns; i++) {
-        float sets = sets_of(&chance->patterns[i], start_nat);
+        float sets = sets_of(&chance->patterns[i], start_nat, start_nat);
         sum += sets * stay[chance->patterns[i].first];
         all += sets;
     }
@@ -403,13 +447,13 @@ static void find_climbs(struct chance *chance, float start_nat)
  * on, and climb. */
 static float tracks_confirmed(const struct chance *chance, float s_nat, float start_nat)
 {
-    float above = sets_above(chance, s_nat), sum = above;
+    float above = sets_above(chance, s_nat, start_nat), sum = above;
     float lowest = s_nat - start_nat < CLIMB_STEP * (float)CLIMBS
                        ? start_nat
                        : s_nat - CLIMB_STEP * (float)CLIMBS;
     float step = (s_nat - lowest) / (float)STEPS;
     for (int i = 1; i <= STEPS && step > 0.0f; i++) {
-        float below = sets_above(chance, s_nat - step * (float)i);
+        float below = sets_above(chance, s_nat - step * (float)i, start_nat);
         sum += (below - above) * climbed(chance, step * ((float)i - 0.5f));
         above = below;
     }
@@ -420,12 +464,12 @@ static float tracks_confirmed(const struct chance *chance, float s_nat, float st
 static float start_threshold(const struct chance *chance)
 {
     float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
-    if (sets_above(chance, low) <= STARTS_A_SEARCH) {
+    if (sets_above(chance, low, low) <= STARTS_A_SEARCH) {
         return low;
     }
     for (int i = 0; i < BISECTIONS; i++) {
         float middle = 0.5f * (low + high);
-        if (sets_above(chance, middle) > STARTS_A_SEARCH) {
+        if (sets_above(chance, middle, middle) > STARTS_A_SEARCH) {
             low = middle;
         } else {
             high = middle;
