@@ -25,6 +25,31 @@ static void write_plots(const struct simulation *simulation, const char *folder)
     free(path);
 }
 
+/* Every turn opens with a row that saw nothing, so that its scan has the turn's time. */
+static void write_polar(const struct simulation *simulation, const char *folder)
+{
+    const struct scenario_radar *radar = &simulation->radar;
+    char *path = path_join(folder, "polar.csv");
+    struct output output = output_open(path);
+    fprintf(output.file, "t_s,sensor_id,range_m,azimuth_rad%s\n",
+            radar->has_range_rate ? ",range_rate_mps" : "");
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        const struct simulated_scan *scan = &simulation->scans[i];
+        fprintf(output.file, "%.6f,0,,%s\n", scan->t_s, radar->has_range_rate ? "," : "");
+        for (size_t j = 0; j < scan->num_plots; j++) {
+            const struct simulated_plot *plot = &scan->plots[j];
+            fprintf(output.file, "%.6f,0,%.2f,%.7f", scan->t_s + plot->offset_s, plot->range_m,
+                    plot->azimuth_rad);
+            if (radar->has_range_rate) {
+                fprintf(output.file, ",%.3f", plot->range_rate_mps);
+            }
+            fprintf(output.file, "\n");
+        }
+    }
+    output_close(&output);
+    free(path);
+}
+
 static void write_truth(const struct simulation *simulation, const char *folder)
 {
     char *path = path_join(folder, "truth.csv");
@@ -39,6 +64,15 @@ static void write_truth(const struct simulation *simulation, const char *folder)
     free(path);
 }
 
+static void write_radar(const struct scenario_radar *radar, double interval_s, FILE *file)
+{
+    fprintf(file, "scan_interval_s = %g\nsigma_range_m = %g\nsigma_azimuth_rad = %g\n", interval_s,
+            radar->sigma_range_m, radar->sigma_azimuth_rad);
+    if (radar->has_range_rate) {
+        fprintf(file, "sigma_range_rate_mps = %g\n", radar->sigma_range_rate_mps);
+    }
+}
+
 /* What a tracker should know of the scenario, for `track --config`. */
 static void write_settings(const char *name, const struct simulation *simulation,
                            const struct parameters *parameters, const char *folder)
@@ -48,7 +82,11 @@ static void write_settings(const char *name, const struct simulation *simulation
     char *path = path_join(folder, "scenario.ini");
     struct output output = output_open(path);
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
-    fprintf(output.file, "sigma_m = %g\n", simulation->sigma_m);
+    if (simulation->radar.is_used) {
+        write_radar(&simulation->radar, simulation->interval_s, output.file);
+    } else {
+        fprintf(output.file, "sigma_m = %g\n", simulation->sigma_m);
+    }
     for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
         fprintf(output.file, "%s = %g\n", parameters_name(told[i]), parameters->value[told[i]]);
     }
@@ -65,7 +103,11 @@ static void write_run(const struct command_line *line, const char *folder, uint6
     const char *name = line->arguments[0];
     struct simulation *simulation = scenario_simulate(name, &line->parameters, line->seed, run);
     make_folder(folder);
-    write_plots(simulation, folder);
+    if (simulation->radar.is_used) {
+        write_polar(simulation, folder);
+    } else {
+        write_plots(simulation, folder);
+    }
     write_truth(simulation, folder);
     write_settings(name, simulation, &line->parameters, folder);
     simulation_free(simulation);

@@ -149,6 +149,60 @@ static struct scenario_plan traffic(const struct parameters *parameters, struct 
     return plan;
 }
 
+#define POLAR_NEAR_M 20000.0
+#define POLAR_FAR_M 60000.0
+
+/* Anywhere between 20 and 60 km, any heading, drawn again until the whole straight path lies there. */
+static struct scenario_state straight_around(const struct parameters *parameters, double duration_s,
+                                             struct random *random)
+{
+    for (int i = 0; i < 10000; i++) {
+        double range_m =
+            sqrt(random_between(random, POLAR_NEAR_M * POLAR_NEAR_M, POLAR_FAR_M * POLAR_FAR_M));
+        double azimuth_rad = random_between(random, 0.0, 360.0 * DEG_RAD);
+        double heading_rad = random_between(random, 0.0, 360.0 * DEG_RAD);
+        double speed_mps = random_between(random, parameters->value[PARAMETER_V_MIN_MPS],
+                                          parameters->value[PARAMETER_V_MAX_MPS]);
+        struct scenario_state state = {.x_m = range_m * cos(azimuth_rad),
+                                       .vx_mps = speed_mps * cos(heading_rad),
+                                       .y_m = range_m * sin(azimuth_rad),
+                                       .vy_mps = speed_mps * sin(heading_rad)};
+        double closing = state.x_m * state.vx_mps + state.y_m * state.vy_mps;
+        double nearest_s = fmin(fmax(-closing / (speed_mps * speed_mps), 0.0), duration_s);
+        double nearest_m =
+            hypot(state.x_m + state.vx_mps * nearest_s, state.y_m + state.vy_mps * nearest_s);
+        double last_m =
+            hypot(state.x_m + state.vx_mps * duration_s, state.y_m + state.vy_mps * duration_s);
+        if (nearest_m >= POLAR_NEAR_M && last_m <= POLAR_FAR_M) {
+            return state;
+        }
+    }
+    fail(EXIT_USAGE, "scenario polar: no target can stay within 20 to 60 km for the whole run; "
+                     "take fewer scans or slower targets");
+}
+
+static struct scenario_plan polar(const struct parameters *parameters, struct random *random)
+{
+    struct scenario_plan plan = plan_of(parameters, count_of(parameters, PARAMETER_TARGETS));
+    for (size_t target = 0; target < plan.num_targets; target++) {
+        /* also the last turn takes its time */
+        plan_straight(
+            &plan, target,
+            straight_around(parameters, plan.interval_s * (double)plan.num_scans, random));
+    }
+    plan.radar = (struct scenario_radar){
+        .is_used = true,
+        .has_range_rate = parameters->value[PARAMETER_RANGE_RATE] > 0.0,
+        .sigma_range_m = parameters->value[PARAMETER_SIGMA_RANGE_M],
+        .sigma_azimuth_rad = parameters->value[PARAMETER_SIGMA_AZIMUTH_RAD],
+        .sigma_range_rate_mps = parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS],
+        .range_min_m = parameters->value[PARAMETER_RANGE_MIN_M],
+        .range_max_m = parameters->value[PARAMETER_RANGE_MAX_M],
+        .clutter_rate_max_mps = parameters->value[PARAMETER_V_MAX_MPS],
+    };
+    return plan;
+}
+
 /* ---- their names and customary parameters ----------------------------------------------------- */
 
 static const struct scenario {
@@ -263,6 +317,20 @@ static const struct scenario {
      {-250000, 250000, -250000, 250000},
      0,
      950},
+    {"polar",
+     "a turning radar: straight targets at 20 to 60 km, plots in range and azimuth, each at its "
+     "own time",
+     polar,
+     15,
+     4,
+     100,
+     0.99,
+     100,
+     400,
+     5,
+     {-65000, 65000, -65000, 65000},
+     0,
+     100},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -311,13 +379,18 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     parameters_suggest(parameters, PARAMETER_V_MIN_MPS, scenario->v_min_mps);
     parameters_suggest(parameters, PARAMETER_V_MAX_MPS, scenario->v_max_mps);
     parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, scenario->accel_max_mps2);
-    parameters_suggest(parameters, PARAMETER_TARGETS, 50);
+    parameters_suggest(parameters, PARAMETER_TARGETS, scenario->plan == polar ? 3 : 50);
     parameters_suggest(parameters, PARAMETER_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_SECOND_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
     parameters_suggest(parameters, PARAMETER_TURN_DEG, 2);
     parameters_suggest(parameters, PARAMETER_SPACING_M, scenario->plan == same_line ? 300 : 50);
     suggest_area(parameters, &scenario->box);
+    if (scenario->plan == polar) {
+        parameters_suggest(parameters, PARAMETER_RANGE_RATE, 0);
+        parameters_suggest(parameters, PARAMETER_RANGE_MIN_M, 1000);
+        parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, scenario->box.x_max_m);
+    }
     if (scenario->clutter_per_km2 > 0.0) {
         parameters_suggest(parameters, PARAMETER_CLUTTER_PER_KM2, scenario->clutter_per_km2);
     } else {

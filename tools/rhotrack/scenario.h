@@ -2,12 +2,13 @@
 /*
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
- * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic. The same seed gives the
- * same data on every machine.
+ * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, polar. The same seed gives
+ * the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -22,6 +23,18 @@ struct truth_point {
 struct simulated_plot {
     double x_m, y_m;
     int target_id; /* -1: clutter */
+    /* of a rotating radar, else 0: when the antenna looked there, and what it measured */
+    double offset_s; /* after the scan's time */
+    double range_m, azimuth_rad, range_rate_mps;
+};
+
+/* A radar in the origin that turns counter-clockwise, from +x at the scan's time on, once an interval. */
+struct scenario_radar {
+    bool is_used; /* else plots are Cartesian */
+    bool has_range_rate;
+    double sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps;
+    double range_min_m, range_max_m; /* of the clutter, which is uniform in range and azimuth */
+    double clutter_rate_max_mps;     /* its range rates are uniform within, either way */
 };
 
 struct simulated_scan {
@@ -38,6 +51,8 @@ struct simulation {
     size_t num_scans, num_targets, num_truth;
     double sigma_m;           /* noise that a tracker should reckon with */
     struct scenario_box area; /* clutter is spread over it */
+    double interval_s;
+    struct scenario_radar radar;
     struct simulated_scan *scans;
     struct truth_point *truth; /* by time, then target */
 };

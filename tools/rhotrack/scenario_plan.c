@@ -198,11 +198,17 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
     simulation->num_truth = plan->num_scans * plan->num_targets;
     simulation->sigma_m = plan->sigma_m;
     simulation->area = plan->box;
+    simulation->interval_s = plan->interval_s;
+    simulation->radar = plan->radar;
     simulation->scans = must_calloc(plan->num_scans, sizeof *simulation->scans);
     simulation->truth = must_calloc(simulation->num_truth + 1, sizeof *simulation->truth);
     memcpy(simulation->truth, plan->truth, simulation->num_truth * sizeof *simulation->truth);
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
-        simulate_scan(plan, scan, &simulation->scans[scan], random);
+        if (plan->radar.is_used) {
+            plan_turn_of_radar(plan, scan, &simulation->scans[scan], random);
+        } else {
+            simulate_scan(plan, scan, &simulation->scans[scan], random);
+        }
     }
     return simulation;
 }

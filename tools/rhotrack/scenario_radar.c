@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+/* scenario_radar: what a turning radar in the origin sees: polar plots, each at its own time. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "common.h"
+#include "scenario_plan.h"
+
+#define PI 3.141592653589793
+#define RANGE_LEAST_M 0.01 /* the file's last digit */
+
+/* The time of an azimuth within a turn: the antenna starts at +x. */
+static double turn_time_s(double azimuth_rad, double interval_s)
+{
+    double share = azimuth_rad / (2.0 * PI);
+    return interval_s * (share - floor(share));
+}
+
+static void fill_place(struct simulated_plot *plot)
+{
+    plot->azimuth_rad = remainder(plot->azimuth_rad, 2.0 * PI);
+    plot->x_m = plot->range_m * cos(plot->azimuth_rad);
+    plot->y_m = plot->range_m * sin(plot->azimuth_rad);
+}
+
+/* When the antenna meets a straight target: from where it was a round before, a few times over. */
+static double meeting_s(const struct truth_point *truth, double interval_s)
+{
+    double offset_s = 0.0;
+    for (int i = 0; i < 8; i++) {
+        offset_s = turn_time_s(
+            atan2(truth->y_m + truth->vy_mps * offset_s, truth->x_m + truth->vx_mps * offset_s),
+            interval_s);
+    }
+    return offset_s;
+}
+
+static struct simulated_plot detection(const struct scenario_plan *plan,
+                                       const struct truth_point *truth, struct random *random)
+{
+    const struct scenario_radar *radar = &plan->radar;
+    struct simulated_plot plot = {.target_id = truth->target_id};
+    plot.offset_s = meeting_s(truth, plan->interval_s);
+    double x_m = truth->x_m + truth->vx_mps * plot.offset_s;
+    double y_m = truth->y_m + truth->vy_mps * plot.offset_s;
+    double range_m = hypot(x_m, y_m);
+    plot.range_m = fmax(RANGE_LEAST_M, range_m + radar->sigma_range_m * random_normal(random));
+    plot.azimuth_rad = atan2(y_m, x_m) + radar->sigma_azimuth_rad * random_normal(random);
+    plot.range_rate_mps = (x_m * truth->vx_mps + y_m * truth->vy_mps) / range_m +
+                          radar->sigma_range_rate_mps * random_normal(random);
+    fill_place(&plot);
+    return plot;
+}
+
+static struct simulated_plot clutter(const struct scenario_plan *plan, struct random *random)
+{
+    const struct scenario_radar *radar = &plan->radar;
+    struct simulated_plot plot = {.target_id = -1};
+    double turn = random_uniform(random);
+    plot.offset_s = turn * plan->interval_s;
+    plot.azimuth_rad = turn * 2.0 * PI;
+    plot.range_m = random_between(random, radar->range_min_m, radar->range_max_m);
+    plot.range_rate_mps =
+        random_between(random, -radar->clutter_rate_max_mps, radar->clutter_rate_max_mps);
+    fill_place(&plot);
+    return plot;
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct simulated_plot *one = a, *other = b;
+    return (one->offset_s > other->offset_s) - (one->offset_s < other->offset_s);
+}
+
+void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
+                        struct random *random)
+{
+    uint64_t num_clutter = random_poisson(random, plan->clutter_mean);
+    scan->t_s = (double)index * plan->interval_s;
+    scan->plots = must_calloc(plan->num_targets + num_clutter + 1, sizeof *scan->plots);
+    for (size_t target = 0; target < plan->num_targets; target++) {
+        struct simulated_plot plot = detection(plan, plan_truth(plan, index, target), random);
+        if (random_uniform(random) < plan->pd) {
+            scan->plots[scan->num_plots++] = plot;
+        }
+    }
+    for (uint64_t i = 0; i < num_clutter; i++) {
+        scan->plots[scan->num_plots++] = clutter(plan, random);
+    }
+    qsort(scan->plots, scan->num_plots, sizeof *scan->plots, by_time);
+}
