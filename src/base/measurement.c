@@ -134,8 +134,8 @@ static void convert(const struct sighting *seen, const struct rho_polar_plot *po
     float elevation_gain = 1.0f + half_elevation * (1.0f + 0.5f * half_elevation);
     float level_m = seen->range_m * elevation_gain * cos_elevation;
     float ground_m = level_m * azimuth_gain;
-    float spread_m =
-        0.70710678f * (level_m * seen->variance_azimuth + seen->range_m * seen->variance_elevation);
+    float spread_m = 0.70710678f * root_sum(level_m * seen->variance_azimuth,
+                                            seen->range_m * seen->variance_elevation);
 
     *plot = (struct rho_plot){
         .offset_us = (int32_t)seen->offset_us,

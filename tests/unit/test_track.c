@@ -18,9 +18,11 @@ static void line(struct rho_track_plot *plots, unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
         plots[i] = (struct rho_track_plot){.time_us = 2000000 * (int64_t)i,
-                                           .x_m = 500.0f * (float)i,
-                                           .y_m = -100.0f * (float)i,
-                                           .sigma_m = 10.0f,
+                                           .plot = {.x_m = 500.0f * (float)i,
+                                                    .y_m = -100.0f * (float)i,
+                                                    .sigma_range_m = 10.0f,
+                                                    .sigma_cross_m = 10.0f},
+                                           .sensor_id = 9,
                                            .row = (int16_t)i};
     }
 }
@@ -30,13 +32,14 @@ static struct rho_track started(int32_t score_mnat)
     struct rho_track_plot plots[5];
     struct rho_track track;
     line(plots, 5);
-    assert_int_equal(rho_track_start(&track, 42, plots, 5, 8000000, &model, score_mnat), RHO_OK);
+    assert_int_equal(rho_track_start(&track, 42, plots, 5, &model, score_mnat), RHO_OK);
     return track;
 }
 
-static struct rho_scan scan_at(int64_t time_us, struct rho_plot *plot)
+static struct rho_track_plot seen_at(int64_t time_us, const struct rho_plot *plot)
 {
-    return (struct rho_scan){.time_us = time_us, .sensor_id = 9, .num_plots = 1, .plots = plot};
+    return (struct rho_track_plot){
+        .time_us = time_us + plot->offset_us, .sensor_id = 9, .plot = *plot};
 }
 
 static void every_status_meets_every_event(void **state)
@@ -91,15 +94,15 @@ static void bad_starts_are_refused(void **state)
     line(plots, 5);
     memset(&track, 0x11, sizeof track);
     before = track;
-    assert_int_equal(rho_track_start(NULL, 1, plots, 5, 0, &model, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_start(&track, 1, NULL, 5, 0, &model, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_start(&track, 1, plots, 5, 0, NULL, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_start(&track, 1, plots, 1, 0, &model, 0), RHO_ERROR_VALUE);
-    plots[2].x_m = NAN;
-    assert_int_not_equal(rho_track_start(&track, 1, plots, 5, 8000000, &model, 0), RHO_OK);
+    assert_int_equal(rho_track_start(NULL, 1, plots, 5, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_start(&track, 1, NULL, 5, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_start(&track, 1, plots, 5, NULL, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_start(&track, 1, plots, 1, &model, 0), RHO_ERROR_VALUE);
+    plots[2].plot.x_m = NAN;
+    assert_int_not_equal(rho_track_start(&track, 1, plots, 5, &model, 0), RHO_OK);
     line(plots, 5);
-    plots[0].sigma_m = 0.0f;
-    assert_int_not_equal(rho_track_start(&track, 1, plots, 5, 8000000, &model, 0), RHO_OK);
+    plots[0].plot.sigma_range_m = plots[0].plot.sigma_cross_m = 0.0f;
+    assert_int_not_equal(rho_track_start(&track, 1, plots, 5, &model, 0), RHO_OK);
     assert_memory_equal(&track, &before, sizeof track);
 }
 
@@ -109,10 +112,10 @@ static void an_update_moves_the_estimate_and_the_score(void **state)
     struct rho_track track = started(1000);
     struct rho_plot plot = {
         .x_m = 2505.0f, .y_m = -495.0f, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
-    struct rho_scan scan = scan_at(10000000, &plot);
+    struct rho_track_plot seen = seen_at(10000000, &plot);
     assert_int_equal(rho_track_predict(&track, 10000000, &model), RHO_OK);
     float before_m = rho_track_sigma_m(&track);
-    assert_int_equal(rho_track_update(&track, &scan, 0, &model, 2500), RHO_OK);
+    assert_int_equal(rho_track_update(&track, &seen, &model, 2500), RHO_OK);
     assert_true(rho_track_sigma_m(&track) < before_m);
     assert_int_equal(track.score_mnat, 3500);
     assert_int_equal(track.score_max_mnat, 3500);
@@ -132,14 +135,49 @@ static void a_plot_s_own_time_counts(void **state)
     then.offset_us = 1000000;
     then.x_m += 250.0f; /* one second later, as the target flies */
     then.y_m -= 50.0f;
-    struct rho_scan scan = scan_at(10000000, &now), later = scan_at(10000000, &then);
+    struct rho_track_plot seen = seen_at(10000000, &now), later = seen_at(10000000, &then);
     assert_int_equal(rho_track_predict(&on_time, 10000000, &model), RHO_OK);
     assert_int_equal(rho_track_predict(&late, 10000000, &model), RHO_OK);
-    assert_int_equal(rho_track_update(&on_time, &scan, 0, &model, 0), RHO_OK);
-    assert_int_equal(rho_track_update(&late, &later, 0, &model, 0), RHO_OK);
+    assert_int_equal(rho_track_update(&on_time, &seen, &model, 0), RHO_OK);
+    assert_int_equal(rho_track_update(&late, &later, &model, 0), RHO_OK);
+    assert_int_equal(late.time_us, 11000000);
+    assert_int_equal(late.updated_us, 11000000);
+    assert_int_equal(rho_track_predict(&late, 10000000, &model), RHO_OK); /* back */
     assert_float_equal(late.kalman.state[0], on_time.kalman.state[0], 1.0f);
     assert_float_equal(late.kalman.state[3], on_time.kalman.state[3], 1.0f);
     assert_int_equal(late.time_us, 10000000);
+}
+
+/* Scans' times are only where gates are opened: from plot to plot the estimate is that of one long prediction. */
+static void estimates_go_from_plot_to_plot(void **state)
+{
+    (void)state;
+    struct rho_track track = started(0);
+    struct rho_kalman direct = track.kalman;
+    int64_t at_us = track.time_us;
+    for (int k = 0; k < 10; k++) {
+        int64_t scan_us = 10000000 + 2000000 * (int64_t)k;
+        struct rho_plot plot = {.offset_us = 173000 * k,
+                                .x_m = 2500.0f + 500.0f * (float)k,
+                                .y_m = -500.0f,
+                                .sigma_range_m = 10.0f,
+                                .sigma_cross_m = 10.0f};
+        struct rho_track_plot seen = seen_at(scan_us, &plot);
+        assert_int_equal(rho_track_predict(&track, scan_us, &model), RHO_OK);
+        assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_OK);
+        assert_int_equal(rho_kalman_predict(&direct, (float)(seen.time_us - at_us) * 1e-6f, 1.0f),
+                         RHO_OK);
+        assert_int_equal(rho_kalman_update(&direct, 0, plot.x_m, 100.0f, NULL), RHO_OK);
+        assert_int_equal(rho_kalman_update(&direct, 1, plot.y_m, 100.0f, NULL), RHO_OK);
+        at_us = seen.time_us;
+        for (int i = 0; i < 21; i++) {
+            assert_float_equal(track.kalman.covariance[i], direct.covariance[i],
+                               1e-3f + 1e-4f * fabsf(direct.covariance[i]));
+        }
+        for (int i = 0; i < 6; i++) {
+            assert_float_equal(track.kalman.state[i], direct.state[i], 0.02f);
+        }
+    }
 }
 
 static void refused_updates_change_nothing(void **state)
@@ -147,16 +185,17 @@ static void refused_updates_change_nothing(void **state)
     (void)state;
     struct rho_track track = started(0), before = track;
     struct rho_plot plot = {.x_m = NAN, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
-    struct rho_scan scan = scan_at(8000000, &plot);
-    assert_int_equal(rho_track_update(NULL, &scan, 0, &model, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_update(&track, NULL, 0, &model, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_update(&track, &scan, 0, NULL, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_update(&track, &scan, 1, &model, 0), RHO_ERROR_VALUE);
-    assert_int_equal(rho_track_update(&track, &scan, 0, &model, 0), RHO_ERROR_VALUE);
-    plot.x_m = 2000.0f;
-    plot.y_m = INFINITY; /* the first scalar update is good, the second is not */
-    assert_int_equal(rho_track_update(&track, &scan, 0, &model, 0), RHO_ERROR_VALUE);
-    assert_int_equal(rho_track_predict(&track, 7999999, &model), RHO_ERROR_VALUE);
+    struct rho_track_plot seen = seen_at(8000000, &plot);
+    assert_int_equal(rho_track_update(NULL, &seen, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_update(&track, NULL, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_update(&track, &seen, NULL, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
+    seen.plot.x_m = 2000.0f;
+    seen.plot.y_m = INFINITY; /* the first scalar update is good, the second is not */
+    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
+    seen.plot.y_m = -400.0f;
+    seen.measures = RHO_MEASURES_RANGE_RATE; /* without a sigma */
+    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
     assert_int_equal(rho_track_predict(&track, INT64_MAX, &model), RHO_ERROR_VALUE);
     assert_memory_equal(&track, &before, sizeof track);
 }
@@ -175,14 +214,15 @@ static void a_first_height_opens_the_third_axis(void **state)
                             .sigma_cross_m = 10.0f,
                             .sigma_up_m = 20.0f,
                             .sigma_mps = 1.0f};
-    struct rho_scan scan = scan_at(8000000, &plot);
-    scan.measures = RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
+    struct rho_track_plot seen = seen_at(8000000, &plot);
+    seen.measures = RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
     assert_false(rho_kalman_is_open(&track.kalman, 2));
-    assert_int_equal(rho_track_update(&track, &scan, 0, &model, 0), RHO_OK);
+    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_OK);
     assert_true(rho_kalman_is_open(&track.kalman, 2));
     assert_float_equal(track.kalman.state[2], 3000.0f, 0.1f);
     assert_float_equal(track.kalman.state[5], 5.0f, 0.5f);
-    assert_float_equal(track.kalman.covariance[RHO_AT(2, 2)], 400.0f, 1.0f);
+    /* seen from the origin under 56 degrees, z has of both sigmas: se^2 100 + ce^2 400 */
+    assert_float_equal(track.kalman.covariance[RHO_AT(2, 2)], 194.8f, 1.0f);
 }
 
 static void evidence_confirms_and_ends(void **state)
@@ -237,6 +277,7 @@ int main(void)
         cmocka_unit_test(bad_starts_are_refused),
         cmocka_unit_test(an_update_moves_the_estimate_and_the_score),
         cmocka_unit_test(a_plot_s_own_time_counts),
+        cmocka_unit_test(estimates_go_from_plot_to_plot),
         cmocka_unit_test(refused_updates_change_nothing),
         cmocka_unit_test(a_first_height_opens_the_third_axis),
         cmocka_unit_test(evidence_confirms_and_ends),

@@ -29,12 +29,15 @@ static float uniform(float from, float to)
     return from + (to - from) * (float)random_bits() / 16777216.0f;
 }
 
-static void start_with(struct rho_tracker_config maintain, unsigned scans, unsigned min_scans)
+/* rate: false tracks an hour; 0: tracks start and are believed with a score of 0. */
+static void start_with(struct rho_tracker_config maintain, unsigned scans, unsigned min_scans,
+                       float rate)
 {
     struct rho_initiator_config initiate;
     rho_initiator_config_default(&initiate);
     initiate.scans = (uint16_t)scans;
     initiate.min_scans = (uint16_t)min_scans;
+    initiate.false_tracks_per_hour = rate;
     initiate.v_max_mps = 400.0f;
     maintain.v_max_mps = 400.0f;
     maintain.accel_max_mps2 = 5.0f;
@@ -47,9 +50,7 @@ static void start(void)
 {
     struct rho_tracker_config config;
     rho_tracker_config_default(&config);
-    config.score_is_fixed = 1;
-    config.score_min_nat = 0.0f;
-    start_with(config, 5, 4);
+    start_with(config, 5, 4, 0.0f);
 }
 
 static void add(float x_m, float y_m)
@@ -108,15 +109,12 @@ static void init_and_sensors_refuse(void **state)
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_init(&tracker, 1, &good), RHO_ERROR_SIZE);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_ERROR_STATE);
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < 4; i++) {
         bad = good;
         bad.pd = i == 0 ? NAN : bad.pd;
         bad.v_max_mps = i == 1 ? 0.0f : bad.v_max_mps;
         bad.accel_max_mps2 = i == 2 ? -1.0f : bad.accel_max_mps2;
-        bad.false_tracks_per_hour = i == 3 ? 0.0f : bad.false_tracks_per_hour;
-        bad.coast_scans_max = i == 4 ? 0 : bad.coast_scans_max;
-        bad.score_is_fixed = i == 5;
-        bad.score_min_nat = i == 5 ? NAN : 0.0f;
+        bad.coast_scans_max = i == 3 ? 0 : bad.coast_scans_max;
         assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &bad), RHO_ERROR_CONFIG);
     }
     assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
