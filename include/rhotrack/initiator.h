@@ -61,6 +61,24 @@ struct rho_initiator_work {
     uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES */
 };
 
+/*
+ * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's and their noise
+ * has its directions, range and azimuth about it.
+ */
+struct rho_density_map {
+    float mean;        /* plots a scan and unit of content */
+    float prior_plots; /* weight of the mean against a cell's own count */
+    float content;     /* of the whole map: m^2, or m rad */
+    float sensor_x_m, sensor_y_m;
+    float u0, v0, width, height;
+    uint16_t is_polar, columns, rows;
+    /* by the age order of that search's scans: plots of the scan's sensor over those of all, a scan; 0: no scan */
+    float sensor_ratio[RHO_MAX_SCANS];
+    int32_t sensor_id[RHO_MAX_SCANS];
+    /* plots in the window, saturating; cell row * columns + column, u along the columns */
+    uint16_t count[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
+};
+
 enum rho_search {
     RHO_SEARCH_BATCH,  /* every track with min_scans votes anywhere in the window */
     RHO_SEARCH_NEWEST, /* only tracks that the newest scan voted for: for use after every push */
@@ -74,11 +92,8 @@ struct rho_initiator {
     int32_t start_mnat, confirm_mnat;
     struct rho_initiator_config config;
     struct rho_initiator_work work;
-    float density_per_m2;      /* plots a scan, mean over the area, of the last search */
-    float density_prior_plots; /* weight of that mean against a cell's own count */
-    uint16_t density_columns, density_rows;
-    /* plots in the window, saturating */
-    uint16_t density[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
+    float density_per_m2; /* plots a scan, mean over the area, of the last search */
+    struct rho_density_map density;
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
     struct rho_window window;
 };
@@ -122,9 +137,12 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
                                const struct rho_candidate *candidate);
 
 /*
- * Density of the held plots near a place, plots a m^2 and scan: the map's cell over the window, drawn towards the mean as
- * far as the cells scatter no more than chance makes them. The mean is never below one plot in the area and scan. 0 before the first search. Constant cost.
+ * Density of a sensor's plots near a place, plots a m^2 and scan, as of the last search: the map's cell over the window,
+ * drawn towards the mean as far as the cells scatter no more than chance makes them, times what the sensor sees more or
+ * less than the others. A sensor that the window does not hold counts as the mean. 0 before the first search.
+ * Cost: RHO_MAX_SCANS, for a radar an arctangent and a square root.
  */
-float rho_initiator_density(const struct rho_initiator *initiator, float x_m, float y_m);
+float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
+                            float y_m);
 
 #endif

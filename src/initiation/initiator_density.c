@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * initiator_density: how dense clutter is, here and on average, and how many scans must vote for it.
+ * initiator_density: how dense clutter is, here and on average, and for each sensor.
+ *
+ * The map has cells of equal sides over the area; where a radar's own noise tells where its plots come from, cells of range
+ * and azimuth about it instead: clutter is spread evenly over a radar's resolution cells rather than over the ground, and
+ * ends at its range, not at the sides of a square.
  */
 #include <string.h>
 
 #include "initiator_search.h"
+#include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
 
 /* The map gets as many cells as hold this many plots each in the mean. */
@@ -13,22 +18,23 @@
 /* Plots of the mean density that a cell counts beside its own, at most: then the map is flat. */
 #define PRIOR_PLOTS_MAX 1.0e6f
 
-/* M is the smallest number of votes, down from N, with at most this many chance tracks a search; N where there is none. */
-#define CHANCE_TRACKS_MAX 0.1f
+/*
+ * A batch asks once: its density is never below one plot in the area and scan. Searches after every scan must tell clear
+ * skies from cluttered ones: half a plot in the area and window is what is expected where none was seen (the median of a
+ * density of which nothing else is known).
+ */
+#define PLOTS_UNSEEN 0.5f
 
-/* ln of the targets expected in the area and window before any plot was seen: a half, so that one target and none are
- * equally likely. */
-#define LOG_TARGETS_EXPECTED (-0.69314718f)
+/* Nearer to the radar than this share of its range, density rises no further. */
+#define NEAR_SHARE 0.01f
 
-#define LOG_PI 1.14472989f
-
-static float area_m2(const struct rho_initiator *initiator)
+float rho_initiator_area_m2(const struct rho_initiator *initiator)
 {
     float area = rho_extent_area_m2(&initiator->window.extent, initiator->window.side_min_m);
     return area > 1.0f ? area : 1.0f;
 }
 
-/* ---- the map ---------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------------ */
 
 static unsigned clamp_cells(float cells)
 {
@@ -38,66 +44,141 @@ static unsigned clamp_cells(float cells)
     return cells < (float)RHO_MAX_DENSITY_CELLS ? (unsigned)cells : RHO_MAX_DENSITY_CELLS;
 }
 
-static unsigned cell_at(float v_m, float min_m, float side_m, unsigned cells)
+static unsigned cell_at(float v, float min, float side, unsigned cells)
 {
-    float cell = (v_m - min_m) * (float)cells / side_m;
+    float cell = (v - min) * (float)cells / side;
     if (!(cell > 0.0f)) {
         return 0;
     }
     return cell < (float)cells ? (unsigned)cell : cells - 1u;
 }
 
-static unsigned map_cell(const struct rho_initiator *initiator, float x_m, float y_m)
+static float distance_m(float dx_m, float dy_m)
+{
+    return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+}
+
+/* A place's cell; per_m2: what one unit of the map's content is on the ground there. */
+static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m, float *per_m2)
+{
+    float u = x_m, v = y_m;
+    *per_m2 = 1.0f;
+    if (map->is_polar) {
+        float dx_m = x_m - map->sensor_x_m, dy_m = y_m - map->sensor_y_m;
+        float near_m = NEAR_SHARE * map->width;
+        u = distance_m(dx_m, dy_m);
+        v = rho_atan2(dy_m, dx_m);
+        *per_m2 = 1.0f / (u > near_m ? u : near_m);
+    }
+    return cell_at(v, map->v0, map->height, map->rows) * map->columns +
+           cell_at(u, map->u0, map->width, map->columns);
+}
+
+/* ---- laying it out ---------------------------------------------------------------------------- */
+
+/* One radar whose plots have noise of their own directions. */
+static const struct rho_sensor *only_radar(const struct search *search)
+{
+    struct rho_window *window = &search->initiator->window;
+    const struct rho_sensor *first = &rho_window_scan_at(window, 0)->sensor;
+    int is_radar = 0;
+    for (unsigned m = 0; m < window->num_scans && !search->is_isotropic; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        is_radar |= !scan->is_isotropic;
+        if (scan->sensor.sensor_id != first->sensor_id) {
+            return 0;
+        }
+    }
+    return is_radar ? first : 0;
+}
+
+/* The farthest of n ranges falls short of the end of what the radar sees by a share 1 / (n + 1), on average. */
+static float range_seen_m(const struct search *search, const struct rho_sensor *radar)
+{
+    struct rho_window *window = &search->initiator->window;
+    float farthest_m = 1.0f, plots = 0.0f;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        plots += (float)scan->num_plots;
+        for (unsigned i = 0; i < scan->num_plots; i++) {
+            const struct rho_window_plot *plot = &scan->plots[i];
+            float range_m = distance_m(plot->x_m - radar->x_m, plot->y_m - radar->y_m);
+            farthest_m = range_m > farthest_m ? range_m : farthest_m;
+        }
+    }
+    return plots > 0.0f ? farthest_m * (plots + 1.0f) / plots : farthest_m;
+}
+
+static void lay_polar(const struct search *search, const struct rho_sensor *radar,
+                      struct rho_density_map *map)
+{
+    map->is_polar = 1;
+    map->sensor_x_m = radar->x_m;
+    map->sensor_y_m = radar->y_m;
+    map->width = range_seen_m(search, radar);
+    map->v0 = -0.5f * RHO_TWO_PI;
+    map->height = RHO_TWO_PI;
+    map->content = map->width * map->height;
+}
+
+static void lay_square(const struct rho_initiator *initiator, struct rho_density_map *map)
 {
     const struct rho_window *window = &initiator->window;
     float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
-    unsigned column =
-        cell_at(x_m, window->extent.x_min_m, rho_extent_width_m(&window->extent, side_min_m),
-                initiator->density_columns);
-    unsigned row =
-        cell_at(y_m, window->extent.y_min_m, rho_extent_height_m(&window->extent, side_min_m),
-                initiator->density_rows);
-    return row * initiator->density_columns + column;
+    map->u0 = window->extent.x_min_m;
+    map->v0 = window->extent.y_min_m;
+    map->width = rho_extent_width_m(&window->extent, side_min_m);
+    map->height = rho_extent_height_m(&window->extent, side_min_m);
+    map->content = rho_initiator_area_m2(initiator);
 }
 
-static void lay_map(struct rho_initiator *initiator, uint32_t num_plots)
+static void lay_map(const struct search *search, uint32_t num_plots)
 {
-    const struct rho_window *window = &initiator->window;
-    float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
-    uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
-    float cells = (float)wanted;
-    float aspect = rho_extent_width_m(&window->extent, side_min_m) /
-                   rho_extent_height_m(&window->extent, side_min_m);
-    initiator->density_columns = (uint16_t)clamp_cells(rho_sqrt(cells * aspect));
-    initiator->density_rows = (uint16_t)clamp_cells(cells / (float)initiator->density_columns);
-    memset(initiator->density, 0, sizeof initiator->density);
+    struct rho_density_map *map = &search->initiator->density;
+    const struct rho_sensor *radar = only_radar(search);
+    float cells = (float)(num_plots / PLOTS_PER_CELL + 1u);
+    memset(map, 0, sizeof *map);
+    if (radar) {
+        lay_polar(search, radar, map);
+    } else {
+        lay_square(search->initiator, map);
+    }
+    /* an arc of half the range is as long as azimuth times that */
+    float aspect = radar ? 2.0f / map->height : map->width / map->height;
+    map->columns = (uint16_t)clamp_cells(rho_sqrt(cells * aspect));
+    map->rows = (uint16_t)clamp_cells(cells / (float)map->columns);
 }
 
-static uint32_t count_plots(struct rho_initiator *initiator, uint16_t skip_flags, int into_map)
+/* ---- counting --------------------------------------------------------------------------------- */
+
+/* Plots that are not skipped: of each scan, and into the map. */
+static void count_plots(struct rho_initiator *initiator, uint16_t skip_flags, int into_map,
+                        uint32_t by_scan[RHO_MAX_SCANS])
 {
-    uint32_t count = 0;
+    struct rho_density_map *map = &initiator->density;
     for (unsigned m = 0; m < initiator->window.num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
+        by_scan[m] = 0;
         for (unsigned i = 0; i < scan->num_plots; i++) {
             const struct rho_window_plot *plot = &scan->plots[i];
             if (scan->marks[i] & skip_flags) {
                 continue;
             }
-            count++;
+            by_scan[m]++;
             if (into_map) {
-                uint16_t *cell = &initiator->density[map_cell(initiator, plot->x_m, plot->y_m)];
-                *cell = (uint16_t)(*cell < UINT16_MAX ? *cell + 1u : UINT16_MAX);
+                float per_m2;
+                uint16_t *count = &map->count[map_cell(map, plot->x_m, plot->y_m, &per_m2)];
+                *count = (uint16_t)(*count < UINT16_MAX ? *count + 1u : UINT16_MAX);
             }
         }
     }
-    return count;
 }
 
 static float mean_cell_count(const struct rho_initiator *initiator)
 {
-    float cells = (float)initiator->density_columns * (float)initiator->density_rows;
-    float scans = (float)initiator->window.num_scans;
-    return initiator->density_per_m2 * area_m2(initiator) * scans / cells;
+    const struct rho_density_map *map = &initiator->density;
+    float cells = (float)map->columns * (float)map->rows;
+    return map->mean * map->content * (float)initiator->window.num_scans / cells;
 }
 
 /*
@@ -107,13 +188,14 @@ static float mean_cell_count(const struct rho_initiator *initiator)
  */
 static float prior_plots(const struct rho_initiator *initiator)
 {
-    unsigned cells = (unsigned)initiator->density_columns * initiator->density_rows;
+    const struct rho_density_map *map = &initiator->density;
+    unsigned cells = (unsigned)map->columns * map->rows;
     float mean = mean_cell_count(initiator), variance = 0.0f;
     if (cells < 2) {
         return PRIOR_PLOTS_MAX; /* one cell is the mean */
     }
     for (unsigned c = 0; c < cells; c++) {
-        float excess = (float)initiator->density[c] - mean;
+        float excess = (float)map->count[c] - mean;
         variance += excess * excess / (float)(cells - 1u);
     }
     float beyond_chance = variance - mean;
@@ -121,19 +203,88 @@ static float prior_plots(const struct rho_initiator *initiator)
                                                          : PRIOR_PLOTS_MAX;
 }
 
+static float mean_density(const struct search *search, float plots, float content)
+{
+    float mean =
+        (plots + (search->keeps_rate ? PLOTS_UNSEEN : 0.0f)) / ((float)search->num_scans * content);
+    float floor = search->keeps_rate ? 0.0f : 1.0f / content;
+    return mean > floor ? mean : floor;
+}
+
+/*
+ * Plots a scan of each scan's sensor over those of all: one scan like the mean counts beside the sensor's own. 1 where
+ * there is one sensor.
+ */
+static void measure_sensors(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
+                            uint32_t plots)
+{
+    struct rho_initiator *initiator = search->initiator;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        int32_t sensor_id = rho_window_scan_at(&initiator->window, m)->sensor.sensor_id;
+        float own = 0.0f, scans = 0.0f;
+        for (unsigned k = 0; k < search->num_scans; k++) {
+            if (rho_window_scan_at(&initiator->window, k)->sensor.sensor_id == sensor_id) {
+                own += (float)by_scan[k];
+                scans += 1.0f;
+            }
+        }
+        float share = plots > 0 ? own * (float)search->num_scans / (float)plots : scans;
+        initiator->density.sensor_id[m] = sensor_id;
+        initiator->density.sensor_ratio[m] = (share + 1.0f) / (scans + 1.0f);
+        search->log_ratio[m] = rho_log(initiator->density.sensor_ratio[m]);
+    }
+}
+
+/* Counts the plots that are not skipped, and more_plots beside, over the area. */
+void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
+{
+    struct rho_initiator *initiator = search->initiator;
+    uint32_t by_scan[RHO_MAX_SCANS], plots = 0;
+    count_plots(initiator, skip_flags, 0, by_scan);
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        plots += by_scan[m];
+    }
+    lay_map(search, plots);
+    initiator->density.mean =
+        mean_density(search, (float)plots + more_plots, initiator->density.content);
+    initiator->density_per_m2 =
+        mean_density(search, (float)plots + more_plots, rho_initiator_area_m2(initiator));
+    count_plots(initiator, skip_flags, 1, by_scan);
+    initiator->density.prior_plots = prior_plots(initiator);
+    measure_sensors(search, by_scan, plots);
+}
+
+/* ---- asking ----------------------------------------------------------------------------------- */
+
 /* The density where a cell of the map counts so many plots. */
 static float density_of(const struct rho_initiator *initiator, float count)
 {
-    float prior = initiator->density_prior_plots;
-    return initiator->density_per_m2 * (count + prior) / (mean_cell_count(initiator) + prior);
+    float prior = initiator->density.prior_plots;
+    return initiator->density.mean * (count + prior) / (mean_cell_count(initiator) + prior);
 }
 
-float rho_initiator_density(const struct rho_initiator *initiator, float x_m, float y_m)
+float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m)
 {
-    if (initiator->density_columns == 0) {
+    float per_m2;
+    unsigned cell = map_cell(&initiator->density, x_m, y_m, &per_m2);
+    return density_of(initiator, (float)initiator->density.count[cell]) * per_m2;
+}
+
+float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
+                            float y_m)
+{
+    const struct rho_density_map *map = &initiator->density;
+    if (map->columns == 0) {
         return 0.0f;
     }
-    return density_of(initiator, (float)initiator->density[map_cell(initiator, x_m, y_m)]);
+    float ratio = 1.0f;
+    for (unsigned m = 0; m < RHO_MAX_SCANS; m++) {
+        if (map->sensor_ratio[m] > 0.0f && map->sensor_id[m] == sensor_id) {
+            ratio = map->sensor_ratio[m];
+            break;
+        }
+    }
+    return rho_initiator_mean_density(initiator, x_m, y_m) * ratio;
 }
 
 /* The density that hit m of a set is measured against: the set's own plots are taken out of its cell, where they are in
@@ -141,131 +292,16 @@ float rho_initiator_density(const struct rho_initiator *initiator, float x_m, fl
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set, unsigned m)
 {
     const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-    unsigned cell = map_cell(search->initiator, plot->x_m, plot->y_m);
-    unsigned own = 0;
+    const struct rho_density_map *map = &search->initiator->density;
+    float per_m2, other_per_m2;
+    unsigned cell = map_cell(map, plot->x_m, plot->y_m, &per_m2), own = 0;
     for (unsigned k = 0; k < search->num_scans && !search->is_judging; k++) {
         if (set->mask >> k & 1u) {
             const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
-            own += map_cell(search->initiator, other->x_m, other->y_m) == cell;
+            own += map_cell(map, other->x_m, other->y_m, &other_per_m2) == cell;
         }
     }
-    unsigned count = search->initiator->density[cell];
-    return rho_log(density_of(search->initiator, (float)(count > own ? count - own : 0u)));
-}
-
-/* ---- how many votes --------------------------------------------------------------------------- */
-
-static float log_factorial(unsigned n)
-{
-    float sum = 0.0f;
-    for (unsigned i = 2; i <= n; i++) {
-        sum += rho_log((float)i);
-    }
-    return sum;
-}
-
-/* Chi-square limit of 95 % for even degrees of freedom d = 2 h - 4: Wilson and Hilferty's approximation. */
-static float chi2_95(unsigned degrees)
-{
-    float f = 2.0f / (9.0f * (float)degrees);
-    float root = 1.0f - f + 1.6449f * rho_sqrt(f);
-    return (float)degrees * root * root * root;
-}
-
-/*
- * ln of the expected number of chance tracks with votes in h given scans: density^h sigma^(2h-4) V(c) A pi (v_max^2 -
- * v_min^2) h Stt, V the ball of 2h - 4 dimensions, Stt the spread of the scan times (src/DESIGN.md derives it).
- */
-static float log_chance(const struct search *search, unsigned h, float sigma_m, float spread_s2)
-{
-    const struct rho_initiator_config *config = &search->initiator->config;
-    float degrees = (float)(2u * h - 4u);
-    float log_ball =
-        0.5f * degrees * (LOG_PI + rho_log(chi2_95(2u * h - 4u))) - log_factorial(h - 2u);
-    float speeds = config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps;
-    return (float)h * rho_log(search->initiator->density_per_m2) + degrees * rho_log(sigma_m) +
-           log_ball + rho_log(area_m2(search->initiator)) + LOG_PI + rho_log(speeds) +
-           rho_log((float)h * spread_s2);
-}
-
-static float largest_sigma_m(const struct search *search)
-{
-    float sigma_m = RHO_LIMIT_SIGMA_MIN;
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        float scan_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
-        sigma_m = scan_m > sigma_m ? scan_m : sigma_m;
-    }
-    return rho_sqrt(sigma_m * sigma_m + search->fit_process_m2);
-}
-
-/* Sum over the h - subsets of N scans is taken as C(N, h) times the subset spread evenly over the window. */
-static float chance_tracks(const struct search *search, unsigned h)
-{
-    float span_s = search->time_s[search->num_scans - 1u] - search->time_s[0];
-    float spread_s2 = (float)(h * (h + 1u)) * span_s * span_s / (12.0f * (float)(h - 1u));
-    float log_subsets =
-        log_factorial(search->num_scans) - log_factorial(h) - log_factorial(search->num_scans - h);
-    return rho_exp(log_subsets + log_chance(search, h, largest_sigma_m(search), spread_s2));
-}
-
-static unsigned choose_min_scans(const struct search *search)
-{
-    unsigned m = search->num_scans;
-    float chance = m > 3 ? chance_tracks(search, m) : 0.0f;
-    while (m > 3) {
-        chance += chance_tracks(search, m - 1u);
-        if (!(chance <= CHANCE_TRACKS_MAX)) {
-            break;
-        }
-        m--;
-    }
-    return m;
-}
-
-/* ---- before a search -------------------------------------------------------------------------- */
-
-/*
- * A batch asks once: its density is never below one plot in the area and scan. Searches after every scan must tell clear
- * skies from cluttered ones: half a plot in the area and window is what is expected where none was seen (the median of a
- * density of which nothing else is known).
- */
-#define PLOTS_UNSEEN 0.5f
-
-static float mean_density(const struct search *search, float plots, float area)
-{
-    float mean =
-        (plots + (search->keeps_rate ? PLOTS_UNSEEN : 0.0f)) / ((float)search->num_scans * area);
-    float floor = search->keeps_rate ? 0.0f : 1.0f / area;
-    return mean > floor ? mean : floor;
-}
-
-/* Counts the plots that are not skipped, and more_plots beside, over the area. */
-void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
-{
-    struct rho_initiator *initiator = search->initiator;
-    uint32_t plots = count_plots(initiator, skip_flags, 0);
-    initiator->density_per_m2 = mean_density(search, (float)plots + more_plots, area_m2(initiator));
-    lay_map(initiator, plots);
-    (void)count_plots(initiator, skip_flags, 1);
-    initiator->density_prior_plots = prior_plots(initiator);
-}
-
-void rho_initiator_prepare(struct search *search)
-{
-    struct rho_initiator *initiator = search->initiator;
-    const struct rho_initiator_config *config = &initiator->config;
-    rho_initiator_measure_density(search, RHO_WINDOW_INITIATED, 0.0f);
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        float sensor_pd = rho_window_scan_at(&initiator->window, m)->sensor.pd;
-        float pd = sensor_pd > 0.0f ? sensor_pd : config->pd;
-        search->log_pd[m] = rho_log(pd);
-        search->log_miss[m] = rho_log(1.0f - pd);
-    }
-    /* targets are anywhere in the area, their velocities anywhere in the ring of allowed speeds */
-    search->log_prior =
-        LOG_TARGETS_EXPECTED - rho_log(area_m2(initiator)) - LOG_PI -
-        rho_log(config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps);
-    search->min_scans = config->min_scans    ? config->min_scans
-                        : search->keeps_rate ? 3u
-                                             : choose_min_scans(search);
+    unsigned count = map->count[cell];
+    float density = density_of(search->initiator, (float)(count > own ? count - own : 0u));
+    return rho_log(density * per_m2) + search->log_ratio[m];
 }

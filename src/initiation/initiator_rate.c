@@ -85,7 +85,7 @@ static struct place_class class_of(const struct search *search, const struct rho
 {
     const struct rho_window_plot *plot = &scan->plots[index];
     struct place_class place = {
-        .log_density = rho_log(rho_initiator_density(search->initiator, plot->x_m, plot->y_m)),
+        .log_density = rho_log(rho_initiator_mean_density(search->initiator, plot->x_m, plot->y_m)),
         .log_range = log_sigma_m(search, plot->sigma_range),
         .log_cross = log_sigma_m(search, plot->sigma_cross),
         .log_up = log_sigma_m(search, plot->sigma_up),

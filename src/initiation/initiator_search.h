@@ -20,7 +20,8 @@ struct search {
     float time_s[RHO_MAX_SCANS]; /* of the scans, after the newest: <= 0 */
     int is_isotropic;            /* no scan has noise of two axes, heights or range rates */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
-    float log_prior; /* ln of the births' density over area and velocity */
+    float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
+    float log_prior;                /* ln of the births' density over area and velocity */
     /* displacement covariance by process noise */
     float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2];
     float fit_process_m2; /* its largest residual variance about a fitted line */
@@ -57,8 +58,12 @@ struct plot_set {
     uint16_t plot[RHO_MAX_SCANS];
 };
 
-/* initiator_density.c: what the scans tell of clutter, and what follows from it */
+/* initiator_votes.c: before a search */
 void rho_initiator_prepare(struct search *search);
+
+/* initiator_density.c: what the scans tell of clutter */
+float rho_initiator_area_m2(const struct rho_initiator *initiator);
+float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m);
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
                                 unsigned m);

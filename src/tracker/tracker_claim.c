@@ -43,7 +43,7 @@ static float clutter_density(const struct step *step, float x_m, float y_m)
 {
     const struct rho_tracker *tracker = step->tracker;
     if (step->initiator) {
-        float density = rho_initiator_density(step->initiator, x_m, y_m);
+        float density = rho_initiator_density(step->initiator, step->scan->sensor_id, x_m, y_m);
         if (density > 0.0f) {
             return density;
         }

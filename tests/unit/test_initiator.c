@@ -164,7 +164,7 @@ static void calls_on_nothing_are_refused(void **state)
     start(&config);
     search(RHO_SEARCH_BATCH); /* no scan at all */
     assert_int_equal(initiator.num_candidates, 0);
-    assert_float_equal(rho_initiator_density(&initiator, 0.0f, 0.0f), 0.0f, 0.0f);
+    assert_float_equal(rho_initiator_density(&initiator, 0, 0.0f, 0.0f), 0.0f, 0.0f);
 }
 
 /* ---- the reference ---------------------------------------------------------------------------- */
@@ -406,8 +406,8 @@ static void patchy_clutter_is_seen_where_it_is(void **state)
         }
         search(RHO_SEARCH_BATCH);
         float mean = 90.0f / 25e6f;
-        float dense = rho_initiator_density(&initiator, 2000.0f, 2000.0f) / mean;
-        float thin = rho_initiator_density(&initiator, -2000.0f, -2000.0f) / mean;
+        float dense = rho_initiator_density(&initiator, 0, 2000.0f, 2000.0f) / mean;
+        float thin = rho_initiator_density(&initiator, 0, -2000.0f, -2000.0f) / mean;
         assert_in_range((int)(dense * 100.0f), patchy ? 400 : 85, patchy ? 1000 : 115);
         assert_in_range((int)(thin * 100.0f), patchy ? 30 : 85, patchy ? 70 : 115);
     }

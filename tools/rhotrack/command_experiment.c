@@ -8,17 +8,19 @@
 static const struct {
     const char *name;
     int (*run)(const struct command_line *line);
-} experiments[] = {{"initiation", experiment_initiation}};
+} experiments[] = {{"initiation", experiment_initiation}, {"polar", experiment_polar}};
+
+#define NAMES "initiation, polar"
 
 int command_experiment(struct command_line *line)
 {
     if (line->num_arguments != 1) {
-        fail(EXIT_USAGE, "experiment: give one name; there is: initiation");
+        fail(EXIT_USAGE, "experiment: give one name; there are: " NAMES);
     }
     for (size_t i = 0; i < sizeof experiments / sizeof experiments[0]; i++) {
         if (strcmp(experiments[i].name, line->arguments[0]) == 0) {
             return experiments[i].run(line);
         }
     }
-    fail(EXIT_USAGE, "no experiment `%s`; there is: initiation", line->arguments[0]);
+    fail(EXIT_USAGE, "no experiment `%s`; there are: " NAMES, line->arguments[0]);
 }

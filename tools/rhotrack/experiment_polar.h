@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * experiment_polar: the scenario `polar` as a radar's user meets it: initiation from seven turns, and tracks over all of
+ * them, with each plot's own covariance or one isotropic sigma, with and without range rate.
+ */
+#ifndef RHOTRACK_TOOL_EXPERIMENT_POLAR_H
+#define RHOTRACK_TOOL_EXPERIMENT_POLAR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rhotrack/initiator.h"
+#include "rhotrack/measurement.h"
+#include "rhotrack/tracker.h"
+#include "scenario.h"
+
+#define POLAR_TURNS_MAX 32
+#define POLAR_WINDOW 7 /* turns that initiation sees */
+#define POLAR_LEVELS 2
+
+/* Mean clutter plots a turn. */
+extern const double polar_clutter[POLAR_LEVELS];
+
+/* What the library is told of a plot's noise and range rate. */
+struct polar_case {
+    const char *name;
+    bool is_isotropic; /* the larger sigma of each plot, along and across */
+    bool has_range_rate;
+};
+#define POLAR_CASES 4
+extern const struct polar_case polar_cases[POLAR_CASES];
+
+/* Tracks against targets after each turn, from the confirmation on. */
+struct polar_errors {
+    double sum_m2[POLAR_TURNS_MAX], reference_m2[POLAR_TURNS_MAX];
+    size_t count[POLAR_TURNS_MAX];
+};
+
+/* One case of one run. */
+struct polar_result {
+    /* initiation, batch of POLAR_WINDOW turns */
+    int targets, found, clairvoyant, false_candidates;
+    double found_m; /* sum of the found targets' mean errors */
+    double search_us;
+    /* the tracker over all turns */
+    int tracked;       /* targets with a confirmed track at the last turn */
+    int false_tracks;  /* confirmed ones that are no target's */
+    double confirm_at; /* sum over confirmed targets of the turns seen until then, 1 = first */
+    int confirmed;
+    struct polar_errors errors;
+};
+
+/* The library's objects and what the tool keeps beside them; one a thread. */
+struct polar_bench {
+    struct rho_initiator *initiator;
+    struct rho_tracker *tracker;
+    struct rho_report *report;
+    struct rho_plot *plots;
+};
+
+struct polar_bench polar_bench_start(void);
+void polar_bench_free(struct polar_bench *bench);
+
+/* Parameters of the scenario with so much clutter: `rhotrack simulate polar --set clutter_per_scan=...`. */
+struct parameters polar_parameters(double clutter);
+
+/* The scan as the case tells it to the library; plots has room for it. */
+struct rho_scan polar_scan(const struct polar_case *of, const struct simulation *simulation,
+                           size_t turn, struct rho_plot *plots);
+
+/* The part of the tracker: fills tracked, false_tracks, confirm_at, confirmed and errors. */
+void polar_track(const struct polar_case *of, const struct parameters *parameters,
+                 const struct simulation *simulation, struct polar_bench *bench,
+                 struct polar_result *result);
+
+/* Exit 1 naming what the library refused. */
+void polar_check(enum rho_status status, const char *what);
+
+/* All of one case on one run's data. */
+struct polar_result polar_run(const struct polar_case *of, const struct parameters *parameters,
+                              const struct simulation *simulation, struct polar_bench *bench);
+
+/* True position of a target at a time. */
+struct truth_point polar_truth(const struct simulation *simulation, size_t target, double t_s);
+
+#endif
