@@ -23,7 +23,7 @@
 /* Scores between which a threshold is looked for; below the lower one every track in the gates is good enough. */
 #define THRESHOLD_MIN_NAT (-20.0f)
 #define THRESHOLD_MAX_NAT 60.0f
-#define BISECTIONS 22
+#define BISECTIONS 16
 
 /* A tentative track's next place is known so much worse than its plot: determinants of both axes. */
 #define PREDICTION_SPREAD 4.0f
@@ -40,6 +40,9 @@
 #define RINGS 8 /* of speeds, for the share of tracks that stay in the area */
 #define SHARE_MIN 1.0e-6f
 
+/* More chance sets than that are too many in any case. */
+#define WEIGHT_MAX 1.0e30f
+
 /* Places with about the same clutter and noise. */
 #define CLASSES_MAX 8
 
@@ -55,10 +58,11 @@ struct place_class {
 /* Sets with the same number of hits, from the same first scan, in one class of places. */
 struct pattern {
     uint16_t first, hits;
-    float log_weight; /* ln of births, pattern of hits, choices of scans and e^-c */
+    float weight;     /* births, pattern of hits, choices of scans and e^-c, over Gamma(k + 1) */
     float best_nat;   /* c */
     float before_nat; /* c of the same track without its newest hit */
     float half_dimensions;
+    float most; /* chi2 / 2 that a fit may have */
 };
 
 struct chance {
@@ -278,6 +282,14 @@ static float best_score(const struct chance *chance, const struct place_class *p
                                   chance->has_range_rate ? hits : 0u);
 }
 
+/* 99.9 % of chi-square: Wilson and Hilferty's approximation. */
+float rho_initiator_chi2_max(unsigned dimensions)
+{
+    float f = 2.0f / (9.0f * (float)dimensions);
+    float root = 1.0f - f + 3.0902f * rho_sqrt(f);
+    return (float)dimensions * root * root * root;
+}
+
 static void add_pattern(struct chance *chance, const struct place_class *place, unsigned first,
                         unsigned hits, unsigned least)
 {
@@ -287,15 +299,18 @@ static void add_pattern(struct chance *chance, const struct place_class *place, 
     float choices =
         log_factorial(between) - log_factorial(hits - 2u) - log_factorial(between + 2u - hits);
     float inside = share_inside(search, search->time_s[newest] - search->time_s[first]);
+    float weight =
+        0.5f * place->share * inside *
+        rho_exp(log_hits_and_misses(search, first, hits) + choices - best - log_gamma(half));
     chance->patterns[chance->num_patterns++] = (struct pattern){
         .first = (uint16_t)first,
         .hits = (uint16_t)hits,
-        .log_weight = LOG_HALF + rho_log(place->share) + log_hits_and_misses(search, first, hits) +
-                      choices - best - log_gamma(half) + rho_log(inside),
+        .weight = weight < WEIGHT_MAX ? weight : WEIGHT_MAX,
         .best_nat = best,
         /* a scan ago it was as long, by a hit less */
         .before_nat = hits > least ? best_score(chance, place, first + 1u, hits - 1u) : NEVER_NAT,
         .half_dimensions = half,
+        .most = 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * half + 0.5f)),
     };
 }
 
@@ -331,12 +346,14 @@ static void find_gain(struct chance *chance)
 
 /* ---- how many --------------------------------------------------------------------------------- */
 
-/* 99.9 % of chi-square: Wilson and Hilferty's approximation. */
-float rho_initiator_chi2_max(unsigned dimensions)
+/* v^k for k a multiple of a half: asked for too often for logarithms. */
+static float power(float v, float k)
 {
-    float f = 2.0f / (9.0f * (float)dimensions);
-    float root = 1.0f - f + 3.0902f * rho_sqrt(f);
-    return (float)dimensions * root * root * root;
+    float product = 1.0f;
+    for (; k > 0.75f; k -= 1.0f) {
+        product *= v;
+    }
+    return k > 0.25f ? product * rho_sqrt(v) : product;
 }
 
 /*
@@ -352,20 +369,19 @@ static float share_new(float k, float y, float before)
     if (q >= 1.0f) {
         return 0.0f;
     }
-    float power = rho_exp((k - 1.0f) * rho_log(q));
-    return 1.0f - k * power + (k - 1.0f) * power * q;
+    float raised = power(q, k - 1.0f);
+    return 1.0f - k * raised + (k - 1.0f) * raised * q;
 }
 
 /* Sets of a pattern that reach s, of tracks that had not started at start_nat before. */
 static float sets_of(const struct pattern *pattern, float s_nat, float start_nat)
 {
     float k = pattern->half_dimensions, y = pattern->best_nat - s_nat;
-    float most = 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * k + 0.5f));
     if (!(y > 0.0f)) {
         return 0.0f;
     }
-    y = y < most ? y : most;
-    return rho_exp(pattern->log_weight + k * rho_log(y)) *
+    y = y < pattern->most ? y : pattern->most;
+    return pattern->weight * power(y, k) *
            share_new(k, y, pattern->before_nat - start_nat);
 }
 

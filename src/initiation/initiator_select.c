@@ -233,8 +233,11 @@ static int judge_one(const struct search *search, struct rho_candidate *candidat
 void rho_initiator_judge(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
-    struct rate rate;
     float more_plots = mark_likely(search);
+    if (more_plots <= 0.0f) {
+        return; /* nothing that would not count as clutter: the scores stand */
+    }
+    struct rate rate;
     rho_initiator_measure_density(search, RHO_WINDOW_INITIATED | RHO_WINDOW_TAKEN, more_plots);
     clear_taken(search);
     rho_initiator_find_rate(search, &rate);

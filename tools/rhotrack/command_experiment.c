@@ -8,9 +8,13 @@
 static const struct {
     const char *name;
     int (*run)(const struct command_line *line);
-} experiments[] = {{"initiation", experiment_initiation}, {"polar", experiment_polar}};
+} experiments[] = {
+    {"initiation", experiment_initiation},
+    {"polar", experiment_polar},
+    {"false-alarms", experiment_false_alarms},
+};
 
-#define NAMES "initiation, polar"
+#define NAMES "initiation, polar, false-alarms"
 
 int command_experiment(struct command_line *line)
 {

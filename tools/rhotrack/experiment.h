@@ -8,5 +8,6 @@
 /* Each returns the program's exit code. */
 int experiment_initiation(const struct command_line *line);
 int experiment_polar(const struct command_line *line);
+int experiment_false_alarms(const struct command_line *line);
 
 #endif

@@ -44,6 +44,7 @@ static void add_errors(struct polar_errors *sum, const struct polar_errors *erro
 {
     for (size_t turn = 0; turn < POLAR_TURNS_MAX; turn++) {
         sum->sum_m2[turn] += errors->sum_m2[turn];
+        sum->along_m2[turn] += errors->along_m2[turn];
         sum->reference_m2[turn] += errors->reference_m2[turn];
         sum->count[turn] += errors->count[turn];
     }
@@ -95,6 +96,7 @@ static struct polar_summary summarise(const struct experiment *experiment, size_
         .false_tracks_a_run = sum.false_tracks / runs,
         .confirm_at = sum.confirm_at / sum.confirmed,
         .rmse_m = rms(sum.errors.sum_m2, sum.errors.count),
+        .along_m = rms(sum.errors.along_m2, sum.errors.count),
         .reference_m = rms(sum.errors.reference_m2, sum.errors.count),
         .errors = sum.errors,
     };
@@ -133,13 +135,14 @@ struct grid polar_initiation_grid(const struct polar_summary *summaries)
 
 struct grid polar_tracks_grid(const struct polar_summary *summaries)
 {
-    struct grid grid = grid_start(1, "tracks over 15 turns|clutter a turn|tracked at the end|"
-                                     "confirmed at turn|false a run|rmse m|in double m|ratio");
+    struct grid grid =
+        grid_start(1, "tracks over 15 turns|clutter a turn|tracked at the end|"
+                      "confirmed at turn|false a run|along m|rmse m|in double m|ratio");
     for (size_t i = 0; i < POLAR_SUMMARIES; i++) {
         const struct polar_summary *of = &summaries[i];
-        grid_row(&grid, "%s|%g|%.3f|%.2f|%.3f|%.1f|%.1f|%.3f", of->of->name, of->clutter,
-                 of->tracked, of->confirm_at, of->false_tracks_a_run, of->rmse_m, of->reference_m,
-                 of->rmse_m / of->reference_m);
+        grid_row(&grid, "%s|%g|%.3f|%.2f|%.3f|%.1f|%.1f|%.1f|%.3f", of->of->name, of->clutter,
+                 of->tracked, of->confirm_at, of->false_tracks_a_run, of->along_m, of->rmse_m,
+                 of->reference_m, of->rmse_m / of->reference_m);
     }
     return grid;
 }
@@ -194,6 +197,7 @@ static cJSON *summary_json(const struct polar_summary *of)
     cJSON_AddNumberToObject(object, "confirmed_at_turn", of->confirm_at);
     cJSON_AddNumberToObject(object, "false_tracks_per_run", of->false_tracks_a_run);
     cJSON_AddNumberToObject(object, "rmse_m", of->rmse_m);
+    cJSON_AddNumberToObject(object, "along_rmse_m", of->along_m);
     cJSON_AddNumberToObject(object, "double_filter_rmse_m", of->reference_m);
     return object;
 }

@@ -30,9 +30,10 @@ struct polar_case {
 #define POLAR_CASES 4
 extern const struct polar_case polar_cases[POLAR_CASES];
 
-/* Tracks against targets after each turn, from the confirmation on. */
+/* Tracks against targets after each turn, from the confirmation on. Sums of squared errors: of the library's position,
+ * its part along the line of sight, and of the reference filter's position. */
 struct polar_errors {
-    double sum_m2[POLAR_TURNS_MAX], reference_m2[POLAR_TURNS_MAX];
+    double sum_m2[POLAR_TURNS_MAX], along_m2[POLAR_TURNS_MAX], reference_m2[POLAR_TURNS_MAX];
     size_t count[POLAR_TURNS_MAX];
 };
 
@@ -67,6 +68,10 @@ struct parameters polar_parameters(double clutter);
 /* The scan as the case tells it to the library; plots has room for it. */
 struct rho_scan polar_scan(const struct polar_case *of, const struct simulation *simulation,
                            size_t turn, struct rho_plot *plots);
+
+/* The batch search of the first turns; returns its time. The result is in the bench's initiator. */
+double polar_search(const struct polar_case *of, const struct parameters *parameters,
+                    const struct simulation *simulation, struct polar_bench *bench);
 
 /* The part of the tracker: fills tracked, false_tracks, confirm_at, confirmed and errors. */
 void polar_track(const struct polar_case *of, const struct parameters *parameters,

@@ -17,7 +17,7 @@ struct polar_summary {
     double false_a_run, found_m, search_ms;
     double tracked, false_tracks_a_run;
     double confirm_at; /* mean turn, 1 = first */
-    double rmse_m, reference_m;
+    double rmse_m, along_m, reference_m;
     struct polar_errors errors;
 };
 

@@ -120,8 +120,8 @@ static struct rho_initiator_config batch_config(const struct simulation *simulat
     return config;
 }
 
-static double search(const struct polar_case *of, const struct parameters *parameters,
-                     const struct simulation *simulation, struct polar_bench *bench)
+double polar_search(const struct polar_case *of, const struct parameters *parameters,
+                    const struct simulation *simulation, struct polar_bench *bench)
 {
     struct rho_initiator_config config = batch_config(simulation, parameters);
     uint8_t *fates = must_calloc(RHO_MAX_PLOTS, 1);
@@ -226,7 +226,7 @@ struct polar_result polar_run(const struct polar_case *of, const struct paramete
                               const struct simulation *simulation, struct polar_bench *bench)
 {
     struct polar_result result = {.targets = (int)simulation->num_targets};
-    result.search_us = search(of, parameters, simulation, bench);
+    result.search_us = polar_search(of, parameters, simulation, bench);
     match(simulation, bench->initiator, &result);
     result.clairvoyant = clairvoyant_found(of, parameters, simulation);
     polar_track(of, parameters, simulation, bench, &result);

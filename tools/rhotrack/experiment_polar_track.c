@@ -86,8 +86,10 @@ static void compare(struct shadowing *all, const struct shadow *shadow,
     struct double_filter at = shadow->filter;
     struct truth_point truth = polar_truth(all->simulation, (size_t)shadow->target, t_s);
     double_filter_predict(&at, t_s, all->noise_density);
-    errors->sum_m2[turn] +=
-        pow(report->state[0] - truth.x_m, 2.0) + pow(report->state[1] - truth.y_m, 2.0);
+    double dx_m = report->state[0] - truth.x_m, dy_m = report->state[1] - truth.y_m;
+    double range_m = hypot(truth.x_m, truth.y_m);
+    errors->sum_m2[turn] += dx_m * dx_m + dy_m * dy_m;
+    errors->along_m2[turn] += pow((dx_m * truth.x_m + dy_m * truth.y_m) / range_m, 2.0);
     errors->reference_m2[turn] +=
         pow(at.state[0] - truth.x_m, 2.0) + pow(at.state[1] - truth.y_m, 2.0);
     errors->count[turn]++;

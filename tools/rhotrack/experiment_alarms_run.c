@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdlib.h>
+
+#include "clairvoyant.h"
+#include "common.h"
+#include "experiment_alarms.h"
+#include "random.h"
+
+#define DELAY_WANTED_PER_HOUR 1.0
+#define TARGET_NEAR_M 100.0 /* a confirmed track within is the target's: ten sigmas */
+
+const double alarm_per_km2[ALARM_LEVELS] = {0.1, 1.0, 10.0};
+const double alarm_wanted_per_hour[ALARM_RATES] = {1.0, 10.0, 100.0};
+const double delay_per_km2[DELAY_LEVELS] = {0.0, 0.1, 1.0, 3.0, 10.0, 30.0};
+
+struct alarm_bench alarm_bench_start(void)
+{
+    return (struct alarm_bench){.initiator = must_alloc(sizeof(struct rho_initiator)),
+                                .tracker = must_alloc(sizeof(struct rho_tracker)),
+                                .report = must_alloc(sizeof(struct rho_report)),
+                                .plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot))};
+}
+
+void alarm_bench_free(struct alarm_bench *bench)
+{
+    free(bench->initiator);
+    free(bench->tracker);
+    free(bench->report);
+    free(bench->plots);
+}
+
+static void check(enum rho_status status, const char *what)
+{
+    if (status != RHO_OK) {
+        fail(EXIT_RUNTIME, "%s: %s", what, rho_status_name(status));
+    }
+}
+
+/* Table 1's box, speeds and noise; everything else as it is by default. */
+static struct parameters parameters_of(double wanted_per_hour)
+{
+    struct parameters parameters;
+    char assignment[64];
+    parameters_default(&parameters);
+    scenario_suggest("crossing", &parameters);
+    snprintf(assignment, sizeof assignment, "false_tracks_per_hour=%g", wanted_per_hour);
+    parameters_set(&parameters, assignment);
+    return parameters;
+}
+
+static void start(const struct parameters *parameters, struct alarm_bench *bench)
+{
+    struct rho_initiator_config initiator_config;
+    struct rho_tracker_config config;
+    parameters_to_initiator(parameters, &initiator_config);
+    parameters_to_tracker(parameters, &config);
+    check(rho_initiator_init(bench->initiator, sizeof *bench->initiator, &initiator_config),
+          "initiator");
+    check(rho_tracker_init(bench->tracker, sizeof *bench->tracker, &config), "tracker");
+}
+
+static struct rho_plot plot_at(double x_m, double y_m, double sigma_m)
+{
+    return (struct rho_plot){.x_m = (float)x_m,
+                             .y_m = (float)y_m,
+                             .sigma_range_m = (float)sigma_m,
+                             .sigma_cross_m = (float)sigma_m,
+                             .sigma_up_m = (float)sigma_m};
+}
+
+static void step(struct alarm_bench *bench, double t_s, size_t num_plots)
+{
+    struct rho_scan scan = {
+        .time_us = llround(t_s * 1e6), .num_plots = (uint32_t)num_plots, .plots = bench->plots};
+    check(rho_tracker_step(bench->tracker, bench->initiator, &scan, bench->report), "step");
+}
+
+/* ---- clutter alone ---------------------------------------------------------------------------- */
+
+struct clutter {
+    double x_min_m, x_max_m, y_min_m, y_max_m, sigma_m, mean;
+};
+
+static struct clutter clutter_of(const struct parameters *parameters, double per_km2)
+{
+    struct clutter clutter = {.x_min_m = parameters->value[PARAMETER_AREA_X_MIN_M],
+                              .x_max_m = parameters->value[PARAMETER_AREA_X_MAX_M],
+                              .y_min_m = parameters->value[PARAMETER_AREA_Y_MIN_M],
+                              .y_max_m = parameters->value[PARAMETER_AREA_Y_MAX_M],
+                              .sigma_m = parameters->value[PARAMETER_SIGMA_M]};
+    clutter.mean =
+        per_km2 * 1e-6 * (clutter.x_max_m - clutter.x_min_m) * (clutter.y_max_m - clutter.y_min_m);
+    return clutter;
+}
+
+static size_t fill_clutter(const struct clutter *clutter, struct random *random,
+                           struct rho_plot *plots)
+{
+    size_t count = random_poisson(random, clutter->mean);
+    for (size_t i = 0; i < count; i++) {
+        double x_m = random_between(random, clutter->x_min_m, clutter->x_max_m);
+        double y_m = random_between(random, clutter->y_min_m, clutter->y_max_m);
+        plots[i] = plot_at(x_m, y_m, clutter->sigma_m);
+    }
+    return count;
+}
+
+struct alarm_result alarm_run(double per_km2, double wanted_per_hour, uint64_t seed, uint64_t run,
+                              struct alarm_bench *bench)
+{
+    struct parameters parameters = parameters_of(wanted_per_hour);
+    struct clutter clutter = clutter_of(&parameters, per_km2);
+    struct random random = random_start(seed, (uint64_t)llround(per_km2 * 1e3), run);
+    double interval_s = parameters.value[PARAMETER_INTERVAL_S];
+    struct alarm_result result = {.scans = ALARM_SCANS, .hours = ALARM_SCANS * interval_s / 3600.0};
+    start(&parameters, bench);
+    for (size_t scan = 0; scan < ALARM_SCANS; scan++) {
+        size_t num_plots = fill_clutter(&clutter, &random, bench->plots);
+        int64_t start_us = clock_us();
+        step(bench, (double)scan * interval_s, num_plots);
+        result.time_us += (double)(clock_us() - start_us);
+        result.min_scans += bench->initiator->min_scans;
+        result.confirm_nat += 1e-3 * bench->initiator->confirm_mnat;
+    }
+    result.started = bench->tracker->counters.tracks_started;
+    result.confirmed = bench->tracker->counters.tracks_confirmed;
+    return result;
+}
+
+/* ---- targets ---------------------------------------------------------------------------------- */
+
+/* A target's plots so far. */
+struct history {
+    size_t count;
+    struct clairvoyant_plot plots[DELAY_SCANS];
+};
+
+/* Does the fit through all of the target's own plots reach the threshold? Only its newest plot can make it so. */
+static bool is_possible(const struct parameters *parameters, const struct history *history,
+                        double per_km2, double t_s, double confirm_nat)
+{
+    double interval_s = parameters->value[PARAMETER_INTERVAL_S];
+    double area_m2 =
+        (parameters->value[PARAMETER_AREA_X_MAX_M] - parameters->value[PARAMETER_AREA_X_MIN_M]) *
+        (parameters->value[PARAMETER_AREA_Y_MAX_M] - parameters->value[PARAMETER_AREA_Y_MIN_M]);
+    if (history->count < 3 || history->plots[history->count - 1].t_s < t_s) {
+        return false;
+    }
+    double since_s = t_s - history->plots[0].t_s;
+    struct clairvoyant_model model = {.num_scans = (size_t)llround(since_s / interval_s) + 1,
+                                      .interval_s = interval_s,
+                                      .sigma_m = parameters->value[PARAMETER_SIGMA_M],
+                                      .pd = parameters->value[PARAMETER_PD],
+                                      .area_m2 = area_m2,
+                                      .v_min_mps = parameters->value[PARAMETER_V_MIN_MPS],
+                                      .v_max_mps = parameters->value[PARAMETER_V_MAX_MPS]};
+    /* where there is no clutter: half a plot in the area and window, as the initiator takes it */
+    double least = 0.5 / (area_m2 * parameters->value[PARAMETER_SCANS]);
+    struct clairvoyant_plot plots[DELAY_SCANS];
+    for (size_t i = 0; i < history->count; i++) {
+        plots[i] = history->plots[i];
+        plots[i].density_per_m2 = fmax(per_km2 * 1e-6, least);
+    }
+    return clairvoyant_fit(&model, plots, history->count).score_nat >= confirm_nat;
+}
+
+static void note_plots(const struct simulated_scan *scan, struct history histories[DELAY_TARGETS],
+                       struct rho_plot *plots, double sigma_m)
+{
+    for (size_t i = 0; i < scan->num_plots; i++) {
+        const struct simulated_plot *plot = &scan->plots[i];
+        plots[i] = plot_at(plot->x_m, plot->y_m, sigma_m);
+        if (plot->target_id >= 0) {
+            struct history *history = &histories[plot->target_id];
+            history->plots[history->count++] =
+                (struct clairvoyant_plot){.t_s = scan->t_s, .x_m = plot->x_m, .y_m = plot->y_m};
+        }
+    }
+}
+
+static bool has_confirmed(const struct rho_report *report, const struct truth_point *truth)
+{
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        const struct rho_track_report *track = &report->tracks[i];
+        if (track->status != RHO_TRACK_TENTATIVE &&
+            hypot(track->state[0] - truth->x_m, track->state[1] - truth->y_m) <= TARGET_NEAR_M) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void judge(struct delay_result *result, size_t target, size_t scan, bool is_confirmed,
+                  bool is_possible_now, size_t plots)
+{
+    int at = (int)scan + 1;
+    if (is_possible_now && result->possible_at[target] > at) {
+        result->possible_at[target] = at;
+    }
+    if (is_confirmed && result->confirmed_at[target] > at) {
+        result->confirmed_at[target] = at;
+        result->plots[target] = (int)plots;
+    }
+}
+
+/* The scenario's area grows with the targets' paths. */
+static void take_area(struct parameters *parameters, const struct scenario_box *area)
+{
+    parameters->value[PARAMETER_AREA_X_MIN_M] = area->x_min_m;
+    parameters->value[PARAMETER_AREA_X_MAX_M] = area->x_max_m;
+    parameters->value[PARAMETER_AREA_Y_MIN_M] = area->y_min_m;
+    parameters->value[PARAMETER_AREA_Y_MAX_M] = area->y_max_m;
+}
+
+struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run,
+                              struct alarm_bench *bench)
+{
+    struct parameters parameters = parameters_of(DELAY_WANTED_PER_HOUR);
+    struct history histories[DELAY_TARGETS] = {{.count = 0}};
+    struct delay_result result;
+    char assignment[64];
+    snprintf(assignment, sizeof assignment, "clutter_per_km2=%g", per_km2);
+    parameters_set(&parameters, assignment);
+    snprintf(assignment, sizeof assignment, "num_scans=%d", DELAY_SCANS);
+    parameters_set(&parameters, assignment);
+    struct simulation *simulation = scenario_simulate("crossing", &parameters, seed, run);
+    take_area(&parameters, &simulation->area);
+    for (size_t target = 0; target < DELAY_TARGETS; target++) {
+        result.confirmed_at[target] = result.possible_at[target] = DELAY_SCANS + 1;
+        result.plots[target] = DELAY_SCANS + 1;
+    }
+    start(&parameters, bench);
+    for (size_t scan = 0; scan < simulation->num_scans; scan++) {
+        const struct simulated_scan *from = &simulation->scans[scan];
+        note_plots(from, histories, bench->plots, simulation->sigma_m);
+        step(bench, from->t_s, from->num_plots);
+        double confirm_nat = 1e-3 * bench->initiator->confirm_mnat;
+        for (size_t target = 0; target < DELAY_TARGETS; target++) {
+            const struct truth_point *truth = &simulation->truth[scan * DELAY_TARGETS + target];
+            judge(&result, target, scan, has_confirmed(bench->report, truth),
+                  is_possible(&parameters, &histories[target], per_km2, from->t_s, confirm_nat),
+                  histories[target].count);
+        }
+    }
+    simulation_free(simulation);
+    return result;
+}
