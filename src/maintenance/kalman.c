@@ -305,6 +305,12 @@ static enum rho_status measure_apart(struct rho_kalman *kalman, const struct rho
     return status;
 }
 
+static int is_place(const float place_m[3], int num_axes)
+{
+    return is_finite(place_m[0]) && is_finite(place_m[1]) &&
+           (num_axes < NUM_AXES || is_finite(place_m[2]));
+}
+
 enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
                                            const struct rho_measurement *measurement,
                                            float velocity_variance)
@@ -313,6 +319,9 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
 
     if (kalman == NULL || measurement == NULL) {
         return RHO_ERROR_NULL;
+    }
+    if (!is_place(measurement->place_m, num_axes)) {
+        return RHO_ERROR_VALUE;
     }
     if (measurement->is_isotropic) {
         return measure_axes(kalman, num_axes, measurement->place_m, measurement->variance_m2,

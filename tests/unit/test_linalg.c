@@ -15,6 +15,7 @@
 /* Relative to the largest entry of the row or vector, or to the value itself. */
 #define CHOLESKY_RELATIVE 4e-6
 #define FORWARD_RELATIVE 2e-5
+#define BACKWARD_RELATIVE 3e-7 /* of the residual; worst of the vectors: 7.5e-8 */
 #define LOG_DETERMINANT_ABSOLUTE 2e-5
 #define DISTANCE2_RELATIVE 2e-4 /* S is nearly singular in a third of the vectors */
 #define LOG_DET_ABSOLUTE 2e-5
@@ -109,6 +110,54 @@ static void forward_and_determinant_agree_with_the_reference(void **state)
     }
 }
 
+/* Row i of L^T x - b against what it is added up from: small however L is conditioned. */
+static void backward_solves_the_transposed_factor(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < NUM(cholesky_vectors); ++k) {
+        const struct cholesky_vector *v = &cholesky_vectors[k];
+        float l[78], x[13];
+
+        assert_int_equal(rho_linalg_cholesky(v->n, v->a, l), RHO_OK);
+        fill(x, NUM(x), GUARD);
+        memcpy(x, v->b, (size_t)v->n * sizeof(float));
+        rho_linalg_backward(v->n, l, x);
+        for (int i = 0; i < v->n; ++i) {
+            double sum = 0.0, size = fabs(v->b[i]);
+
+            for (int j = i; j < v->n; ++j) {
+                sum += (double)l[RHO_AT(j, i)] * x[j];
+                size += fabs((double)l[RHO_AT(j, i)] * x[j]);
+            }
+            assert_float_equal(sum, v->b[i], BACKWARD_RELATIVE * size);
+        }
+        assert_all(&x[v->n], NUM(x) - (size_t)v->n, GUARD);
+    }
+}
+
+static void forward_and_backward_solve_the_equations(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < NUM(cholesky_vectors); ++k) {
+        const struct cholesky_vector *v = &cholesky_vectors[k];
+        float l[78], x[12];
+
+        assert_int_equal(rho_linalg_cholesky(v->n, v->a, l), RHO_OK);
+        memcpy(x, v->b, (size_t)v->n * sizeof(float));
+        rho_linalg_forward(v->n, l, x);
+        rho_linalg_backward(v->n, l, x);
+        for (int i = 0; i < v->n; ++i) {
+            double sum = 0.0, size = 0.0;
+
+            for (int j = 0; j < v->n; ++j) {
+                sum += (double)v->a[RHO_AT(i, j)] * x[j];
+                size += sqrt((double)v->a[RHO_AT(i, i)] * v->a[RHO_AT(j, j)]) * fabs(x[j]);
+            }
+            assert_float_equal(sum, v->b[i], BACKWARD_RELATIVE * size);
+        }
+    }
+}
+
 static void assert_cholesky_refuses(int n, const float *a, enum rho_status expected)
 {
     float l[78];
@@ -176,10 +225,13 @@ static void sizes_and_pointers_are_checked(void **state)
     for (size_t i = 0; i < NUM(sizes); ++i) {
         assert_cholesky_refuses(sizes[i], one, RHO_ERROR_CAPACITY);
         rho_linalg_forward(sizes[i], one, b);
+        rho_linalg_backward(sizes[i], one, b);
         assert_true(isnan(rho_linalg_log_determinant(sizes[i], one)));
     }
     rho_linalg_forward(2, NULL, b);
     rho_linalg_forward(2, one, NULL);
+    rho_linalg_backward(2, NULL, b);
+    rho_linalg_backward(2, one, NULL);
     assert_all(b, NUM(b), GUARD);
     assert_true(isnan(rho_linalg_log_determinant(2, NULL)));
 }
@@ -446,6 +498,8 @@ int main(void)
         cmocka_unit_test(cholesky_agrees_with_the_reference),
         cmocka_unit_test(cholesky_works_in_place),
         cmocka_unit_test(forward_and_determinant_agree_with_the_reference),
+        cmocka_unit_test(backward_solves_the_transposed_factor),
+        cmocka_unit_test(forward_and_backward_solve_the_equations),
         cmocka_unit_test(cholesky_refuses_what_is_not_positive_definite),
         cmocka_unit_test(cholesky_refuses_bad_numbers_anywhere),
         cmocka_unit_test(sizes_and_pointers_are_checked),
