@@ -215,6 +215,12 @@ printf 'area_%s = %s\n' x_min_m -53000 x_max_m 77000 y_min_m -72000 y_max_m 5800
 run track elsewhere.csv --config elsewhere.ini
 check 'a simulated radar elsewhere, range rates and clutter' moved seed1-rate1/tracks.csv 0.1 12000 -7000 0
 
+# Empty cells once left the tracker with the place of the scan before.
+awk -F, 'NR == 1 { print $0 ",sensor_x_m,sensor_y_m"; print "-4,0,,,,0,90000" } NR > 1 { print $0 ",," }
+    ' seed1-rate1/polar.csv >form.csv
+run track form.csv --config seed1-rate1/scenario.ini
+check 'a place is not that of the scan before' writes_same_as seed1-rate1/tracks.csv
+
 # ---- heights ----
 make_plots 1 >high.csv
 run track high.csv "${settings[@]}" --set sigma_elevation_rad=0.001
@@ -230,6 +236,15 @@ run track form.csv "${settings[@]}" --set sigma_elevation_rad=0.001
 awk -F, 'NR > 1 { $6 -= 700 } { print }' OFS=, stdout >lowered.csv
 cp lowered.csv stdout
 check "the sensor's height is added" near high_tracks.csv 0.1 0 0 0
+run track form.csv "${settings[@]}" --set sigma_elevation_rad=0.001
+cp stdout raised.csv
+# The height was once lost unless it stood with the place, in columns both.
+awk -F, '{ print $0 (NR == 1 ? ",sensor_z_m" : ",700") }' high.csv >form.csv
+run track form.csv "${settings[@]}" --set sigma_elevation_rad=0.001
+check 'a column of the height alone' writes_same_as raised.csv
+awk -F, '{ print $0 (NR == 1 ? ",sensor_x_m,sensor_y_m" : ",0,0") }' high.csv >form.csv
+run track form.csv "${settings[@]}" --set sigma_elevation_rad=0.001 --set sensor.1.z_m=700
+check 'columns of the place, a parameter of the height' writes_same_as raised.csv
 
 # ---- initiate ----
 # Numbers of its columns: 3 x, 4 y, 5 vx, 6 vy. Four sigmas of a line through 7 plots.
