@@ -284,5 +284,16 @@ check 'initiate: range rates from elsewhere' json stdout 'o["targets_found"] >= 
 run plot scans seed1-rate0/polar.csv seed1-rate0/truth.csv -o scans.svg
 check 'plot scans' exits 0
 check 'plot scans is well-formed' python3 -c 'import xml.dom.minidom as m; m.parse("scans.svg")'
+# It once knew places and biases from columns alone.
+run plot scans place.csv -o place.svg
+run plot scans plots.csv -o plots.svg
+check 'plot scans: columns of the place move them' bash -c '! cmp -s place.svg plots.svg'
+run plot scans plots.csv --set sensor.1.x_m=12000 --set sensor.1.y_m=-7000 -o parameters.svg
+check 'plot scans: so do parameters' cmp place.svg parameters.svg
+printf 't_s,sensor_id,range_m,azimuth_rad\n0,1,30000,1\n1,1,31000,2\n' >two.csv
+sed 's/000,/300,/' two.csv >two_range.csv
+run plot scans two.csv -o two.svg
+run plot scans two_range.csv --set sensor.1.range_bias_m=300 -o two_range.svg
+check 'plot scans: a bias is taken off' cmp two.svg two_range.svg
 
 finish
