@@ -60,6 +60,10 @@ check 'where some turns have plots, some do not, all count' \
 check 'that file has both kinds of turns' awk -F, '$3 != "" { n++; turn[int($1 / 4)]++ }
     END { exit !(length(turn) > 5 && length(turn) < 35) }' thin/polar.csv
 
+# The interval in scenario.ini once had six digits: rounded up, it joined the next turn's own row, and scans lost their time.
+simulate odd --seed 1 --set interval_s=2.6666667
+check 'scans have the times of the turns, also of odd ones' json odd/figures.json 'o["targets_found"] == 3'
+
 # ---- the noise of a polar plot is an ellipse: more is known than a circle says ----
 judge() { # name; plots.csv or so, options of track...
     local name=$1
