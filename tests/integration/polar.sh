@@ -63,6 +63,12 @@ check 'that file has both kinds of turns' awk -F, '$3 != "" { n++; turn[int($1 /
 # The interval in scenario.ini once had six digits: rounded up, it joined the next turn's own row, and scans lost their time.
 simulate odd --seed 1 --set interval_s=2.6666667
 check 'scans have the times of the turns, also of odd ones' json odd/figures.json 'o["targets_found"] == 3'
+simulate long --seed 1 --set interval_s=60 --set num_scans=2
+check 'the longest turns are tracked' grep -q 'rhotrack: 2 scans' long/summary
+# Longer ones were once simulated, with a scenario.ini that track refused.
+run simulate polar --set interval_s=60.1 --set num_scans=2 -o longer
+check 'longer ones are refused' says 2 'rhotrack: scenario polar: a turn of interval_s 60.1 is longer than a scan, 60 s'
+check 'and leave nothing' test ! -e longer
 
 # ---- the noise of a polar plot is an ellipse: more is known than a circle says ----
 judge() { # name; plots.csv or so, options of track...
