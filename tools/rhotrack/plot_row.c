@@ -283,7 +283,7 @@ static float from_compass(float azimuth_deg)
 static bool read_azimuth(const struct checking *checking, float *azimuth_rad)
 {
     const struct plot_columns *columns = checking->columns;
-    float azimuth_deg;
+    float azimuth_deg = 0.0f;
 
     if (columns->azimuth_deg < 0) {
         return read_float(checking, columns->azimuth_rad, -(float)PI, (float)PI, azimuth_rad);
