@@ -228,8 +228,9 @@ check 'a simulated radar elsewhere, range rates and clutter' moved seed1-rate1/t
 # Empty cells once left the tracker with the place of the scan before.
 awk -F, 'NR == 1 { print $0 ",sensor_x_m,sensor_y_m"; print "-4,0,,,,0,90000" } NR > 1 { print $0 ",," }
     ' seed1-rate1/polar.csv >form.csv
-run track form.csv --config seed1-rate1/scenario.ini
-check 'a place is not that of the scan before' writes_same_as seed1-rate1/tracks.csv
+run track form.csv --config seed1-rate1/scenario.ini -o tracks_form.csv
+run evaluate seed1-rate1/truth.csv tracks_form.csv --json
+check 'a place is not that of the scan before' json stdout '(o["targets_found"], o["tracks"]) == (20, 20)'
 
 # ---- heights ----
 make_plots 1 >high.csv
