@@ -244,7 +244,6 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
     float slant = ce * se * (variance[0] - variance[2]);
     float excess = level - variance[1];
     if (measurement->is_isotropic) {
-        level = variance[1];
         slant = excess = 0.0f;
     }
     covariance[0] = variance[1] + ca * ca * excess;

@@ -452,7 +452,8 @@ int command_plot(struct command_line *line)
                          "and -o FILE.svg");
     }
     const char *kind = line->arguments[0];
-    struct plot_data data = plot_data_read(line->arguments + 1, line->num_arguments - 1);
+    struct plot_data data =
+        plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_content(kind, &data);
     struct picture picture = picture_open(line->output, 1100, 680);
     draw(kind, &picture, &data, line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,10 +65,16 @@ static void write_truth(const struct simulation *simulation, const char *folder)
     free(path);
 }
 
+/* Times in the file are whole microseconds, and turns as many apart or one less: they must not join. */
+static double whole_us(double interval_s)
+{
+    return floor(interval_s * 1e6 + 1e-3) * 1e-6;
+}
+
 static void write_radar(const struct scenario_radar *radar, double interval_s, FILE *file)
 {
-    fprintf(file, "scan_interval_s = %g\nsigma_range_m = %g\nsigma_azimuth_rad = %g\n", interval_s,
-            radar->sigma_range_m, radar->sigma_azimuth_rad);
+    fprintf(file, "scan_interval_s = %.8g\nsigma_range_m = %g\nsigma_azimuth_rad = %g\n",
+            whole_us(interval_s), radar->sigma_range_m, radar->sigma_azimuth_rad);
     if (radar->has_range_rate) {
         fprintf(file, "sigma_range_rate_mps = %g\n", radar->sigma_range_rate_mps);
     }

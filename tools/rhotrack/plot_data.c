@@ -9,21 +9,21 @@
 #include "table.h"
 
 /* Places of polar plots, as the tracks have them: the same checks, the same conversion. */
-static void read_polar_place(const struct table *table, size_t row, struct plot_point *point)
+static void read_polar_place(const struct table *table, size_t row,
+                             const struct parameters *parameters, struct plot_point *point)
 {
     struct plot_columns columns = plot_columns_find(table);
     char reason[PLOT_ROW_REASON_BYTES];
-    struct parameters parameters;
     struct plot_row plot_row;
-    parameters_default(&parameters);
-    if (!plot_row_read(table, &columns, row, &parameters, &plot_row, reason)) {
+    if (!plot_row_read(table, &columns, row, parameters, &plot_row, reason)) {
         table_fail(table, row, "%s", reason);
     }
     point->x_m = (double)plot_row.plot.x_m;
     point->y_m = (double)plot_row.plot.y_m;
 }
 
-static struct plot_point read_point(const struct table *table, size_t row, int id_column)
+static struct plot_point read_point(const struct table *table, size_t row, int id_column,
+                                    const struct parameters *parameters)
 {
     struct plot_point point = {0};
     int time_column = table_need(table, "t_s"), status = table_find(table, "status");
@@ -35,7 +35,7 @@ static struct plot_point read_point(const struct table *table, size_t row, int i
         table_fail(table, row, "time or identity: %s", reason);
     }
     if (table_find(table, "range_m") >= 0) {
-        read_polar_place(table, row, &point);
+        read_polar_place(table, row, parameters, &point);
         return point;
     }
     point.x_m = table_number_at(table, row, table_need(table, "x_m"));
@@ -46,7 +46,8 @@ static struct plot_point read_point(const struct table *table, size_t row, int i
     return point;
 }
 
-static void add_points(struct plot_points *points, const struct table *table, int id_column)
+static void add_points(struct plot_points *points, const struct table *table, int id_column,
+                       const struct parameters *parameters)
 {
     int range_column = table_find(table, "range_m");
     int x_column = range_column >= 0 ? range_column : table_need(table, "x_m");
@@ -54,21 +55,21 @@ static void add_points(struct plot_points *points, const struct table *table, in
         must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
     for (size_t row = 0; row < table->num_rows; row++) {
         if (*table_cell(table, row, x_column) != '\0') { /* else: a scan that saw nothing */
-            points->list[points->count++] = read_point(table, row, id_column);
+            points->list[points->count++] = read_point(table, row, id_column, parameters);
         }
     }
 }
 
-static void add_file(struct plot_data *data, const char *path)
+static void add_file(struct plot_data *data, const char *path, const struct parameters *parameters)
 {
     struct table *table = table_read(path, false);
     int track = table_find(table, "track_id"), target = table_find(table, "target_id");
     if (track >= 0) {
-        add_points(&data->tracks, table, track);
+        add_points(&data->tracks, table, track, parameters);
     } else if (target >= 0) {
-        add_points(&data->truth, table, target);
+        add_points(&data->truth, table, target, parameters);
     } else {
-        add_points(&data->plots, table, -1);
+        add_points(&data->plots, table, -1, parameters);
     }
     table_free(table);
 }
@@ -126,11 +127,12 @@ static void sort_points(struct plot_points *points)
     }
 }
 
-struct plot_data plot_data_read(char *const *paths, int num_paths)
+struct plot_data plot_data_read(char *const *paths, int num_paths,
+                                const struct parameters *parameters)
 {
     struct plot_data data = {0};
     for (int i = 0; i < num_paths; i++) {
-        add_file(&data, paths[i]);
+        add_file(&data, paths[i], parameters);
     }
     sort_points(&data.tracks);
     sort_points(&data.truth);

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "parameters.h"
+
 struct plot_point {
     int64_t time_us;
     int32_t id; /* of the track or target */
@@ -26,8 +28,10 @@ struct plot_data {
 };
 
 /* Reads the files; errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. A track's rows while tentative are kept, but
- * tracks that were never confirmed are left out. */
-struct plot_data plot_data_read(char *const *paths, int num_paths);
+ * tracks that were never confirmed are left out. The parameters say where the sensors of polar plots are, and what their
+ * biases are. */
+struct plot_data plot_data_read(char *const *paths, int num_paths,
+                                const struct parameters *parameters);
 void plot_data_free(struct plot_data *data);
 
 /* The rows of one identity: from *at on; moves *at behind them. False at the end. */

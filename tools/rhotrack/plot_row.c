@@ -283,7 +283,7 @@ static float from_compass(float azimuth_deg)
 static bool read_azimuth(const struct checking *checking, float *azimuth_rad)
 {
     const struct plot_columns *columns = checking->columns;
-    float azimuth_deg;
+    float azimuth_deg = 0.0f;
 
     if (columns->azimuth_deg < 0) {
         return read_float(checking, columns->azimuth_rad, -(float)PI, (float)PI, azimuth_rad);
@@ -372,25 +372,24 @@ static bool read_polar(const struct checking *checking, const struct parameters 
 
 /* ---- Sensors ---- */
 
-/* The sensor as it was described, at the place that the row says. */
+/*
+ * The sensor as it was described, at the place that the row says. In a file with places every row describes it: an empty
+ * cell means the place that was described, not that of the scan before.
+ */
 static bool read_sensor(const struct checking *checking, const struct parameters *parameters,
                         struct plot_row *row)
 {
     const struct plot_columns *columns = checking->columns;
+    bool has_place =
+        is_there(checking, columns->sensor_x_m) || is_there(checking, columns->sensor_y_m);
+    bool has_height = is_there(checking, columns->sensor_z_m);
 
-    row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor);
-    if (!row->has_sensor) {
-        parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
-    }
-    if (!is_there(checking, columns->sensor_x_m) && !is_there(checking, columns->sensor_y_m)) {
-        return true;
-    }
-    row->has_sensor = true;
-    row->sensor.z_m = 0.0f;
-    return read_position(checking, columns->sensor_x_m, &row->sensor.x_m) &&
-           read_position(checking, columns->sensor_y_m, &row->sensor.y_m) &&
-           (!is_there(checking, columns->sensor_z_m) ||
-            read_position(checking, columns->sensor_z_m, &row->sensor.z_m));
+    row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
+                      columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
+    parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
+    return (!has_place || (read_position(checking, columns->sensor_x_m, &row->sensor.x_m) &&
+                           read_position(checking, columns->sensor_y_m, &row->sensor.y_m))) &&
+           (!has_height || read_position(checking, columns->sensor_z_m, &row->sensor.z_m));
 }
 
 static bool read_sector(const struct checking *checking, struct plot_row *row)

@@ -181,8 +181,19 @@ static struct scenario_state straight_around(const struct parameters *parameters
                      "take fewer scans or slower targets");
 }
 
+/* A turn is a scan, and scan_interval_s is to say so. */
+static void check_turn(const struct parameters *parameters)
+{
+    double max_s = parameters_text(PARAMETER_SCAN_INTERVAL_S).max;
+    if (parameters->value[PARAMETER_INTERVAL_S] > max_s) {
+        fail(EXIT_USAGE, "scenario polar: a turn of interval_s %.9g is longer than a scan, %.9g s",
+             parameters->value[PARAMETER_INTERVAL_S], max_s);
+    }
+}
+
 static struct scenario_plan polar(const struct parameters *parameters, struct random *random)
 {
+    check_turn(parameters);
     struct scenario_plan plan = plan_of(parameters, count_of(parameters, PARAMETER_TARGETS));
     for (size_t target = 0; target < plan.num_targets; target++) {
         /* also the last turn takes its time */
