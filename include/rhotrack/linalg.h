@@ -45,7 +45,8 @@ RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[
 /*
  * One scalar Kalman update of a six-element state x with covariance p (21 floats): element `index` was measured,
  * `innovation` is its measured minus predicted value, `variance` the measurement's noise. *nis (may be NULL) gets
- * innovation^2 / (p_ii + variance). No variance grows, and a positive definite p stays so in spite of rounding.
+ * innovation^2 / (p_ii + variance). No variance grows by more than 2^-20 of itself,
+ * and a positive definite p stays so in spite of rounding, unless it is singular to within 10^-6 already.
  * Errors: NULL, VALUE (index, innovation or a result not finite), SINGULAR (variance not positive, p_ii negative, or
  * their sum not a number one can divide by); x, p and *nis untouched. Cost: about 280 instructions. Stack: 112 bytes.
  */
@@ -61,8 +62,8 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], c
 
 /*
  * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p G^T with new a = c a +
- * s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by 2^-20 of the larger one, more than
- * rounding takes, so that a positive definite p stays so. a, b: 0 .. 5, not the same; not checked.
+ * s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by 2^-22 of the larger one, more than
+ * rounding takes, so that a positive definite p stays so, unless it is singular to within 10^-6 already. a, b: 0 .. 5, not the same; not checked.
  * Cost: about 90 instructions.
  */
 void rho_linalg_turn6(float p[21], int a, int b, float c, float s);

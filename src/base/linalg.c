@@ -9,12 +9,15 @@
 #include "rhotrack/approx.h"
 
 /*
- * A variance lowered by an update is first raised by 2^-20, sixteen units of float32's
+ * A variance that an update may lower is first raised by 2^-20, sixteen units of float32's
  * rounding. The products that are taken off carry at most four each, so that what remains of a
  * positive definite matrix is positive definite, even where the measurement is 10^8 times
  * better than the prediction and every digit cancels.
  */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
+
+/* The same for a turn, as a share of the larger variance: four units of rounding. */
+#define TURN_ALLOWANCE (1.0f / 4194304.0f)
 
 /* Where row i of a packed 6 x 6 matrix lies. */
 static const uint8_t row_places[6][6] = {
@@ -82,12 +85,12 @@ static inline void lower_covariances(float p[21], const float row[6], const floa
     p[RHO_AT(5, 4)] -= gain[5] * row[4];
 }
 
-/* No update makes a variance grow. */
+/* The allowance is for what covariances lose by rounding: a variance without any needs none. */
 static inline float lowered(float variance, float gain, float covariance)
 {
-    const float rest = variance * ROUNDING_ALLOWANCE - gain * covariance;
+    const int is_coupled = covariance < 0.0f || covariance > 0.0f;
 
-    return rest < variance ? rest : variance;
+    return is_coupled ? variance * ROUNDING_ALLOWANCE - gain * covariance : variance;
 }
 
 static inline void lower_variances(float p[21], const float row[6], const float gain[6])
@@ -331,7 +334,11 @@ void rho_linalg_turn6(float p[21], int a, int b, float c, float s)
 {
     const uint8_t *row_a = row_places[a], *row_b = row_places[b];
     const float aa = p[row_a[a]], ab = p[row_a[b]], bb = p[row_b[b]];
-    const float allowance = (aa > bb ? aa : bb) * (ROUNDING_ALLOWANCE - 1.0f);
+    /* the mean of both variances stays what it is, and only the rest is turned: that rounds least */
+    const float cos_twice = c * c - s * s, sin_twice = 2.0f * c * s;
+    const float mean = 0.5f * (aa + bb), half = 0.5f * (aa - bb);
+    const float rest = cos_twice * half + sin_twice * ab;
+    const float allowance = (aa > bb ? aa : bb) * TURN_ALLOWANCE;
     int k;
 
     for (k = 0; k < 6; ++k) {
@@ -340,7 +347,7 @@ void rho_linalg_turn6(float p[21], int a, int b, float c, float s)
         p[row_a[k]] = c * ka + s * kb;
         p[row_b[k]] = c * kb - s * ka;
     }
-    p[row_a[a]] = c * c * aa + 2.0f * c * s * ab + s * s * bb + allowance;
-    p[row_b[b]] = c * c * bb - 2.0f * c * s * ab + s * s * aa + allowance;
-    p[row_a[b]] = (c * c - s * s) * ab + c * s * (bb - aa);
+    p[row_a[a]] = mean + rest + allowance;
+    p[row_b[b]] = mean - rest + allowance;
+    p[row_a[b]] = cos_twice * ab - sin_twice * half;
 }

@@ -136,7 +136,8 @@ static void lay_map(const struct search *search, uint32_t num_plots)
 {
     struct rho_density_map *map = &search->initiator->density;
     const struct rho_sensor *radar = only_radar(search);
-    float cells = (float)(num_plots / PLOTS_PER_CELL + 1u);
+    uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
+    float cells = (float)wanted;
     memset(map, 0, sizeof *map);
     if (radar) {
         lay_polar(search, radar, map);
@@ -239,7 +240,7 @@ static void measure_sensors(struct search *search, const uint32_t by_scan[RHO_MA
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
 {
     struct rho_initiator *initiator = search->initiator;
-    uint32_t by_scan[RHO_MAX_SCANS], plots = 0;
+    uint32_t by_scan[RHO_MAX_SCANS] = {0}, plots = 0;
     count_plots(initiator, skip_flags, 0, by_scan);
     for (unsigned m = 0; m < search->num_scans; m++) {
         plots += by_scan[m];

@@ -153,13 +153,12 @@ static float time_of(const struct regression *of, unsigned m)
 static void add_axis(const struct regression *of, const float axis[3], float time,
                      const float place_m[3], float variance, struct equation *equation)
 {
-    equation->value = 0.0f;
+    *equation = (struct equation){.variance = variance + of->search->fit_process_m2};
     for (int i = 0; i < of->axes; i++) {
         equation->row[i] = axis[i];
         equation->row[of->axes + i] = time * axis[i];
         equation->value += axis[i] * (place_m[i] - of->origin_m[i]);
     }
-    equation->variance = variance + of->search->fit_process_m2;
 }
 
 static int place_equations(const struct regression *of, unsigned m, struct equation *equations)

@@ -381,8 +381,7 @@ static float sets_of(const struct pattern *pattern, float s_nat, float start_nat
         return 0.0f;
     }
     y = y < pattern->most ? y : pattern->most;
-    return pattern->weight * power(y, k) *
-           share_new(k, y, pattern->before_nat - start_nat);
+    return pattern->weight * power(y, k) * share_new(k, y, pattern->before_nat - start_nat);
 }
 
 /* Chance tracks a search that are new at start_nat, and whose score reaches s at once. */

@@ -155,7 +155,7 @@ static void the_order_of_rows_does_not_matter(void **state)
     }
 }
 
-static void no_variance_grows_by_a_row_update(void **state)
+static void no_variance_grows_by_more_than_rounding(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
@@ -166,7 +166,8 @@ static void no_variance_grows_by_a_row_update(void **state)
         random_row(&e, row);
         assert_int_equal(update(&e, row, 1.0f, n % 2 == 0 ? 1e20f : 1.0f, NULL), RHO_OK);
         for (int i = 0; i < STATES; ++i) {
-            assert_true(e.covariance[RHO_AT(i, i)] <= before.covariance[RHO_AT(i, i)]);
+            assert_true(e.covariance[RHO_AT(i, i)] <=
+                        before.covariance[RHO_AT(i, i)] * (1.0f + 1.0f / 1048576.0f));
         }
     }
 }
@@ -370,7 +371,7 @@ static void a_turn_raises_variances_by_more_than_rounding(void **state)
         struct rho_kalman e = random_estimate(4.0);
         const struct plane plane = some_plane(n);
         const struct dense exact = turned(&e, &plane), measure = measure_of(&e, &plane);
-        const double most = measure.p[plane.a][plane.a] * 2.0 / 1048576.0;
+        const double most = measure.p[plane.a][plane.a] * 2.5 / 4194304.0;
 
         turn(&e, &plane);
         const int elements[] = {plane.a, plane.b};
@@ -420,7 +421,7 @@ int main(void)
         cmocka_unit_test(a_row_update_agrees_with_the_joseph_form),
         cmocka_unit_test(a_unit_row_is_an_update_of_its_element),
         cmocka_unit_test(the_order_of_rows_does_not_matter),
-        cmocka_unit_test(no_variance_grows_by_a_row_update),
+        cmocka_unit_test(no_variance_grows_by_more_than_rounding),
         cmocka_unit_test(a_sharp_row_leaves_a_vague_estimate_positive_definite),
         cmocka_unit_test(a_row_update_refuses_bad_numbers),
         cmocka_unit_test(a_row_update_refuses_a_bad_estimate),

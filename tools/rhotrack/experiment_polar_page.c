@@ -90,53 +90,54 @@ static void put_gate(FILE *file, double x_m, double y_m, const struct spread *sp
     fprintf(file, "\n\n");
 }
 
-/* A target's plots of the first and last turn make a kernel; its gates in the turns between. */
-static void put_gates(FILE *file, const struct simulation *simulation,
-                      const struct simulated_plot *const own[POLAR_WINDOW], bool is_isotropic)
+static const struct simulated_plot *plot_of(const struct simulation *simulation, size_t turn,
+                                            int target)
 {
-    const struct simulated_plot *from = own[0], *to = own[POLAR_WINDOW - 1];
+    const struct simulated_scan *scan = &simulation->scans[turn];
+    size_t i = 0;
+    while (i + 1 < scan->num_plots && scan->plots[i].target_id != target) {
+        i++;
+    }
+    return &scan->plots[i];
+}
+
+/* A target's plots of the first and last turn make a kernel; its gates in the turns between. */
+static void put_gates(FILE *file, const struct simulation *simulation, int target,
+                      bool is_isotropic)
+{
+    const struct simulated_plot *from = plot_of(simulation, 0, target);
+    const struct simulated_plot *to = plot_of(simulation, POLAR_WINDOW - 1, target);
     fprintf(file, "$%s << EOD\n", is_isotropic ? "wide" : "own");
     for (size_t turn = 1; turn + 1 < POLAR_WINDOW; turn++) {
         double al = (double)turn / (POLAR_WINDOW - 1);
         struct spread spread = {0.0, 0.0, 0.0};
         add_spread(&spread, noise_of(&simulation->radar, from, is_isotropic), (1 - al) * (1 - al));
         add_spread(&spread, noise_of(&simulation->radar, to, is_isotropic), al * al);
-        add_spread(&spread, noise_of(&simulation->radar, own[turn], is_isotropic), 1.0);
+        add_spread(&spread,
+                   noise_of(&simulation->radar, plot_of(simulation, turn, target), is_isotropic),
+                   1.0);
         put_gate(file, from->x_m + al * (to->x_m - from->x_m),
                  from->y_m + al * (to->y_m - from->y_m), &spread);
     }
     fprintf(file, "EOD\n");
 }
 
-/* The target with plots in all turns of the window whose last one is farthest out; false: there is none. */
-static bool choose_target(const struct simulation *simulation,
-                          const struct simulated_plot *own[POLAR_WINDOW])
+/* The target whose last plot is farthest out; the run has no misses. */
+static int choose_target(const struct simulation *simulation)
 {
-    double farthest_m = 0.0;
-    for (size_t target = 0; target < simulation->num_targets; target++) {
-        const struct simulated_plot *plots[POLAR_WINDOW];
-        size_t seen = 0;
-        for (size_t turn = 0; turn < POLAR_WINDOW; turn++) {
-            for (size_t i = 0; i < simulation->scans[turn].num_plots; i++) {
-                if (simulation->scans[turn].plots[i].target_id == (int)target) {
-                    plots[turn] = &simulation->scans[turn].plots[i];
-                    seen++;
-                }
-            }
-        }
-        if (seen == POLAR_WINDOW && plots[POLAR_WINDOW - 1]->range_m > farthest_m) {
-            farthest_m = plots[POLAR_WINDOW - 1]->range_m;
-            for (size_t turn = 0; turn < POLAR_WINDOW; turn++) {
-                own[turn] = plots[turn];
-            }
+    int chosen = 0;
+    for (int target = 1; target < (int)simulation->num_targets; target++) {
+        if (plot_of(simulation, POLAR_WINDOW - 1, target)->range_m >
+            plot_of(simulation, POLAR_WINDOW - 1, chosen)->range_m) {
+            chosen = target;
         }
     }
-    return farthest_m > 0.0;
+    return chosen;
 }
 
 static void draw_gates(const struct simulation *simulation, const char *path)
 {
-    const struct simulated_plot *own[POLAR_WINDOW];
+    const struct simulated_plot *own[POLAR_WINDOW] = {NULL};
     if (!choose_target(simulation, own)) {
         fail(EXIT_RUNTIME,
              "no target of the example run has plots in all turns; take another seed");
@@ -147,8 +148,8 @@ static void draw_gates(const struct simulation *simulation, const char *path)
     struct picture picture = picture_open(path, 1200, 800);
     put_plots(picture.script, simulation, false);
     put_plots(picture.script, simulation, true);
-    put_gates(picture.script, simulation, own, true);
-    put_gates(picture.script, simulation, own, false);
+    put_gates(picture.script, simulation, target, true);
+    put_gates(picture.script, simulation, target, false);
     fprintf(picture.script,
             "set size ratio -1\nset xlabel 'x east (km)'\nset ylabel 'y north (km)'\n"
             "set xrange [%.3f:%.3f]\nset yrange [%.3f:%.3f]\n"
@@ -163,6 +164,7 @@ static void draw_gates(const struct simulation *simulation, const char *path)
 static void draw_run(uint64_t seed, const char *map, const char *gates)
 {
     struct parameters parameters = polar_parameters(polar_clutter[POLAR_LEVELS - 1]);
+    parameters_set(&parameters, "true_pd=1");
     struct simulation *simulation = scenario_simulate("polar", &parameters, seed, 0);
     struct polar_bench bench = polar_bench_start();
     polar_search(&polar_cases[0], &parameters, simulation, &bench);
@@ -226,7 +228,7 @@ static void write_page(const struct polar_summary *summaries, const struct verdi
               "the larger of each plot's sigmas, in all directions.",
               num_runs, (unsigned long long)seed, verdicts->held, verdicts->missed);
     page_figure(&page, "map.svg",
-                "One run: seven turns of 1000 clutter plots, and the tracks found.");
+                "A run without misses: seven turns of 1000 clutter plots, and the tracks found.");
     page_figure(&page, "gates.svg",
                 "The same run, one target: gates (99.9 %) of the kernel between its first and last "
                 "plot, with the plots' own covariance, and with one isotropic sigma.");

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 #define ROUNDING 1e-9 /* of sums of counts */
@@ -13,39 +14,46 @@ struct verdicts verdicts_start(void)
                              .json = cJSON_CreateArray()};
 }
 
-static void add(struct verdicts *verdicts, const char *what, double value, const char *relation,
-                double bar, int is_held)
+struct bar {
+    const char *relation; /* "<=" or ">=" */
+    double value;
+    bool is_held;
+};
+
+static void add(struct verdicts *verdicts, double value, const struct bar *bar, const char *format,
+                va_list list)
 {
+    char what[160];
     cJSON *object = cJSON_CreateObject();
+    vsnprintf(what, sizeof what, format, list);
     cJSON_AddStringToObject(object, "what", what);
     cJSON_AddItemToObject(object, "value",
                           isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
-    cJSON_AddNumberToObject(object, relation[0] == '<' ? "at_most" : "at_least", bar);
-    cJSON_AddBoolToObject(object, "held", is_held);
+    cJSON_AddNumberToObject(object, bar->relation[0] == '<' ? "at_most" : "at_least", bar->value);
+    cJSON_AddBoolToObject(object, "held", bar->is_held);
     cJSON_AddItemToArray(verdicts->json, object);
-    grid_row(&verdicts->grid, "%s|%.4g|%s %.4g|%s", what, value, relation, bar,
-             is_held ? "ok" : "MISSED");
-    verdicts->held += is_held;
-    verdicts->missed += !is_held;
+    grid_row(&verdicts->grid, "%s|%.4g|%s %.4g|%s", what, value, bar->relation, bar->value,
+             bar->is_held ? "ok" : "MISSED");
+    verdicts->held += bar->is_held;
+    verdicts->missed += !bar->is_held;
 }
-
-#define FORMAT_WHAT(text)                                                                          \
-    char text[160];                                                                                \
-    va_list list;                                                                                  \
-    va_start(list, what);                                                                          \
-    vsnprintf(text, sizeof text, what, list);                                                      \
-    va_end(list)
 
 void verdicts_at_most(struct verdicts *verdicts, double value, double bar, const char *what, ...)
 {
-    FORMAT_WHAT(text);
-    add(verdicts, text, value, "<=", bar, value <= bar + ROUNDING);
+    struct bar at_most = {"<=", bar, value <= bar + ROUNDING};
+    va_list list;
+    va_start(list, what);
+    add(verdicts, value, &at_most, what, list);
+    va_end(list);
 }
 
 void verdicts_at_least(struct verdicts *verdicts, double value, double bar, const char *what, ...)
 {
-    FORMAT_WHAT(text);
-    add(verdicts, text, value, ">=", bar, value >= bar - ROUNDING);
+    struct bar at_least = {">=", bar, value >= bar - ROUNDING};
+    va_list list;
+    va_start(list, what);
+    add(verdicts, value, &at_least, what, list);
+    va_end(list);
 }
 
 void verdicts_to_json(struct verdicts *verdicts, cJSON *object)
