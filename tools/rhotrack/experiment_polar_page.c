@@ -137,12 +137,9 @@ static int choose_target(const struct simulation *simulation)
 
 static void draw_gates(const struct simulation *simulation, const char *path)
 {
-    const struct simulated_plot *own[POLAR_WINDOW] = {NULL};
-    if (!choose_target(simulation, own)) {
-        fail(EXIT_RUNTIME,
-             "no target of the example run has plots in all turns; take another seed");
-    }
-    const struct simulated_plot *from = own[0], *to = own[POLAR_WINDOW - 1];
+    int target = choose_target(simulation);
+    const struct simulated_plot *from = plot_of(simulation, 0, target);
+    const struct simulated_plot *to = plot_of(simulation, POLAR_WINDOW - 1, target);
     double x_km = KM(from->x_m + to->x_m) / 2.0, y_km = KM(from->y_m + to->y_m) / 2.0;
     double half_km = KM(hypot(to->x_m - from->x_m, to->y_m - from->y_m)) / 2.0 + 1.0;
     struct picture picture = picture_open(path, 1200, 800);
