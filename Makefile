@@ -26,7 +26,8 @@ unit_sources := $(sort $(wildcard tests/unit/test_*.c))
 scenario_sources := $(sort $(wildcard tests/scenario/test_*.c))
 # Laid out by .clang-format: all but the tables that scripts write.
 sources := $(library_sources) $(program_sources) \
-           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tests/*/*.[ch])
+           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tools/instructions/*.c \
+                      tests/*/*.[ch])
 sources := $(filter-out tests/vectors/%,$(sources))
 
 library := $(BUILD)/librhotrack.a
@@ -61,7 +62,7 @@ jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib test-programs test demo layers poison size examples determinism lint format \
+.PHONY: all lib test-programs test demo layers poison size instructions examples determinism lint format \
         format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
@@ -164,6 +165,10 @@ examples: $(library)
 ## Sizes of code, objects and stack, as a table
 size:
 	@BUILD=$(BUILD) tools/size.sh
+
+## Instructions that typical jobs execute (valgrind); own covariances cost at most 1.5 times isotropic noise
+instructions: $(library)
+	@BUILD=$(BUILD) tools/instructions.sh
 
 # One clang-tidy a file, as many at a time as there are processors; silent where all is well.
 tidy = printf '%s\n' $(1) | xargs -r -P "$$(nproc)" -n 1 sh -c \

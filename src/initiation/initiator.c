@@ -137,9 +137,16 @@ static int complete(const struct search *search, const struct span *span, struct
     return 1;
 }
 
-static void pair_with(struct search *search, const struct span *span, unsigned i, unsigned j)
+/* The earlier end of kernels. */
+struct start {
+    const struct rho_window_plot *plot;
+    struct rho_window_noise noise; /* not isotropic: its covariance */
+};
+
+static void pair_with(struct search *search, const struct span *span, const struct start *start,
+                      unsigned j)
 {
-    const struct rho_window_plot *from = &span->scan_a->plots[i], *to = &span->scan_b->plots[j];
+    const struct rho_window_plot *from = start->plot, *to = &span->scan_b->plots[j];
     const struct rho_initiator_config *config = &search->initiator->config;
     struct kernel kernel = {
         .from = from,
@@ -147,6 +154,7 @@ static void pair_with(struct search *search, const struct span *span, unsigned i
         .dx_m = to->x_m - from->x_m,
         .dy_m = to->y_m - from->y_m,
         .duration_s = span->gap_s + to->offset_s - from->offset_s,
+        .noise_a = start->noise,
     };
     float distance2_m2 = kernel.dx_m * kernel.dx_m + kernel.dy_m * kernel.dy_m;
     float near_m = config->v_min_mps * kernel.duration_s - span->slack_m;
@@ -163,6 +171,10 @@ static void pair_from(struct search *search, const struct span *span, unsigned i
 {
     const struct rho_window_plot *from = &span->scan_a->plots[i];
     const struct rho_window_scan *scan = span->scan_b;
+    struct start first = {.plot = from};
+    if (!search->is_isotropic) {
+        first.noise = rho_window_noise(span->scan_a, from);
+    }
     float far_m =
         search->initiator->config.v_max_mps * (span->gap_s + scan->offset_max_s - from->offset_s) +
         span->slack_m;
@@ -172,7 +184,7 @@ static void pair_from(struct search *search, const struct span *span, unsigned i
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
         for (unsigned j = start[bins.column_first]; j < end; j++) {
-            pair_with(search, span, i, j);
+            pair_with(search, span, &first, j);
         }
     }
 }
@@ -276,16 +288,25 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     return status;
 }
 
+static int has_more(const struct search *search)
+{
+    uint32_t measures = 0;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        measures |= rho_window_scan_at(&search->initiator->window, m)->measures;
+    }
+    return (measures & (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)) != 0;
+}
+
 /* Noise of one axis in every scan, and nothing else measured: the fast path. */
 static int is_isotropic(const struct search *search)
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-        if (!scan->is_isotropic || (scan->measures & (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE))) {
+        if (!scan->is_isotropic) {
             return 0;
         }
     }
-    return 1;
+    return !search->has_more;
 }
 
 /* Times relative to the newest scan, and the least side of an area that is not given: what a target crosses meanwhile. */
@@ -351,6 +372,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
         return RHO_OK;
     }
     search.wanted_mask = kind == RHO_SEARCH_NEWEST ? 1u << (search.num_scans - 1u) : 0u;
+    search.has_more = has_more(&search);
     search.is_isotropic = is_isotropic(&search);
     lay_times(&search);
     rho_initiator_prepare_process(&search);

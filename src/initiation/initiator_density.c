@@ -76,7 +76,14 @@ static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m
 
 /* ---- laying it out ---------------------------------------------------------------------------- */
 
-/* One radar whose plots have noise of their own directions. */
+static int is_inside(const struct rho_extent *area, const struct rho_sensor *sensor)
+{
+    return sensor->x_m >= area->x_min_m && sensor->x_m <= area->x_max_m &&
+           sensor->y_m >= area->y_min_m && sensor->y_m <= area->y_max_m;
+}
+
+/* One radar in the area whose plots have noise of their own directions. From outside, range and azimuth say little of
+ * where in the area clutter ends. */
 static const struct rho_sensor *only_radar(const struct search *search)
 {
     struct rho_window *window = &search->initiator->window;
@@ -89,7 +96,7 @@ static const struct rho_sensor *only_radar(const struct search *search)
             return 0;
         }
     }
-    return is_radar ? first : 0;
+    return is_radar && is_inside(&window->extent, first) ? first : 0;
 }
 
 /* The farthest of n ranges falls short of the end of what the radar sees by a share 1 / (n + 1), on average. */

@@ -36,12 +36,15 @@ static struct rho_window_place place_of(const struct search *search, const struc
     struct rho_window_place place = {
         .vx_mps = kernel->dx_m * per_s,
         .vy_mps = kernel->dy_m * per_s,
-        .velocity_noise = {(a->xx_m2 + b->xx_m2) * per_s2, (a->xy_m2 + b->xy_m2) * per_s2,
-                           (a->yy_m2 + b->yy_m2) * per_s2, (a->zz_m2 + b->zz_m2) * per_s2},
         .factor = 1.0f,
         .has_z = all_measure(span, RHO_MEASURES_Z),
         .skip_flags = search->skip_flags,
     };
+    if (search->has_more) {
+        place.velocity_noise = (struct rho_window_noise){
+            (a->xx_m2 + b->xx_m2) * per_s2, (a->xy_m2 + b->xy_m2) * per_s2,
+            (a->yy_m2 + b->yy_m2) * per_s2, (a->zz_m2 + b->zz_m2) * per_s2};
+    }
     if (place.has_z) {
         place.vz_mps = (kernel->to->z_m - kernel->from->z_m) * per_s;
     }
@@ -66,8 +69,10 @@ static int climbs_too_fast(const struct search *search, const struct rho_window_
 int rho_initiator_own_kernel(const struct search *search, const struct span *span,
                              struct kernel *kernel)
 {
-    kernel->noise_a = rho_window_noise(span->scan_a, kernel->from);
     kernel->noise_b = rho_window_noise(span->scan_b, kernel->to);
+    if (!search->has_more) {
+        return 1;
+    }
     struct rho_window_place place = place_of(search, span, kernel);
     return !climbs_too_fast(search, &place) && is_range_rate(span->scan_a, kernel->from, &place) &&
            is_range_rate(span->scan_b, kernel->to, &place);
