@@ -349,11 +349,12 @@ static void find_gain(struct chance *chance)
 /* v^k for k a multiple of a half: asked for too often for logarithms. */
 static float power(float v, float k)
 {
-    float product = 1.0f;
-    for (; k > 0.75f; k -= 1.0f) {
+    unsigned halves = (unsigned)(2.0f * k + 0.5f);
+    float product = halves % 2u ? rho_sqrt(v) : 1.0f;
+    for (; halves >= 2u; halves -= 2u) {
         product *= v;
     }
-    return k > 0.25f ? product * rho_sqrt(v) : product;
+    return product;
 }
 
 /*
