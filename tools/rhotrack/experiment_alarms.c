@@ -100,8 +100,8 @@ static void add_target(struct delay_summary *summary, const struct delay_result 
     summary->in_time += confirmed_at <= possible_at + 1;
     summary->confirmed_at += confirmed_at;
     summary->possible_at += possible_at;
-    for (int scan = confirmed_at; scan <= DELAY_SCANS; scan++) {
-        summary->share_at[scan - 1] += 1.0;
+    for (int scan = 0; scan < DELAY_SCANS; scan++) {
+        summary->share_at[scan] += confirmed_at <= scan + 1;
     }
 }
 
