@@ -7,10 +7,9 @@
 set -euo pipefail
 program=${RHOTRACK:-build/rhotrack}
 out=${1:-build/demo}
-settings=(--set min_scans=5 --set score_min_nat=0)
 
 "$program" simulate radar --seed 1 --set clutter_per_scan=100 -o "$out"
-"$program" track "$out/plots.csv" --config "$out/scenario.ini" "${settings[@]}" \
+"$program" track "$out/plots.csv" --config "$out/scenario.ini" \
     -o "$out/tracks.csv" --json >"$out/track.json"
 "$program" evaluate "$out/truth.csv" "$out/tracks.csv" >"$out/evaluation.txt"
 "$program" plot tracks "$out/plots.csv" "$out/truth.csv" "$out/tracks.csv" -o "$out/map.svg"

@@ -354,7 +354,7 @@ static int evidence_bent(const struct search *search, const struct plot_set *set
     return 1;
 }
 
-static int32_t to_mnat(float nat)
+int32_t rho_initiator_mnat(float nat)
 {
     float mnat = nat * 1000.0f;
     if (!(mnat > -1.0e9f)) {
@@ -422,6 +422,6 @@ int rho_initiator_score(const struct search *search, const struct plot_set *set,
     if (!log_likelihood(search, set, score, &nat)) {
         return 0;
     }
-    score->mnat = to_mnat(search->log_prior + log_pattern(search, set, fit) + nat);
+    score->mnat = rho_initiator_mnat(search->log_prior + log_pattern(search, set, fit) + nat);
     return 1;
 }

@@ -72,7 +72,10 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
 /* initiator_rate.c: thresholds for a wanted rate of chance tracks */
 void rho_initiator_find_rate(struct search *search, struct rate *rate);
 void rho_initiator_use_rate(struct search *search, const struct rate *rate);
+
+/* initiator_chance.c */
 float rho_initiator_chi2_max(unsigned dimensions);
+float rho_initiator_log_factorial(unsigned n);
 
 /* initiator_fit.c: least squares and the score */
 void rho_initiator_prepare_process(struct search *search);
@@ -80,6 +83,7 @@ float rho_initiator_process_gap_m2(const struct search *search, unsigned a, unsi
 int rho_initiator_settle(struct search *search, struct plot_set *set, struct line_fit *fit);
 void rho_initiator_collect(struct search *search, const struct line_fit *fit, float factor,
                            struct plot_set *set);
+int32_t rho_initiator_mnat(float nat);
 int rho_initiator_score(const struct search *search, const struct plot_set *set,
                         const struct line_fit *fit, struct set_score *score);
 

@@ -16,15 +16,6 @@
 
 /* ---- how many votes --------------------------------------------------------------------------- */
 
-static float log_factorial(unsigned n)
-{
-    float sum = 0.0f;
-    for (unsigned i = 2; i <= n; i++) {
-        sum += rho_log((float)i);
-    }
-    return sum;
-}
-
 /* Chi-square limit of 95 % for even degrees of freedom d = 2 h - 4: Wilson and Hilferty's approximation. */
 static float chi2_95(unsigned degrees)
 {
@@ -41,8 +32,8 @@ static float log_chance(const struct search *search, unsigned h, float sigma_m, 
 {
     const struct rho_initiator_config *config = &search->initiator->config;
     float degrees = (float)(2u * h - 4u);
-    float log_ball =
-        0.5f * degrees * (LOG_PI + rho_log(chi2_95(2u * h - 4u))) - log_factorial(h - 2u);
+    float log_ball = 0.5f * degrees * (LOG_PI + rho_log(chi2_95(2u * h - 4u))) -
+                     rho_initiator_log_factorial(h - 2u);
     float speeds = config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps;
     return (float)h * rho_log(search->initiator->density_per_m2) + degrees * rho_log(sigma_m) +
            log_ball + rho_log(rho_initiator_area_m2(search->initiator)) + LOG_PI + rho_log(speeds) +
@@ -64,8 +55,9 @@ static float chance_tracks(const struct search *search, unsigned h)
 {
     float span_s = search->time_s[search->num_scans - 1u] - search->time_s[0];
     float spread_s2 = (float)(h * (h + 1u)) * span_s * span_s / (12.0f * (float)(h - 1u));
-    float log_subsets =
-        log_factorial(search->num_scans) - log_factorial(h) - log_factorial(search->num_scans - h);
+    float log_subsets = rho_initiator_log_factorial(search->num_scans) -
+                        rho_initiator_log_factorial(h) -
+                        rho_initiator_log_factorial(search->num_scans - h);
     return rho_exp(log_subsets + log_chance(search, h, largest_sigma_m(search), spread_s2));
 }
 

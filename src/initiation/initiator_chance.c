@@ -1,0 +1,424 @@
+/* SPDX-License-Identifier: MIT */
+#include "initiator_chance.h"
+
+#include "rhotrack/approx.h"
+
+#define LOG_PI 1.14472989f
+#define LOG_TWO_PI 1.83787707f
+#define LOG_HALF (-0.69314718f)
+
+/* A tentative track's next place is known so much worse than its plot: determinants of both axes. */
+#define PREDICTION_SPREAD 4.0f
+
+#define GAIN_MAX_NAT 60.0f
+#define NEVER_NAT (-1.0e6f)
+
+#define RINGS 8 /* of speeds, for the share of tracks that stay in the area */
+#define SHARE_MIN 1.0e-6f
+
+/* More chance sets than that are too many in any case. */
+#define WEIGHT_MAX 1.0e30f
+
+/* ---- places ----------------------------------------------------------------------------------- */
+
+/* Process noise widens what a plot says of a straight track. */
+static float log_sigma_m(const struct search *search, uint16_t code)
+{
+    float sigma_m = rho_window_sigma(code);
+    return 0.5f * rho_log(sigma_m * sigma_m + search->fit_process_m2);
+}
+
+static struct place_class class_of(const struct search *search, const struct rho_window_scan *scan,
+                                   unsigned index)
+{
+    const struct rho_window_plot *plot = &scan->plots[index];
+    struct place_class place = {
+        .log_density = rho_log(rho_initiator_mean_density(search->initiator, plot->x_m, plot->y_m)),
+        .log_range = log_sigma_m(search, plot->sigma_range),
+        .log_cross = log_sigma_m(search, plot->sigma_cross),
+        .log_up = log_sigma_m(search, plot->sigma_up),
+        .log_range_rate = rho_log(rho_window_sigma(plot->sigma_range_rate)),
+    };
+    /* a plot stands for the area that has one plot like it */
+    place.share = rho_exp(-place.log_density);
+    return place;
+}
+
+static int are_alike(const struct place_class *a, const struct place_class *b)
+{
+    float difference =
+        a->log_density - b->log_density + a->log_range - b->log_range + a->log_cross - b->log_cross;
+    return difference < 0.05f && difference > -0.05f;
+}
+
+static void add_class(struct chance *chance, const struct place_class *place)
+{
+    for (unsigned i = 0; i < chance->num_classes; i++) {
+        if (are_alike(&chance->classes[i], place)) {
+            chance->classes[i].share += place->share;
+            return;
+        }
+    }
+    chance->classes[chance->num_classes++] = *place;
+}
+
+/* Every so many held plots are looked at: what clutter and noise are like where there are plots. */
+static void sample_places(struct chance *chance)
+{
+    struct rho_window *window = &chance->search->initiator->window;
+    unsigned total = 0, passed = 0;
+    float sum = 0.0f;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        total += rho_window_scan_at(window, m)->num_plots;
+    }
+    if (total == 0) {
+        return;
+    }
+    unsigned stride = (total + CLASSES_MAX - 1u) / CLASSES_MAX;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        for (unsigned i = 0; i < scan->num_plots; i++, passed++) {
+            if (passed % stride == stride / 2u) {
+                struct place_class place = class_of(chance->search, scan, i);
+                add_class(chance, &place);
+            }
+        }
+    }
+    for (unsigned i = 0; i < chance->num_classes; i++) {
+        sum += chance->classes[i].share;
+    }
+    for (unsigned i = 0; i < chance->num_classes; i++) {
+        chance->classes[i].share /= sum;
+    }
+}
+
+/* ---- patterns --------------------------------------------------------------------------------- */
+
+float rho_initiator_log_factorial(unsigned n)
+{
+    float sum = 0.0f;
+    for (unsigned i = 2; i <= n; i++) {
+        sum += rho_log((float)i);
+    }
+    return sum;
+}
+
+/* ln Gamma(k + 1) for k a multiple of a half. */
+static float log_gamma(float k)
+{
+    float sum = 0.0f;
+    while (k > 0.75f) {
+        sum += rho_log(k);
+        k -= 1.0f;
+    }
+    return k > 0.25f ? sum + 0.5f * LOG_PI + LOG_HALF : sum;
+}
+
+/* Mean over the choices of h scans, the first of the span and the newest among them, of h sum (t - mean)^2 =
+ * sum over pairs of (t_i - t_j)^2. */
+static float mean_spread_s2(const struct search *search, unsigned first, unsigned hits)
+{
+    unsigned last = search->num_scans - 1u, between = last - first - 1u, inner = hits - 2u;
+    float both = search->time_s[last] - search->time_s[first];
+    float one = 0.0f, none = 0.0f;
+    for (unsigned i = first + 1u; i < last; i++) {
+        float before = search->time_s[i] - search->time_s[first];
+        float after = search->time_s[last] - search->time_s[i];
+        one += before * before + after * after;
+        for (unsigned j = first + 1u; j < i; j++) {
+            float gap = search->time_s[i] - search->time_s[j];
+            none += gap * gap;
+        }
+    }
+    float chosen = between > 0 ? (float)inner / (float)between : 0.0f;
+    float chosen_too = between > 1 ? (float)(inner - (inner > 0)) / (float)(between - 1u) : 0.0f;
+    return both * both + chosen * one + chosen * chosen_too * none;
+}
+
+/* What two points, both in an area of width x height, leave of a displacement: the share of the first point's area. */
+static float room_for(float width_m, float height_m, float dx_m, float dy_m)
+{
+    return dx_m < width_m && dy_m < height_m ? (1.0f - dx_m / width_m) * (1.0f - dy_m / height_m)
+                                             : 0.0f;
+}
+
+/*
+ * Share of the straight tracks that begin in the area, with any velocity allowed, and are still in it span_s later:
+ * chance has no plots outside. Mean over rings of equal content and directions of a quadrant.
+ */
+static float share_inside(const struct search *search, float span_s)
+{
+    static const float directions[4][2] = {{0.98078528f, 0.19509032f},
+                                           {0.83146961f, 0.55557023f},
+                                           {0.55557023f, 0.83146961f},
+                                           {0.19509032f, 0.98078528f}}; /* (2 i + 1) pi / 16 */
+    const struct rho_window *window = &search->initiator->window;
+    const struct rho_initiator_config *config = &search->initiator->config;
+    float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
+    float width_m = rho_extent_width_m(&window->extent, side_min_m);
+    float height_m = rho_extent_height_m(&window->extent, side_min_m);
+    float least2 = config->v_min_mps * config->v_min_mps;
+    float most2 = config->v_max_mps * config->v_max_mps, share = 0.0f;
+    for (int ring = 0; ring < RINGS; ring++) {
+        float part = ((float)ring + 0.5f) / (float)RINGS;
+        float reach_m = span_s * rho_sqrt(least2 + part * (most2 - least2));
+        for (int i = 0; i < 4; i++) {
+            share += room_for(width_m, height_m, reach_m * directions[i][0],
+                              reach_m * directions[i][1]) /
+                     (float)(4 * RINGS);
+        }
+    }
+    return share > SHARE_MIN ? share : SHARE_MIN;
+}
+
+/* ln det of the normal equations, all axes. */
+static float log_fisher(const struct chance *chance, const struct place_class *place, float hits,
+                        float spread_s2)
+{
+    float cross = rho_log(spread_s2) - 4.0f * place->log_cross;
+    float along = rho_log(spread_s2) - 4.0f * place->log_range;
+    if (chance->has_range_rate) {
+        /* hits / range^2 (S / range^2 + hits / rate^2), S = spread / hits */
+        float slope = rho_log(spread_s2 / hits) - 2.0f * place->log_range;
+        float rate = rho_log(hits) - 2.0f * place->log_range_rate;
+        float larger = slope > rate ? slope : rate, smaller = slope > rate ? rate : slope;
+        along = rho_log(hits) - 2.0f * place->log_range + larger +
+                rho_log(1.0f + rho_exp(smaller - larger));
+    }
+    return cross + along + (chance->has_z ? rho_log(spread_s2) - 4.0f * place->log_up : 0.0f);
+}
+
+/* Half the log of the noise's determinant of one hit, and of what the clutter's other dimensions are spread over. */
+static float log_noise(const struct chance *chance, const struct place_class *place)
+{
+    return place->log_range + place->log_cross + (chance->has_z ? place->log_up : 0.0f) +
+           (chance->has_range_rate ? place->log_range_rate : 0.0f);
+}
+
+static float dimensions_of_hit(const struct chance *chance)
+{
+    return 2.0f + (chance->has_z ? 1.0f : 0.0f) + (chance->has_range_rate ? 1.0f : 0.0f);
+}
+
+static float log_hits_and_misses(const struct search *search, unsigned first, unsigned hits)
+{
+    unsigned newest = search->num_scans - 1u;
+    return (float)hits * search->log_pd[newest] +
+           (float)(newest - first + 1u - hits) * search->log_miss[newest];
+}
+
+static float half_dimensions(const struct chance *chance, unsigned hits)
+{
+    return 0.5f * ((float)hits * dimensions_of_hit(chance) - (chance->has_z ? 6.0f : 4.0f));
+}
+
+/* The score of a perfect fit: rho_initiator_score with chi2 = 0. */
+static float best_score(const struct chance *chance, const struct place_class *place,
+                        unsigned first, unsigned hits, float spread_s2)
+{
+    const struct search *search = chance->search;
+    float h = (float)hits;
+    float fisher = log_fisher(chance, place, h, spread_s2);
+    return search->log_prior + log_hits_and_misses(search, first, hits) - h * place->log_density -
+           half_dimensions(chance, hits) * LOG_TWO_PI - h * log_noise(chance, place) -
+           0.5f * fisher +
+           rho_initiator_log_room(search, chance->has_z, chance->has_z ? hits : 0u,
+                                  chance->has_range_rate ? hits : 0u);
+}
+
+/* 99.9 % of chi-square: Wilson and Hilferty's approximation. */
+float rho_initiator_chi2_max(unsigned dimensions)
+{
+    float f = 2.0f / (9.0f * (float)dimensions);
+    float root = 1.0f - f + 3.0902f * rho_sqrt(f);
+    return (float)dimensions * root * root * root;
+}
+
+static void add_pattern(struct chance *chance, unsigned first, unsigned hits)
+{
+    const struct search *search = chance->search;
+    unsigned newest = search->num_scans - 1u, between = newest - first - 1u;
+    float half = half_dimensions(chance, hits);
+    chance->patterns[chance->num_patterns++] = (struct pattern){
+        .first = (uint16_t)first,
+        .hits = (uint16_t)hits,
+        .log_choices = rho_initiator_log_factorial(between) -
+                       rho_initiator_log_factorial(hits - 2u) -
+                       rho_initiator_log_factorial(between + 2u - hits),
+        .spread_s2 = mean_spread_s2(search, first, hits),
+        .inside = share_inside(search, search->time_s[newest] - search->time_s[first]),
+        .half_dimensions = half,
+        .most = 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * half + 0.5f)),
+    };
+}
+
+/* A scan ago a track was as long, by a hit less; with `least` hits there was none. */
+static struct reach reach_of(const struct chance *chance, const struct place_class *place,
+                             const struct pattern *pattern, unsigned least)
+{
+    const struct search *search = chance->search;
+    unsigned first = pattern->first, hits = pattern->hits;
+    struct reach reach = {.best_nat = best_score(chance, place, first, hits, pattern->spread_s2),
+                          .before_nat = NEVER_NAT};
+    reach.weight = 0.5f * place->share * pattern->inside *
+                   rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
+                           reach.best_nat - log_gamma(pattern->half_dimensions));
+    reach.weight = reach.weight < WEIGHT_MAX ? reach.weight : WEIGHT_MAX;
+    if (hits > least) {
+        float before_s2 = mean_spread_s2(search, first + 1u, hits - 1u);
+        reach.before_nat = best_score(chance, place, first + 1u, hits - 1u, before_s2);
+    }
+    return reach;
+}
+
+static void lay_patterns(struct chance *chance)
+{
+    unsigned num_scans = chance->search->num_scans;
+    unsigned least = chance->search->initiator->config.min_scans;
+    least = least > 3u ? least : 3u;
+    chance->num_patterns = 0;
+    for (unsigned first = 0; first + 3u <= num_scans; first++) {
+        for (unsigned hits = least; hits <= num_scans - first; hits++) {
+            add_pattern(chance, first, hits);
+        }
+    }
+    for (unsigned i = 0; i < chance->num_classes; i++) {
+        for (unsigned k = 0; k < chance->num_patterns; k++) {
+            chance->reaches[i][k] =
+                reach_of(chance, &chance->classes[i], &chance->patterns[k], least);
+        }
+    }
+}
+
+/* ---- all of it -------------------------------------------------------------------------------- */
+
+void rho_initiator_lay_chance(const struct search *search, struct chance *chance)
+{
+    uint32_t measures =
+        rho_window_scan_at(&search->initiator->window, search->num_scans - 1u)->measures;
+    chance->search = search;
+    chance->has_z = (measures & RHO_MEASURES_Z) != 0;
+    chance->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
+    chance->num_classes = 0;
+    sample_places(chance);
+    lay_patterns(chance);
+}
+
+/* ---- how many --------------------------------------------------------------------------------- */
+
+/* v^k for k a multiple of a half: asked for too often for logarithms. */
+static float power(float v, float k)
+{
+    unsigned halves = (unsigned)(2.0f * k + 0.5f);
+    float product = halves % 2u ? rho_sqrt(v) : 1.0f;
+    for (; halves >= 2u; halves -= 2u) {
+        product *= v;
+    }
+    return product;
+}
+
+/*
+ * Share of a pattern's sets whose track had not started without its newest hit: its chi2 / 2 then was above `before`, and
+ * is below y with it. Of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q = before / y.
+ */
+static float share_new(float k, float y, float before)
+{
+    float q = before / y;
+    if (!(before > 0.0f)) {
+        return 1.0f;
+    }
+    if (q >= 1.0f) {
+        return 0.0f;
+    }
+    float raised = power(q, k - 1.0f);
+    return 1.0f - k * raised + (k - 1.0f) * raised * q;
+}
+
+/* Sets of a pattern in a class that reach s, of tracks that had not started at start_nat before. */
+static float sets_in(const struct pattern *pattern, const struct reach *reach, float s_nat,
+                     float start_nat)
+{
+    float k = pattern->half_dimensions, y = reach->best_nat - s_nat;
+    if (!(y > 0.0f)) {
+        return 0.0f;
+    }
+    y = y < pattern->most ? y : pattern->most;
+    return reach->weight * power(y, k) * share_new(k, y, reach->before_nat - start_nat);
+}
+
+static float sets_of(const struct chance *chance, unsigned k, float s_nat, float start_nat)
+{
+    float sum = 0.0f;
+    for (unsigned i = 0; i < chance->num_classes; i++) {
+        sum += sets_in(&chance->patterns[k], &chance->reaches[i][k], s_nat, start_nat);
+    }
+    return sum;
+}
+
+float rho_initiator_sets_above(const struct chance *chance, float s_nat, float start_nat)
+{
+    float sum = 0.0f;
+    for (unsigned k = 0; k < chance->num_patterns; k++) {
+        sum += sets_of(chance, k, s_nat, start_nat);
+    }
+    return sum;
+}
+
+float rho_initiator_stay_inside(const struct chance *chance, float start_nat)
+{
+    const struct search *search = chance->search;
+    unsigned newest = search->num_scans - 1u;
+    float interval_s = (search->time_s[newest] - search->time_s[0]) / (float)newest;
+    float stay[RHO_MAX_SCANS], sum = 0.0f, all = 0.0f;
+    for (unsigned first = 0; first + 3u <= search->num_scans; first++) {
+        float span_s = search->time_s[newest] - search->time_s[first];
+        stay[first] = share_inside(search, span_s + interval_s) / share_inside(search, span_s);
+    }
+    for (unsigned k = 0; k < chance->num_patterns; k++) {
+        float sets = sets_of(chance, k, start_nat, start_nat);
+        sum += sets * stay[chance->patterns[k].first];
+        all += sets;
+    }
+    return all > 0.0f ? sum / all : 1.0f;
+}
+
+float rho_initiator_gain_of_hit(const struct chance *chance)
+{
+    const struct search *search = chance->search;
+    float least = GAIN_MAX_NAT;
+    for (unsigned i = 0; i < chance->num_classes; i++) {
+        const struct place_class *place = &chance->classes[i];
+        float gain = search->log_pd[search->num_scans - 1u] - place->log_density -
+                     0.5f * dimensions_of_hit(chance) * LOG_TWO_PI - log_noise(chance, place) -
+                     rho_log(PREDICTION_SPREAD) +
+                     rho_initiator_log_room(search, 0, 0, chance->has_range_rate ? 1u : 0u);
+        least = gain < least ? gain : least;
+    }
+    return least;
+}
+
+/* Its best score in any class. */
+static float best_of(const struct chance *chance, unsigned k)
+{
+    float best = NEVER_NAT;
+    for (unsigned i = 0; i < chance->num_classes; i++) {
+        float here = chance->reaches[i][k].best_nat;
+        best = here > best ? here : best;
+    }
+    return best;
+}
+
+/* The fewest hits that may reach the start threshold: a target's chi2 / 2 has mean k and variance k. */
+unsigned rho_initiator_least_hits(const struct chance *chance, float start_nat)
+{
+    unsigned least = chance->search->num_scans;
+    for (unsigned k = 0; k < chance->num_patterns; k++) {
+        const struct pattern *pattern = &chance->patterns[k];
+        float likely = pattern->half_dimensions - 2.0f * rho_sqrt(pattern->half_dimensions);
+        if (pattern->hits < least &&
+            best_of(chance, k) - start_nat > (likely > 0.0f ? likely : 0.0f)) {
+            least = pattern->hits;
+        }
+    }
+    return least;
+}
