@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chain.h"
 #include "commands.h"
 #include "common.h"
 #include "grid.h"
@@ -22,20 +23,13 @@ struct bench {
     uint64_t seed;
 };
 
-static void check(enum rho_status status, const char *what)
-{
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "bench: %s: %s", what, rho_status_name(status));
-    }
-}
-
 /* ---- kalman ----------------------------------------------------------------------------------- */
 
 static void open_filter(struct rho_kalman *kalman)
 {
     rho_kalman_init(kalman);
     for (int axis = 0; axis < 3; axis++) {
-        check(rho_kalman_open_axis(kalman, axis, 100.0f, 100.0f, 1e4f), "open");
+        must_succeed(rho_kalman_open_axis(kalman, axis, 100.0f, 100.0f, 1e4f), "open");
     }
 }
 
@@ -49,10 +43,10 @@ static double filter_ns(int updates)
         if (step % FILTER_LIFE == 0) {
             open_filter(&kalman);
         }
-        check(rho_kalman_predict(&kalman, 1.0f, 1.0f), "predict");
+        must_succeed(rho_kalman_predict(&kalman, 1.0f, 1.0f), "predict");
         for (int i = 0; i < updates; i++) {
-            check(rho_kalman_update(&kalman, i, 100.0f + (float)(step & 7), 100.0f, NULL),
-                  "update");
+            must_succeed(rho_kalman_update(&kalman, i, 100.0f + (float)(step & 7), 100.0f, NULL),
+                         "update");
         }
     }
     return (double)(clock_us() - start_us) * 1e3 / FILTER_STEPS;
@@ -135,13 +129,14 @@ static double window_us(struct rho_initiator *initiator, const struct recording 
 {
     static uint8_t fates[RHO_MAX_PLOTS];
     uint32_t unused = 0;
-    check(rho_initiator_init(initiator, sizeof *initiator, config), "initiator");
+    must_succeed(rho_initiator_init(initiator, sizeof *initiator, config), "initiator");
     for (size_t i = 0; i < recording->count; i++) {
         memset(fates, RHO_FATE_HELD, sizeof fates);
-        check(rho_initiator_push(initiator, &recording->scans[i], NULL, fates, &unused), "push");
+        must_succeed(rho_initiator_push(initiator, &recording->scans[i], NULL, fates, &unused),
+                     "push");
     }
     int64_t start_us = clock_us();
-    check(rho_initiator_search(initiator, RHO_SEARCH_BATCH), "search");
+    must_succeed(rho_initiator_search(initiator, RHO_SEARCH_BATCH), "search");
     return (double)(clock_us() - start_us);
 }
 
@@ -197,12 +192,6 @@ static void bench_initiate(const struct bench *bench)
 
 /* ---- track ------------------------------------------------------------------------------------ */
 
-struct chain {
-    struct rho_tracker *tracker;
-    struct rho_initiator *initiator;
-    struct rho_report *report;
-};
-
 struct cost {
     double mean_us, worst_us;
     unsigned tracks;
@@ -211,18 +200,11 @@ struct cost {
 static struct cost run_chain(struct chain *chain, const struct parameters *parameters,
                              const struct recording *recording)
 {
-    struct rho_tracker_config maintain;
-    struct rho_initiator_config start;
     struct cost cost = {0};
-    parameters_to_tracker(parameters, &maintain);
-    parameters_to_initiator(parameters, &start);
-    check(rho_tracker_init(chain->tracker, sizeof *chain->tracker, &maintain), "tracker");
-    check(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &start), "initiator");
+    chain_open(chain, parameters);
     for (size_t i = 0; i < recording->count; i++) {
         int64_t start_us = clock_us();
-        check(
-            rho_tracker_step(chain->tracker, chain->initiator, &recording->scans[i], chain->report),
-            "step");
+        chain_step(chain, &recording->scans[i]);
         double us = (double)(clock_us() - start_us);
         cost.mean_us += us / (double)recording->count;
         cost.worst_us = fmax(cost.worst_us, us);
@@ -254,8 +236,7 @@ static struct cost track_cost(const struct bench *bench, struct chain *chain, do
 static void bench_track(const struct bench *bench)
 {
     static const double plots[] = {100, 300, 1000, 3000, 5000};
-    struct chain chain = {must_alloc(sizeof *chain.tracker), must_alloc(sizeof *chain.initiator),
-                          must_alloc(sizeof *chain.report)};
+    struct chain chain = chain_start();
     struct grid grid = grid_start(0, "plots a scan|us a scan|worst scan us|ratio|tracks confirmed");
     double first_us = 0.0;
     for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
@@ -275,9 +256,7 @@ static void bench_track(const struct bench *bench)
         printf("\n");
     }
     grid_free(&grid);
-    free(chain.tracker);
-    free(chain.initiator);
-    free(chain.report);
+    chain_free(&chain);
 }
 
 /* ---- all -------------------------------------------------------------------------------------- */

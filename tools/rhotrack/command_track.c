@@ -5,24 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chain.h"
 #include "commands.h"
 #include "common.h"
 #include "scan_reader.h"
 #include "tracks_writer.h"
 
 struct tracking {
-    struct rho_tracker *tracker;
-    struct rho_initiator *initiator;
-    struct rho_report *report;
+    struct chain chain;
     int64_t sum_us, max_us;
 };
-
-static void check_status(enum rho_status status, const char *what)
-{
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "%s: the library says '%s'", what, rho_status_name(status));
-    }
-}
 
 static void check_gate(const char *gate)
 {
@@ -37,42 +29,16 @@ static void check_gate(const char *gate)
 
 /* ---- Steps ---- */
 
-static void start(struct tracking *tracking, const struct parameters *parameters)
-{
-    struct rho_initiator_config initiator_config;
-    struct rho_tracker_config tracker_config;
-
-    *tracking = (struct tracking){
-        .tracker = must_alloc(sizeof *tracking->tracker),
-        .initiator = must_alloc(sizeof *tracking->initiator),
-        .report = must_alloc(sizeof *tracking->report),
-    };
-    parameters_to_initiator(parameters, &initiator_config);
-    parameters_to_tracker(parameters, &tracker_config);
-    check_status(
-        rho_initiator_init(tracking->initiator, sizeof *tracking->initiator, &initiator_config),
-        "initiator");
-    check_status(rho_tracker_init(tracking->tracker, sizeof *tracking->tracker, &tracker_config),
-                 "tracker");
-}
-
-static void finish(struct tracking *tracking)
-{
-    free(tracking->tracker);
-    free(tracking->initiator);
-    free(tracking->report);
-}
-
 /* What is known of the sensor goes before its scan; it may have moved. */
 static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
 {
-    enum rho_status status = rho_tracker_set_sensor(tracking->tracker, sensor);
+    enum rho_status status = rho_tracker_set_sensor(tracking->chain.tracker, sensor);
 
     if (status == RHO_ERROR_CAPACITY) {
         fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
              RHO_MAX_SENSORS);
     }
-    check_status(status, "sensor");
+    must_succeed(status, "sensor");
 }
 
 static void step(struct tracking *tracking, const struct rho_scan *scan,
@@ -84,8 +50,7 @@ static void step(struct tracking *tracking, const struct rho_scan *scan,
         describe(tracking, sensor);
     }
     start_us = clock_us();
-    check_status(rho_tracker_step(tracking->tracker, tracking->initiator, scan, tracking->report),
-                 "step");
+    chain_step(&tracking->chain, scan);
     took_us = clock_us() - start_us;
     tracking->sum_us += took_us;
     if (took_us > tracking->max_us) {
@@ -106,7 +71,7 @@ static void step_all(struct tracking *tracking, struct scan_reader *reader, FILE
     while ((scan = scan_reader_next(reader))) {
         step(tracking, scan, scan_reader_sensor(reader));
         if (file) {
-            tracks_write_report(file, tracking->report, with_covariance);
+            tracks_write_report(file, tracking->chain.report, with_covariance);
         }
         progress_show(&progress, ++done);
     }
@@ -122,7 +87,7 @@ static double mean_us(const struct tracking *tracking, const struct scan_reader_
 
 static void print_summary(const struct tracking *tracking, const struct scan_reader_counts *counts)
 {
-    const struct rho_tracker_counters *counters = &tracking->tracker->counters;
+    const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots, %" PRIu32 " tracks confirmed; lost: "
@@ -166,7 +131,7 @@ static cJSON *counters_json(const struct rho_tracker_counters *counters)
 
 static void print_json(const struct tracking *tracking, const struct scan_reader_counts *counts)
 {
-    const struct rho_tracker_counters *counters = &tracking->tracker->counters;
+    const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddNumberToObject(object, "scans", (double)counts->scans);
@@ -176,8 +141,9 @@ static void print_json(const struct tracking *tracking, const struct scan_reader
     cJSON_AddItemToObject(object, "fates", fates_json(counters));
     cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
-    cJSON_AddNumberToObject(object, "state_bytes",
-                            (double)(sizeof *tracking->tracker + sizeof *tracking->initiator));
+    cJSON_AddNumberToObject(
+        object, "state_bytes",
+        (double)(sizeof *tracking->chain.tracker + sizeof *tracking->chain.initiator));
     cJSON_AddItemToObject(object, "counters", counters_json(counters));
     json_print(object);
 }
@@ -188,10 +154,10 @@ int command_track(struct command_line *line)
     struct scan_reader *reader;
     struct scan_reader_counts counts;
     struct output output;
-    struct tracking tracking;
+    struct tracking tracking = {.chain = chain_start()};
 
     check_gate(line->gate);
-    start(&tracking, &line->parameters);
+    chain_open(&tracking.chain, &line->parameters);
     reader =
         scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     counts = scan_reader_counts(reader);
@@ -207,6 +173,6 @@ int command_track(struct command_line *line)
         print_json(&tracking, &counts);
     }
     scan_reader_close(reader);
-    finish(&tracking);
+    chain_free(&tracking.chain);
     return 0;
 }

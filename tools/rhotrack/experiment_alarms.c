@@ -21,7 +21,7 @@ struct experiment {
     size_t num_runs;
     struct alarm_result *alarms; /* by run, level and rate */
     struct delay_result *delays; /* by run, level */
-    struct alarm_bench benches[WORKERS_MAX];
+    struct chain chains[WORKERS_MAX];
 };
 
 #define ALARM_CASES (ALARM_LEVELS * ALARM_RATES)
@@ -30,26 +30,26 @@ struct experiment {
 static void run_one(void *context, size_t worker, size_t index)
 {
     struct experiment *experiment = context;
-    struct alarm_bench *bench = &experiment->benches[worker];
+    struct chain *chain = &experiment->chains[worker];
     size_t number = ALARM_CASES - 1 - index / experiment->num_runs;
     size_t run = index % experiment->num_runs;
-    if (bench->tracker == NULL) {
-        *bench = alarm_bench_start();
+    if (chain->tracker == NULL) {
+        *chain = chain_start();
     }
     experiment->alarms[run * ALARM_CASES + number] =
         alarm_run(alarm_per_km2[number / ALARM_RATES], alarm_wanted_per_hour[number % ALARM_RATES],
-                  experiment->seed, run, bench);
+                  experiment->seed, run, chain);
 }
 
 static void run_delays(void *context, size_t worker, size_t index)
 {
     struct experiment *experiment = context;
-    struct alarm_bench *bench = &experiment->benches[worker];
-    if (bench->tracker == NULL) {
-        *bench = alarm_bench_start();
+    struct chain *chain = &experiment->chains[worker];
+    if (chain->tracker == NULL) {
+        *chain = chain_start();
     }
     experiment->delays[index] = delay_run(delay_per_km2[index % DELAY_LEVELS], experiment->seed,
-                                          index / DELAY_LEVELS, bench);
+                                          index / DELAY_LEVELS, chain);
 }
 
 /* 95 % limits of a Poisson mean from a count: Garwood's, by Wilson and Hilferty's approximation. */
@@ -139,7 +139,7 @@ static struct alarm_figures measure(uint64_t seed, size_t num_runs)
         figures.delays[i] = summarise_delays(&experiment, i);
     }
     for (size_t i = 0; i < WORKERS_MAX; i++) {
-        alarm_bench_free(&experiment.benches[i]);
+        chain_free(&experiment.chains[i]);
     }
     free(experiment.alarms);
     free(experiment.delays);

@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-#include "rhotrack/tracker.h"
+#include "chain.h"
 #include "scenario.h"
 
 #define ALARM_LEVELS 3
@@ -22,17 +22,6 @@
 extern const double alarm_per_km2[ALARM_LEVELS], alarm_wanted_per_hour[ALARM_RATES];
 extern const double delay_per_km2[DELAY_LEVELS];
 
-/* The library's objects, one a thread. */
-struct alarm_bench {
-    struct rho_initiator *initiator;
-    struct rho_tracker *tracker;
-    struct rho_report *report;
-    struct rho_plot *plots;
-};
-
-struct alarm_bench alarm_bench_start(void);
-void alarm_bench_free(struct alarm_bench *bench);
-
 /* Clutter alone. */
 struct alarm_result {
     double scans, hours;
@@ -41,7 +30,7 @@ struct alarm_result {
     double time_us;
 };
 struct alarm_result alarm_run(double per_km2, double wanted_per_hour, uint64_t seed, uint64_t run,
-                              struct alarm_bench *bench);
+                              struct chain *chain);
 
 /* Targets in clutter, one false track an hour wanted. */
 struct delay_result {
@@ -50,7 +39,6 @@ struct delay_result {
     /* the first scan at which a fit through the target's own plots reaches the threshold in use */
     int possible_at[DELAY_TARGETS];
 };
-struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run,
-                              struct alarm_bench *bench);
+struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run, struct chain *chain);
 
 #endif

@@ -14,29 +14,6 @@ const double alarm_per_km2[ALARM_LEVELS] = {0.1, 1.0, 10.0};
 const double alarm_wanted_per_hour[ALARM_RATES] = {1.0, 10.0, 100.0};
 const double delay_per_km2[DELAY_LEVELS] = {0.0, 0.1, 1.0, 3.0, 10.0, 30.0};
 
-struct alarm_bench alarm_bench_start(void)
-{
-    return (struct alarm_bench){.initiator = must_alloc(sizeof(struct rho_initiator)),
-                                .tracker = must_alloc(sizeof(struct rho_tracker)),
-                                .report = must_alloc(sizeof(struct rho_report)),
-                                .plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot))};
-}
-
-void alarm_bench_free(struct alarm_bench *bench)
-{
-    free(bench->initiator);
-    free(bench->tracker);
-    free(bench->report);
-    free(bench->plots);
-}
-
-static void check(enum rho_status status, const char *what)
-{
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "%s: %s", what, rho_status_name(status));
-    }
-}
-
 /* Table 1's box, speeds and noise; everything else as it is by default. */
 static struct parameters parameters_of(double wanted_per_hour)
 {
@@ -49,17 +26,6 @@ static struct parameters parameters_of(double wanted_per_hour)
     return parameters;
 }
 
-static void start(const struct parameters *parameters, struct alarm_bench *bench)
-{
-    struct rho_initiator_config initiator_config;
-    struct rho_tracker_config config;
-    parameters_to_initiator(parameters, &initiator_config);
-    parameters_to_tracker(parameters, &config);
-    check(rho_initiator_init(bench->initiator, sizeof *bench->initiator, &initiator_config),
-          "initiator");
-    check(rho_tracker_init(bench->tracker, sizeof *bench->tracker, &config), "tracker");
-}
-
 static struct rho_plot plot_at(double x_m, double y_m, double sigma_m)
 {
     return (struct rho_plot){.x_m = (float)x_m,
@@ -69,11 +35,11 @@ static struct rho_plot plot_at(double x_m, double y_m, double sigma_m)
                              .sigma_up_m = (float)sigma_m};
 }
 
-static void step(struct alarm_bench *bench, double t_s, size_t num_plots)
+static void step(struct chain *chain, double t_s, size_t num_plots)
 {
     struct rho_scan scan = {
-        .time_us = llround(t_s * 1e6), .num_plots = (uint32_t)num_plots, .plots = bench->plots};
-    check(rho_tracker_step(bench->tracker, bench->initiator, &scan, bench->report), "step");
+        .time_us = llround(t_s * 1e6), .num_plots = (uint32_t)num_plots, .plots = chain->plots};
+    chain_step(chain, &scan);
 }
 
 /* ---- clutter alone ---------------------------------------------------------------------------- */
@@ -107,24 +73,24 @@ static size_t fill_clutter(const struct clutter *clutter, struct random *random,
 }
 
 struct alarm_result alarm_run(double per_km2, double wanted_per_hour, uint64_t seed, uint64_t run,
-                              struct alarm_bench *bench)
+                              struct chain *chain)
 {
     struct parameters parameters = parameters_of(wanted_per_hour);
     struct clutter clutter = clutter_of(&parameters, per_km2);
     struct random random = random_start(seed, (uint64_t)llround(per_km2 * 1e3), run);
     double interval_s = parameters.value[PARAMETER_INTERVAL_S];
     struct alarm_result result = {.scans = ALARM_SCANS, .hours = ALARM_SCANS * interval_s / 3600.0};
-    start(&parameters, bench);
+    chain_open(chain, &parameters);
     for (size_t scan = 0; scan < ALARM_SCANS; scan++) {
-        size_t num_plots = fill_clutter(&clutter, &random, bench->plots);
+        size_t num_plots = fill_clutter(&clutter, &random, chain->plots);
         int64_t start_us = clock_us();
-        step(bench, (double)scan * interval_s, num_plots);
+        step(chain, (double)scan * interval_s, num_plots);
         result.time_us += (double)(clock_us() - start_us);
-        result.min_scans += bench->initiator->min_scans;
-        result.confirm_nat += 1e-3 * bench->initiator->confirm_mnat;
+        result.min_scans += chain->initiator->min_scans;
+        result.confirm_nat += 1e-3 * chain->initiator->confirm_mnat;
     }
-    result.started = bench->tracker->counters.tracks_started;
-    result.confirmed = bench->tracker->counters.tracks_confirmed;
+    result.started = chain->tracker->counters.tracks_started;
+    result.confirmed = chain->tracker->counters.tracks_confirmed;
     return result;
 }
 
@@ -213,8 +179,7 @@ static void take_area(struct parameters *parameters, const struct scenario_box *
     parameters->value[PARAMETER_AREA_Y_MAX_M] = area->y_max_m;
 }
 
-struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run,
-                              struct alarm_bench *bench)
+struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run, struct chain *chain)
 {
     struct parameters parameters = parameters_of(DELAY_WANTED_PER_HOUR);
     struct history histories[DELAY_TARGETS] = {{.count = 0}};
@@ -230,15 +195,15 @@ struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run,
         result.confirmed_at[target] = result.possible_at[target] = DELAY_SCANS + 1;
         result.plots[target] = DELAY_SCANS + 1;
     }
-    start(&parameters, bench);
+    chain_open(chain, &parameters);
     for (size_t scan = 0; scan < simulation->num_scans; scan++) {
         const struct simulated_scan *from = &simulation->scans[scan];
-        note_plots(from, histories, bench->plots, simulation->sigma_m);
-        step(bench, from->t_s, from->num_plots);
-        double confirm_nat = 1e-3 * bench->initiator->confirm_mnat;
+        note_plots(from, histories, chain->plots, simulation->sigma_m);
+        step(chain, from->t_s, from->num_plots);
+        double confirm_nat = 1e-3 * chain->initiator->confirm_mnat;
         for (size_t target = 0; target < DELAY_TARGETS; target++) {
             const struct truth_point *truth = &simulation->truth[scan * DELAY_TARGETS + target];
-            judge(&result, target, scan, has_confirmed(bench->report, truth),
+            judge(&result, target, scan, has_confirmed(chain->report, truth),
                   is_possible(&parameters, &histories[target], per_km2, from->t_s, confirm_nat),
                   histories[target].count);
         }

@@ -20,7 +20,7 @@ struct experiment {
     uint64_t seed;
     size_t num_runs;
     struct polar_result *results; /* by level, run, case */
-    struct polar_bench benches[WORKERS_MAX];
+    struct chain chains[WORKERS_MAX];
 };
 
 /* One run's data go through all cases. */
@@ -30,12 +30,12 @@ static void run_one(void *context, size_t worker, size_t index)
     size_t level = index / experiment->num_runs, run = index % experiment->num_runs;
     struct parameters parameters = polar_parameters(polar_clutter[level]);
     struct simulation *simulation = scenario_simulate("polar", &parameters, experiment->seed, run);
-    if (experiment->benches[worker].tracker == NULL) {
-        experiment->benches[worker] = polar_bench_start();
+    if (experiment->chains[worker].tracker == NULL) {
+        experiment->chains[worker] = chain_start();
     }
     for (size_t i = 0; i < POLAR_CASES; i++) {
         experiment->results[index * POLAR_CASES + i] =
-            polar_run(&polar_cases[i], &parameters, simulation, &experiment->benches[worker]);
+            polar_run(&polar_cases[i], &parameters, simulation, &experiment->chains[worker]);
     }
     simulation_free(simulation);
 }
@@ -113,7 +113,7 @@ struct polar_summary *polar_summaries(uint64_t seed, size_t num_runs)
         summaries[i] = summarise(&experiment, i / POLAR_CASES, i % POLAR_CASES);
     }
     for (size_t i = 0; i < WORKERS_MAX; i++) {
-        polar_bench_free(&experiment.benches[i]);
+        chain_free(&experiment.chains[i]);
     }
     free(experiment.results);
     return summaries;

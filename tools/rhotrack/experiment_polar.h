@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "chain.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/measurement.h"
 #include "rhotrack/tracker.h"
@@ -51,17 +52,6 @@ struct polar_result {
     struct polar_errors errors;
 };
 
-/* The library's objects and what the tool keeps beside them; one a thread. */
-struct polar_bench {
-    struct rho_initiator *initiator;
-    struct rho_tracker *tracker;
-    struct rho_report *report;
-    struct rho_plot *plots;
-};
-
-struct polar_bench polar_bench_start(void);
-void polar_bench_free(struct polar_bench *bench);
-
 /* Parameters of the scenario with so much clutter: `rhotrack simulate polar --set clutter_per_scan=...`. */
 struct parameters polar_parameters(double clutter);
 
@@ -71,19 +61,16 @@ struct rho_scan polar_scan(const struct polar_case *of, const struct simulation 
 
 /* The batch search of the first turns; returns its time. The result is in the bench's initiator. */
 double polar_search(const struct polar_case *of, const struct parameters *parameters,
-                    const struct simulation *simulation, struct polar_bench *bench);
+                    const struct simulation *simulation, struct chain *chain);
 
 /* The part of the tracker: fills tracked, false_tracks, confirm_at, confirmed and errors. */
 void polar_track(const struct polar_case *of, const struct parameters *parameters,
-                 const struct simulation *simulation, struct polar_bench *bench,
+                 const struct simulation *simulation, struct chain *chain,
                  struct polar_result *result);
-
-/* Exit 1 naming what the library refused. */
-void polar_check(enum rho_status status, const char *what);
 
 /* All of one case on one run's data. */
 struct polar_result polar_run(const struct polar_case *of, const struct parameters *parameters,
-                              const struct simulation *simulation, struct polar_bench *bench);
+                              const struct simulation *simulation, struct chain *chain);
 
 /* True position of a target at a time. */
 struct truth_point polar_truth(const struct simulation *simulation, size_t target, double t_s);

@@ -163,11 +163,11 @@ static void draw_run(uint64_t seed, const char *map, const char *gates)
     struct parameters parameters = polar_parameters(polar_clutter[POLAR_LEVELS - 1]);
     parameters_set(&parameters, "true_pd=1");
     struct simulation *simulation = scenario_simulate("polar", &parameters, seed, 0);
-    struct polar_bench bench = polar_bench_start();
-    polar_search(&polar_cases[0], &parameters, simulation, &bench);
-    draw_map(simulation, bench.initiator, map);
+    struct chain chain = chain_start();
+    polar_search(&polar_cases[0], &parameters, simulation, &chain);
+    draw_map(simulation, chain.initiator, map);
     draw_gates(simulation, gates);
-    polar_bench_free(&bench);
+    chain_free(&chain);
     simulation_free(simulation);
 }
 

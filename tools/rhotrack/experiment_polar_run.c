@@ -23,22 +23,6 @@ const struct polar_case polar_cases[POLAR_CASES] = {
     {"one isotropic sigma, range rate", true, true},
 };
 
-struct polar_bench polar_bench_start(void)
-{
-    return (struct polar_bench){.initiator = must_alloc(sizeof(struct rho_initiator)),
-                                .tracker = must_alloc(sizeof(struct rho_tracker)),
-                                .report = must_alloc(sizeof(struct rho_report)),
-                                .plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot))};
-}
-
-void polar_bench_free(struct polar_bench *bench)
-{
-    free(bench->initiator);
-    free(bench->tracker);
-    free(bench->report);
-    free(bench->plots);
-}
-
 struct parameters polar_parameters(double clutter)
 {
     struct parameters parameters;
@@ -48,13 +32,6 @@ struct parameters polar_parameters(double clutter)
     snprintf(assignment, sizeof assignment, "clutter_per_scan=%g", clutter);
     parameters_set(&parameters, assignment);
     return parameters;
-}
-
-void polar_check(enum rho_status status, const char *what)
-{
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "%s: %s", what, rho_status_name(status));
-    }
 }
 
 /* ---- the data --------------------------------------------------------------------------------- */
@@ -81,9 +58,9 @@ static void convert(const struct polar_case *of, const struct scenario_radar *ra
         .sigma_azimuth_rad = (float)radar->sigma_azimuth_rad,
         .sigma_range_rate_mps = (float)radar->sigma_range_rate_mps,
     };
-    polar_check(rho_measurement_from_polar(
-                    &polar, of->has_range_rate ? RHO_MEASURES_RANGE_RATE : 0u, NULL, plot),
-                "rho_measurement_from_polar");
+    must_succeed(rho_measurement_from_polar(
+                     &polar, of->has_range_rate ? RHO_MEASURES_RANGE_RATE : 0u, NULL, plot),
+                 "rho_measurement_from_polar");
     if (of->is_isotropic) {
         plot->sigma_range_m = plot->sigma_cross_m = rho_plot_sigma_m(plot);
     }
@@ -121,21 +98,21 @@ static struct rho_initiator_config batch_config(const struct simulation *simulat
 }
 
 double polar_search(const struct polar_case *of, const struct parameters *parameters,
-                    const struct simulation *simulation, struct polar_bench *bench)
+                    const struct simulation *simulation, struct chain *chain)
 {
     struct rho_initiator_config config = batch_config(simulation, parameters);
     uint8_t *fates = must_calloc(RHO_MAX_PLOTS, 1);
     uint32_t unused = 0;
-    polar_check(rho_initiator_init(bench->initiator, sizeof *bench->initiator, &config),
-                "initiator");
+    must_succeed(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &config),
+                 "initiator");
     for (size_t turn = 0; turn < POLAR_WINDOW; turn++) {
-        struct rho_scan scan = polar_scan(of, simulation, turn, bench->plots);
+        struct rho_scan scan = polar_scan(of, simulation, turn, chain->plots);
         memset(fates, RHO_FATE_HELD, RHO_MAX_PLOTS);
-        polar_check(rho_initiator_push(bench->initiator, &scan, NULL, fates, &unused), "push");
+        must_succeed(rho_initiator_push(chain->initiator, &scan, NULL, fates, &unused), "push");
     }
     free(fates);
     int64_t start_us = clock_us();
-    polar_check(rho_initiator_search(bench->initiator, RHO_SEARCH_BATCH), "search");
+    must_succeed(rho_initiator_search(chain->initiator, RHO_SEARCH_BATCH), "search");
     return (double)(clock_us() - start_us);
 }
 
@@ -223,12 +200,12 @@ static int clairvoyant_found(const struct polar_case *of, const struct parameter
 /* ---- all of it -------------------------------------------------------------------------------- */
 
 struct polar_result polar_run(const struct polar_case *of, const struct parameters *parameters,
-                              const struct simulation *simulation, struct polar_bench *bench)
+                              const struct simulation *simulation, struct chain *chain)
 {
     struct polar_result result = {.targets = (int)simulation->num_targets};
-    result.search_us = polar_search(of, parameters, simulation, bench);
-    match(simulation, bench->initiator, &result);
+    result.search_us = polar_search(of, parameters, simulation, chain);
+    match(simulation, chain->initiator, &result);
     result.clairvoyant = clairvoyant_found(of, parameters, simulation);
-    polar_track(of, parameters, simulation, bench, &result);
+    polar_track(of, parameters, simulation, chain, &result);
     return result;
 }

@@ -21,7 +21,7 @@ struct shadow {
 struct shadowing {
     const struct polar_case *of;
     const struct simulation *simulation;
-    struct polar_bench *bench;
+    struct chain *chain;
     struct polar_result *result;
     struct scenario_radar radar; /* range rate as the case has it */
     double noise_density, speed_sigma_mps;
@@ -59,7 +59,7 @@ static struct shadow *shadow_of(struct shadowing *all, uint32_t track_id)
 /* The candidate that a new track came from, by the newest turn's row; its plots in the order of time. */
 static void take_start(struct shadowing *all, struct shadow *shadow, size_t turn, int newest_row)
 {
-    struct rho_initiator *initiator = all->bench->initiator;
+    struct rho_initiator *initiator = all->chain->initiator;
     unsigned last = initiator->window.num_scans - 1u;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         const struct rho_candidate *from = &initiator->candidates[i];
@@ -132,8 +132,8 @@ static void follow(struct shadowing *all, const struct rho_track_report *report,
 static void count_tracks(struct shadowing *all)
 {
     bool is_tracked[POLAR_TURNS_MAX] = {false};
-    for (unsigned i = 0; i < all->bench->report->num_tracks; i++) {
-        const struct rho_track_report *report = &all->bench->report->tracks[i];
+    for (unsigned i = 0; i < all->chain->report->num_tracks; i++) {
+        const struct rho_track_report *report = &all->chain->report->tracks[i];
         const struct shadow *shadow = shadow_of(all, report->track_id);
         if (report->status != RHO_TRACK_TENTATIVE && is_targets(shadow)) {
             all->result->tracked += !is_tracked[shadow->target];
@@ -146,32 +146,27 @@ static void count_tracks(struct shadowing *all)
 }
 
 void polar_track(const struct polar_case *of, const struct parameters *parameters,
-                 const struct simulation *simulation, struct polar_bench *bench,
+                 const struct simulation *simulation, struct chain *chain,
                  struct polar_result *result)
 {
-    struct rho_initiator_config initiator_config;
     struct rho_tracker_config config;
-    parameters_to_initiator(parameters, &initiator_config);
     parameters_to_tracker(parameters, &config);
-    polar_check(rho_initiator_init(bench->initiator, sizeof *bench->initiator, &initiator_config),
-                "initiator");
-    polar_check(rho_tracker_init(bench->tracker, sizeof *bench->tracker, &config), "tracker");
+    chain_open(chain, parameters);
     struct shadowing *all = must_calloc(1, sizeof *all);
     double accel_mps2 = 0.5 * config.accel_max_mps2; /* src/DESIGN.md: kept up for a second */
     *all = (struct shadowing){.of = of,
                               .simulation = simulation,
-                              .bench = bench,
+                              .chain = chain,
                               .result = result,
                               .radar = simulation->radar,
                               .noise_density = accel_mps2 * accel_mps2,
                               .speed_sigma_mps = config.v_max_mps};
     all->radar.has_range_rate = of->has_range_rate;
     for (size_t turn = 0; turn < simulation->num_scans; turn++) {
-        struct rho_scan scan = polar_scan(of, simulation, turn, bench->plots);
-        polar_check(rho_tracker_step(bench->tracker, bench->initiator, &scan, bench->report),
-                    "step");
-        for (unsigned i = 0; i < bench->report->num_tracks; i++) {
-            follow(all, &bench->report->tracks[i], turn);
+        struct rho_scan scan = polar_scan(of, simulation, turn, chain->plots);
+        chain_step(chain, &scan);
+        for (unsigned i = 0; i < chain->report->num_tracks; i++) {
+            follow(all, &chain->report->tracks[i], turn);
         }
     }
     count_tracks(all);

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+#include "chain.h"
+
+#include <stdlib.h>
+
+#include "common.h"
+
+void must_succeed(enum rho_status status, const char *what)
+{
+    if (status != RHO_OK) {
+        fail(EXIT_RUNTIME, "%s: the library says '%s'", what, rho_status_name(status));
+    }
+}
+
+struct chain chain_start(void)
+{
+    return (struct chain){.initiator = must_alloc(sizeof(struct rho_initiator)),
+                          .tracker = must_alloc(sizeof(struct rho_tracker)),
+                          .report = must_alloc(sizeof(struct rho_report)),
+                          .plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot))};
+}
+
+void chain_free(struct chain *chain)
+{
+    free(chain->initiator);
+    free(chain->tracker);
+    free(chain->report);
+    free(chain->plots);
+}
+
+void chain_open(struct chain *chain, const struct parameters *parameters)
+{
+    struct rho_initiator_config start;
+    struct rho_tracker_config maintain;
+    parameters_to_initiator(parameters, &start);
+    parameters_to_tracker(parameters, &maintain);
+    must_succeed(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &start),
+                 "initiator");
+    must_succeed(rho_tracker_init(chain->tracker, sizeof *chain->tracker, &maintain), "tracker");
+}
+
+void chain_step(struct chain *chain, const struct rho_scan *scan)
+{
+    must_succeed(rho_tracker_step(chain->tracker, chain->initiator, scan, chain->report), "step");
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* chain: the library's objects for the whole chain, scans in, tracks out, in memory of their own. */
+#ifndef RHOTRACK_TOOL_CHAIN_H
+#define RHOTRACK_TOOL_CHAIN_H
+
+#include "parameters.h"
+
+struct chain {
+    struct rho_initiator *initiator;
+    struct rho_tracker *tracker;
+    struct rho_report *report;
+    struct rho_plot *plots; /* RHO_MAX_PLOTS, for the caller's scans */
+};
+
+struct chain chain_start(void);
+void chain_free(struct chain *chain);
+
+/* Ready for a first scan. */
+void chain_open(struct chain *chain, const struct parameters *parameters);
+
+/* One step; the report is the chain's. */
+void chain_step(struct chain *chain, const struct rho_scan *scan);
+
+/* Exit 1 naming what the library refused, and why. */
+void must_succeed(enum rho_status status, const char *what);
+
+#endif
