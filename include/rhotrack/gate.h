@@ -41,7 +41,7 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
  * 0 (also where the covariance is not positive definite). z counts where both have it, a range rate where the plot has it
  * and the prediction is not in the sensor's place. The prediction moves on with the plot's own time.
  * Cost: about 60 instructions; for plots inside the gate's box about 250 more, as many again for a plot with an own
- * time, and 200 for a range rate. Stack: 400 bytes.
+ * time, and 200 for a range rate. Stack: 760 bytes.
  */
 int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot, uint32_t measures,
                   struct rho_gate_result *result);

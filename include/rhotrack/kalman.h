@@ -67,7 +67,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, 
  * noise, and a velocity of 0 with variance velocity_variance. After an error the filter is partly updated: work on a
  * copy where that matters. Errors: as rho_kalman_update and rho_kalman_open_axis.
  * Cost: a scalar update an axis, and where the noise is not isotropic 2 (with z 4) turns there and as many back, about
- * 200 instructions each. Stack: 250 bytes.
+ * 200 instructions each. Stack: 310 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
                                                           const struct rho_measurement *measurement,

@@ -42,7 +42,7 @@ struct rho_measurement {
  * line of sight, with the variance r^2 sigma^4 / 2, which sigma_range_m gets.
  * Errors: NULL, VALUE (range not in 0 .. RHO_LIMIT_POSITION_M, exclusive of 0, azimuth beyond +-pi, elevation beyond
  * +-pi/2, a sigma outside its limits, range rate beyond RHO_LIMIT_SPEED_MPS, the place or offset beyond its limit, also
- * once the biases are off; any of it not finite); *plot is unchanged. Cost: two sines and cosines. Stack: 128 bytes.
+ * once the biases are off; any of it not finite); *plot is unchanged. Cost: two sines and cosines. Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar,
                                                           uint32_t measures,

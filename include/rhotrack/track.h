@@ -105,7 +105,7 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
  * Updates with a plot: predicts to its own time, and takes its position, velocity and range rate, as far as measured,
  * by scalar updates; a first z opens the third axis. The estimate stays at the plot's time. gain_mnat is added to the score.
  * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: a prediction where the plot has an own time, and 2 to 7
- * scalar updates. Stack: 500 bytes.
+ * scalar updates. Stack: 550 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
                                                 const struct rho_track_plot *plot,

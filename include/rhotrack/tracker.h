@@ -130,7 +130,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
  * VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.
  * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of the newest scan.
- * Stack: 1.6 KB.
+ * Stack: 3.7 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
                                                 struct rho_initiator *initiator,

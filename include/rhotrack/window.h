@@ -128,7 +128,7 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
  *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 16384 and up, becomes NO_ROOM
  *   left_unused  counts the plots that leave the window without having started a track
  * Errors: NULL, STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
- * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions. Stack: 96 bytes.
+ * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions. Stack: 130 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
                                                const struct rho_scan *scan,
@@ -148,7 +148,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 /*
  * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus height
  * plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the position are
- * neglected. Cost: as above, 60 instructions a plot. Stack: 160 bytes.
+ * neglected. Cost: as above, 60 instructions a plot. Stack: 230 bytes.
  */
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work);

@@ -32,7 +32,8 @@ static const struct command commands[] = {
      "so\n"
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
-     "same-line, clutter, slow-turn, traffic; their parameters are set by --set.\n"},
+     "same-line, clutter, slow-turn, traffic, polar (polar.csv: a turning radar's plots); their\n"
+     "parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS", 2, 2, "jsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a "
      "tracks\n"
@@ -41,7 +42,7 @@ static const struct command commands[] = {
      "orSmjsC", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
-     "build/experiment/NAME). Experiments: initiation.\n"},
+     "build/experiment/NAME). Experiments: initiation, polar, false-alarms.\n"},
     {"plot", command_plot, "scans|tracks|parameter-space|errors FILES... -o FILE.svg", 2, INT_MAX,
      "osC", "pictures", "Draws plots, tracks, the parameter space of lines, or errors, as SVG.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
