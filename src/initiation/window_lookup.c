@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * window_lookup: what is held, and which plot is nearest.
+ */
+#include <string.h>
+
+#include "rhotrack/measurement.h"
+#include "rhotrack/window.h"
+#include "window_sigma.h"
+
+/* ---- what is held ----------------------------------------------------------------------------- */
+
+float rho_window_sigma(uint16_t code)
+{
+    uint32_t bits = ((uint32_t)code << SIGMA_SHIFT) + SIGMA_EXPONENT;
+    float sigma;
+    memcpy(&sigma, &bits, sizeof sigma);
+    return sigma;
+}
+
+static uint16_t larger_sigma(const struct rho_window_plot *plot)
+{
+    return plot->sigma_range > plot->sigma_cross ? plot->sigma_range : plot->sigma_cross;
+}
+
+float rho_window_sigma_m(const struct rho_window_plot *plot)
+{
+    return rho_window_sigma(larger_sigma(plot));
+}
+
+/* ---- isotropic noise -------------------------------------------------------------------------- */
+
+/* The best plot so far: distance2 / variance is compared by cross-multiplication. */
+struct nearest {
+    int index;
+    float distance2_m2;
+    float variance_m2;
+};
+
+static void compare_plots(struct nearest *best, const struct rho_window_scan *scan, unsigned from,
+                          unsigned to, const struct rho_window_query *query)
+{
+    for (unsigned i = from; i < to; i++) {
+        const struct rho_window_plot *plot = &scan->plots[i];
+        float dx_m = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
+        float dy_m = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
+        float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
+        float sigma_m = rho_window_sigma_m(plot);
+        float variance_m2 = query->variance_m2 + query->sigma_factor * sigma_m * sigma_m;
+        if (distance2_m2 * best->variance_m2 < best->distance2_m2 * variance_m2 &&
+            !(scan->marks[i] & query->skip_flags)) {
+            best->index = (int)i;
+            best->distance2_m2 = distance2_m2;
+            best->variance_m2 = variance_m2;
+        }
+    }
+}
+
+/* How far the plots' own times can move the place along one axis, forth or back. */
+static float shift_min(const struct rho_window_scan *scan, float v_mps)
+{
+    return v_mps * (v_mps > 0.0f ? scan->offset_min_s : scan->offset_max_s);
+}
+
+static float shift_max(const struct rho_window_scan *scan, float v_mps)
+{
+    return v_mps * (v_mps > 0.0f ? scan->offset_max_s : scan->offset_min_s);
+}
+
+static struct rho_window_bins bins_around(const struct rho_window_scan *scan, float x_m, float y_m,
+                                          float vx_mps, float vy_mps, float reach_m)
+{
+    return rho_window_bins_under(
+        scan, x_m - reach_m + shift_min(scan, vx_mps), x_m + reach_m + shift_max(scan, vx_mps),
+        y_m - reach_m + shift_min(scan, vy_mps), y_m + reach_m + shift_max(scan, vy_mps));
+}
+
+int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
+                       struct rho_window_work *work)
+{
+    struct rho_window_bins bins =
+        bins_around(scan, query->x_m, query->y_m, query->vx_mps, query->vy_mps, query->reach_m);
+    /* a plot exactly on the gate counts as outside */
+    struct nearest best = {.index = -1, .distance2_m2 = query->gate_chi2, .variance_m2 = 1.0f};
+    unsigned compared = 0;
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        unsigned from = start[bins.column_first], to = start[bins.column_last + 1];
+        compare_plots(&best, scan, from, to, query);
+        compared += to - from;
+    }
+    work->lookups = rho_count(work->lookups, 1);
+    work->distances = rho_count(work->distances, compared);
+    return best.index;
+}
+
+/* ---- plots with their own covariance ---------------------------------------------------------- */
+
+#define RANGE_LEAST_M2 1.0f /* nearer to the sensor there is no line of sight */
+
+const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan)
+{
+    return scan->sensor.pd > 0.0f ? &scan->sensor : 0;
+}
+
+struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned index)
+{
+    const struct rho_window_plot *held = &scan->plots[index];
+    struct rho_plot plot = {
+        .offset_us = (int32_t)(held->offset_s * 1e6f + (held->offset_s < 0.0f ? -0.5f : 0.5f)),
+        .x_m = held->x_m,
+        .y_m = held->y_m,
+        .z_m = held->z_m,
+        .range_rate_mps = held->range_rate_mps,
+        .sigma_range_m = rho_window_sigma(held->sigma_range),
+        .sigma_cross_m = rho_window_sigma(held->sigma_cross),
+        .sigma_up_m = rho_window_sigma(held->sigma_up),
+        .sigma_range_rate_mps = rho_window_sigma(held->sigma_range_rate),
+    };
+    return plot;
+}
+
+static float squared_sigma(uint16_t code)
+{
+    float sigma = rho_window_sigma(code);
+    return sigma * sigma;
+}
+
+struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
+                                         const struct rho_window_plot *plot)
+{
+    float dx_m = plot->x_m - scan->sensor.x_m, dy_m = plot->y_m - scan->sensor.y_m;
+    float ground2_m2 = dx_m * dx_m + dy_m * dy_m;
+    float along_m2 = squared_sigma(plot->sigma_range), cross_m2 = squared_sigma(plot->sigma_cross);
+    struct rho_window_noise noise = {.zz_m2 = squared_sigma(plot->sigma_up)};
+    if (!(ground2_m2 >= RANGE_LEAST_M2)) {
+        noise.xx_m2 = noise.yy_m2 = along_m2 > cross_m2 ? along_m2 : cross_m2;
+        return noise;
+    }
+    if (scan->measures & RHO_MEASURES_Z) {
+        float dz_m = plot->z_m - scan->sensor.z_m;
+        float rise = dz_m * dz_m / (ground2_m2 + dz_m * dz_m); /* sin^2 of the elevation */
+        float up_m2 = noise.zz_m2;
+        noise.zz_m2 = up_m2 + rise * (along_m2 - up_m2);
+        along_m2 += rise * (up_m2 - along_m2);
+    }
+    float excess = (along_m2 - cross_m2) / ground2_m2;
+    noise.xx_m2 = cross_m2 + excess * dx_m * dx_m;
+    noise.xy_m2 = excess * dx_m * dy_m;
+    noise.yy_m2 = cross_m2 + excess * dy_m * dy_m;
+    return noise;
+}
+
+float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
+                                      const struct rho_window_plot *plot,
+                                      const struct rho_window_place *place)
+{
+    int use_z = place->has_z && (scan->measures & RHO_MEASURES_Z);
+    const float state[6] = {plot->x_m,     plot->y_m,     plot->z_m,
+                            place->vx_mps, place->vy_mps, place->vz_mps};
+    const struct rho_window_noise *noise = &place->velocity_noise;
+    float row[6], rate_mps;
+    if (!rho_measurement_range_rate(state, &scan->sensor, use_z, row, &rate_mps)) {
+        return 0.0f;
+    }
+    const float *turn = row, *u = row + 3; /* by the position, by the velocity */
+    float error_mps = plot->range_rate_mps - rate_mps;
+    float turned2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
+    float variance = place->factor * (squared_sigma(plot->sigma_range_rate) +
+                                      turned2 * squared_sigma(larger_sigma(plot))) +
+                     noise->xx_m2 * u[0] * u[0] + 2.0f * noise->xy_m2 * u[0] * u[1] +
+                     noise->yy_m2 * u[1] * u[1] + noise->zz_m2 * u[2] * u[2];
+    return error_mps * error_mps / variance;
+}
+
+/* Squared distance of a plot from the place, all dimensions; `limit` or more as soon as it is known to be. */
+static float distance2_to(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
+                          const struct rho_window_place *place, float limit)
+{
+    float dx_m = plot->x_m - place->x_m - place->vx_mps * plot->offset_s;
+    float dy_m = plot->y_m - place->y_m - place->vy_mps * plot->offset_s;
+    if (dx_m * dx_m + dy_m * dy_m > place->reach_m * place->reach_m) {
+        return limit;
+    }
+    struct rho_window_noise noise = rho_window_noise(scan, plot);
+    float xx = place->noise.xx_m2 + place->factor * noise.xx_m2;
+    float xy = place->noise.xy_m2 + place->factor * noise.xy_m2;
+    float yy = place->noise.yy_m2 + place->factor * noise.yy_m2;
+    float scaled = yy * dx_m * dx_m - 2.0f * xy * dx_m * dy_m + xx * dy_m * dy_m;
+    float determinant = xx * yy - xy * xy;
+    if (!(scaled < limit * determinant)) {
+        return limit;
+    }
+    float distance2 = scaled / determinant;
+    if ((scan->measures & RHO_MEASURES_Z) && place->has_z) {
+        float dz_m = plot->z_m - place->z_m - place->vz_mps * plot->offset_s;
+        distance2 += dz_m * dz_m / (place->noise.zz_m2 + place->factor * noise.zz_m2);
+    }
+    if ((scan->measures & RHO_MEASURES_RANGE_RATE) && distance2 < limit) {
+        distance2 += rho_window_range_rate_distance2(scan, plot, place);
+    }
+    return distance2;
+}
+
+static float gate_chi2(const struct rho_window_scan *scan, const struct rho_window_place *place)
+{
+    int more = ((scan->measures & RHO_MEASURES_Z) && place->has_z ? 1 : 0) +
+               ((scan->measures & RHO_MEASURES_RANGE_RATE) ? 1 : 0);
+    return more == 0 ? RHO_WINDOW_CHI2_2D : more == 1 ? RHO_WINDOW_CHI2_3D : RHO_WINDOW_CHI2_4D;
+}
+
+int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
+                          struct rho_window_work *work)
+{
+    struct rho_window_bins bins =
+        bins_around(scan, place->x_m, place->y_m, place->vx_mps, place->vy_mps, place->reach_m);
+    float best = gate_chi2(scan, place);
+    int index = -1;
+    unsigned compared = 0;
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        unsigned from = start[bins.column_first], to = start[bins.column_last + 1];
+        for (unsigned i = from; i < to; i++) {
+            float distance2 = distance2_to(scan, &scan->plots[i], place, best);
+            if (distance2 < best && !(scan->marks[i] & place->skip_flags)) {
+                best = distance2;
+                index = (int)i;
+            }
+        }
+        compared += to - from;
+    }
+    work->lookups = rho_count(work->lookups, 1);
+    work->distances = rho_count(work->distances, compared);
+    return index;
+}
