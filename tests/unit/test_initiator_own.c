@@ -139,6 +139,44 @@ static void a_sensor_elsewhere_turns_the_ellipses(void **state)
     assert_true(middle_votes(past, 0, &southwest));
 }
 
+/* Does the middle plot of a target that passes far from the sensor vote, so many sigmas off along or across? */
+static int votes_off(double sigmas, int is_across, double sigma_range_m, double sigma_cross_m)
+{
+    struct rho_initiator_config config = usual();
+    const struct rho_sensor far = sensor_at(-800000.0, 0.0); /* lines of sight are parallel */
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        double dx_m = k == 3 && !is_across ? sigmas * sigma_range_m : 0.0;
+        double dy_m = k == 3 && is_across ? sigmas * sigma_cross_m : 0.0;
+        add(20000.0 + dx_m, 100.0 * SCAN_S * (k - 3) + dy_m, sigma_range_m, sigma_cross_m);
+        push_scan((struct rho_scan){0}, SCAN_S * k, &far);
+    }
+    search(RHO_SEARCH_BATCH);
+    assert_int_equal(initiator.num_candidates, 1);
+    return initiator.candidates[0].mask >> 3 & 1u;
+}
+
+static double gate_sigmas(int is_across, double sigma_range_m, double sigma_cross_m)
+{
+    double low = 0.0, high = 8.0;
+    for (int i = 0; i < 16; i++) {
+        double middle = 0.5 * (low + high);
+        *(votes_off(middle, is_across, sigma_range_m, sigma_cross_m) ? &low : &high) = middle;
+    }
+    assert_true(low > 3.0 && high < 7.0);
+    return low;
+}
+
+static void gates_end_at_as_many_sigmas_along_and_across_as_of_isotropic_noise(void **state)
+{
+    (void)state;
+    double isotropic = gate_sigmas(0, 15.0, 15.0);
+    assert_float_equal(gate_sigmas(1, 15.0, 15.0), isotropic, 0.001);
+    assert_float_equal(gate_sigmas(0, 15.0, 180.0), isotropic, 0.01);
+    assert_float_equal(gate_sigmas(1, 15.0, 180.0), isotropic, 0.01);
+    assert_float_equal(gate_sigmas(0, 180.0, 15.0), isotropic, 0.01);
+}
+
 static void a_plot_at_another_height_does_not_vote_where_heights_are_measured(void **state)
 {
     (void)state;
@@ -294,6 +332,7 @@ int main(void)
         cmocka_unit_test(noise_of_nearly_equal_axes_gives_what_isotropic_noise_gives),
         cmocka_unit_test(an_ellipse_takes_what_is_off_across_the_line_of_sight_alone),
         cmocka_unit_test(a_sensor_elsewhere_turns_the_ellipses),
+        cmocka_unit_test(gates_end_at_as_many_sigmas_along_and_across_as_of_isotropic_noise),
         cmocka_unit_test(a_plot_at_another_height_does_not_vote_where_heights_are_measured),
         cmocka_unit_test(a_wrong_range_rate_keeps_a_plot_from_voting),
         cmocka_unit_test(right_range_rates_raise_the_score),
