@@ -65,8 +65,8 @@ struct rho_initiator_work {
 };
 
 /*
- * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's and their noise
- * has its directions, range and azimuth about it.
+ * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's that stands in
+ * the area, their noise has its directions, and they look even in range rather than on the ground, range and azimuth.
  */
 struct rho_density_map {
     float mean;        /* plots a scan and unit of content */

@@ -2,9 +2,9 @@
 /*
  * initiator_density: how dense clutter is, here and on average, and for each sensor.
  *
- * The map has cells of equal sides over the area; where a radar's own noise tells where its plots come from, cells of range
- * and azimuth about it instead: clutter is spread evenly over a radar's resolution cells rather than over the ground, and
- * ends at its range, not at the sides of a square.
+ * The map has cells of equal sides over the area; or, about a radar, cells of range and azimuth: false alarms are often
+ * spread evenly over a radar's resolution cells rather than over the ground, and end at its range, not at the sides of a
+ * square. The plots tell which is likelier.
  */
 #include <string.h>
 
@@ -99,30 +99,50 @@ static const struct rho_sensor *only_radar(const struct search *search)
     return is_radar && is_inside(&window->extent, first) ? first : 0;
 }
 
-/* The farthest of n ranges falls short of the end of what the radar sees by a share 1 / (n + 1), on average. */
-static float range_seen_m(const struct search *search, const struct rho_sensor *radar)
+/* The window's plots as the radar sees them. */
+struct view {
+    float plots, farthest_m, sum_log_range;
+};
+
+static struct view view_of(const struct search *search, const struct rho_sensor *radar)
 {
     struct rho_window *window = &search->initiator->window;
-    float farthest_m = 1.0f, plots = 0.0f;
+    struct view view = {.farthest_m = 1.0f};
     for (unsigned m = 0; m < window->num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
-        plots += (float)scan->num_plots;
+        view.plots += (float)scan->num_plots;
         for (unsigned i = 0; i < scan->num_plots; i++) {
             const struct rho_window_plot *plot = &scan->plots[i];
             float range_m = distance_m(plot->x_m - radar->x_m, plot->y_m - radar->y_m);
-            farthest_m = range_m > farthest_m ? range_m : farthest_m;
+            view.farthest_m = range_m > view.farthest_m ? range_m : view.farthest_m;
+            view.sum_log_range += rho_log(range_m > 1.0f ? range_m : 1.0f);
         }
     }
-    return plots > 0.0f ? farthest_m * (plots + 1.0f) / plots : farthest_m;
+    return view;
 }
 
-static void lay_polar(const struct search *search, const struct rho_sensor *radar,
+/* The farthest of n ranges falls short of the end of what the radar sees by a share 1 / (n + 1), on average. */
+static float range_seen_m(const struct view *view)
+{
+    return view->farthest_m * (view->plots + 1.0f) / view->plots;
+}
+
+/* Are the plots likelier where they are if they are even in range and azimuth, 1 / (2 pi R range) a square metre, or if
+ * they are even over the area? */
+static int is_even_in_range(const struct rho_initiator *initiator, const struct view *view)
+{
+    return view->plots > 0.0f &&
+           view->sum_log_range + view->plots * rho_log(RHO_TWO_PI * range_seen_m(view)) <
+               view->plots * rho_log(rho_initiator_area_m2(initiator));
+}
+
+static void lay_polar(const struct rho_sensor *radar, const struct view *view,
                       struct rho_density_map *map)
 {
     map->is_polar = 1;
     map->sensor_x_m = radar->x_m;
     map->sensor_y_m = radar->y_m;
-    map->width = range_seen_m(search, radar);
+    map->width = range_seen_m(view);
     map->v0 = -0.5f * RHO_TWO_PI;
     map->height = RHO_TWO_PI;
     map->content = map->width * map->height;
@@ -143,16 +163,20 @@ static void lay_map(const struct search *search, uint32_t num_plots)
 {
     struct rho_density_map *map = &search->initiator->density;
     const struct rho_sensor *radar = only_radar(search);
+    struct view view = {0};
     uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
     float cells = (float)wanted;
     memset(map, 0, sizeof *map);
     if (radar) {
-        lay_polar(search, radar, map);
+        view = view_of(search, radar);
+    }
+    if (radar && is_even_in_range(search->initiator, &view)) {
+        lay_polar(radar, &view, map);
     } else {
         lay_square(search->initiator, map);
     }
     /* an arc of half the range is as long as azimuth times that */
-    float aspect = radar ? 2.0f / map->height : map->width / map->height;
+    float aspect = map->is_polar ? 2.0f / map->height : map->width / map->height;
     map->columns = (uint16_t)clamp_cells(rho_sqrt(cells * aspect));
     map->rows = (uint16_t)clamp_cells(cells / (float)map->columns);
 }

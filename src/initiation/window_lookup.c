@@ -155,12 +155,13 @@ float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,
                                       const struct rho_window_place *place)
 {
-    int use_z = place->has_z && (scan->measures & RHO_MEASURES_Z);
-    const float state[6] = {plot->x_m,     plot->y_m,     plot->z_m,
-                            place->vx_mps, place->vy_mps, place->vz_mps};
+    /* where the scan has no heights, the place's own tells how steeply the sensor looks up */
+    float z_m =
+        scan->measures & RHO_MEASURES_Z ? plot->z_m : place->z_m + place->vz_mps * plot->offset_s;
+    const float state[6] = {plot->x_m, plot->y_m, z_m, place->vx_mps, place->vy_mps, place->vz_mps};
     const struct rho_window_noise *noise = &place->velocity_noise;
     float row[6], rate_mps;
-    if (!rho_measurement_range_rate(state, &scan->sensor, use_z, row, &rate_mps)) {
+    if (!rho_measurement_range_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
         return 0.0f;
     }
     const float *turn = row, *u = row + 3; /* by the position, by the velocity */

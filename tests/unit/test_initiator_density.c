@@ -239,6 +239,16 @@ static void isotropic_noise_several_radars_and_radars_outside_make_a_map_of_the_
     expect_level(100.0, &middle, &other);
 }
 
+/* False alarms of a radar need not be even in range: with 1 / range the corners would look clearer than they are. */
+static void a_radar_with_clutter_even_on_the_ground_has_a_map_of_the_ground(void **state)
+{
+    (void)state;
+    const struct rho_sensor middle = sensor_at(0.0, 0.0);
+    for (int window = 0; window < 20; window++) {
+        expect_level(100.0, &middle, &middle);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -252,6 +262,7 @@ int main(void)
         cmocka_unit_test(a_hot_spot_in_range_and_azimuth_is_seen_where_it_is),
         cmocka_unit_test(
             isotropic_noise_several_radars_and_radars_outside_make_a_map_of_the_ground),
+        cmocka_unit_test(a_radar_with_clutter_even_on_the_ground_has_a_map_of_the_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -215,6 +215,27 @@ static void right_range_rates_raise_the_score(void **state)
     assert_in_range(right - wrong, 500, 3000); /* two sigmas: 2 nat, less what the fit gives way */
 }
 
+/* Outwards at 200 m/s, 5 km up at 15 km: as if level the range rate would be 10 m/s more. */
+static void a_known_height_tells_the_range_rates_of_scans_that_measure_none(void **state)
+{
+    (void)state;
+    const struct rho_sensor origin = sensor_at(0.0, 0.0);
+    struct rho_initiator_config config = usual();
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        double x_m = 15000.0 + 200.0 * SCAN_S * k;
+        struct rho_plot *plot = add(x_m, 0.0, 15.0, 45.0);
+        plot->z_m = 5000.0f;
+        plot->sigma_up_m = 45.0f;
+        plot->range_rate_mps = (float)(200.0 * x_m / hypot(x_m, 5000.0));
+        plot->sigma_range_rate_mps = 1.0f;
+        push_scan((struct rho_scan){.measures = k % 2 ? RATE : RATE | Z}, SCAN_S * k, &origin);
+    }
+    search(RHO_SEARCH_BATCH);
+    assert_int_equal(initiator.num_candidates, 1);
+    assert_int_equal(initiator.candidates[0].mask, 0x7f);
+}
+
 /* ---- fit and score against double precision --------------------------------------------------- */
 
 static struct straight_plot seen[SCANS];
@@ -226,8 +247,7 @@ static double random_sigma(double most)
 }
 
 /*
- * A random track, level where heights are not measured, and low where only some scans measure them: a range rate without a
- * height votes as if it were level. Scan k measures what measures[k] says, every other scan is another sensor's.
+ * A random track, level where heights are not measured, and low where only some scans measure them. Scan k measures what measures[k] says, every other scan is another sensor's.
  */
 static void random_track(const uint32_t measures[SCANS])
 {
@@ -336,6 +356,7 @@ int main(void)
         cmocka_unit_test(a_plot_at_another_height_does_not_vote_where_heights_are_measured),
         cmocka_unit_test(a_wrong_range_rate_keeps_a_plot_from_voting),
         cmocka_unit_test(right_range_rates_raise_the_score),
+        cmocka_unit_test(a_known_height_tells_the_range_rates_of_scans_that_measure_none),
         cmocka_unit_test(places_are_fitted_and_scored_as_in_double_precision),
         cmocka_unit_test(heights_are_fitted_and_scored_as_in_double_precision),
         cmocka_unit_test(range_rates_are_fitted_and_scored_as_in_double_precision),
