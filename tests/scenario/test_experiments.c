@@ -115,7 +115,8 @@ static void range_rates_confirm_sooner_and_sharpen(void **state)
     (void)state;
     struct sums without = run_case(0, polar_clutter[0]), with = run_case(2, polar_clutter[0]);
     assert_true(with.confirm_at < without.confirm_at);
-    assert_true(with.along_m2 / (double)with.count < without.along_m2 / (double)without.count);
+    assert_true(with.along_m2 / (double)with.count <
+                0.9 * 0.9 * without.along_m2 / (double)without.count);
 }
 
 static void the_truth_of_polar_targets_is_the_simulations(void **state)
@@ -208,7 +209,7 @@ static void in_a_clear_sky_the_third_plot_confirms(void **state)
     assert_int_equal(delays.too_late, 0);
     /* of 30 targets, each of the first plots may be missed once in a hundred: 3.03 +- 0.03 */
     assert_true(delays.confirmed_at >= 3.0 * 30.0 && delays.confirmed_at <= 3.16 * 30.0);
-    assert_true(delays.possible_at >= 3.0 * 30.0);
+    assert_true(delays.possible_at >= 3.0 * 30.0 && delays.possible_at <= delays.confirmed_at);
 }
 
 static void in_clutter_targets_are_confirmed_soon_after_they_can_be(void **state)
@@ -217,8 +218,8 @@ static void in_clutter_targets_are_confirmed_soon_after_they_can_be(void **state
     struct delays delays = run_delays(1.0, 10);
     assert_int_equal(delays.on_third_plot, 0); /* three plots are not enough there */
     assert_true(delays.too_late <= 2);         /* 0.00 */
-    assert_true(delays.confirmed_at - delays.possible_at <= 0.5 * delays.targets); /* 0.0 */
-    assert_true(delays.confirmed_at >= 4.0 * delays.targets);                      /* 4.5 */
+    assert_true(fabs(delays.confirmed_at - delays.possible_at) <= 0.5 * delays.targets); /* 0.0 */
+    assert_true(delays.confirmed_at >= 4.0 * delays.targets);                            /* 4.5 */
     assert_true(delays.confirmed_at <= 5.5 * delays.targets);
 }
 
@@ -251,6 +252,10 @@ static void the_same_run_gives_the_same_figures(void **state)
     struct delay_result other = delay_run(1.0, SEED, 4, &bench);
     assert_memory_equal(&once, &again, sizeof once);
     assert_memory_not_equal(&once, &other, sizeof once);
+    struct alarm_result clutter = alarm_run(0.1, 10.0, SEED, 1, &bench);
+    struct alarm_result clutter_again = alarm_run(0.1, 10.0, SEED, 1, &bench);
+    clutter.time_us = clutter_again.time_us;
+    assert_memory_equal(&clutter, &clutter_again, sizeof clutter);
     alarm_bench_free(&bench);
 }
 

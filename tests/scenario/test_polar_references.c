@@ -364,6 +364,78 @@ static void vague_range_rates_change_nothing_but_their_density(void **state)
     assert_near("vx", with.vx_mps, without.vx_mps, 1e-6);
 }
 
+/* What a radar sees, by the state at the middle of the plots' times. */
+static void see_state(const double at[4], double t_s, double seen[3])
+{
+    struct simulated_plot plot = look_at(at[0] + t_s * at[2], at[1] + t_s * at[3], at[2], at[3]);
+    seen[0] = plot.range_m;
+    seen[1] = plot.azimuth_rad;
+    seen[2] = plot.range_rate_mps;
+}
+
+/* Adds what one plot tells of the state: its derivatives by central differences. */
+static void add_information(const struct scenario_radar *of, const double at[4], double t_s,
+                            double information[4][4])
+{
+    const double sigmas[3] = {of->sigma_range_m, of->sigma_azimuth_rad, of->sigma_range_rate_mps};
+    double rows[3][4];
+    for (int i = 0; i < 4; i++) {
+        double more[4] = {at[0], at[1], at[2], at[3]}, less[4] = {at[0], at[1], at[2], at[3]};
+        double seen_more[3], seen_less[3];
+        more[i] += 0.01;
+        less[i] -= 0.01;
+        see_state(more, t_s, seen_more);
+        see_state(less, t_s, seen_less);
+        for (int k = 0; k < 3; k++) {
+            rows[k][i] = (seen_more[k] - seen_less[k]) / 0.02 / sigmas[k];
+        }
+    }
+    for (int i = 0; i < 16; i++) {
+        for (int k = 0; k < 3; k++) {
+            information[i / 4][i % 4] += rows[k][i / 4] * rows[k][i % 4];
+        }
+    }
+}
+
+static double log_determinant(double matrix[4][4])
+{
+    double sum = 0.0;
+    for (int pivot = 0; pivot < 4; pivot++) {
+        sum += log(matrix[pivot][pivot]);
+        for (int i = pivot + 1; i < 4; i++) {
+            for (int j = 3; j >= pivot; j--) {
+                matrix[i][j] -= matrix[i][pivot] / matrix[pivot][pivot] * matrix[pivot][j];
+            }
+        }
+    }
+    return sum;
+}
+
+/*
+ * A fast target that passes near by: sharp range rates tell of its place too. Without errors the score is the prior, the
+ * plots' own densities and the state's information.
+ */
+static void the_score_holds_what_range_rates_tell(void **state)
+{
+    struct scenario_radar sharp = with_range_rate(&radar);
+    struct sighting seen = sight(9000.0, -3000.0, -150.0, 350.0);
+    double middle_s = 0.5 * (seen.times_s[0] + seen.times_s[PLOTS - 1]);
+    const double at[4] = {9000.0 - 150.0 * middle_s, -3000.0 + 350.0 * middle_s, -150.0, 350.0};
+    double information[4][4] = {{0.0}};
+    (void)state;
+    sharp.sigma_range_rate_mps = 0.1;
+    double expected = log(0.1) + log(0.5) - log(1.44e10 * PI * (400.0 * 400.0 - 20.0 * 20.0)) -
+                      0.5 * (3.0 * PLOTS - 4.0) * log(2.0 * PI);
+    for (int i = 0; i < PLOTS; i++) {
+        double range_m = seen.plots[i].range_m;
+        add_information(&sharp, at, seen.times_s[i] - middle_s, information);
+        expected += log(0.9 * 800.0 * 2.0 * PI * range_m * 59000.0 / 100.0) -
+                    log(15.0 * 0.003 * range_m * 0.1);
+    }
+    expected -= 0.5 * log_determinant(information);
+    assert_near("score", fit_of(&sharp, &seen).score_nat, expected, 1e-5);
+}
+
 /* Root mean square of the velocity's error along the line of sight, of a target that flies along it. */
 static double radial_error(const struct scenario_radar *of, double *chi2)
 {
@@ -425,6 +497,7 @@ int main(void)
         cmocka_unit_test(where_noise_is_isotropic_the_score_is_the_isotropic_fits),
         cmocka_unit_test(the_score_knows_the_clutter),
         cmocka_unit_test(vague_range_rates_change_nothing_but_their_density),
+        cmocka_unit_test(the_score_holds_what_range_rates_tell),
         cmocka_unit_test(range_rates_sharpen_the_velocity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
