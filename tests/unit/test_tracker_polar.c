@@ -690,9 +690,12 @@ static void the_same_scans_give_the_same_bytes(void **state)
     (void)state;
     run_all(0x00, once);
     other_world = world;
-    run_all(0xa5, again);
+    run_all(0x7f, again); /* floats of 3.4e38 */
     assert_memory_equal(once, again, sizeof once);
-    assert_memory_equal(&world.tracker, &other_world.tracker, sizeof world.tracker);
+    const struct rho_tracker *first = &other_world.tracker, *second = &world.tracker;
+    assert_memory_equal(&first->counters, &second->counters, sizeof first->counters);
+    assert_memory_equal(&first->unclaimed_plots, &second->unclaimed_plots, sizeof(float));
+    assert_memory_equal(&first->extent, &second->extent, sizeof first->extent);
     assert_true(world.tracker.counters.tracks_confirmed >= 2);
     assert_true(world.tracker.counters.tracks_ended >= 1);
 }
