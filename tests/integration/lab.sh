@@ -94,7 +94,33 @@ check "and no picture is left" sh -c "! ls '$folder'/nothing.svg* 2>/dev/null"
 check "experiment initiation ends with its score" sh -c "
     '$RHOTRACK' experiment initiation --runs 2 -o '$folder/experiment' | tail -1 | grep -Eq '^[0-9]+ bars held, [0-9]+ missed$'"
 check "and writes a page" test -s "$folder/experiment/index.html"
-expect_exit 2 "an unknown experiment" "$RHOTRACK" experiment nothing
+run experiment polar --runs 1 --json -o "$folder/polar"
+check "experiment polar" exits 0
+check "experiment polar --json is JSON with its score" json stdout '(
+    o["experiment"] == "polar" and o["runs"] == 1 and len(o["cases"]) == 8 and
+    o["bars_held"] + o["bars_missed"] == len(o["bars"]) > 0 and
+    o["bars_held"] == sum(bar["held"] for bar in o["bars"]))'
+check "the double filter is within 10 % at every clutter and case" json stdout \
+    'all(abs(c["rmse_m"] / c["double_filter_rmse_m"] - 1) < 0.1 for c in o["cases"])'
+check "experiment polar writes a page" test -s "$folder/polar/index.html"
+for picture in map gates errors along; do
+    check "the page shows $picture.svg" grep -q "src=\"$picture.svg\"" "$folder/polar/index.html"
+    check "$picture.svg is well-formed" python3 -c "import xml.dom.minidom as m; m.parse('$folder/polar/$picture.svg')"
+done
+cp stdout first.json
+run experiment polar --runs 1 --json -o "$folder/polar"
+check "the same seed gives the same figures, but for times" sh -c "
+    grep -v search_ms first.json >a; grep -v search_ms stdout >b; cmp a b"
+run experiment polar --runs 1 -o "$folder/polar"
+check "experiment polar ends with its score" sh -c "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
+# experiment false-alarms takes two minutes even with --runs 1: scenario/test_experiments.c calls its functions instead
+for name in initiation polar false-alarms; do
+    run experiment "$name" --runs 1 --method nonsense -o "$folder/refused"
+    check "experiment $name knows no other method" says 2 "*$name*kernel*nonsense*"
+done
+check "a refused experiment writes nothing" test ! -e "$folder/refused"
+run experiment nothing
+check "an unknown experiment names all there are" says 2 "*nothing*initiation*polar*false-alarms*"
 check "bench kalman --json is JSON" sh -c "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
 check "bench initiate" "$RHOTRACK" bench initiate
 expect_exit 2 "an unknown bench" "$RHOTRACK" bench nothing
