@@ -30,13 +30,24 @@ static int looked_at(const struct step *step, const struct rho_track *track)
                                     track->kalman.state[1]);
 }
 
+/* What a miss of the best sensor costs: a weak sensor's scan must not make earlier misses of a better one weigh more. */
+static float largest_loss(const struct step *step)
+{
+    float loss = -step->log_miss;
+    for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
+        float other = -rho_log(1.0f - step->tracker->sensors[i].pd);
+        loss = other > loss ? other : loss;
+    }
+    return loss;
+}
+
 static struct rho_track_limits limits_of(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     struct rho_track_limits limits = {
         .confirm_mnat = tracker->confirm_mnat,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat = rho_tracker_mnat(-step->log_miss * (float)tracker->config.coast_scans_max),
+        .fall_mnat = rho_tracker_mnat(largest_loss(step) * (float)tracker->config.coast_scans_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
     return limits;

@@ -49,16 +49,16 @@ static void add(struct sums *sums, const struct polar_result *result)
 static struct sums run_case(size_t number, double clutter)
 {
     struct parameters parameters = polar_parameters(clutter);
-    struct polar_bench bench = polar_bench_start();
+    struct chain chain = chain_start();
     struct sums sums = {0};
     for (uint64_t run = 0; run < RUNS; run++) {
         struct simulation *simulation = scenario_simulate("polar", &parameters, SEED, run);
         struct polar_result result =
-            polar_run(&polar_cases[number], &parameters, simulation, &bench);
+            polar_run(&polar_cases[number], &parameters, simulation, &chain);
         add(&sums, &result);
         simulation_free(simulation);
     }
-    polar_bench_free(&bench);
+    chain_free(&chain);
     print_message("%s, %g a turn: %d found, %d tracked of %d; confirmed at %.2f; rmse %.1f m, in "
                   "double %.1f m, along %.1f m\n",
                   polar_cases[number].name, clutter, sums.found, sums.tracked, sums.targets,
@@ -181,10 +181,10 @@ struct delays {
 
 static struct delays run_delays(double per_km2, uint64_t num_runs)
 {
-    struct alarm_bench bench = alarm_bench_start();
+    struct chain chain = chain_start();
     struct delays delays = {0};
     for (uint64_t run = 0; run < num_runs; run++) {
-        struct delay_result result = delay_run(per_km2, SEED, run, &bench);
+        struct delay_result result = delay_run(per_km2, SEED, run, &chain);
         for (int i = 0; i < DELAY_TARGETS; i++) {
             delays.targets++;
             delays.on_third_plot += result.plots[i] == 3;
@@ -193,7 +193,7 @@ static struct delays run_delays(double per_km2, uint64_t num_runs)
             delays.possible_at += result.possible_at[i];
         }
     }
-    alarm_bench_free(&bench);
+    chain_free(&chain);
     print_message("%g a km^2: %d of %d on the 3rd plot, %d late; scan %.2f, possible at %.2f\n",
                   per_km2, delays.on_third_plot, delays.targets, delays.too_late,
                   delays.confirmed_at / delays.targets, delays.possible_at / delays.targets);
@@ -226,10 +226,10 @@ static void in_clutter_targets_are_confirmed_soon_after_they_can_be(void **state
 /* Over 111 h at 0.1 a km^2: 1.25 an hour where 1 is wanted, 7.5 where 10 are. A run has 5.6 h. */
 static void clutter_alone_confirms_as_many_tracks_as_are_wanted(void **state)
 {
-    struct alarm_bench bench = alarm_bench_start();
+    struct chain chain = chain_start();
     (void)state;
-    struct alarm_result one = alarm_run(0.1, 1.0, SEED, 0, &bench);
-    struct alarm_result ten = alarm_run(0.1, 10.0, SEED, 0, &bench);
+    struct alarm_result one = alarm_run(0.1, 1.0, SEED, 0, &chain);
+    struct alarm_result ten = alarm_run(0.1, 10.0, SEED, 0, &chain);
     print_message("%.2f hours: %.0f tracks at 1 an hour, %.0f at 10\n", one.hours, one.confirmed,
                   ten.confirmed);
     assert_true(fabs(one.scans - ALARM_SCANS) < 0.5);
@@ -238,25 +238,25 @@ static void clutter_alone_confirms_as_many_tracks_as_are_wanted(void **state)
     assert_true(ten.confirmed >= 16.0 && ten.confirmed <= 68.0); /* 41.7 */
     assert_true(one.started >= one.confirmed && ten.started >= ten.confirmed);
     assert_true(one.confirm_nat > ten.confirm_nat); /* the threshold is what tells them apart */
-    alarm_bench_free(&bench);
+    chain_free(&chain);
 }
 
 /* But for the time it took. */
 static void the_same_run_gives_the_same_figures(void **state)
 {
-    struct alarm_bench bench = alarm_bench_start();
+    struct chain chain = chain_start();
     (void)state;
-    struct delay_result once = delay_run(1.0, SEED, 3, &bench);
-    (void)delay_run(0.1, SEED, 4, &bench);
-    struct delay_result again = delay_run(1.0, SEED, 3, &bench);
-    struct delay_result other = delay_run(1.0, SEED, 4, &bench);
+    struct delay_result once = delay_run(1.0, SEED, 3, &chain);
+    (void)delay_run(0.1, SEED, 4, &chain);
+    struct delay_result again = delay_run(1.0, SEED, 3, &chain);
+    struct delay_result other = delay_run(1.0, SEED, 4, &chain);
     assert_memory_equal(&once, &again, sizeof once);
     assert_memory_not_equal(&once, &other, sizeof once);
-    struct alarm_result clutter = alarm_run(0.1, 10.0, SEED, 1, &bench);
-    struct alarm_result clutter_again = alarm_run(0.1, 10.0, SEED, 1, &bench);
+    struct alarm_result clutter = alarm_run(0.1, 10.0, SEED, 1, &chain);
+    struct alarm_result clutter_again = alarm_run(0.1, 10.0, SEED, 1, &chain);
     clutter.time_us = clutter_again.time_us;
     assert_memory_equal(&clutter, &clutter_again, sizeof clutter);
-    alarm_bench_free(&bench);
+    chain_free(&chain);
 }
 
 int main(void)

@@ -443,6 +443,25 @@ static void a_miss_costs_what_the_sensors_own_pd_says(void **state)
     assert_in_range(score_moves(1, &early, 6) - score_moves(2, &early, 6), 587, 589);
 }
 
+/* A miss of the good sensor costs more than five of the weak one, whose scan looked at another sector. */
+static void a_weak_sensor_s_scan_does_not_end_what_a_good_one_missed_once(void **state)
+{
+    (void)state;
+    start(0);
+    struct rho_sensor weak = radar;
+    weak.sensor_id = 2;
+    weak.pd = 0.3f;
+    assert_int_equal(rho_tracker_set_sensor(&world.tracker, &weak), RHO_OK);
+    fly(&early, 0, 6);
+    turn(6);
+    assert_int_equal(the_track()->status, RHO_TRACK_COASTING);
+    radar.sensor_id = 2;
+    take(7, -2.0f, -1.0f);
+    assert_int_equal(report.num_tracks, 1);
+    turn(8); /* nor does one that looks there */
+    assert_int_equal(report.num_tracks, 1);
+}
+
 static void add_clutter(int count)
 {
     for (int i = 0; i < count; i++) {
@@ -708,6 +727,7 @@ int main(void)
         cmocka_unit_test(a_late_plot_counts_its_age_from_its_own_time),
         cmocka_unit_test(misses_count_only_where_the_radar_looked),
         cmocka_unit_test(a_miss_costs_what_the_sensors_own_pd_says),
+        cmocka_unit_test(a_weak_sensor_s_scan_does_not_end_what_a_good_one_missed_once),
         cmocka_unit_test(a_hit_says_less_where_the_sensor_has_more_clutter),
         cmocka_unit_test(a_plot_off_across_is_claimed_and_off_along_is_not),
         cmocka_unit_test(a_radar_that_moved_sees_along_its_new_line),
