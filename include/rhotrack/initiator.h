@@ -40,7 +40,7 @@ struct rho_initiator_config {
     float score_min_nat; /* candidates below are none; a batch always goes by it */
     /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
     float process_noise_mps2;
-    int area_is_fixed;      /* area below is meant; else the extent of the plots seen so far */
+    int area_is_fixed;      /* area below is meant; else the extent of the plots seen lately */
     struct rho_extent area; /* that clutter and births are spread over */
 };
 

@@ -60,8 +60,9 @@ struct rho_window {
     uint16_t num_scans;
     uint16_t first; /* ring place of the oldest */
     uint16_t area_is_fixed;
-    float side_min_m;         /* the area is taken at least this wide and high */
-    struct rho_extent extent; /* fixed, or grown over all plots seen */
+    float side_min_m; /* the area is taken at least this wide and high */
+    struct rho_extent
+        extent; /* fixed, or that of the plots held, without outliers; it shrinks slowly */
     struct rho_window_scan ring[RHO_MAX_SCANS];
 };
 
@@ -109,7 +110,7 @@ struct rho_window_work {
 /*
  * Prepares an empty window of scans_max scans (1 .. RHO_MAX_SCANS).
  *   size        sizeof(struct rho_window) of the caller
- *   area        the rectangle that is binned; NULL: the extent of the plots seen so far
+ *   area        the rectangle that is binned; NULL: the extent of the plots seen lately, outliers left out
  *   side_min_m  >= 0: the area counts as at least this wide and high (targets move by so much within the window)
  * Errors: NULL, SIZE, CONFIG (scans_max, an area that is empty or beyond RHO_LIMIT_POSITION_M, side_min_m).
  * Cost: sizeof(window) bytes cleared. Stack: 32 bytes.
@@ -128,7 +129,7 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
  *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 16384 and up, becomes NO_ROOM
  *   left_unused  counts the plots that leave the window without having started a track
  * Errors: NULL, STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
- * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions. Stack: 130 bytes.
+ * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions; where the area is not given, three looks at all plots held. Stack: 130 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
                                                const struct rho_scan *scan,

@@ -6,6 +6,8 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
+#define PAUSE_GAPS 3.0f
+
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
@@ -309,6 +311,27 @@ static int is_isotropic(const struct search *search)
     return !search->has_more;
 }
 
+/* The usual time between scans: their mean, in which a pause counts as PAUSE_GAPS times the median. */
+static float usual_interval_s(const struct search *search)
+{
+    float gaps[RHO_MAX_SCANS] = {0.0f};
+    unsigned n = 0;
+    for (unsigned m = 1; m < search->num_scans; m++) {
+        float gap_s = search->time_s[m] - search->time_s[m - 1u];
+        unsigned place = n++;
+        while (place > 0 && gaps[place - 1u] > gap_s) {
+            gaps[place] = gaps[place - 1u];
+            place--;
+        }
+        gaps[place] = gap_s;
+    }
+    float most_s = PAUSE_GAPS * gaps[n / 2u], sum_s = 0.0f;
+    for (unsigned i = 0; i < n; i++) {
+        sum_s += gaps[i] < most_s ? gaps[i] : most_s;
+    }
+    return n > 0 ? sum_s / (float)n : 0.0f;
+}
+
 /* Times relative to the newest scan, and the least side of an area that is not given: what a target crosses meanwhile. */
 static void lay_times(struct search *search)
 {
@@ -317,8 +340,10 @@ static void lay_times(struct search *search)
     for (unsigned m = 0; m < search->num_scans; m++) {
         search->time_s[m] = rho_seconds_between(newest_us, rho_window_scan_at(window, m)->time_us);
     }
+    search->interval_s = usual_interval_s(search);
     if (!window->area_is_fixed) {
-        window->side_min_m = -search->time_s[0] * search->initiator->config.v_max_mps;
+        window->side_min_m = search->interval_s * (float)(search->num_scans - 1u) *
+                             search->initiator->config.v_max_mps;
     }
 }
 
@@ -330,9 +355,7 @@ static void set_thresholds(struct search *search)
                         .min_scans = search->min_scans};
     if (search->keeps_rate && search->num_scans >= 3) {
         rho_initiator_find_rate(search, &rate);
-        if (search->initiator->config.min_scans == 0) {
-            search->min_scans = rate.min_scans;
-        }
+        search->min_scans = rate.min_scans;
     }
     rho_initiator_use_rate(search, &rate);
     search->initiator->min_scans = (uint16_t)search->min_scans;

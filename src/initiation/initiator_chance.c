@@ -10,6 +10,9 @@
 /* A tentative track's next place is known so much worse than its plot: determinants of both axes. */
 #define PREDICTION_SPREAD 4.0f
 
+/* The score of a perfect fit is known so well: density is estimated, and differs from place to place. */
+#define BEST_ERROR_NAT 0.25f
+
 #define GAIN_MAX_NAT 60.0f
 #define NEVER_NAT (-1.0e6f)
 
@@ -28,27 +31,37 @@ static float log_sigma_m(const struct search *search, uint16_t code)
     return 0.5f * rho_log(sigma_m * sigma_m + search->fit_process_m2);
 }
 
-static struct place_class class_of(const struct search *search, const struct rho_window_scan *scan,
+static struct place_class class_of(const struct chance *chance, const struct rho_window_scan *scan,
                                    unsigned index)
 {
+    const struct search *search = chance->search;
     const struct rho_window_plot *plot = &scan->plots[index];
     struct place_class place = {
         .log_density = rho_log(rho_initiator_mean_density(search->initiator, plot->x_m, plot->y_m)),
         .log_range = log_sigma_m(search, plot->sigma_range),
         .log_cross = log_sigma_m(search, plot->sigma_cross),
-        .log_up = log_sigma_m(search, plot->sigma_up),
-        .log_range_rate = rho_log(rho_window_sigma(plot->sigma_range_rate)),
     };
+    if (chance->has_z) {
+        place.log_up = log_sigma_m(search, plot->sigma_up);
+    }
+    if (chance->has_range_rate) {
+        place.log_range_rate = rho_log(rho_window_sigma(plot->sigma_range_rate));
+    }
     /* a plot stands for the area that has one plot like it */
     place.share = rho_exp(-place.log_density);
     return place;
 }
 
+static int is_close(float a, float b)
+{
+    return a - b < 0.05f && b - a < 0.05f;
+}
+
 static int are_alike(const struct place_class *a, const struct place_class *b)
 {
-    float difference =
-        a->log_density - b->log_density + a->log_range - b->log_range + a->log_cross - b->log_cross;
-    return difference < 0.05f && difference > -0.05f;
+    return is_close(a->log_density, b->log_density) && is_close(a->log_range, b->log_range) &&
+           is_close(a->log_cross, b->log_cross) && is_close(a->log_up, b->log_up) &&
+           is_close(a->log_range_rate, b->log_range_rate);
 }
 
 static void add_class(struct chance *chance, const struct place_class *place)
@@ -79,7 +92,7 @@ static void sample_places(struct chance *chance)
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         for (unsigned i = 0; i < scan->num_plots; i++, passed++) {
             if (passed % stride == stride / 2u) {
-                struct place_class place = class_of(chance->search, scan, i);
+                struct place_class place = class_of(chance, scan, i);
                 add_class(chance, &place);
             }
         }
@@ -234,6 +247,12 @@ float rho_initiator_chi2_max(unsigned dimensions)
     return (float)dimensions * root * root * root;
 }
 
+/* chi2 / 2 of half as many dimensions. */
+static float most_of(float half)
+{
+    return 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * half + 0.5f));
+}
+
 static void add_pattern(struct chance *chance, unsigned first, unsigned hits)
 {
     const struct search *search = chance->search;
@@ -248,13 +267,14 @@ static void add_pattern(struct chance *chance, unsigned first, unsigned hits)
         .spread_s2 = mean_spread_s2(search, first, hits),
         .inside = share_inside(search, search->time_s[newest] - search->time_s[first]),
         .half_dimensions = half,
-        .most = 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * half + 0.5f)),
+        .most = most_of(half),
+        .most_before = hits > 3u ? most_of(half_dimensions(chance, hits - 1u)) : 0.0f,
     };
 }
 
-/* A scan ago a track was as long, by a hit less; with `least` hits there was none. */
+/* A scan ago a track was as long, by a hit less. */
 static struct reach reach_of(const struct chance *chance, const struct place_class *place,
-                             const struct pattern *pattern, unsigned least)
+                             const struct pattern *pattern)
 {
     const struct search *search = chance->search;
     unsigned first = pattern->first, hits = pattern->hits;
@@ -264,7 +284,7 @@ static struct reach reach_of(const struct chance *chance, const struct place_cla
                    rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
                            reach.best_nat - log_gamma(pattern->half_dimensions));
     reach.weight = reach.weight < WEIGHT_MAX ? reach.weight : WEIGHT_MAX;
-    if (hits > least) {
+    if (hits > 3u) {
         float before_s2 = mean_spread_s2(search, first + 1u, hits - 1u);
         reach.before_nat = best_score(chance, place, first + 1u, hits - 1u, before_s2);
     }
@@ -274,18 +294,16 @@ static struct reach reach_of(const struct chance *chance, const struct place_cla
 static void lay_patterns(struct chance *chance)
 {
     unsigned num_scans = chance->search->num_scans;
-    unsigned least = chance->search->initiator->config.min_scans;
-    least = least > 3u ? least : 3u;
     chance->num_patterns = 0;
+    chance->least_hits = 3;
     for (unsigned first = 0; first + 3u <= num_scans; first++) {
-        for (unsigned hits = least; hits <= num_scans - first; hits++) {
+        for (unsigned hits = 3; hits <= num_scans - first; hits++) {
             add_pattern(chance, first, hits);
         }
     }
     for (unsigned i = 0; i < chance->num_classes; i++) {
         for (unsigned k = 0; k < chance->num_patterns; k++) {
-            chance->reaches[i][k] =
-                reach_of(chance, &chance->classes[i], &chance->patterns[k], least);
+            chance->reaches[i][k] = reach_of(chance, &chance->classes[i], &chance->patterns[k]);
         }
     }
 }
@@ -294,8 +312,11 @@ static void lay_patterns(struct chance *chance)
 
 void rho_initiator_lay_chance(const struct search *search, struct chance *chance)
 {
-    uint32_t measures =
-        rho_window_scan_at(&search->initiator->window, search->num_scans - 1u)->measures;
+    /* where only some scans measure them, chance is taken to need no heights or range rates: more than there is */
+    uint32_t measures = ~0u;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        measures &= rho_window_scan_at(&search->initiator->window, m)->measures;
+    }
     chance->search = search;
     chance->has_z = (measures & RHO_MEASURES_Z) != 0;
     chance->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
@@ -335,22 +356,28 @@ static float share_new(float k, float y, float before)
 }
 
 /* Sets of a pattern in a class that reach s, of tracks that had not started at start_nat before. */
-static float sets_in(const struct pattern *pattern, const struct reach *reach, float s_nat,
-                     float start_nat)
+static float sets_in(const struct pattern *pattern, const struct reach *reach, int has_before,
+                     float s_nat, float start_nat)
 {
-    float k = pattern->half_dimensions, y = reach->best_nat - s_nat;
+    float k = pattern->half_dimensions, y = reach->best_nat + BEST_ERROR_NAT - s_nat;
     if (!(y > 0.0f)) {
         return 0.0f;
     }
+    float before = has_before ? reach->before_nat + BEST_ERROR_NAT - start_nat : 0.0f;
     y = y < pattern->most ? y : pattern->most;
-    return reach->weight * power(y, k) * share_new(k, y, reach->before_nat - start_nat);
+    before = before < pattern->most_before ? before : pattern->most_before;
+    return reach->weight * power(y, k) * share_new(k, y, before);
 }
 
 static float sets_of(const struct chance *chance, unsigned k, float s_nat, float start_nat)
 {
     float sum = 0.0f;
+    if (chance->patterns[k].hits < chance->least_hits) {
+        return 0.0f;
+    }
     for (unsigned i = 0; i < chance->num_classes; i++) {
-        sum += sets_in(&chance->patterns[k], &chance->reaches[i][k], s_nat, start_nat);
+        sum += sets_in(&chance->patterns[k], &chance->reaches[i][k],
+                       chance->patterns[k].hits > chance->least_hits, s_nat, start_nat);
     }
     return sum;
 }
@@ -408,17 +435,15 @@ static float best_of(const struct chance *chance, unsigned k)
     return best;
 }
 
-/* The fewest hits that may reach the start threshold: a target's chi2 / 2 has mean k and variance k. */
-unsigned rho_initiator_least_hits(const struct chance *chance, float start_nat)
+/* A target's chi2 / 2 has mean k. Nearer to the best score there is more doubt than room. */
+int rho_initiator_leaves_room(const struct chance *chance, float start_nat)
 {
-    unsigned least = chance->search->num_scans;
     for (unsigned k = 0; k < chance->num_patterns; k++) {
         const struct pattern *pattern = &chance->patterns[k];
-        float likely = pattern->half_dimensions - 2.0f * rho_sqrt(pattern->half_dimensions);
-        if (pattern->hits < least &&
-            best_of(chance, k) - start_nat > (likely > 0.0f ? likely : 0.0f)) {
-            least = pattern->hits;
+        if (pattern->hits == chance->least_hits &&
+            best_of(chance, k) - start_nat >= pattern->half_dimensions) {
+            return 1;
         }
     }
-    return least;
+    return 0;
 }

@@ -34,7 +34,8 @@ struct pattern {
     float spread_s2;   /* mean_spread_s2 */
     float inside;      /* share of tracks so long that stay in the area */
     float half_dimensions;
-    float most; /* chi2 / 2 that a fit may have */
+    float most;        /* chi2 / 2 that a fit may have */
+    float most_before; /* the same without the newest hit */
 };
 
 /* A pattern in one class of places. */
@@ -49,6 +50,7 @@ struct chance {
     const struct search *search;
     int has_z, has_range_rate;
     unsigned num_classes, num_patterns;
+    unsigned least_hits; /* patterns with fewer do not count */
     struct place_class classes[CLASSES_MAX];
     struct pattern patterns[PATTERNS_MAX];
     struct reach reaches[CLASSES_MAX][PATTERNS_MAX];
@@ -66,7 +68,7 @@ float rho_initiator_stay_inside(const struct chance *chance, float start_nat);
 /* What one more perfect hit adds to a tentative track, in the class with the most clutter a noise cell. */
 float rho_initiator_gain_of_hit(const struct chance *chance);
 
-/* The fewest hits that may reach the threshold. */
-unsigned rho_initiator_least_hits(const struct chance *chance, float start_nat);
+/* Does the threshold leave room for a target's chi2, with the least number of hits? */
+int rho_initiator_leaves_room(const struct chance *chance, float start_nat);
 
 #endif

@@ -146,17 +146,31 @@ static float confirm_threshold(const struct chance *chance, float wanted, float 
     return high;
 }
 
+/* M: the fewest hits whose threshold a target is likely to reach. Beyond the scans held: nothing may start yet. */
+static unsigned choose_least_hits(struct chance *chance, float *start_nat)
+{
+    unsigned num_scans = chance->search->num_scans;
+    unsigned wanted = chance->search->initiator->config.min_scans;
+    for (chance->least_hits = wanted > 3u ? wanted : 3u; chance->least_hits <= num_scans;
+         chance->least_hits++) {
+        *start_nat = start_threshold(chance);
+        if (chance->num_classes == 0 || rho_initiator_leaves_room(chance, *start_nat)) {
+            return chance->least_hits;
+        }
+    }
+    chance->least_hits = num_scans;
+    return num_scans + 1u;
+}
+
 void rho_initiator_find_rate(struct search *search, struct rate *rate)
 {
     const struct rho_initiator_config *config = &search->initiator->config;
     struct chance chance;
-    float interval_s = (search->time_s[search->num_scans - 1u] - search->time_s[0]) /
-                       (float)(search->num_scans - 1u);
+    rate->start_nat = THRESHOLD_MAX_NAT;
     rho_initiator_lay_chance(search, &chance);
-    rate->start_nat = start_threshold(&chance);
+    rate->min_scans = choose_least_hits(&chance, &rate->start_nat);
     rate->confirm_nat = confirm_threshold(
-        &chance, config->false_tracks_per_hour * interval_s / 3600.0f, rate->start_nat);
-    rate->min_scans = rho_initiator_least_hits(&chance, rate->start_nat);
+        &chance, config->false_tracks_per_hour * search->interval_s / 3600.0f, rate->start_nat);
 }
 
 void rho_initiator_use_rate(struct search *search, const struct rate *rate)

@@ -18,6 +18,7 @@ struct search {
     unsigned num_scans;          /* N: scans held */
     unsigned min_scans;          /* M */
     float time_s[RHO_MAX_SCANS]; /* of the scans, after the newest: <= 0 */
+    float interval_s;            /* usual time between scans */
     int has_more;                /* a scan has heights or range rates */
     int is_isotropic;            /* no scan has noise of two axes, heights or range rates */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */

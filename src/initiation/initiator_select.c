@@ -222,7 +222,7 @@ static int judge_one(const struct search *search, struct rho_candidate *candidat
     for (unsigned m = 0; m < search->num_scans; m++) {
         set.plot[m] = candidate->plot[m];
     }
-    if (!rho_initiator_score(search, &set, &fit, &score)) {
+    if (set.hits < search->min_scans || !rho_initiator_score(search, &set, &fit, &score)) {
         return 0;
     }
     candidate->score_mnat = score.mnat;
@@ -242,6 +242,7 @@ void rho_initiator_judge(struct search *search)
     clear_taken(search);
     rho_initiator_find_rate(search, &rate);
     rho_initiator_use_rate(search, &rate);
+    search->min_scans = rate.min_scans;
     search->is_judging = 1;
     unsigned kept = 0;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {

@@ -10,6 +10,13 @@
 
 #define ROW_MAX RHO_WINDOW_ROW
 
+/* Where the area is not given: plots farther out than so many standard deviations are left out, in so many rounds, once
+ * there are a dozen; and what it was before gives way to what it is now by this share a scan. */
+#define OUTLIER_SIGMAS2 9.0f
+#define OUTLIER_ROUNDS 3
+#define OUTLIER_PLOTS 12.0f
+#define EXTENT_DECAY 0.02f
+
 /* Bins a plot that are worth their memory traffic when a scan has few plots. */
 #define BINS_PER_PLOT 8u
 
@@ -118,8 +125,8 @@ static float seconds(int32_t offset_us)
     return (float)offset_us * 1e-6f;
 }
 
-/* Decides who fits, and grows the area over those. */
-static unsigned admit(struct rho_window *window, const struct rho_scan *scan, uint8_t *fates)
+/* Decides who fits. */
+static unsigned admit(const struct rho_scan *scan, uint8_t *fates)
 {
     unsigned held = 0;
     for (uint32_t i = 0; i < scan->num_plots; i++) {
@@ -131,11 +138,88 @@ static unsigned admit(struct rho_window *window, const struct rho_scan *scan, ui
             continue;
         }
         held++;
-        if (!window->area_is_fixed) {
+    }
+    return held;
+}
+
+/* The first scan has bins before the area is known. */
+static void guess_extent(struct rho_window *window, const struct rho_scan *scan,
+                         const uint8_t *fates)
+{
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        if (fates[i] == RHO_FATE_HELD) {
             rho_extent_add(&window->extent, scan->plots[i].x_m, scan->plots[i].y_m);
         }
     }
-    return held;
+}
+
+/* ---- the area that the plots show ------------------------------------------------------------- */
+
+/* Plots within some standard deviations of a mean, one axis after the other. */
+struct crowd {
+    float plots, mean_m[2], sum2_m2[2]; /* of the last round: the others are outliers */
+    struct rho_extent extent;
+};
+
+static int is_far(const struct crowd *crowd, float x_m, float y_m)
+{
+    float dx_m = x_m - crowd->mean_m[0], dy_m = y_m - crowd->mean_m[1];
+    return crowd->plots >= OUTLIER_PLOTS &&
+           (dx_m * dx_m * crowd->plots > OUTLIER_SIGMAS2 * crowd->sum2_m2[0] ||
+            dy_m * dy_m * crowd->plots > OUTLIER_SIGMAS2 * crowd->sum2_m2[1]);
+}
+
+/* Welford's running mean and sum of squares. */
+static void join(struct crowd *crowd, const struct crowd *before, float x_m, float y_m)
+{
+    const float place_m[2] = {x_m, y_m};
+    if (is_far(before, x_m, y_m)) {
+        return;
+    }
+    crowd->plots += 1.0f;
+    for (int axis = 0; axis < 2; axis++) {
+        float off_m = place_m[axis] - crowd->mean_m[axis];
+        crowd->mean_m[axis] += off_m / crowd->plots;
+        crowd->sum2_m2[axis] += off_m * (place_m[axis] - crowd->mean_m[axis]);
+    }
+    rho_extent_add(&crowd->extent, x_m, y_m);
+}
+
+static void join_all(struct crowd *crowd, const struct crowd *before, struct rho_window *window)
+{
+    *crowd = (struct crowd){.extent = {1.0f, 0.0f, 1.0f, 0.0f}};
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *held = rho_window_scan_at(window, m);
+        for (unsigned i = 0; i < held->num_plots; i++) {
+            join(crowd, before, held->plots[i].x_m, held->plots[i].y_m);
+        }
+    }
+}
+
+static float decayed(float was, float is, int is_wider)
+{
+    return is_wider ? is : was + EXTENT_DECAY * (is - was);
+}
+
+/* Outliers would make clutter look thin everywhere. */
+static void follow_extent(struct rho_window *window)
+{
+    struct crowd crowd = {0}, before;
+    for (int round = 0; round < OUTLIER_ROUNDS; round++) {
+        before = crowd;
+        join_all(&crowd, &before, window);
+    }
+    struct rho_extent *was = &window->extent, is = crowd.extent;
+    if (crowd.plots < 1.0f) {
+        return;
+    }
+    if (window->num_scans == 1) {
+        *was = is;
+    }
+    was->x_min_m = decayed(was->x_min_m, is.x_min_m, is.x_min_m < was->x_min_m);
+    was->x_max_m = decayed(was->x_max_m, is.x_max_m, is.x_max_m > was->x_max_m);
+    was->y_min_m = decayed(was->y_min_m, is.y_min_m, is.y_min_m < was->y_min_m);
+    was->y_max_m = decayed(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
 }
 
 /* rho_window_sigma() turned round: to the nearest code. */
@@ -263,7 +347,7 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
         return RHO_ERROR_STATE;
     }
     struct rho_window_scan *slot = next_slot(window, left_unused);
-    unsigned held = admit(window, scan, fates);
+    unsigned held = admit(scan, fates);
     slot->time_us = scan->time_us;
     slot->measures = scan->measures;
     slot->sector_from_rad = scan->sector_from_rad;
@@ -273,8 +357,14 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     slot->num_plots = slot->num_unused = (uint16_t)held;
     slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
     slot->is_isotropic = 1;
+    if (!window->area_is_fixed && !(window->extent.x_min_m <= window->extent.x_max_m)) {
+        guess_extent(window, scan, fates);
+    }
     lay_bins(slot, window, held);
     sort_into_bins(slot, scan, fates);
+    if (!window->area_is_fixed) {
+        follow_extent(window);
+    }
     return RHO_OK;
 }
 
