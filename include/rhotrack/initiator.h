@@ -32,9 +32,10 @@ struct rho_initiator_config {
     uint16_t scans; /* N, the window: 3 .. RHO_MAX_SCANS */
     /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter */
     uint16_t min_scans;
-    float v_min_mps, v_max_mps; /* speeds of targets, 0 <= v_min < v_max <= RHO_LIMIT_SPEED_MPS */
-    float pd;                   /* probability that a scan sees the target: 0.01 .. 0.999 */
-    /* wanted of chance tracks, 1e-6 .. 1e6, for searches after every scan: thresholds and M follow from it; 0: score_min_nat
+    float v_min_mps,
+        v_max_mps; /* speeds of targets, 0 <= v_min < v_max, 0.01 <= v_max <= RHO_LIMIT_SPEED_MPS */
+    float pd;      /* probability that a scan sees the target: 0.01 .. 0.999 */
+    /* wanted of chance tracks, 0 or 1e-6 .. 1e6, for searches after every scan: thresholds and M follow from it; 0: score_min_nat
      * is the threshold */
     float false_tracks_per_hour;
     float score_min_nat; /* candidates below are none; a batch always goes by it */
@@ -65,14 +66,14 @@ struct rho_initiator_work {
 };
 
 /*
- * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's that stands in
- * the area, their noise has its directions, and they look even in range rather than on the ground, range and azimuth.
+ * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's, their
+ * noise has its directions, and they look even in range rather than on the ground, range and azimuth.
  */
 struct rho_density_map {
-    float mean;        /* plots a scan and unit of content */
-    float prior_plots; /* weight of the mean against a cell's own count */
-    float content;     /* of the whole map: m^2, or m rad */
-    float sensor_x_m, sensor_y_m;
+    float mean;                               /* plots a scan and unit of content */
+    float prior_plots;                        /* weight of the mean against a cell's own count */
+    float content;                            /* of the whole map: m^2, or m rad */
+    float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from there */
     float u0, v0, width, height;
     uint16_t is_polar, columns, rows;
     /* by the age order of that search's scans: plots of the scan's sensor over those of all, a scan; 0: no scan */

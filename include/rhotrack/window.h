@@ -167,7 +167,8 @@ float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,
                                       const struct rho_window_place *place);
 
-/* The held plot as it was pushed; without own velocity. Constant cost. */
+/* The held plot as it was pushed, but for its own velocity and snr, which are 0; sigmas are rounded to 2^-12 of themselves,
+ * the offset to float32. Constant cost. */
 struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned index);
 
 /* The scan's sensor, or NULL where it was not described. */

@@ -6,6 +6,8 @@
 
 /* Nearer than this a line of sight says nothing. */
 #define RANGE_LEAST_M 1.0f
+#define LEVEL_LEAST_M 1.0e-3f
+#define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 #define RANGE_MAX_M RHO_LIMIT_POSITION_M
 #define HALF_PI 1.57079637f
@@ -76,6 +78,16 @@ static int is_usable_polar(const struct rho_polar_plot *polar, uint32_t measures
            (is_speed(polar->range_rate_mps) && is_sigma(polar->sigma_range_rate_mps));
 }
 
+static int is_usable_sensor(const struct rho_sensor *sensor)
+{
+    return rho_is_within(sensor->x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->z_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
+           rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
+           rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
+}
+
 /* A polar plot without its sensor's biases, and where it was seen from. */
 struct sighting {
     float range_m, azimuth_rad, elevation_rad;
@@ -100,7 +112,8 @@ static struct sighting sight(const struct rho_polar_plot *polar, uint32_t measur
     if (sensor) {
         seen.range_m -= sensor->range_bias_m;
         seen.azimuth_rad -= sensor->azimuth_bias_rad;
-        seen.offset_us -= (int64_t)(sensor->time_bias_s * 1e6f);
+        float bias_us = sensor->time_bias_s * 1e6f;
+        seen.offset_us -= (int64_t)(bias_us + (bias_us < 0.0f ? -0.5f : 0.5f));
         seen.x_m = sensor->x_m;
         seen.y_m = sensor->y_m;
         seen.z_m = sensor->z_m;
@@ -161,7 +174,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     if (!polar || !plot) {
         return RHO_ERROR_NULL;
     }
-    if (!is_usable_polar(polar, measures)) {
+    if (!is_usable_polar(polar, measures) || (sensor && !is_usable_sensor(sensor))) {
         return RHO_ERROR_VALUE;
     }
     struct sighting seen = sight(polar, measures, sensor);
@@ -222,8 +235,12 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     out->place_m[1] = plot->y_m;
     out->place_m[2] = out->has_z ? plot->z_m : 0.0f;
     if (!(ground_m >= RANGE_LEAST_M)) {
-        open_without_sight(plot, out);
-        return;
+        if (!out->has_z || !(root_sum(ground_m, dz_m) >= RANGE_LEAST_M)) {
+            open_without_sight(plot, out);
+            return;
+        }
+        ground_m = dx_m = LEVEL_LEAST_M; /* overhead: any azimuth will do */
+        dy_m = 0.0f;
     }
     out->cos_azimuth = dx_m / ground_m;
     out->sin_azimuth = dy_m / ground_m;
@@ -242,13 +259,18 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
     /* level: along the ground; slant: between ground and height */
     float level = ce * ce * variance[0] + se * se * variance[2];
     float slant = ce * se * (variance[0] - variance[2]);
-    float excess = level - variance[1];
+    /* what rounding may take off the thinnest of ellipses */
+    float allowance = (level > variance[1] ? level : variance[1]) * ROUNDING_ALLOWANCE;
     if (measurement->is_isotropic) {
-        slant = excess = 0.0f;
+        slant = allowance = 0.0f;
+        level = variance[1];
     }
-    covariance[0] = variance[1] + ca * ca * excess;
-    covariance[1] = ca * sa * excess;
-    covariance[2] = variance[1] + sa * sa * excess;
+    covariance[0] = ca * ca * level + sa * sa * variance[1] + allowance;
+    covariance[1] = ca * sa * (level - variance[1]);
+    covariance[2] = sa * sa * level + ca * ca * variance[1] + allowance;
+    if (measurement->is_isotropic) {
+        covariance[0] = covariance[2] = variance[1];
+    }
     covariance[3] = ca * slant;
     covariance[4] = sa * slant;
     covariance[5] =

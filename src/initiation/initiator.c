@@ -7,6 +7,7 @@
 #include "rhotrack/approx.h"
 
 #define PAUSE_GAPS 3.0f
+#define V_MAX_LEAST_MPS 0.01f
 
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
 
@@ -51,8 +52,8 @@ static float widest_reach_m(const struct search *search, const struct span *span
     float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
     float slack = (spread_s(span->scan_a) + spread_s(span->scan_b)) / span->gap_s;
     float low_m2 = ends_m2(span, al - slack), high_m2 = ends_m2(span, al + slack);
-    return rho_sqrt(GATE_CHI2 * (sigma_m * sigma_m + span->process_m2[m] +
-                                 (low_m2 > high_m2 ? low_m2 : high_m2)));
+    return rho_sqrt(search->reach_chi2 * (sigma_m * sigma_m + span->process_m2[m] +
+                                          (low_m2 > high_m2 ? low_m2 : high_m2)));
 }
 
 static void open_span(struct search *search, unsigned a, unsigned b, struct span *span)
@@ -235,9 +236,9 @@ static int is_usable(const struct rho_initiator_config *config)
            (config->min_scans == 0 ||
             (config->min_scans >= 3 && config->min_scans <= config->scans)) &&
            rho_is_within(config->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
-           rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(config->v_max_mps, V_MAX_LEAST_MPS, RHO_LIMIT_SPEED_MPS) &&
            config->v_min_mps < config->v_max_mps && rho_is_within(config->pd, 0.01f, 0.999f) &&
-           (!(config->false_tracks_per_hour > 0.0f) ||
+           (rho_is_within(config->false_tracks_per_hour, 0.0f, 0.0f) ||
             rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f)) &&
            rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
            rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f);
@@ -396,6 +397,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     }
     search.wanted_mask = kind == RHO_SEARCH_NEWEST ? 1u << (search.num_scans - 1u) : 0u;
     search.has_more = has_more(&search);
+    search.reach_chi2 = search.has_more ? RHO_WINDOW_CHI2_4D : GATE_CHI2;
     search.is_isotropic = is_isotropic(&search);
     lay_times(&search);
     rho_initiator_prepare_process(&search);

@@ -10,9 +10,6 @@
 /* A tentative track's next place is known so much worse than its plot: determinants of both axes. */
 #define PREDICTION_SPREAD 4.0f
 
-/* The score of a perfect fit is known so well: density is estimated, and differs from place to place. */
-#define BEST_ERROR_NAT 0.25f
-
 #define GAIN_MAX_NAT 60.0f
 #define NEVER_NAT (-1.0e6f)
 
@@ -359,11 +356,11 @@ static float share_new(float k, float y, float before)
 static float sets_in(const struct pattern *pattern, const struct reach *reach, int has_before,
                      float s_nat, float start_nat)
 {
-    float k = pattern->half_dimensions, y = reach->best_nat + BEST_ERROR_NAT - s_nat;
+    float k = pattern->half_dimensions, y = reach->best_nat - s_nat;
     if (!(y > 0.0f)) {
         return 0.0f;
     }
-    float before = has_before ? reach->before_nat + BEST_ERROR_NAT - start_nat : 0.0f;
+    float before = has_before ? reach->before_nat - start_nat : 0.0f;
     y = y < pattern->most ? y : pattern->most;
     before = before < pattern->most_before ? before : pattern->most_before;
     return reach->weight * power(y, k) * share_new(k, y, before);

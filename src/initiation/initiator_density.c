@@ -28,6 +28,12 @@
 /* Nearer to the radar than this share of its range, density rises no further. */
 #define NEAR_SHARE 0.01f
 
+/* Fewer plots do not tell where a radar looks. */
+#define POLAR_PLOTS_MIN 16.0f
+
+#define ALL_ROUND_RAD 5.0f
+#define SECTOR_MIN_RAD 1.0e-3f
+
 float rho_initiator_area_m2(const struct rho_initiator *initiator)
 {
     float area = rho_extent_area_m2(&initiator->window.extent, initiator->window.side_min_m);
@@ -65,9 +71,9 @@ static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m
     *per_m2 = 1.0f;
     if (map->is_polar) {
         float dx_m = x_m - map->sensor_x_m, dy_m = y_m - map->sensor_y_m;
-        float near_m = NEAR_SHARE * map->width;
+        float near_m = NEAR_SHARE * (map->u0 + map->width);
         u = distance_m(dx_m, dy_m);
-        v = rho_atan2(dy_m, dx_m);
+        v = rho_angle_difference(rho_atan2(dy_m, dx_m), map->middle_rad);
         *per_m2 = 1.0f / (u > near_m ? u : near_m);
     }
     return cell_at(v, map->v0, map->height, map->rows) * map->columns +
@@ -76,14 +82,13 @@ static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m
 
 /* ---- laying it out ---------------------------------------------------------------------------- */
 
-static int is_inside(const struct rho_extent *area, const struct rho_sensor *sensor)
+static int is_same_place(const struct rho_sensor *a, const struct rho_sensor *b)
 {
-    return sensor->x_m >= area->x_min_m && sensor->x_m <= area->x_max_m &&
-           sensor->y_m >= area->y_min_m && sensor->y_m <= area->y_max_m;
+    float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
+    return a->sensor_id == b->sensor_id && dx_m * dx_m + dy_m * dy_m < 1.0f;
 }
 
-/* One radar in the area whose plots have noise of their own directions. From outside, range and azimuth say little of
- * where in the area clutter ends. */
+/* One radar whose plots have noise of their own directions, and which stayed where it is. */
 static const struct rho_sensor *only_radar(const struct search *search)
 {
     struct rho_window *window = &search->initiator->window;
@@ -92,67 +97,92 @@ static const struct rho_sensor *only_radar(const struct search *search)
     for (unsigned m = 0; m < window->num_scans && !search->is_isotropic; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         is_radar |= !scan->is_isotropic;
-        if (scan->sensor.sensor_id != first->sensor_id) {
+        if (!is_same_place(&scan->sensor, first)) {
             return 0;
         }
     }
-    return is_radar && is_inside(&window->extent, first) ? first : 0;
+    return is_radar ? first : 0;
 }
 
 /* The window's plots as the radar sees them. */
 struct view {
-    float plots, farthest_m, sum_log_range;
+    float plots, sum_x, sum_y; /* of unit vectors */
+    float nearest_m, farthest_m, sum_log_range;
+    float middle_rad, left_rad, right_rad; /* a sector that holds all, from its middle */
 };
+
+static void look(struct view *view, float dx_m, float dy_m, int has_middle)
+{
+    float range_m = distance_m(dx_m, dy_m);
+    if (!(range_m >= 1.0f)) {
+        range_m = 1.0f;
+    }
+    if (has_middle) {
+        float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), view->middle_rad);
+        view->left_rad = off_rad > view->left_rad ? off_rad : view->left_rad;
+        view->right_rad = off_rad < view->right_rad ? off_rad : view->right_rad;
+        return;
+    }
+    view->nearest_m = view->plots < 1.0f || range_m < view->nearest_m ? range_m : view->nearest_m;
+    view->farthest_m = range_m > view->farthest_m ? range_m : view->farthest_m;
+    view->sum_log_range += rho_log(range_m);
+    view->sum_x += dx_m / range_m;
+    view->sum_y += dy_m / range_m;
+    view->plots += 1.0f;
+}
 
 static struct view view_of(const struct search *search, const struct rho_sensor *radar)
 {
     struct rho_window *window = &search->initiator->window;
-    struct view view = {.farthest_m = 1.0f};
-    for (unsigned m = 0; m < window->num_scans; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
-        view.plots += (float)scan->num_plots;
-        for (unsigned i = 0; i < scan->num_plots; i++) {
-            const struct rho_window_plot *plot = &scan->plots[i];
-            float range_m = distance_m(plot->x_m - radar->x_m, plot->y_m - radar->y_m);
-            view.farthest_m = range_m > view.farthest_m ? range_m : view.farthest_m;
-            view.sum_log_range += rho_log(range_m > 1.0f ? range_m : 1.0f);
+    struct view view = {.plots = 0.0f};
+    for (int has_middle = 0; has_middle < 2; has_middle++) {
+        view.middle_rad = has_middle ? rho_atan2(view.sum_y, view.sum_x) : 0.0f;
+        for (unsigned m = 0; m < window->num_scans; m++) {
+            const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+            for (unsigned i = 0; i < scan->num_plots; i++) {
+                look(&view, scan->plots[i].x_m - radar->x_m, scan->plots[i].y_m - radar->y_m,
+                     has_middle);
+            }
         }
     }
     return view;
 }
 
-/* The farthest of n ranges falls short of the end of what the radar sees by a share 1 / (n + 1), on average. */
-static float range_seen_m(const struct view *view)
-{
-    return view->farthest_m * (view->plots + 1.0f) / view->plots;
-}
-
-/* Are the plots likelier where they are if they are even in range and azimuth, 1 / (2 pi R range) a square metre, or if
- * they are even over the area? */
-static int is_even_in_range(const struct rho_initiator *initiator, const struct view *view)
-{
-    return view->plots > 0.0f &&
-           view->sum_log_range + view->plots * rho_log(RHO_TWO_PI * range_seen_m(view)) <
-               view->plots * rho_log(rho_initiator_area_m2(initiator));
-}
-
+/* The ends of n places, evenly spread, fall short of the ends of what the radar sees by a share 1 / (n + 1) each, on average;
+ * almost all round is all round. */
 static void lay_polar(const struct rho_sensor *radar, const struct view *view,
                       struct rho_density_map *map)
 {
-    map->is_polar = 1;
-    map->sensor_x_m = radar->x_m;
-    map->sensor_y_m = radar->y_m;
-    map->width = range_seen_m(view);
-    map->v0 = -0.5f * RHO_TWO_PI;
+    float wider = (view->plots + 1.0f) / (view->plots - 1.0f);
+    float sector_rad = wider * (view->left_rad - view->right_rad);
+    float depth_m = wider * (view->farthest_m - view->nearest_m);
+    *map = (struct rho_density_map){
+        .is_polar = 1, .sensor_x_m = radar->x_m, .sensor_y_m = radar->y_m, .v0 = -RHO_PI};
+    map->u0 = 0.5f * (view->farthest_m + view->nearest_m - depth_m);
+    map->width = depth_m > 1.0f ? depth_m : 1.0f;
     map->height = RHO_TWO_PI;
+    if (sector_rad < ALL_ROUND_RAD) {
+        map->middle_rad = view->middle_rad + 0.5f * (view->left_rad + view->right_rad);
+        map->height = sector_rad > SECTOR_MIN_RAD ? sector_rad : SECTOR_MIN_RAD;
+        map->v0 = -0.5f * map->height;
+    }
     map->content = map->width * map->height;
+}
+
+/* Are the plots likelier where they are if they are even in range and azimuth, 1 / (content range) a square metre, or if
+ * they are even over the area? */
+static int is_even_in_range(const struct rho_initiator *initiator, const struct view *view,
+                            const struct rho_density_map *polar)
+{
+    return view->sum_log_range + view->plots * rho_log(polar->content) <
+           view->plots * rho_log(rho_initiator_area_m2(initiator));
 }
 
 static void lay_square(const struct rho_initiator *initiator, struct rho_density_map *map)
 {
     const struct rho_window *window = &initiator->window;
     float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
-    map->u0 = window->extent.x_min_m;
+    *map = (struct rho_density_map){.u0 = window->extent.x_min_m};
     map->v0 = window->extent.y_min_m;
     map->width = rho_extent_width_m(&window->extent, side_min_m);
     map->height = rho_extent_height_m(&window->extent, side_min_m);
@@ -163,16 +193,16 @@ static void lay_map(const struct search *search, uint32_t num_plots)
 {
     struct rho_density_map *map = &search->initiator->density;
     const struct rho_sensor *radar = only_radar(search);
-    struct view view = {0};
     uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
     float cells = (float)wanted;
-    memset(map, 0, sizeof *map);
+    struct view view = {.plots = 0.0f};
     if (radar) {
         view = view_of(search, radar);
     }
-    if (radar && is_even_in_range(search->initiator, &view)) {
+    if (view.plots >= POLAR_PLOTS_MIN) {
         lay_polar(radar, &view, map);
-    } else {
+    }
+    if (view.plots < POLAR_PLOTS_MIN || !is_even_in_range(search->initiator, &view, map)) {
         lay_square(search->initiator, map);
     }
     /* an arc of half the range is as long as azimuth times that */
@@ -327,7 +357,7 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
     const struct rho_density_map *map = &search->initiator->density;
     float per_m2, other_per_m2;
     unsigned cell = map_cell(map, plot->x_m, plot->y_m, &per_m2), own = 0;
-    for (unsigned k = 0; k < search->num_scans && !search->is_judging; k++) {
+    for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
         if (set->mask >> k & 1u) {
             const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
             own += map_cell(map, other->x_m, other->y_m, &other_per_m2) == cell;

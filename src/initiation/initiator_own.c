@@ -114,7 +114,8 @@ int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit,
         .noise = {bend_m2, 0.0f, bend_m2, bend_m2},
         .factor = factor,
         .has_z = fit->has_z,
-        .reach_m = rho_sqrt(GATE_CHI2 * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .reach_m = rho_sqrt(search->reach_chi2 *
+                            (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
     return rho_window_nearest_to(scan, &place, &search->initiator->work.window);

@@ -146,7 +146,10 @@ static float confirm_threshold(const struct chance *chance, float wanted, float 
     return high;
 }
 
-/* M: the fewest hits whose threshold a target is likely to reach. Beyond the scans held: nothing may start yet. */
+/*
+ * M: the fewest hits whose threshold a target is likely to reach. Where there is none, a full window starts what has all
+ * hits, and one that fills waits: M beyond the scans held.
+ */
 static unsigned choose_least_hits(struct chance *chance, float *start_nat)
 {
     unsigned num_scans = chance->search->num_scans;
@@ -159,7 +162,7 @@ static unsigned choose_least_hits(struct chance *chance, float *start_nat)
         }
     }
     chance->least_hits = num_scans;
-    return num_scans + 1u;
+    return num_scans == chance->search->initiator->config.scans ? num_scans : num_scans + 1u;
 }
 
 void rho_initiator_find_rate(struct search *search, struct rate *rate)

@@ -20,6 +20,7 @@ struct search {
     float time_s[RHO_MAX_SCANS]; /* of the scans, after the newest: <= 0 */
     float interval_s;            /* usual time between scans */
     int has_more;                /* a scan has heights or range rates */
+    float reach_chi2;            /* of the widest gate */
     int is_isotropic;            /* no scan has noise of two axes, heights or range rates */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
@@ -30,7 +31,7 @@ struct search {
     uint16_t skip_flags;  /* plots that look-ups pass over */
     float score_min_nat;  /* sets below are no candidates */
     int keeps_rate;       /* thresholds follow from false_tracks_per_hour, fits must be good */
-    int is_judging; /* after the selection: the map holds no plots of good candidates, so none are taken out of it */
+    int is_left_out; /* the set that is scored: its plots are not in the map, so none are taken out of it */
 };
 
 /* Thresholds that clutter reaches as rarely as wanted. */

@@ -7,6 +7,9 @@
 /* Plots that two tracks may share: where they cross, one plot is both's. */
 #define SHARED_PLOTS_MAX 1u
 
+/* From here on a candidate is likelier a target than chance. */
+#define LIKELY_MNAT 0
+
 /* Gate of the second association, when better tracks have taken their plots: wider than the fit's, for the fit may have
  * leant on a neighbour's plots. */
 #define SECOND_GATE_FACTOR 2.5f
@@ -175,6 +178,21 @@ static void bring_best_forward(struct rho_initiator *initiator, unsigned accepte
     list[best] = first;
 }
 
+/* Best first; of equals the one that came first. */
+static void sort_candidates(struct rho_initiator *initiator)
+{
+    struct rho_candidate *list = initiator->candidates;
+    for (unsigned i = 1; i < initiator->num_candidates; i++) {
+        struct rho_candidate candidate = list[i];
+        unsigned place = i;
+        while (place > 0 && list[place - 1u].score_mnat < candidate.score_mnat) {
+            list[place] = list[place - 1u];
+            place--;
+        }
+        list[place] = candidate;
+    }
+}
+
 /* Best first; accepted candidates gather at the head of the list, in the order of their scores when accepted. */
 void rho_initiator_select(struct search *search)
 {
@@ -194,6 +212,8 @@ void rho_initiator_select(struct search *search)
         }
     }
     clear_taken(search);
+    sort_candidates(
+        initiator); /* one that was associated again may have become better than those before */
 }
 
 /* ---- judgement -------------------------------------------------------------------------------- */
@@ -205,7 +225,7 @@ static float mark_likely(struct search *search)
     struct rho_initiator *initiator = search->initiator;
     unsigned likely = 0, hits = 0;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
-        if (initiator->candidates[i].score_mnat >= 0) {
+        if (initiator->candidates[i].score_mnat >= LIKELY_MNAT) {
             mark_taken(search, &initiator->candidates[i]);
             hits += initiator->candidates[i].hits;
             likely++;
@@ -214,7 +234,7 @@ static float mark_likely(struct search *search)
     return likely ? (float)hits / (float)likely : 0.0f;
 }
 
-static int judge_one(const struct search *search, struct rho_candidate *candidate)
+static int judge_one(struct search *search, struct rho_candidate *candidate)
 {
     struct plot_set set = {.mask = candidate->mask, .hits = candidate->hits};
     struct line_fit fit = fit_of(candidate);
@@ -222,6 +242,7 @@ static int judge_one(const struct search *search, struct rho_candidate *candidat
     for (unsigned m = 0; m < search->num_scans; m++) {
         set.plot[m] = candidate->plot[m];
     }
+    search->is_left_out = candidate->score_mnat >= LIKELY_MNAT;
     if (set.hits < search->min_scans || !rho_initiator_score(search, &set, &fit, &score)) {
         return 0;
     }
@@ -229,7 +250,7 @@ static int judge_one(const struct search *search, struct rho_candidate *candidat
     return is_good_enough(search, &score);
 }
 
-/* Scores the accepted candidates again, against clutter without the likely targets, and keeps the order of scores. */
+/* Scores the accepted candidates again, against clutter without the likely targets. */
 void rho_initiator_judge(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
@@ -243,19 +264,13 @@ void rho_initiator_judge(struct search *search)
     rho_initiator_find_rate(search, &rate);
     rho_initiator_use_rate(search, &rate);
     search->min_scans = rate.min_scans;
-    search->is_judging = 1;
     unsigned kept = 0;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         struct rho_candidate candidate = initiator->candidates[i];
         if (judge_one(search, &candidate)) {
-            unsigned place = kept++;
-            while (place > 0 &&
-                   initiator->candidates[place - 1u].score_mnat < candidate.score_mnat) {
-                initiator->candidates[place] = initiator->candidates[place - 1u];
-                place--;
-            }
-            initiator->candidates[place] = candidate;
+            initiator->candidates[kept++] = candidate;
         }
     }
     initiator->num_candidates = (uint16_t)kept;
+    sort_candidates(initiator);
 }

@@ -97,6 +97,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 /* ---- plots with their own covariance ---------------------------------------------------------- */
 
 #define RANGE_LEAST_M2 1.0f /* nearer to the sensor there is no line of sight */
+#define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan)
 {
@@ -144,10 +145,12 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
         noise.zz_m2 = up_m2 + rise * (along_m2 - up_m2);
         along_m2 += rise * (up_m2 - along_m2);
     }
-    float excess = (along_m2 - cross_m2) / ground2_m2;
-    noise.xx_m2 = cross_m2 + excess * dx_m * dx_m;
-    noise.xy_m2 = excess * dx_m * dy_m;
-    noise.yy_m2 = cross_m2 + excess * dy_m * dy_m;
+    float per_m2 = 1.0f / ground2_m2, xx = dx_m * dx_m * per_m2, yy = dy_m * dy_m * per_m2;
+    /* what rounding may take off the thinnest of ellipses */
+    float allowance_m2 = (along_m2 > cross_m2 ? along_m2 : cross_m2) * ROUNDING_ALLOWANCE;
+    noise.xx_m2 = xx * along_m2 + yy * cross_m2 + allowance_m2;
+    noise.xy_m2 = (along_m2 - cross_m2) * dx_m * dy_m * per_m2;
+    noise.yy_m2 = yy * along_m2 + xx * cross_m2 + allowance_m2;
     return noise;
 }
 

@@ -296,7 +296,8 @@ static enum rho_status measure_apart(struct rho_kalman *kalman, const struct rho
     enum rho_status status;
 
     rho_measurement_covariance(seen, covariance);
-    level.variance_m2[0] = covariance[0] + covariance[2] - seen->variance_m2[1];
+    level.variance_m2[0] = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
+                           seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
     level.has_z = 0;
     status = measure_in_frame(kalman, 2, &level, velocity_variance);
     if (status == RHO_OK) {
@@ -336,6 +337,28 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
     return measure_in_frame(kalman, num_axes, measurement, velocity_variance);
 }
 
+/*
+ * What the derivative leaves out where the place is uncertain by much of its distance: the line of sight turns by
+ * sigma / range, its square takes the share (sigma / range)^2 / 2 off the rate, which is v or less.
+ */
+static float bend_variance(const struct rho_kalman *kalman, const struct rho_sensor *sensor)
+{
+    const float *state = kalman->state;
+    float range2_m2 = 0.0f, spread_m2 = 0.0f, speed2 = 0.0f;
+    const float place_m[NUM_AXES] = {sensor ? sensor->x_m : 0.0f, sensor ? sensor->y_m : 0.0f,
+                                     sensor ? sensor->z_m : 0.0f};
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        if (rho_kalman_is_open(kalman, axis)) {
+            float off_m = state[axis] - place_m[axis];
+            range2_m2 += off_m * off_m;
+            spread_m2 += kalman->covariance[DIAGONAL(axis)];
+            speed2 += state[axis + NUM_AXES] * state[axis + NUM_AXES];
+        }
+    }
+    float share = spread_m2 / range2_m2;
+    return 0.5f * speed2 * share * share;
+}
+
 enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                              const struct rho_sensor *sensor, float rate_mps,
                                              float variance)
@@ -349,7 +372,8 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                     &predicted_mps)) {
         return RHO_OK;
     }
-    return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps, variance, NULL);
+    return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps,
+                                 variance + bend_variance(kalman, sensor), NULL);
 }
 
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis)
