@@ -372,8 +372,11 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                     &predicted_mps)) {
         return RHO_OK;
     }
-    return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps,
-                                 variance + bend_variance(kalman, sensor), NULL);
+    const float bend = bend_variance(kalman, sensor);
+    if (variance > 0.0f && bend <= FLT_MAX) { /* else it is refused below */
+        variance += bend;
+    }
+    return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps, variance, NULL);
 }
 
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis)

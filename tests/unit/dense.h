@@ -239,17 +239,19 @@ static inline struct dense_measurement dense_row(const float row[6], double y, d
 
 /*
  * The rate that a sensor at `from` would see, linearised at the estimate; axes: 2 where heights are
- * not known.
+ * not known. What that leaves out counts as noise: (v s^2 / range^2)^2 / 2, s^2 the place's variance.
  */
 static inline struct dense_measurement dense_range_rate(const struct dense *d, const double from[3],
                                                         int axes, double rate, double variance)
 {
     struct dense_measurement m = {.num_rows = 1, .r = {{variance}}};
-    double range2 = 0.0, product = 0.0;
+    double range2 = 0.0, product = 0.0, spread2 = 0.0, speed2 = 0.0;
 
     for (int i = 0; i < axes; ++i) {
         range2 += pow(d->x[i] - from[i], 2);
         product += (d->x[i] - from[i]) * d->x[i + 3];
+        spread2 += d->p[i][i];
+        speed2 += d->x[i + 3] * d->x[i + 3];
     }
     const double range = sqrt(range2);
     for (int i = 0; i < axes; ++i) {
@@ -257,6 +259,7 @@ static inline struct dense_measurement dense_range_rate(const struct dense *d, c
         m.h[0][i] = d->x[i + 3] / range - product * (d->x[i] - from[i]) / (range * range2);
     }
     m.y[0] = rate - product / range;
+    m.r[0][0] += 0.5 * speed2 * pow(spread2 / range2, 2);
     return m;
 }
 

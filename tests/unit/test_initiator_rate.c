@@ -156,7 +156,7 @@ static void denser_clutter_asks_for_more_votes(void **state)
         assert_in_range(initiator.min_scans, before, c == 1 ? 3 : SCANS);
         before = initiator.min_scans;
     }
-    assert_int_equal(before, 6); /* 250 plots in 4 km^2 */
+    assert_int_equal(before, SCANS); /* 250 plots in 4 km^2 */
 }
 
 static void without_a_rate_the_least_score_is_the_threshold(void **state)

@@ -326,9 +326,16 @@ static void plots_without_a_line_of_sight_are_isotropic(void **state)
     float packed[6];
     rho_measurement_open(&plot, RHO_MEASURES_Z, &somewhere, &seen);
     rho_measurement_covariance(&seen, packed);
-    assert_true(seen.is_isotropic);
-    const float expected[6] = {900.0f, 0.0f, 900.0f, 0.0f, 0.0f, 900.0f};
+    /* overhead: the range is the height, and the other two axes are level, along any azimuth */
+    const float overhead[6] = {400.0f, 0.0f, 900.0f, 0.0f, 0.0f, 100.0f};
     for (int i = 0; i < 6; i++) {
+        assert_float_equal(packed[i], overhead[i], 1e-3f);
+    }
+    rho_measurement_open(&plot, 0, &somewhere, &seen);
+    rho_measurement_covariance(&seen, packed);
+    assert_true(seen.is_isotropic);
+    const float expected[3] = {900.0f, 0.0f, 900.0f};
+    for (int i = 0; i < 3; i++) {
         assert_float_equal(packed[i], expected[i], 1e-3f);
     }
     plot.x_m = 5000.0f;
