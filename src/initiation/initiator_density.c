@@ -150,32 +150,40 @@ static struct view view_of(const struct search *search, const struct rho_sensor 
 
 /* The ends of n places, evenly spread, fall short of the ends of what the radar sees by a share 1 / (n + 1) each, on average;
  * almost all round is all round. */
-static void lay_polar(const struct rho_sensor *radar, const struct view *view,
-                      struct rho_density_map *map)
+static struct rho_density_map polar_map(const struct rho_sensor *radar, const struct view *view)
 {
     float wider = (view->plots + 1.0f) / (view->plots - 1.0f);
     float sector_rad = wider * (view->left_rad - view->right_rad);
     float depth_m = wider * (view->farthest_m - view->nearest_m);
-    *map = (struct rho_density_map){
+    struct rho_density_map map = {
         .is_polar = 1, .sensor_x_m = radar->x_m, .sensor_y_m = radar->y_m, .v0 = -RHO_PI};
-    map->u0 = 0.5f * (view->farthest_m + view->nearest_m - depth_m);
-    map->width = depth_m > 1.0f ? depth_m : 1.0f;
-    map->height = RHO_TWO_PI;
+    map.u0 = 0.5f * (view->farthest_m + view->nearest_m - depth_m);
+    map.width = depth_m > 1.0f ? depth_m : 1.0f;
+    map.height = RHO_TWO_PI;
     if (sector_rad < ALL_ROUND_RAD) {
-        map->middle_rad = view->middle_rad + 0.5f * (view->left_rad + view->right_rad);
-        map->height = sector_rad > SECTOR_MIN_RAD ? sector_rad : SECTOR_MIN_RAD;
-        map->v0 = -0.5f * map->height;
+        map.middle_rad = view->middle_rad + 0.5f * (view->left_rad + view->right_rad);
+        map.height = sector_rad > SECTOR_MIN_RAD ? sector_rad : SECTOR_MIN_RAD;
+        map.v0 = -0.5f * map.height;
     }
-    map->content = map->width * map->height;
+    map.content = map.width * map.height;
+    return map;
 }
 
-/* Are the plots likelier where they are if they are even in range and azimuth, 1 / (content range) a square metre, or if
- * they are even over the area? */
-static int is_even_in_range(const struct rho_initiator *initiator, const struct view *view,
-                            const struct rho_density_map *polar)
+/* Where the plots are likelier if they are even in range and azimuth, 1 / (content range) a square metre, than if they are
+ * even over the area. Returns 0 where they are not, and lays nothing. */
+static int lay_polar(const struct search *search, const struct rho_sensor *radar)
 {
-    return view->sum_log_range + view->plots * rho_log(polar->content) <
-           view->plots * rho_log(rho_initiator_area_m2(initiator));
+    struct view view = view_of(search, radar);
+    if (view.plots < POLAR_PLOTS_MIN) {
+        return 0;
+    }
+    struct rho_density_map map = polar_map(radar, &view);
+    if (view.sum_log_range + view.plots * rho_log(map.content) >=
+        view.plots * rho_log(rho_initiator_area_m2(search->initiator))) {
+        return 0;
+    }
+    search->initiator->density = map;
+    return 1;
 }
 
 static void lay_square(const struct rho_initiator *initiator, struct rho_density_map *map)
@@ -195,14 +203,7 @@ static void lay_map(const struct search *search, uint32_t num_plots)
     const struct rho_sensor *radar = only_radar(search);
     uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
     float cells = (float)wanted;
-    struct view view = {.plots = 0.0f};
-    if (radar) {
-        view = view_of(search, radar);
-    }
-    if (view.plots >= POLAR_PLOTS_MIN) {
-        lay_polar(radar, &view, map);
-    }
-    if (view.plots < POLAR_PLOTS_MIN || !is_even_in_range(search->initiator, &view, map)) {
+    if (!radar || !lay_polar(search, radar)) {
         lay_square(search->initiator, map);
     }
     /* an arc of half the range is as long as azimuth times that */

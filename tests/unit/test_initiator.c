@@ -140,6 +140,11 @@ static void init_refuses_every_bad_parameter(void **state)
     REFUSE_WITH(v_min_mps, 400.0f);
     REFUSE_WITH(v_min_mps, NAN);
     REFUSE_WITH(v_max_mps, INFINITY);
+    REFUSE_WITH(v_max_mps, 1e-30f);
+    REFUSE_WITH(false_tracks_per_hour, -5.0f);
+    REFUSE_WITH(false_tracks_per_hour, NAN);
+    REFUSE_WITH(false_tracks_per_hour, 1e-7f);
+    REFUSE_WITH(false_tracks_per_hour, 2e6f);
     REFUSE_WITH(pd, 0.0f);
     REFUSE_WITH(pd, 1.0f);
     REFUSE_WITH(pd, NAN);

@@ -222,6 +222,28 @@ static void positions_refuse_what_is_half_open(void **state)
 }
 
 /* What the filter becomes is not said; that it is no success is. */
+/* Thousands of times wider across than along: the height's first plot must not cancel. */
+static void a_first_height_in_the_widest_of_ellipses_is_taken(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 60; ++i) {
+        struct rho_kalman kalman = opened(2, 100.0f, 100.0f);
+        const double azimuth = 0.1047 * i;
+        const struct rho_plot plot = {.x_m = (float)(1e5 * cos(azimuth)),
+                                      .y_m = (float)(1e5 * sin(azimuth)),
+                                      .z_m = 5000.0f,
+                                      .sigma_range_m = 1.0f,
+                                      .sigma_cross_m = 1e4f,
+                                      .sigma_up_m = 1.0f};
+        const struct rho_measurement seen = opened_up(&plot, 3);
+
+        kalman.state[0] = plot.x_m;
+        kalman.state[1] = plot.y_m;
+        assert_int_equal(rho_kalman_update_position(&kalman, &seen, SPEED_VARIANCE), RHO_OK);
+        assert_true(rho_kalman_is_open(&kalman, 2));
+    }
+}
+
 static void assert_not_ok(const struct rho_measurement *seen, float velocity_variance, int is_open)
 {
     struct rho_kalman kalman = opened(is_open ? 3 : 0, 4.0f, 9.0f);
@@ -328,6 +350,7 @@ int main(void)
         cmocka_unit_test(heights_that_come_later_go_by_themselves),
         cmocka_unit_test(heights_that_were_first_go_by_themselves),
         cmocka_unit_test(positions_refuse_what_is_half_open),
+        cmocka_unit_test(a_first_height_in_the_widest_of_ellipses_is_taken),
         cmocka_unit_test(positions_refuse_bad_numbers),
         cmocka_unit_test(the_order_of_positions_and_rows_does_not_matter),
         cmocka_unit_test(a_vague_start_with_a_sharp_radar),

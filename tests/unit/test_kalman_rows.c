@@ -268,6 +268,22 @@ static void an_estimate_at_the_sensor_has_no_range_rate(void **state)
     assert_true(kalman.state[5] > before.state[5]);
 }
 
+/* Where the sensor may be on any side, a range rate says little of the velocity. */
+static void close_to_the_sensor_a_range_rate_weighs_little(void **state)
+{
+    struct rho_kalman near = opened(2, 900.0f, 1e4f), far = near;
+
+    (void)state;
+    near.state[1] = far.state[1] = 0.0f;
+    near.state[0] = 45.0f;
+    far.state[0] = 45000.0f;
+    near.state[3] = far.state[3] = 200.0f;
+    assert_int_equal(rho_kalman_update_range_rate(&near, NULL, 190.0f, 1.0f), RHO_OK);
+    assert_int_equal(rho_kalman_update_range_rate(&far, NULL, 190.0f, 1.0f), RHO_OK);
+    assert_true(near.covariance[RHO_AT(3, 3)] > 5000.0f);
+    assert_true(far.covariance[RHO_AT(3, 3)] < 1.1f);
+}
+
 static void assert_rate_refused(struct rho_kalman kalman, float rate_mps, float variance,
                                 enum rho_status expected)
 {
@@ -315,6 +331,7 @@ int main(void)
         cmocka_unit_test(range_rates_agree_with_the_linearised_filter),
         cmocka_unit_test(a_range_rate_by_hand),
         cmocka_unit_test(an_estimate_at_the_sensor_has_no_range_rate),
+        cmocka_unit_test(close_to_the_sensor_a_range_rate_weighs_little),
         cmocka_unit_test(range_rates_refuse_bad_arguments),
     };
 

@@ -224,6 +224,47 @@ static void biases_cannot_make_bad_plots(void **state)
     assert_int_equal(rho_measurement_from_polar(&polar, ALL, &sensor, &plot), RHO_ERROR_VALUE);
 }
 
+#define SENSOR_REFUSED(field, value)                                                               \
+    do {                                                                                           \
+        struct rho_sensor bad = somewhere;                                                         \
+        bad.field = (value);                                                                       \
+        assert_int_equal(rho_measurement_from_polar(&good, ALL, &bad, &plot), RHO_ERROR_VALUE);    \
+    } while (0)
+
+static void sensors_without_a_place_or_with_wild_biases_are_refused(void **state)
+{
+    (void)state;
+    const struct rho_polar_plot good = some_polar();
+    struct rho_plot plot;
+    SENSOR_REFUSED(x_m, NAN);
+    SENSOR_REFUSED(y_m, INFINITY);
+    SENSOR_REFUSED(z_m, -3e6f);
+    SENSOR_REFUSED(range_bias_m, NAN);
+    SENSOR_REFUSED(azimuth_bias_rad, 0.6f);
+    SENSOR_REFUSED(time_bias_s, NAN);
+    SENSOR_REFUSED(time_bias_s, 3e38f);
+    SENSOR_REFUSED(time_bias_s, -11.0f);
+}
+
+/* A hundred thousand times as wide as deep, at any azimuth: still an ellipse. */
+static void the_thinnest_covariances_stay_positive_definite(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 360; i++) {
+        double azimuth_rad = i * 0.0174532925;
+        struct rho_plot plot = {.x_m = (float)(1e5 * cos(azimuth_rad)),
+                                .y_m = (float)(1e5 * sin(azimuth_rad)),
+                                .sigma_range_m = 1.0f,
+                                .sigma_cross_m = 1e5f};
+        struct rho_measurement seen;
+        float packed[6];
+        rho_measurement_open(&plot, 0, NULL, &seen);
+        rho_measurement_covariance(&seen, packed);
+        double determinant = (double)packed[0] * packed[2] - (double)packed[1] * packed[1];
+        assert_true(packed[0] > 0.0f && packed[2] > 0.0f && determinant > 0.0);
+    }
+}
+
 static void what_is_not_measured_may_be_anything(void **state)
 {
     (void)state;
@@ -412,6 +453,8 @@ int main(void)
         cmocka_unit_test(polar_plots_become_places),
         cmocka_unit_test(converted_places_are_unbiased),
         cmocka_unit_test(what_no_radar_measures_is_refused),
+        cmocka_unit_test(sensors_without_a_place_or_with_wild_biases_are_refused),
+        cmocka_unit_test(the_thinnest_covariances_stay_positive_definite),
         cmocka_unit_test(biases_cannot_make_bad_plots),
         cmocka_unit_test(what_is_not_measured_may_be_anything),
         cmocka_unit_test(a_plot_is_valid_field_by_field),
