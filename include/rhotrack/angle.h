@@ -28,12 +28,13 @@ int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 /*
  * The line through (x_m, y_m) along (dx, dy), which is not (0, 0) but finite (else NaN); theta = atan2(dx, -dy) brought
  * into [0, pi), rho signed to match (Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method ...",
- * eqs. (9), (10), corrected: taken literally theta falls outside [0, pi), and rho loses its sign, which merges mirror lines).
+ * eqs. (9), (10), corrected: taken literally theta falls outside [0, pi), and rho loses its sign, which merges mirror
+ * lines).
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy);
 
-/* Index of the theta cell, 0 .. num_cells - 1, for num_cells equal cells over [0, pi). theta outside: the nearest cell; NaN, or
- * num_cells < 1: 0. */
+/* Index of the theta cell, 0 .. num_cells - 1, for num_cells equal cells over [0, pi). theta outside: the nearest
+ * cell; NaN, or num_cells < 1: 0. */
 int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells);
 
 #endif

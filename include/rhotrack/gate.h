@@ -2,8 +2,9 @@
 /*
  * gate: which plots may be a track's?
  *
- * nearest: the squared Mahalanobis distance of the plot from the prediction at the plot's own time, with the covariances
- * of both, against a chi-square limit of 99.9 %. Two dimensions, and one more each where height and range rate count.
+ * nearest: the squared Mahalanobis distance of the plot from the prediction at the plot's own time, with the
+ * covariances of both, against a chi-square limit of 99.9 %. Two dimensions, and one more each where height and range
+ * rate count.
  */
 #ifndef RHOTRACK_GATE_H
 #define RHOTRACK_GATE_H
@@ -37,9 +38,10 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
                    const struct rho_sensor *sensor);
 
 /*
- * Tests a valid plot of a scan that measures `measures`. Returns 1 and fills *result where the plot is in the gate, else
- * 0 (also where the covariance is not positive definite). z counts where both have it, a range rate where the plot has it
- * and the prediction is not in the sensor's place. The prediction moves on with the plot's own time.
+ * Tests a valid plot of a scan that measures `measures`. Returns 1 and fills *result where the plot is in the gate,
+ * else
+ * 0 (also where the covariance is not positive definite). z counts where both have it, a range rate where the plot
+ * has it and the prediction is not in the sensor's place. The prediction moves on with the plot's own time.
  * Cost: about 60 instructions; for plots inside the gate's box about 250 more, as many again for a plot with an own
  * time, and 200 for a range rate. Stack: 760 bytes.
  */

@@ -10,12 +10,14 @@
  * these plots are one target's, over the likelihood that they are clutter of the local density. Candidates are accepted
  * best first; one that shares more than one plot with a better one is fitted again on what is left.
  *
- * Every plot counts with its own time and its own covariance, and with its height and range rate where it has them. After
- * every scan the thresholds and M follow from the wanted rate of false tracks and from what the window tells of clutter.
+ * Every plot counts with its own time and its own covariance, and with its height and range rate where it has them.
+ * After every scan the thresholds and M follow from the wanted rate of false tracks and from what the window tells of
+ * clutter.
  *
  * src/DESIGN.md derives the gates, the score, the rate and the densities up to which this can work. Source: Fan et al.,
- * "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple Target Tracking" (votes in parameter space by
- * kernels of time-ordered scans); the score is the integrated likelihood ratio over all straight tracks with speeds between v_min_mps and v_max_mps.
+ * "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple Target Tracking" (votes in parameter space
+ * by kernels of time-ordered scans); the score is the integrated likelihood ratio over all straight tracks with
+ * speeds between v_min_mps and v_max_mps.
  */
 #ifndef RHOTRACK_INITIATOR_H
 #define RHOTRACK_INITIATOR_H
@@ -35,8 +37,8 @@ struct rho_initiator_config {
     float v_min_mps,
         v_max_mps; /* speeds of targets, 0 <= v_min < v_max, 0.01 <= v_max <= RHO_LIMIT_SPEED_MPS */
     float pd;      /* probability that a scan sees the target: 0.01 .. 0.999 */
-    /* wanted of chance tracks, 0 or 1e-6 .. 1e6, for searches after every scan: thresholds and M follow from it; 0: score_min_nat
-     * is the threshold */
+    /* wanted of chance tracks, 0 or 1e-6 .. 1e6, for searches after every scan: thresholds and M follow from it; 0:
+     * score_min_nat is the threshold */
     float false_tracks_per_hour;
     float score_min_nat; /* candidates below are none; a batch always goes by it */
     /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
@@ -102,8 +104,8 @@ struct rho_initiator {
     struct rho_window window;
 };
 
-/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise, area from the plots; scans
- * is cut to RHO_MAX_SCANS. Constant cost. */
+/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise,
+ * area from the plots; scans is cut to RHO_MAX_SCANS. Constant cost. */
 void rho_initiator_config_default(struct rho_initiator_config *config);
 
 /*
@@ -129,7 +131,8 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
  * Cost: with n plots a scan and f the fraction of pairs that the speed limits allow, (N - M + 1)(N - M + 2) / 2 (batch)
  * or N - M + 1 (newest) times n^2 f kernels, two look-ups each unless clutter is dense; fits are few. Bins make n f
  * the plots within v_max x time, so that cost grows with density, not with area. Thresholds for false_tracks_per_hour:
- * 0.3 to 0.9 million instructions, twice where there are likely candidates. Stack: 3.3 KB (embedded profile).
+ * 0.3 to 0.9 million instructions, twice where there are likely candidates. Where all plots lie within their noise of
+ * one another, n f is n, and a look-up compares n plots. Stack: 3.4 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);
@@ -142,9 +145,10 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
                                const struct rho_candidate *candidate);
 
 /*
- * Density of a sensor's plots near a place, plots a m^2 and scan, as of the last search: the map's cell over the window,
- * drawn towards the mean as far as the cells scatter no more than chance makes them, times what the sensor sees more or
- * less than the others. A sensor that the window does not hold counts as the mean. 0 before the first search.
+ * Density of a sensor's plots near a place, plots a m^2 and scan, as of the last search: the map's cell over the
+ * window, drawn towards the mean as far as the cells scatter no more than chance makes them, times what the sensor
+ * sees more or less than the others. A sensor that the window does not hold counts as the mean. 0 before the first
+ * search.
  * Cost: RHO_MAX_SCANS, for a radar an arctangent and a square root.
  */
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,

@@ -5,8 +5,8 @@
  * State [x y z vx vy vz] in metres and metres a second; covariance as the lower triangle row by row (linalg.h), 21
  * floats: symmetric by construction. An axis that was never measured has zero state and zero variance and stays so.
  * Scalar updates need no matrix inverse: a measurement whose noise couples no axes is one update an axis, and gives the
- * same estimate as the vector update. Noise along a line of sight couples x, y and z, but not the axes of its own frame:
- * the estimate is turned there, updated, and turned back.
+ * same estimate as the vector update. Noise along a line of sight couples x, y and z, but not the axes of its own
+ * frame: the estimate is turned there, updated, and turned back.
  */
 #ifndef RHOTRACK_KALMAN_H
 #define RHOTRACK_KALMAN_H
@@ -39,7 +39,8 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
 /*
  * Moves the estimate on by dt_s, -1e5 .. 1e5. noise_density is the power spectral density of white acceleration on
  * each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2 dt], so that one long step equals
- * several short ones. Going back (dt_s < 0) adds no noise: forth and back without noise is the identity but for rounding.
+ * several short ones. Going back (dt_s < 0) adds no noise: forth and back without noise is the identity but for
+ * rounding.
  * Errors: NULL, VALUE (arguments, or a result beyond RHO_KALMAN_VARIANCE_MAX; unchanged).
  * Cost: about 240 instructions. Stack: 64 bytes.
  */
@@ -48,24 +49,25 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
 
 /*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0 (below
- * RHO_KALMAN_VARIANCE_MIN it counts as that). *nis (may be NULL) gets the normalised innovation squared. On an axis that
- * is not open nothing else changes. Errors: NULL, VALUE (element, value or variance, a result not finite), SINGULAR
- * (innovation variance not positive and finite); unchanged. Cost: about 330 instructions. Stack: 144 bytes.
+ * RHO_KALMAN_VARIANCE_MIN it counts as that). *nis (may be NULL) gets the normalised innovation squared. On an axis
+ * that is not open nothing else changes. Errors: NULL, VALUE (element, value or variance, a result not finite),
+ * SINGULAR (innovation variance not positive and finite); unchanged. Cost: about 330 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element,
                                                  float value, float variance, float *nis);
 
 /*
- * One scalar update: row . state was measured, `innovation` is its measured minus predicted value, `variance` its noise.
+ * One scalar update: row . state was measured, `innovation` is its measured minus predicted value, `variance` its
+ * noise.
  * Errors as above. Cost: about 480 instructions. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
                                                      float innovation, float variance, float *nis);
 
 /*
- * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened with its place and its
- * noise, and a velocity of 0 with variance velocity_variance. After an error the filter is partly updated: work on a
- * copy where that matters. Errors: as rho_kalman_update and rho_kalman_open_axis.
+ * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened with its place
+ * and its noise, and a velocity of 0 with variance velocity_variance. After an error the filter is partly updated:
+ * work on a copy where that matters. Errors: as rho_kalman_update and rho_kalman_open_axis.
  * Cost: a scalar update an axis, and where the noise is not isotropic 2 (with z 4) turns there and as many back, about
  * 200 instructions each. Stack: 310 bytes.
  */
@@ -74,8 +76,8 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_position(struct rho_kalman *kal
                                                           float velocity_variance);
 
 /*
- * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate: after the position of the
- * same plot. An estimate nearer than a metre to the sensor has no range rate: nothing is done, RHO_OK.
+ * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate: after the position of
+ * the same plot. An estimate nearer than a metre to the sensor has no range rate: nothing is done, RHO_OK.
  * Errors: as rho_kalman_update_row. Cost: that and rho_measurement_range_rate. Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,

@@ -34,8 +34,8 @@ float rho_linalg_log_determinant(int n, const float *l);
 
 /*
  * Squared Mahalanobis distance d^T S^-1 d and ln det S for 2 x 2 (s: 3 floats) and 3 x 3 (s: 6 floats).
- * RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs untouched. Also NULL. Cost: 25 and 60
- * operations and a logarithm.
+ * RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs untouched. Also NULL. Cost: 25
+ * and 60 operations and a logarithm.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_gate2(const float s[3], const float d[2],
                                                 float *distance2, float *log_det);
@@ -54,16 +54,17 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int i
                                                   float innovation, float variance, float *nis);
 
 /*
- * The same for a measurement of row . x: row (6 floats) need not be a unit vector, and `innovation` is the measured minus
- * the predicted value. Errors as above. Cost: about 420 instructions. Stack: 144 bytes.
+ * The same for a measurement of row . x: row (6 floats) need not be a unit vector, and `innovation` is the measured
+ * minus the predicted value. Errors as above. Cost: about 420 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
                                                       float innovation, float variance, float *nis);
 
 /*
- * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p G^T with new a = c a +
- * s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by 2^-22 of the larger one, more than
- * rounding takes, so that a positive definite p stays so, unless it is singular to within 10^-6 already. a, b: 0 .. 5, not the same; not checked.
+ * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p G^T with new a =
+ * c a + s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by 2^-22 of the larger one, more than
+ * rounding takes, so that a positive definite p stays so, unless it is singular to within 10^-6 already. a, b: 0 ..
+ * 5, not the same; not checked.
  * Cost: about 90 instructions.
  */
 void rho_linalg_turn6(float p[21], int a, int b, float c, float s);

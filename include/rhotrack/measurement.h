@@ -38,8 +38,8 @@ struct rho_measurement {
  *   sensor    NULL: at the origin, without biases
  *   plot      offset, place, range rate, snr and sigmas are filled, the rest is 0
  * The mean of r cos(a + noise) is r cos(a) exp(-sigma^2 / 2): the converted place falls short of the true one by
- * r sigma^2 / 2 along the line of sight, and is moved out again. The noise of the angles also spreads the place along the
- * line of sight, with the variance r^2 sigma^4 / 2, which sigma_range_m gets.
+ * r sigma^2 / 2 along the line of sight, and is moved out again. The noise of the angles also spreads the place along
+ * the line of sight, with the variance r^2 sigma^4 / 2, which sigma_range_m gets.
  * Errors: NULL, VALUE (range not in 0 .. RHO_LIMIT_POSITION_M, exclusive of 0, azimuth beyond +-pi, elevation beyond
  * +-pi/2, a sigma outside its limits, range rate beyond RHO_LIMIT_SPEED_MPS, the place or offset beyond its limit, also
  * once the biases are off; any of it not finite); *plot is unchanged. Cost: two sines and cosines. Stack: 160 bytes.

@@ -86,24 +86,26 @@ struct rho_track_plot {
 
 /*
  * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 2 plots: the first opens the filter, the
- * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is that
- * plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
- * Errors: NULL, VALUE (num_plots, numbers), SINGULAR; *track is unchanged. Cost: num_plots filter steps. Stack: 600 bytes.
+ * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is
+ * that plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
+ * Errors: NULL, VALUE (num_plots, numbers), SINGULAR; *track is unchanged. Cost: num_plots filter steps. Stack: 600
+ * bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
                 unsigned num_plots, const struct rho_track_model *model, int32_t score_mnat);
 
 /*
- * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later within its scan), it goes
- * back without noise. Errors: NULL, VALUE (a covariance beyond its limit); unchanged.
+ * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later within its scan), it
+ * goes back without noise. Errors: NULL, VALUE (a covariance beyond its limit); unchanged.
  */
 RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                                  const struct rho_track_model *model);
 
 /*
  * Updates with a plot: predicts to its own time, and takes its position, velocity and range rate, as far as measured,
- * by scalar updates; a first z opens the third axis. The estimate stays at the plot's time. gain_mnat is added to the score.
+ * by scalar updates; a first z opens the third axis. The estimate stays at the plot's time. gain_mnat is added to the
+ * score.
  * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: a prediction where the plot has an own time, and 2 to 7
  * scalar updates. Stack: 550 bytes.
  */
@@ -115,7 +117,8 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
 /* Counts a scan that looked and saw nothing; loss_mnat >= 0 is taken from the score. Constant cost. */
 void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
 
-/* Applies the limits to the evidence: confirm and drop. Returns the status, RHO_TRACK_FREE where it ended. Constant cost. */
+/* Applies the limits to the evidence: confirm and drop. Returns the status, RHO_TRACK_FREE where it ended. Constant
+ * cost. */
 enum rho_track_status rho_track_judge(struct rho_track *track,
                                       const struct rho_track_limits *limits);
 

@@ -15,9 +15,9 @@
  *   age       the others, where the sensor looked; the dead make room
  *   initiate  tracks from the plots that nobody claimed
  *   report    tracks, one fate a plot, counters
- * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on every machine: there is no
- * clock, no random number and no global variable inside. Calls on one tracker must not overlap; several trackers are
- * independent. The objects hold no pointers: a memcpy is a snapshot.
+ * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on every machine: there
+ * is no clock, no random number and no global variable inside. Calls on one tracker must not overlap; several
+ * trackers are independent. The objects hold no pointers: a memcpy is a snapshot.
  */
 #ifndef RHOTRACK_TRACKER_H
 #define RHOTRACK_TRACKER_H

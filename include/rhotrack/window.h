@@ -84,7 +84,8 @@ struct rho_window_noise {
     float xx_m2, xy_m2, yy_m2, zz_m2;
 };
 
-/* The same question where each plot has its own covariance, heights and range rates count as far as the scan has them. */
+/* The same question where each plot has its own covariance, heights and range rates count as far as the scan has
+ * them. */
 struct rho_window_place {
     float x_m, y_m, z_m;
     float vx_mps, vy_mps, vz_mps;
@@ -129,7 +130,8 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
  *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 16384 and up, becomes NO_ROOM
  *   left_unused  counts the plots that leave the window without having started a track
  * Errors: NULL, STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
- * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions; where the area is not given, three looks at all plots held. Stack: 130 bytes.
+ * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions; where the area is not given, three looks at all
+ * plots held. Stack: 130 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
                                                const struct rho_scan *scan,
@@ -147,9 +149,9 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
                        struct rho_window_work *work);
 
 /*
- * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus height
- * plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the position are
- * neglected. Cost: as above, 60 instructions a plot. Stack: 230 bytes.
+ * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus
+ * height plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the
+ * position are neglected. Cost: as above, 60 instructions a plot. Stack: 230 bytes.
  */
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work);
@@ -159,16 +161,16 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
                                          const struct rho_window_plot *plot);
 
 /*
- * Squared distance of a held plot's range rate from what the place's velocity would show there, in units of its variance.
- * The line of sight is the plot's, whose own error turns the velocity. 0 for a plot in the sensor's place. Cost: 100
- * instructions.
+ * Squared distance of a held plot's range rate from what the place's velocity would show there, in units of its
+ * variance. The line of sight is the plot's, whose own error turns the velocity. 0 for a plot in the sensor's place.
+ * Cost: 100 instructions.
  */
 float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,
                                       const struct rho_window_place *place);
 
-/* The held plot as it was pushed, but for its own velocity and snr, which are 0; sigmas are rounded to 2^-12 of themselves,
- * the offset to float32. Constant cost. */
+/* The held plot as it was pushed, but for its own velocity and snr, which are 0; sigmas are rounded to 2^-12 of
+ * themselves, the offset to float32. Constant cost. */
 struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned index);
 
 /* The scan's sensor, or NULL where it was not described. */

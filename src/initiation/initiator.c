@@ -333,7 +333,8 @@ static float usual_interval_s(const struct search *search)
     return n > 0 ? sum_s / (float)n : 0.0f;
 }
 
-/* Times relative to the newest scan, and the least side of an area that is not given: what a target crosses meanwhile. */
+/* Times relative to the newest scan, and the least side of an area that is not given: what a target crosses
+ * meanwhile. */
 static void lay_times(struct search *search)
 {
     struct rho_window *window = &search->initiator->window;

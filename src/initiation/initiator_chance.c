@@ -336,8 +336,9 @@ static float power(float v, float k)
 }
 
 /*
- * Share of a pattern's sets whose track had not started without its newest hit: its chi2 / 2 then was above `before`, and
- * is below y with it. Of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q = before / y.
+ * Share of a pattern's sets whose track had not started without its newest hit: its chi2 / 2 then was above `before`,
+ * and is below y with it. Of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q
+ * = before / y.
  */
 static float share_new(float k, float y, float before)
 {

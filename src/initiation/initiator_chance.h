@@ -3,7 +3,8 @@
  * initiator_chance: how many tracks clutter makes by chance, by their scores. Private to initiator_chance.c and
  * initiator_rate.c.
  *
- * Of all sets of h clutter plots in given scans, the expected number whose score reaches s is (src/DESIGN.md derives it)
+ * Of all sets of h clutter plots in given scans, the expected number whose score reaches s is (src/DESIGN.md derives
+ * it)
  *
  *     E(s) = births pd^h (1 - pd)^misses e^-c y^k / k!,      y = c - s,
  *

@@ -3,8 +3,8 @@
  * initiator_density: how dense clutter is, here and on average, and for each sensor.
  *
  * The map has cells of equal sides over the area; or, about a radar, cells of range and azimuth: false alarms are often
- * spread evenly over a radar's resolution cells rather than over the ground, and end at its range, not at the sides of a
- * square. The plots tell which is likelier.
+ * spread evenly over a radar's resolution cells rather than over the ground, and end at its range, not at the sides
+ * of a square. The plots tell which is likelier.
  */
 #include <string.h>
 
@@ -19,9 +19,9 @@
 #define PRIOR_PLOTS_MAX 1.0e6f
 
 /*
- * A batch asks once: its density is never below one plot in the area and scan. Searches after every scan must tell clear
- * skies from cluttered ones: half a plot in the area and window is what is expected where none was seen (the median of a
- * density of which nothing else is known).
+ * A batch asks once: its density is never below one plot in the area and scan. Searches after every scan must tell
+ * clear skies from cluttered ones: half a plot in the area and window is what is expected where none was seen (the
+ * median of a density of which nothing else is known).
  */
 #define PLOTS_UNSEEN 0.5f
 
@@ -148,49 +148,49 @@ static struct view view_of(const struct search *search, const struct rho_sensor 
     return view;
 }
 
-/* The ends of n places, evenly spread, fall short of the ends of what the radar sees by a share 1 / (n + 1) each, on average;
- * almost all round is all round. */
-static struct rho_density_map polar_map(const struct rho_sensor *radar, const struct view *view)
+/* The ends of n places, evenly spread, fall short of the ends of what the radar sees by a share 1 / (n + 1) each, on
+ * average; almost all round is all round. */
+static void lay_sector(const struct rho_sensor *radar, const struct view *view,
+                       struct rho_density_map *map)
 {
     float wider = (view->plots + 1.0f) / (view->plots - 1.0f);
     float sector_rad = wider * (view->left_rad - view->right_rad);
     float depth_m = wider * (view->farthest_m - view->nearest_m);
-    struct rho_density_map map = {
-        .is_polar = 1, .sensor_x_m = radar->x_m, .sensor_y_m = radar->y_m, .v0 = -RHO_PI};
-    map.u0 = 0.5f * (view->farthest_m + view->nearest_m - depth_m);
-    map.width = depth_m > 1.0f ? depth_m : 1.0f;
-    map.height = RHO_TWO_PI;
+    map->is_polar = 1;
+    map->sensor_x_m = radar->x_m;
+    map->sensor_y_m = radar->y_m;
+    map->u0 = 0.5f * (view->farthest_m + view->nearest_m - depth_m);
+    map->width = depth_m > 1.0f ? depth_m : 1.0f;
+    map->v0 = -RHO_PI;
+    map->height = RHO_TWO_PI;
     if (sector_rad < ALL_ROUND_RAD) {
-        map.middle_rad = view->middle_rad + 0.5f * (view->left_rad + view->right_rad);
-        map.height = sector_rad > SECTOR_MIN_RAD ? sector_rad : SECTOR_MIN_RAD;
-        map.v0 = -0.5f * map.height;
+        map->middle_rad = view->middle_rad + 0.5f * (view->left_rad + view->right_rad);
+        map->height = sector_rad > SECTOR_MIN_RAD ? sector_rad : SECTOR_MIN_RAD;
+        map->v0 = -0.5f * map->height;
     }
-    map.content = map.width * map.height;
-    return map;
+    map->content = map->width * map->height;
 }
 
-/* Where the plots are likelier if they are even in range and azimuth, 1 / (content range) a square metre, than if they are
- * even over the area. Returns 0 where they are not, and lays nothing. */
+/* Where the plots are likelier if they are even in range and azimuth, 1 / (content range) a square metre, than if
+ * they are even over the area. Returns 0 where they are not. */
 static int lay_polar(const struct search *search, const struct rho_sensor *radar)
 {
+    struct rho_density_map *map = &search->initiator->density;
     struct view view = view_of(search, radar);
     if (view.plots < POLAR_PLOTS_MIN) {
         return 0;
     }
-    struct rho_density_map map = polar_map(radar, &view);
-    if (view.sum_log_range + view.plots * rho_log(map.content) >=
-        view.plots * rho_log(rho_initiator_area_m2(search->initiator))) {
-        return 0;
-    }
-    search->initiator->density = map;
-    return 1;
+    lay_sector(radar, &view, map);
+    return view.sum_log_range + view.plots * rho_log(map->content) <
+           view.plots * rho_log(rho_initiator_area_m2(search->initiator));
 }
 
 static void lay_square(const struct rho_initiator *initiator, struct rho_density_map *map)
 {
     const struct rho_window *window = &initiator->window;
     float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
-    *map = (struct rho_density_map){.u0 = window->extent.x_min_m};
+    map->is_polar = 0;
+    map->u0 = window->extent.x_min_m;
     map->v0 = window->extent.y_min_m;
     map->width = rho_extent_width_m(&window->extent, side_min_m);
     map->height = rho_extent_height_m(&window->extent, side_min_m);
@@ -203,6 +203,7 @@ static void lay_map(const struct search *search, uint32_t num_plots)
     const struct rho_sensor *radar = only_radar(search);
     uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
     float cells = (float)wanted;
+    memset(map, 0, sizeof *map);
     if (!radar || !lay_polar(search, radar)) {
         lay_square(search->initiator, map);
     }

@@ -7,8 +7,9 @@
 #include "rhotrack/linalg.h"
 #include "rhotrack/measurement.h"
 
-/* A plot misses the fitted track by its own noise and the fit's: 1 + leverage, which is 1.46 at the ends of seven evenly
- * spread hits. Fewer hits reach farther; their plots are gated a little too tightly, and the votes were cast before. */
+/* A plot misses the fitted track by its own noise and the fit's: 1 + leverage, which is 1.46 at the ends of seven
+ * evenly spread hits. Fewer hits reach farther; their plots are gated a little too tightly, and the votes were cast
+ * before. */
 #define FIT_GATE_FACTOR 1.5f
 
 #define LOG_TWO_PI 1.83787707f
@@ -37,8 +38,8 @@ static float displacement_s2(const struct search *search, unsigned l, unsigned m
     return interval_s * (0.5f * interval_s + search->time_s[m] - search->time_s[l + 1]);
 }
 
-/* Largest diagonal element of H K H, H projecting off the straight lines over all scans: how far process noise K bends a
- * track away from its own fit. */
+/* Largest diagonal element of H K H, H projecting off the straight lines over all scans: how far process noise K
+ * bends a track away from its own fit. */
 static float bend_m2(const struct search *search)
 {
     unsigned n = search->num_scans;

@@ -124,9 +124,9 @@ int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit,
 /* ---- regression ------------------------------------------------------------------------------- */
 
 /*
- * A straight track through a set of plots: place and velocity are the unknowns, each plot gives a row along every axis of
- * its noise, and one for its range rate, linearised where the places alone put the track. Times are taken from the
- * middle in units of `unit_s`, places from the middle plot, so that the unknowns are alike.
+ * A straight track through a set of plots: place and velocity are the unknowns, each plot gives a row along every
+ * axis of its noise, and one for its range rate, linearised where the places alone put the track. Times are taken
+ * from the middle in units of `unit_s`, places from the middle plot, so that the unknowns are alike.
  */
 struct regression {
     const struct search *search;
@@ -344,8 +344,8 @@ float rho_initiator_log_room(const struct search *search, int has_z, unsigned he
 }
 
 /*
- * ln of the joint density of a set's plots with place and velocity integrated out, with heights and range rates over what
- * they have as clutter. dimensions: of the residual, whose square is chi2.
+ * ln of the joint density of a set's plots with place and velocity integrated out, with heights and range rates over
+ * what they have as clutter. dimensions: of the residual, whose square is chi2.
  */
 int rho_initiator_own_evidence(const struct search *search, const struct plot_set *set,
                                float *log_likelihood, float *chi2, unsigned *dimensions)

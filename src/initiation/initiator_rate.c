@@ -2,8 +2,9 @@
 /*
  * initiator_rate: which scores may start and confirm a track, so that clutter makes as few tracks as wanted.
  *
- * initiator_chance tells how many sets of clutter plots reach a score at once. Beside them, tentative tracks that chance
- * started climb to the confirm threshold by more chance; the thresholds are where both together are what is wanted.
+ * initiator_chance tells how many sets of clutter plots reach a score at once. Beside them, tentative tracks that
+ * chance started climb to the confirm threshold by more chance; the thresholds are where both together are what is
+ * wanted.
  */
 #include "initiator_chance.h"
 #include "rhotrack/approx.h"
@@ -31,8 +32,8 @@ struct climbs {
 
 /*
  * Probability that clutter lifts a tentative track by u or more before it is dropped, for u in steps of CLIMB_STEP. In
- * every scan a chance plot in the gate gives a gain between gain_nat and that less half the gate, all alike, with density
- * pd e^-gain_nat; else the miss is lost:
+ * every scan a chance plot in the gate gives a gain between gain_nat and that less half the gate, all alike, with
+ * density pd e^-gain_nat; else the miss is lost:
  *
  *     climb(u) = integral of density climb(u - gain) d gain + (1 - P(hit)) climb(u + miss),      climb(u <= 0) = 1
  *
@@ -91,8 +92,8 @@ static void find_climbs(struct climbs *climbs, const struct chance *chance, floa
 
 /* ---- thresholds ------------------------------------------------------------------------------- */
 
-/* Chance tracks a search that are confirmed at s: sets that reach it at once, and those that start below, from `start_nat`
- * on, and climb. */
+/* Chance tracks a search that are confirmed at s: sets that reach it at once, and those that start below, from
+ * `start_nat` on, and climb. */
 static float tracks_confirmed(const struct climbs *climbs, const struct chance *chance, float s_nat,
                               float start_nat)
 {
@@ -147,8 +148,8 @@ static float confirm_threshold(const struct chance *chance, float wanted, float 
 }
 
 /*
- * M: the fewest hits whose threshold a target is likely to reach. Where there is none, a full window starts what has all
- * hits, and one that fills waits: M beyond the scans held.
+ * M: the fewest hits whose threshold a target is likely to reach. Where there is none, a full window starts what has
+ * all hits, and one that fills waits: M beyond the scans held.
  */
 static unsigned choose_least_hits(struct chance *chance, float *start_nat)
 {

@@ -5,7 +5,8 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
-/* M is the smallest number of votes, down from N, with at most this many chance tracks a search; N where there is none. */
+/* M is the smallest number of votes, down from N, with at most this many chance tracks a search; N where there is
+ * none. */
 #define CHANCE_TRACKS_MAX 0.1f
 
 /* ln of the targets expected in the area and window before any plot was seen: a half, so that one target and none are

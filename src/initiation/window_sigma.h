@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* How a window codes standard deviations: the upper 16 bits below the sign of a float32, exponents from 2^-10 on. Private
- * to src/initiation/window*.c. */
+/* How a window codes standard deviations: the upper 16 bits below the sign of a float32, exponents from 2^-10 on.
+ * Private to src/initiation/window*.c. */
 #ifndef RHOTRACK_WINDOW_SIGMA_H
 #define RHOTRACK_WINDOW_SIGMA_H
 

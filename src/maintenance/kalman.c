@@ -258,8 +258,8 @@ static enum rho_status measure_axes(struct rho_kalman *kalman, int num_axes, con
 }
 
 /*
- * In the frame of the noise, whose axes are all open there, or all closed. Where a place is far from the origin, turning
- * it would cost digits: the estimate is taken relative to the plot.
+ * In the frame of the noise, whose axes are all open there, or all closed. Where a place is far from the origin,
+ * turning it would cost digits: the estimate is taken relative to the plot.
  */
 static enum rho_status measure_in_frame(struct rho_kalman *kalman, int num_axes,
                                         const struct rho_measurement *seen, float velocity_variance)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * `rhotrack experiment polar` and `false-alarms` through their functions, with few runs and a fixed seed. Bounds are four
- * standard deviations of so few runs away from the figures of many (the comment at each).
+ * `rhotrack experiment polar` and `false-alarms` through their functions, with few runs and a fixed seed. Bounds are
+ * four standard deviations of so few runs away from the figures of many (the comment at each).
  */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -199,9 +199,9 @@ static struct simulated_plot noisy_plot(const struct scenario_radar *of, double 
 
 /*
  * The filters differ where they are not linear: r sigma^2 / 2 = 0.17 m along the line of sight at 37 km, an azimuth's
- * error beside a range's, 15 m x 0.003 = 0.05 m, and how far the estimate is off across where its rows are taken, e^2 / 2 r
- * = 0.5 m for e = 200 m: up to a tenth of the estimate's own sigma, 8 m along. With range rates, which turn with the line
- * of sight, a little more.
+ * error beside a range's, 15 m x 0.003 = 0.05 m, and how far the estimate is off across where its rows are taken, e^2
+ * / 2 r = 0.5 m for e = 200 m: up to a tenth of the estimate's own sigma, 8 m along. With range rates, which turn
+ * with the line of sight, a little more.
  */
 static void compare(const struct twins *twins, bool has_range_rate)
 {
@@ -305,8 +305,8 @@ static void plots_without_errors_give_the_velocity(void **state)
 }
 
 /*
- * Plots of one range have one noise across, range x azimuth sigma. Where it is the range's sigma too, noise is isotropic
- * and the fit is the other one's, whose plots need not lie on a line for that.
+ * Plots of one range have one noise across, range x azimuth sigma. Where it is the range's sigma too, noise is
+ * isotropic and the fit is the other one's, whose plots need not lie on a line for that.
  */
 static void where_noise_is_isotropic_the_score_is_the_isotropic_fits(void **state)
 {
@@ -412,8 +412,8 @@ static double log_determinant(double matrix[4][4])
 }
 
 /*
- * A fast target that passes near by: sharp range rates tell of its place too. Without errors the score is the prior, the
- * plots' own densities and the state's information.
+ * A fast target that passes near by: sharp range rates tell of its place too. Without errors the score is the prior,
+ * the plots' own densities and the state's information.
  */
 static void the_score_holds_what_range_rates_tell(void **state)
 {
@@ -458,8 +458,8 @@ static double radial_error(const struct scenario_radar *of, double *chi2)
     return sqrt(sum);
 }
 
-/* Of a line through the ranges, and of seven rates beside. A sample's sigma spreads by 1 / sqrt(2 n), its mean chi-square
- * by sqrt(2 freedom / n); four of these. */
+/* Of a line through the ranges, and of seven rates beside. A sample's sigma spreads by 1 / sqrt(2 n), its mean
+ * chi-square by sqrt(2 freedom / n); four of these. */
 static void range_rates_sharpen_the_velocity(void **state)
 {
     struct scenario_radar sharp = radar;

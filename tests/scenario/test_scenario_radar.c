@@ -409,8 +409,8 @@ static void a_target_is_seen_once_a_turn(void **state)
 }
 
 /*
- * Within the turn the target goes over the azimuth 0, where turns begin: the antenna meets it twice, or only in the next
- * turn.
+ * Within the turn the target goes over the azimuth 0, where turns begin: the antenna meets it twice, or only in the
+ * next turn.
  */
 static int crosses_the_start(const struct truth_point *truth, double interval_s)
 {

@@ -28,7 +28,8 @@ struct straight_fit {
     int rows, heights, rates;
 };
 
-/* Inverts the leading n x n, and returns its determinant: Gauss and Jordan, no pivoting for what is positive definite. */
+/* Inverts the leading n x n, and returns its determinant: Gauss and Jordan, no pivoting for what is positive
+ * definite. */
 static inline double straight_invert(int n, double s[STRAIGHT][STRAIGHT])
 {
     double determinant = 1.0;

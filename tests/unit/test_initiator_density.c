@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Where clutter is taken to be dense: the map over the ground or over a radar's range and azimuth, and each sensor's share.
+ * Where clutter is taken to be dense: the map over the ground or over a radar's range and azimuth, and each sensor's
+ * share.
  */
 #include "initiator_setup.h"
 
@@ -100,8 +101,8 @@ static void a_search_after_every_scan_knows_the_sensors_too(void **state)
 
 /* ---- a radar ---------------------------------------------------------------------------------- */
 
-/* Clutter uniform in range and azimuth about the radar; in the hot spot, a tenth of the circle and a quarter of the range,
- * so many more. */
+/* Clutter uniform in range and azimuth about the radar; in the hot spot, a tenth of the circle and a quarter of the
+ * range, so many more. */
 static void add_polar_clutter(const struct rho_sensor *radar, int count, int more,
                               double sigma_cross_m)
 {

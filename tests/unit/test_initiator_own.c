@@ -247,7 +247,8 @@ static double random_sigma(double most)
 }
 
 /*
- * A random track, level where heights are not measured, and low where only some scans measure them. Scan k measures what measures[k] says, every other scan is another sensor's.
+ * A random track, level where heights are not measured, and low where only some scans measure them. Scan k measures
+ * what measures[k] says, every other scan is another sensor's.
  */
 static void random_track(const uint32_t measures[SCANS])
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * False tracks an hour: thresholds that follow from clutter, and what they keep. Noise of 10 m, scans of 2 s, targets of
+ * False tracks an hour: thresholds that follow from clutter, and what they keep. Noise of 10 m, scans of 2 s, targets
+ * of
  * 100 to 400 m/s.
  */
 #include "initiator_setup.h"
@@ -26,7 +27,8 @@ static struct rho_initiator_config usual(float false_tracks_per_hour)
     return config;
 }
 
-/* A window of clutter, the same at every call; and so many targets in a row, the next seen in a scan less than the last. */
+/* A window of clutter, the same at every call; and so many targets in a row, the next seen in a scan less than the
+ * last. */
 static void push_window(const struct rho_initiator_config *config, int count, int targets,
                         double scan_s)
 {
@@ -236,8 +238,9 @@ static void a_shorter_scan_interval_confirms_as_half_the_rate_does(void **state)
 }
 
 /*
- * Four times the area in the same clutter has four times the chances: as if a quarter of the false tracks were wanted. But
- * scores fall by ln 4, since the prior is spread thinner. Fewer chance tracks leave a larger area: half a nat.
+ * Four times the area in the same clutter has four times the chances: as if a quarter of the false tracks were
+ * wanted. But scores fall by ln 4, since the prior is spread thinner. Fewer chance tracks leave a larger area: half a
+ * nat.
  */
 static void a_larger_area_confirms_as_a_smaller_rate_does(void **state)
 {
@@ -294,8 +297,8 @@ static void range_rates_ask_for_fewer_votes_in_the_same_clutter(void **state)
 #define WANTED                                                                                     \
     60.0f /* an hour: a few scans are enough to count, and clutter could start three times as many */
 
-/* Confirmed tracks an hour in 4 x 2.5 km of nothing but clutter, so many plots a scan on average. What measures more than
- * places has the noise of a radar 8 km away. */
+/* Confirmed tracks an hour in 4 x 2.5 km of nothing but clutter, so many plots a scan on average. What measures more
+ * than places has the noise of a radar 8 km away. */
 static double false_tracks_an_hour(int scans, double mean, uint32_t measures)
 {
     static struct rho_tracker tracker;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The wanted rate of false tracks where clutter is not what it was: a dense start, a plot far out, a pause, sensors that
- * measure different things, a radar that looks into a sector. Nothing but clutter; every confirmed track is false.
+ * The wanted rate of false tracks where clutter is not what it was: a dense start, a plot far out, a pause, sensors
+ * that measure different things, a radar that looks into a sector. Nothing but clutter; every confirmed track is false.
  */
 #include "initiator_setup.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * jobs: one job of the library, named on the command line, for tools/instructions.sh to count the instructions of. What is
- * counted runs inside job(); the rest is preparation.
+ * jobs: one job of the library, named on the command line, for tools/instructions.sh to count the instructions of.
+ * What is counted runs inside job(); the rest is preparation.
  */
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * clairvoyant_polar: the straight-line fit, with the covariance that polar plots truly have, of somebody who knows which
- * plots are the target's; in double precision. The measure of what initiation loses by not knowing.
+ * clairvoyant_polar: the straight-line fit, with the covariance that polar plots truly have, of somebody who knows
+ * which plots are the target's; in double precision. The measure of what initiation loses by not knowing.
  */
 #ifndef RHOTRACK_TOOL_CLAIRVOYANT_POLAR_H
 #define RHOTRACK_TOOL_CLAIRVOYANT_POLAR_H
@@ -21,8 +21,8 @@ struct clairvoyant_polar {
 };
 
 /*
- * Least squares through 3 .. CLAIRVOYANT_PLOTS_MAX plots of a target at their own times, and the initiator's score with the
- * clutter's true density. Range rates are linearised where the places alone put the track.
+ * Least squares through 3 .. CLAIRVOYANT_PLOTS_MAX plots of a target at their own times, and the initiator's score
+ * with the clutter's true density. Range rates are linearised where the places alone put the track.
  */
 struct clairvoyant_fit clairvoyant_polar_fit(const struct clairvoyant_polar *of,
                                              const double *times_s,

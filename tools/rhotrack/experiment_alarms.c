@@ -11,7 +11,7 @@
 #include "experiment_alarms_page.h"
 #include "workers.h"
 
-#define DEFAULT_RUNS 10
+#define DEFAULT_RUNS 8
 #define DELAYS_A_RUN 20 /* runs of targets for each of clutter alone: they are short */
 
 /* ---- the runs --------------------------------------------------------------------------------- */

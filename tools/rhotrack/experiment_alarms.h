@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * experiment_alarms: does the tracker keep the rate of false tracks that it was asked for, and how soon does it believe in
- * a target? Clutter alone over thousands of scans, and the targets of the paper's Table 1 in clutter.
+ * experiment_alarms: does the tracker keep the rate of false tracks that it was asked for, and how soon does it
+ * believe in a target? Clutter alone over thousands of scans, and the targets of the paper's Table 1 in clutter.
  */
 #ifndef RHOTRACK_TOOL_EXPERIMENT_ALARMS_H
 #define RHOTRACK_TOOL_EXPERIMENT_ALARMS_H

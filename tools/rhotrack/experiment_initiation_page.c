@@ -38,7 +38,8 @@ static bool has_targets(const struct initiation_summary *summary)
     return !isnan(summary->pd);
 }
 
-/* Found as its bar counts it, the clairvoyant's, the bar; false tracks and their bar. One row a case, the first on top. */
+/* Found as its bar counts it, the clairvoyant's, the bar; false tracks and their bar. One row a case, the first on
+ * top. */
 static void put_rows(FILE *file, const struct initiation_summary *summaries, bool need_targets)
 {
     fprintf(file, "$rows << EOD\n");

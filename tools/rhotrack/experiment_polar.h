@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * experiment_polar: the scenario `polar` as a radar's user meets it: initiation from seven turns, and tracks over all of
- * them, with each plot's own covariance or one isotropic sigma, with and without range rate.
+ * experiment_polar: the scenario `polar` as a radar's user meets it: initiation from seven turns, and tracks over all
+ * of them, with each plot's own covariance or one isotropic sigma, with and without range rate.
  */
 #ifndef RHOTRACK_TOOL_EXPERIMENT_POLAR_H
 #define RHOTRACK_TOOL_EXPERIMENT_POLAR_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* experiment_polar_track: the tracker over all turns, and beside each track a reference filter that takes the same plots. */
+/* experiment_polar_track: the tracker over all turns, and beside each track a reference filter that takes the same
+ * plots. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -28,8 +28,8 @@ struct plot_data {
 };
 
 /* Reads the files; errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. A track's rows while tentative are kept, but
- * tracks that were never confirmed are left out. The parameters say where the sensors of polar plots are, and what their
- * biases are. */
+ * tracks that were never confirmed are left out. The parameters say where the sensors of polar plots are, and what
+ * their biases are. */
 struct plot_data plot_data_read(char *const *paths, int num_paths,
                                 const struct parameters *parameters);
 void plot_data_free(struct plot_data *data);

@@ -373,8 +373,8 @@ static bool read_polar(const struct checking *checking, const struct parameters 
 /* ---- Sensors ---- */
 
 /*
- * The sensor as it was described, at the place that the row says. In a file with places every row describes it: an empty
- * cell means the place that was described, not that of the scan before.
+ * The sensor as it was described, at the place that the row says. In a file with places every row describes it: an
+ * empty cell means the place that was described, not that of the scan before.
  */
 static bool read_sensor(const struct checking *checking, const struct parameters *parameters,
                         struct plot_row *row)

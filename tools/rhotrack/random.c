@@ -64,7 +64,8 @@ uint64_t random_below(struct random *random, uint64_t n)
     return bits % n;
 }
 
-/* Leva, "A fast normal random number generator", ACM TOMS 18, 1992: two quadratic bounds spare 99 % of the logarithms. */
+/* Leva, "A fast normal random number generator", ACM TOMS 18, 1992: two quadratic bounds spare 99 % of the
+ * logarithms. */
 double random_normal(struct random *random)
 {
     for (;;) {

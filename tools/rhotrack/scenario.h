@@ -2,8 +2,8 @@
 /*
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
- * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, polar. The same seed gives
- * the same data on every machine.
+ * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, polar. The same seed
+ * gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H

@@ -16,7 +16,8 @@
 /* the targets turn slightly: what a straight line leaves, an axis */
 #define RADAR_TABLE_SIGMA_M 60.0
 
-/* x, then y, in metres: the real plots of Fan et al., "Neutrosophic Hough Transform-Based Track Initiation ...", Table 3. */
+/* x, then y, in metres: the real plots of Fan et al., "Neutrosophic Hough Transform-Based Track Initiation ...",
+ * Table 3. */
 extern const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2];
 
 struct scenario_plan {
