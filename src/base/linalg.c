@@ -88,9 +88,9 @@ static inline void lower_covariances(float p[21], const float row[6], const floa
 /* The allowance is for what covariances lose by rounding: a variance without any needs none. */
 static inline float lowered(float variance, float gain, float covariance)
 {
-    const int is_coupled = covariance < 0.0f || covariance > 0.0f;
+    const float taken = gain * covariance; /* never negative; 0 where the two are not coupled */
 
-    return is_coupled ? variance * ROUNDING_ALLOWANCE - gain * covariance : variance;
+    return taken > 0.0f ? variance * ROUNDING_ALLOWANCE - taken : variance;
 }
 
 static inline void lower_variances(float p[21], const float row[6], const float gain[6])
