@@ -15,17 +15,6 @@
 #define LOG_TWO_PI 1.83787707f
 #define FIT_ROUNDS 2
 
-const struct rho_window_plot *rho_initiator_plot(const struct search *search,
-                                                 const struct plot_set *set, unsigned m)
-{
-    return &rho_window_scan_at(&search->initiator->window, m)->plots[set->plot[m]];
-}
-
-float rho_initiator_plot_time_s(const struct search *search, const struct plot_set *set, unsigned m)
-{
-    return search->time_s[m] + rho_initiator_plot(search, set, m)->offset_s;
-}
-
 /* ---- process noise ---------------------------------------------------------------------------- */
 
 /* How far one m/s^2 through the interval from scan l to l + 1 has moved the target by scan m. */

@@ -61,6 +61,19 @@ struct plot_set {
     uint16_t plot[RHO_MAX_SCANS];
 };
 
+/* The plot of a hypothesis in scan m, and its own time. */
+static inline const struct rho_window_plot *
+rho_initiator_plot(const struct search *search, const struct plot_set *set, unsigned m)
+{
+    return &rho_window_scan_at(&search->initiator->window, m)->plots[set->plot[m]];
+}
+
+static inline float rho_initiator_plot_time_s(const struct search *search,
+                                              const struct plot_set *set, unsigned m)
+{
+    return search->time_s[m] + rho_initiator_plot(search, set, m)->offset_s;
+}
+
 /* initiator_votes.c: before a search */
 void rho_initiator_prepare(struct search *search);
 
@@ -88,10 +101,6 @@ void rho_initiator_collect(struct search *search, const struct line_fit *fit, fl
 int32_t rho_initiator_mnat(float nat);
 int rho_initiator_score(const struct search *search, const struct plot_set *set,
                         const struct line_fit *fit, struct set_score *score);
-
-/* initiator_fit.c, for initiator_own.c */
-float rho_initiator_plot_time_s(const struct search *search, const struct plot_set *set,
-                                unsigned m);
 
 /* What all kernels between scans a and b share. */
 struct span {
@@ -134,8 +143,5 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
 void rho_initiator_offer(struct search *search, struct plot_set *set);
 void rho_initiator_select(struct search *search);
 void rho_initiator_judge(struct search *search);
-
-const struct rho_window_plot *rho_initiator_plot(const struct search *search,
-                                                 const struct plot_set *set, unsigned m);
 
 #endif

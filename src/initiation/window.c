@@ -222,14 +222,6 @@ static void follow_extent(struct rho_window *window)
     was->y_max_m = decayed(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
 }
 
-/* rho_window_sigma() turned round: to the nearest code. */
-static uint16_t sigma_code(float sigma)
-{
-    uint32_t bits;
-    memcpy(&bits, &sigma, sizeof bits);
-    return (uint16_t)((bits + (1u << (SIGMA_SHIFT - 1)) - SIGMA_EXPONENT) >> SIGMA_SHIFT);
-}
-
 static struct rho_window_plot window_plot(const struct rho_scan *scan, uint32_t row)
 {
     const struct rho_plot *plot = &scan->plots[row];
@@ -253,10 +245,10 @@ static struct rho_window_plot window_plot(const struct rho_scan *scan, uint32_t 
 
 static void widen_ranges(struct rho_window_scan *slot, const struct rho_window_plot *plot)
 {
-    slot->sigma_max_m = at_least(slot->sigma_max_m, rho_window_sigma_m(plot));
+    slot->sigma_max_m = at_least(slot->sigma_max_m, sigma_of(larger_sigma(plot)));
     if (plot->sigma_up) {
         /* a high line of sight brings it down into the plane */
-        slot->sigma_max_m = at_least(slot->sigma_max_m, rho_window_sigma(plot->sigma_up));
+        slot->sigma_max_m = at_least(slot->sigma_max_m, sigma_of(plot->sigma_up));
     }
     slot->is_isotropic = slot->is_isotropic && plot->sigma_range == plot->sigma_cross;
     slot->offset_max_s = at_least(slot->offset_max_s, plot->offset_s);

@@ -12,20 +12,12 @@
 
 float rho_window_sigma(uint16_t code)
 {
-    uint32_t bits = ((uint32_t)code << SIGMA_SHIFT) + SIGMA_EXPONENT;
-    float sigma;
-    memcpy(&sigma, &bits, sizeof sigma);
-    return sigma;
-}
-
-static uint16_t larger_sigma(const struct rho_window_plot *plot)
-{
-    return plot->sigma_range > plot->sigma_cross ? plot->sigma_range : plot->sigma_cross;
+    return sigma_of(code);
 }
 
 float rho_window_sigma_m(const struct rho_window_plot *plot)
 {
-    return rho_window_sigma(larger_sigma(plot));
+    return sigma_of(larger_sigma(plot));
 }
 
 /* ---- isotropic noise -------------------------------------------------------------------------- */

@@ -4,8 +4,34 @@
 #ifndef RHOTRACK_WINDOW_SIGMA_H
 #define RHOTRACK_WINDOW_SIGMA_H
 
+#include <stdint.h>
+#include <string.h>
+
+#include "rhotrack/window.h"
+
 /* Exponent of the least code, 2^-10, as a float32 has it. */
 #define SIGMA_EXPONENT (117u << 23)
 #define SIGMA_SHIFT 12
+
+/* To the nearest code. */
+static inline uint16_t sigma_code(float sigma)
+{
+    uint32_t bits;
+    memcpy(&bits, &sigma, sizeof bits);
+    return (uint16_t)((bits + (1u << (SIGMA_SHIFT - 1)) - SIGMA_EXPONENT) >> SIGMA_SHIFT);
+}
+
+static inline float sigma_of(uint16_t code)
+{
+    uint32_t bits = ((uint32_t)code << SIGMA_SHIFT) + SIGMA_EXPONENT;
+    float sigma;
+    memcpy(&sigma, &bits, sizeof sigma);
+    return sigma;
+}
+
+static inline uint16_t larger_sigma(const struct rho_window_plot *plot)
+{
+    return plot->sigma_range > plot->sigma_cross ? plot->sigma_range : plot->sigma_cross;
+}
 
 #endif
