@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * accumulator: Hough voting for points on straight lines, exact at any cell size, in a few kilobytes.
+ *
+ * A line is rho = x cos(theta) + y sin(theta). Every point votes, for each cell of theta, in the cell of rho where a line
+ * through it lies. The plane of all cells would take a hundred megabytes at 5 m and 1 mrad; it is never there. One row of
+ * theta at a time gets its votes, and only three rows are kept: a cell is a peak if none of its neighbours has more.
+ *
+ *     theta i - 1   . . . n n n . .          (rho, theta) and (-rho, theta +- pi) are one line: the row before the first
+ *     theta i       . . . n P n . .          is the last one turned round, and the row behind the last one is the first
+ *     theta i + 1   . . . n n n . .  <- gets its votes, then row i is looked through
+ *
+ * Votes are distinct scans (a bit each: a scan votes once in a cell, however many of its points lie there) or points.
+ * Peaks are the same, cell by cell, as those of an accumulator that holds the whole plane.
+ *
+ * Source: the Hough transform as in Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple
+ * Target Tracking", eq. (6), with rho signed.
+ */
+#ifndef RHOTRACK_ACCUMULATOR_H
+#define RHOTRACK_ACCUMULATOR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/status.h"
+
+/* Scans whose votes are told apart. */
+#define RHO_ACCUMULATOR_SCANS_MAX 16u
+
+enum rho_accumulator_votes {
+    RHO_VOTES_SCANS, /* distinct scans */
+    RHO_VOTES_POINTS /* points; the count stops at 65535 */
+};
+
+struct rho_accumulator_config {
+    float rho_max_m;  /* cells of rho from -rho_max_m to rho_max_m; points outside do not vote */
+    float rho_cell_m; /* 2 rho_max_m / rho_cell_m, rounded, is 1 .. RHO_MAX_RHO_CELLS */
+    float
+        theta_cell_rad; /* 1e-4 .. pi; cell i is at (i + 1/2) theta_cell_rad; the last one may reach beyond pi */
+    enum rho_accumulator_votes votes;
+    uint16_t min_votes; /* of a peak; at least 1 */
+    uint8_t
+        neighbours; /* that a peak is compared with: 0 (every cell with min_votes is one), 4 or 8 */
+};
+
+/* Points in the order of their scans. The arrays stay the caller's. */
+struct rho_accumulator_points {
+    const float *x_m, *y_m;
+    unsigned num_scans; /* 0 .. RHO_ACCUMULATOR_SCANS_MAX */
+    /* points of scan m: scan_end[m - 1] .. scan_end[m] - 1, those of scan 0 from 0 on; not falling */
+    const uint32_t *scan_end;
+};
+
+struct rho_accumulator_peak {
+    uint16_t theta_cell, rho_cell;
+    uint16_t votes;
+    uint16_t mask; /* bit m: scan m voted; 0 with RHO_VOTES_POINTS */
+};
+
+struct rho_accumulator_result {
+    uint32_t num_peaks;
+    uint32_t peaks_dropped; /* beyond the caller's capacity: the lowest; saturates */
+    uint32_t votes; /* points times cells of theta, those outside rho_max_m taken off; saturates */
+    uint16_t votes_max; /* of the cells with at least min_votes; 0 where there is none */
+};
+
+struct rho_accumulator {
+    uint32_t magic;
+    uint16_t theta_cells, rho_cells;
+    struct rho_accumulator_config config;
+    float cells_per_m,
+        first_cell; /* cell of rho: first_cell + rho cells_per_m, after a guard cell */
+    /* three rows of bytes, or of 16 bits for more than 8 scans or 255 points; a guard cell at each end */
+    uint16_t rows[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
+    /* few points: the cells that each row's points touched, and those that reached min_votes */
+    uint16_t touched[3][RHO_ACCUMULATOR_SPARSE_MAX];
+    uint16_t reached[3][RHO_ACCUMULATOR_SPARSE_MAX];
+    uint16_t num_reached[3];
+};
+
+/*
+ * Prepares an accumulator; the config is copied.
+ *   size   sizeof(struct rho_accumulator) of the caller
+ * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: constant.
+ */
+RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator,
+                                                    size_t size,
+                                                    const struct rho_accumulator_config *config);
+
+/*
+ * Votes, and finds the peaks.
+ *   peaks   room for max_peaks; the best by votes, then lower theta_cell, then lower rho_cell, in that order
+ *   result  filled whole
+ * A cell is a peak if it has at least min_votes and, of its neighbours, none has more and none that comes before it (by
+ * theta_cell, then rho_cell) has as many.
+ * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, a point not finite or beyond RHO_LIMIT_POSITION_M);
+ * nothing but *accumulator's scratch is changed. Cost: theta cells times (points, and the rho cells where there are more
+ * than RHO_ACCUMULATOR_SPARSE_MAX points), and max_peaks' logarithm for each peak.
+ */
+RHO_MUST_CHECK enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
+                                                    const struct rho_accumulator_points *points,
+                                                    struct rho_accumulator_peak *peaks,
+                                                    uint32_t max_peaks,
+                                                    struct rho_accumulator_result *result);
+
+/*
+ * Greedy suppression: of peaks in their order keeps the first, drops all within +-theta_cells and +-rho_cells of it (also
+ * round the end of theta), and so on. Returns how many are kept, at the head of the list. Cost: peaks x kept.
+ */
+uint32_t rho_accumulator_suppress(const struct rho_accumulator *accumulator,
+                                  struct rho_accumulator_peak *peaks, uint32_t num_peaks,
+                                  unsigned theta_cells, unsigned rho_cells);
+
+/* The cell of rho of a point in a row of theta, or -1 where it is beyond rho_max_m: the very numbers that votes go by. */
+int rho_accumulator_cell(const struct rho_accumulator *accumulator, unsigned theta_cell, float x_m,
+                         float y_m);
+
+/* The line in the middle of a cell. Constant cost. */
+float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsigned theta_cell);
+float rho_accumulator_rho_m(const struct rho_accumulator *accumulator, unsigned rho_cell);
+
+#endif

@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/accumulator.h"
+
+#include <string.h>
+
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+#include "rhotrack/types.h"
+
+#define ACCUMULATOR_MAGIC 0x41434355u /* "ACCU" */
+
+#define THETA_CELL_MIN_RAD 1.0e-4f
+#define BLOCK 64  /* cells looked at together */
+#define CHUNK 256 /* points whose cells are found together */
+#define NARROW_SCANS 8u
+#define NARROW_POINTS 255u
+
+/* ---- one pass over theta ---------------------------------------------------------------------- */
+
+struct pass {
+    struct rho_accumulator *accumulator;
+    const struct rho_accumulator_points *points;
+    struct rho_accumulator_peak *peaks; /* a heap, the lowest peak on top */
+    uint32_t max_peaks;
+    struct rho_accumulator_result *result;
+    unsigned num_points, min_votes, neighbours;
+    int counts_points, is_narrow, is_sparse, may_be_outside;
+    /* the row that gets its votes */
+    uint16_t *touched, *reached;
+    unsigned num_touched, num_reached;
+    /* the rows above, in and below the one that is looked through */
+    const void *rows[3];
+    unsigned middle_theta_cell, middle_num_reached;
+    const uint16_t *middle_reached;
+    unsigned above_is_first,
+        below_is_first; /* rows that come before the middle one count as having more */
+};
+
+static const uint8_t bits_of_byte[256] = {
+#define TWO(n) (n), (n) + 1, (n) + 1, (n) + 2
+#define FOUR(n) TWO(n), TWO((n) + 1), TWO((n) + 1), TWO((n) + 2)
+#define SIX(n) FOUR(n), FOUR((n) + 1), FOUR((n) + 1), FOUR((n) + 2)
+    SIX(0), SIX(1), SIX(1), SIX(2)};
+
+static unsigned votes_narrow(const struct pass *pass, uint8_t cell)
+{
+    return pass->counts_points ? cell : bits_of_byte[cell];
+}
+
+static unsigned votes_wide(const struct pass *pass, uint16_t cell)
+{
+    return pass->counts_points ? cell
+                               : (unsigned)bits_of_byte[cell & 255u] + bits_of_byte[cell >> 8];
+}
+
+/* ---- the best peaks --------------------------------------------------------------------------- */
+
+/* More votes, then the lower theta, then the lower rho. */
+static int is_better(const struct rho_accumulator_peak *a, const struct rho_accumulator_peak *b)
+{
+    if (a->votes != b->votes) {
+        return a->votes > b->votes;
+    }
+    return a->theta_cell != b->theta_cell ? a->theta_cell < b->theta_cell
+                                          : a->rho_cell < b->rho_cell;
+}
+
+/* Lets the peak at `place` of a heap of n sink below those that are lower. */
+static void sink(struct rho_accumulator_peak *heap, uint32_t n, uint32_t place)
+{
+    struct rho_accumulator_peak peak = heap[place];
+    for (uint32_t child = 2u * place + 1u; child < n; child = 2u * place + 1u) {
+        child += child + 1u < n && is_better(&heap[child], &heap[child + 1u]);
+        if (!is_better(&peak, &heap[child])) {
+            break;
+        }
+        heap[place] = heap[child];
+        place = child;
+    }
+    heap[place] = peak;
+}
+
+static void rise(struct rho_accumulator_peak *heap, uint32_t place)
+{
+    struct rho_accumulator_peak peak = heap[place];
+    while (place > 0 && is_better(&heap[(place - 1u) / 2u], &peak)) {
+        heap[place] = heap[(place - 1u) / 2u];
+        place = (place - 1u) / 2u;
+    }
+    heap[place] = peak;
+}
+
+static void keep(struct pass *pass, unsigned cell, unsigned votes, unsigned mask)
+{
+    struct rho_accumulator_result *result = pass->result;
+    struct rho_accumulator_peak peak = {.theta_cell = (uint16_t)pass->middle_theta_cell,
+                                        .rho_cell = (uint16_t)(cell - 1u),
+                                        .votes = (uint16_t)votes,
+                                        .mask = (uint16_t)mask};
+    if (result->num_peaks < pass->max_peaks) {
+        pass->peaks[result->num_peaks] = peak;
+        rise(pass->peaks, result->num_peaks++);
+        return;
+    }
+    result->peaks_dropped = rho_count(result->peaks_dropped, 1);
+    if (pass->max_peaks > 0 && is_better(&peak, &pass->peaks[0])) {
+        pass->peaks[0] = peak;
+        sink(pass->peaks, result->num_peaks, 0);
+    }
+}
+
+/* The heap's top goes behind the rest, again and again: best first. */
+static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
+{
+    while (n > 1) {
+        struct rho_accumulator_peak lowest = heap[0];
+        heap[0] = heap[--n];
+        heap[n] = lowest;
+        sink(heap, n, 0);
+    }
+}
+
+/* ---- rows ------------------------------------------------------------------------------------- */
+
+#define CELL uint8_t
+#define NAME(f) f##_narrow
+#include "accumulator_cells.h"
+#undef CELL
+#undef NAME
+#define CELL uint16_t
+#define NAME(f) f##_wide
+#include "accumulator_cells.h"
+#undef CELL
+#undef NAME
+
+/* Where points vote in a row: x by_x + y by_y + first, the guard cell counted. */
+struct place {
+    float by_x, by_y, first;
+};
+
+static struct place place_of(const struct rho_accumulator *accumulator, unsigned theta_cell)
+{
+    float theta_rad = rho_accumulator_theta_rad(accumulator, theta_cell);
+    return (struct place){rho_cos(theta_rad) * accumulator->cells_per_m,
+                          rho_sin(theta_rad) * accumulator->cells_per_m, accumulator->first_cell};
+}
+
+static void find_cells(const float *restrict x_m, const float *restrict y_m, unsigned n,
+                       struct place place, int32_t *restrict cells)
+{
+    for (unsigned i = 0; i < n; i++) {
+        cells[i] = (int32_t)(x_m[i] * place.by_x + y_m[i] * place.by_y + place.first);
+    }
+}
+
+/* Points that may lie beyond rho_max_m go to the guard cells. Returns how many do. */
+static unsigned find_cells_within(const float *restrict x_m, const float *restrict y_m, unsigned n,
+                                  struct place place, float last, int32_t *restrict cells)
+{
+    unsigned outside = 0;
+    for (unsigned i = 0; i < n; i++) {
+        float cell = x_m[i] * place.by_x + y_m[i] * place.by_y + place.first;
+        cell = cell > 0.0f ? cell : 0.0f;
+        cell = cell < last ? cell : last;
+        cells[i] = (int32_t)cell;
+        outside += cells[i] == 0 || cells[i] == (int32_t)last;
+    }
+    return outside;
+}
+
+static unsigned find_some(const struct pass *pass, unsigned from, unsigned n, struct place place,
+                          int32_t cells[CHUNK])
+{
+    const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
+    if (pass->may_be_outside) {
+        return find_cells_within(x_m, y_m, n, place, (float)(pass->accumulator->rho_cells + 1u),
+                                 cells);
+    }
+    find_cells(x_m, y_m, n, place, cells);
+    return 0;
+}
+
+static void vote_scan(struct pass *pass, void *row, struct place place, unsigned scan)
+{
+    unsigned from = scan > 0 ? pass->points->scan_end[scan - 1u] : 0u;
+    unsigned end = pass->points->scan_end[scan], bit = pass->counts_points ? 0u : 1u << scan;
+    for (; from < end; from += CHUNK) {
+        int32_t cells[CHUNK];
+        unsigned n = end - from < CHUNK ? end - from : CHUNK;
+        unsigned outside = find_some(pass, from, n, place, cells);
+        pass->result->votes = rho_count(pass->result->votes, n - outside);
+        if (pass->is_narrow) {
+            vote_narrow(pass, row, cells, n, (uint8_t)bit);
+        } else {
+            vote_wide(pass, row, cells, n, (uint16_t)bit);
+        }
+    }
+}
+
+/* Guard cells hold no votes: nothing beyond the last cell is a neighbour. */
+static void empty_guards(const struct pass *pass, void *row)
+{
+    unsigned last = pass->accumulator->rho_cells + 1u;
+    if (pass->is_narrow) {
+        ((uint8_t *)row)[0] = ((uint8_t *)row)[last] = 0;
+    } else {
+        ((uint16_t *)row)[0] = ((uint16_t *)row)[last] = 0;
+    }
+}
+
+/* Row theta_cell into a slot; turned round where it is a neighbour from the other end of theta. */
+static void fill_row(struct pass *pass, unsigned slot, unsigned theta_cell, int is_turned)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    void *row = accumulator->rows[slot];
+    struct place place = place_of(accumulator, theta_cell);
+    uint32_t votes = pass->result->votes;
+    pass->touched = accumulator->touched[slot];
+    pass->reached = accumulator->reached[slot];
+    if (pass->is_narrow) {
+        clear_narrow(pass, row);
+    } else {
+        clear_wide(pass, row);
+    }
+    pass->num_touched = pass->num_reached = 0;
+    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
+        vote_scan(pass, row, place, scan);
+    }
+    empty_guards(pass, row);
+    if (is_turned) {
+        pass->result->votes = votes; /* the row votes twice, and counts once */
+        if (pass->is_narrow) {
+            turn_round_narrow(pass, row);
+        } else {
+            turn_round_wide(pass, row);
+        }
+    }
+    accumulator->num_reached[slot] = (uint16_t)pass->num_reached;
+}
+
+static void look_through(struct pass *pass, unsigned slot, unsigned theta_cell)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    pass->rows[0] = accumulator->rows[(slot + 2u) % 3u];
+    pass->rows[1] = accumulator->rows[slot];
+    pass->rows[2] = accumulator->rows[(slot + 1u) % 3u];
+    pass->middle_theta_cell = theta_cell;
+    pass->middle_reached = accumulator->reached[slot];
+    pass->middle_num_reached = accumulator->num_reached[slot];
+    pass->above_is_first = theta_cell > 0;
+    pass->below_is_first = theta_cell + 1u == accumulator->theta_cells;
+    if (pass->is_narrow) {
+        look_through_narrow(pass);
+    } else {
+        look_through_wide(pass);
+    }
+}
+
+/* Rows -1 (the last, turned round), 0, 1, ... and behind the last one the first, turned round. */
+static void stream(struct pass *pass)
+{
+    unsigned last = pass->accumulator->theta_cells - 1u;
+    fill_row(pass, 2, last, 1);
+    fill_row(pass, 0, 0, 0);
+    for (unsigned theta_cell = 0; theta_cell <= last; theta_cell++) {
+        int is_end = theta_cell == last;
+        fill_row(pass, (theta_cell + 1u) % 3u, is_end ? 0u : theta_cell + 1u, is_end);
+        look_through(pass, theta_cell % 3u, theta_cell);
+    }
+}
+
+/* ---- public ----------------------------------------------------------------------------------- */
+
+static int is_usable(const struct rho_accumulator_config *config)
+{
+    return rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(config->rho_max_m, 0.5f * config->rho_cell_m,
+                         config->rho_cell_m * 0.5f * (float)RHO_MAX_RHO_CELLS) &&
+           rho_is_within(config->theta_cell_rad, THETA_CELL_MIN_RAD, RHO_PI) &&
+           (config->votes == RHO_VOTES_SCANS || config->votes == RHO_VOTES_POINTS) &&
+           config->min_votes >= 1 &&
+           (config->neighbours == 0 || config->neighbours == 4 || config->neighbours == 8);
+}
+
+enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t size,
+                                     const struct rho_accumulator_config *config)
+{
+    if (!accumulator || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *accumulator) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    float rows = RHO_PI / config->theta_cell_rad;
+    accumulator->config = *config;
+    accumulator->theta_cells = (uint16_t)((float)(uint16_t)rows < rows ? rows + 1.0f : rows);
+    accumulator->rho_cells = (uint16_t)(2.0f * config->rho_max_m / config->rho_cell_m + 0.5f);
+    accumulator->cells_per_m = 1.0f / config->rho_cell_m;
+    accumulator->first_cell = 1.0f + config->rho_max_m / config->rho_cell_m;
+    accumulator->magic = ACCUMULATOR_MAGIC;
+    return RHO_OK;
+}
+
+/* The farthest of the points from the origin, squared; -1 where one is not usable. */
+static float farthest2_m2(const struct rho_accumulator_points *points, unsigned num_points)
+{
+    float farthest = 0.0f;
+    for (unsigned i = 0; i < num_points; i++) {
+        float x_m = points->x_m[i], y_m = points->y_m[i], range2 = x_m * x_m + y_m * y_m;
+        if (!rho_is_within(x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) ||
+            !rho_is_within(y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M)) {
+            return -1.0f;
+        }
+        farthest = range2 > farthest ? range2 : farthest;
+    }
+    return farthest;
+}
+
+static int are_in_order(const struct rho_accumulator_points *points)
+{
+    if (points->num_scans > RHO_ACCUMULATOR_SCANS_MAX) {
+        return 0;
+    }
+    for (unsigned scan = 1; scan < points->num_scans; scan++) {
+        if (points->scan_end[scan] < points->scan_end[scan - 1u]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void choose_rows(struct pass *pass, float farthest2)
+{
+    const struct rho_accumulator_config *config = &pass->accumulator->config;
+    float inside_m = config->rho_max_m - config->rho_cell_m;
+    pass->counts_points = config->votes == RHO_VOTES_POINTS;
+    pass->is_narrow = pass->counts_points ? pass->num_points <= NARROW_POINTS
+                                          : pass->points->num_scans <= NARROW_SCANS;
+    pass->is_sparse = pass->num_points <= RHO_ACCUMULATOR_SPARSE_MAX;
+    pass->may_be_outside = !(inside_m > 0.0f && farthest2 < inside_m * inside_m);
+}
+
+enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
+                                     const struct rho_accumulator_points *points,
+                                     struct rho_accumulator_peak *peaks, uint32_t max_peaks,
+                                     struct rho_accumulator_result *result)
+{
+    if (!accumulator || !points || !result || (max_peaks > 0 && !peaks) ||
+        (points->num_scans > 0 && !points->scan_end)) {
+        return RHO_ERROR_NULL;
+    }
+    if (accumulator->magic != ACCUMULATOR_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    unsigned num_points = points->num_scans > 0 && are_in_order(points)
+                              ? points->scan_end[points->num_scans - 1u]
+                              : 0u;
+    if (num_points > 0 && (!points->x_m || !points->y_m)) {
+        return RHO_ERROR_NULL;
+    }
+    float farthest2 = farthest2_m2(points, num_points);
+    if (!are_in_order(points) || farthest2 < 0.0f) {
+        return RHO_ERROR_VALUE;
+    }
+    struct pass pass = {.accumulator = accumulator,
+                        .points = points,
+                        .peaks = peaks,
+                        .max_peaks = max_peaks,
+                        .result = result,
+                        .num_points = num_points,
+                        .min_votes = accumulator->config.min_votes,
+                        .neighbours = accumulator->config.neighbours};
+    choose_rows(&pass, farthest2);
+    memset(result, 0, sizeof *result);
+    memset(accumulator->rows, 0, sizeof accumulator->rows);
+    memset(accumulator->touched, 0, sizeof accumulator->touched);
+    stream(&pass);
+    sort_peaks(peaks, result->num_peaks);
+    return RHO_OK;
+}
+
+/* Cells between two rows of theta, the short way; *is_turned where it leads round the end. */
+static unsigned rows_between(unsigned a, unsigned b, unsigned theta_cells, int *is_turned)
+{
+    unsigned apart = a > b ? a - b : b - a;
+    *is_turned = 2u * apart > theta_cells;
+    return *is_turned ? theta_cells - apart : apart;
+}
+
+static int is_near(const struct rho_accumulator *accumulator, const struct rho_accumulator_peak *a,
+                   const struct rho_accumulator_peak *b, unsigned theta_cells, unsigned rho_cells)
+{
+    int is_turned;
+    if (rows_between(a->theta_cell, b->theta_cell, accumulator->theta_cells, &is_turned) >
+        theta_cells) {
+        return 0;
+    }
+    unsigned rho = is_turned ? accumulator->rho_cells - 1u - b->rho_cell : b->rho_cell;
+    return (a->rho_cell > rho ? a->rho_cell - rho : rho - a->rho_cell) <= rho_cells;
+}
+
+uint32_t rho_accumulator_suppress(const struct rho_accumulator *accumulator,
+                                  struct rho_accumulator_peak *peaks, uint32_t num_peaks,
+                                  unsigned theta_cells, unsigned rho_cells)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < num_peaks; i++) {
+        uint32_t k = 0;
+        while (k < kept && !is_near(accumulator, &peaks[k], &peaks[i], theta_cells, rho_cells)) {
+            k++;
+        }
+        if (k == kept) {
+            peaks[kept++] = peaks[i];
+        }
+    }
+    return kept;
+}
+
+int rho_accumulator_cell(const struct rho_accumulator *accumulator, unsigned theta_cell, float x_m,
+                         float y_m)
+{
+    int32_t cell;
+    float last = (float)(accumulator->rho_cells + 1u);
+    unsigned outside =
+        find_cells_within(&x_m, &y_m, 1, place_of(accumulator, theta_cell), last, &cell);
+    return outside ? -1 : cell - 1;
+}
+
+float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsigned theta_cell)
+{
+    return ((float)theta_cell + 0.5f) * accumulator->config.theta_cell_rad;
+}
+
+float rho_accumulator_rho_m(const struct rho_accumulator *accumulator, unsigned rho_cell)
+{
+    return ((float)rho_cell + 0.5f) * accumulator->config.rho_cell_m -
+           accumulator->config.rho_max_m;
+}
