@@ -25,6 +25,9 @@
 #include "rhotrack/config.h"
 #include "rhotrack/status.h"
 
+/* Cells of theta from one that is found by sine and cosine to the next. */
+#define RHO_ACCUMULATOR_TURNS 16u
+
 /* Scans whose votes are told apart. */
 #define RHO_ACCUMULATOR_SCANS_MAX 16u
 
@@ -71,11 +74,14 @@ struct rho_accumulator {
     struct rho_accumulator_config config;
     float cells_per_m,
         first_cell; /* cell of rho: first_cell + rho cells_per_m, after a guard cell */
-    /* three rows of bytes, or of 16 bits for more than 8 scans or 255 points; a guard cell at each end */
+    float turn_cos[RHO_ACCUMULATOR_TURNS], turn_sin[RHO_ACCUMULATOR_TURNS]; /* by so many cells */
+    /* Three rows of bytes, or of 16 bits for more than 8 scans or 255 points, a guard cell at each end: as points left them,
+     * and the number of votes in each cell. */
     uint16_t rows[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
+    uint16_t votes[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
     /* few points: the cells that each row's points touched, and those that reached min_votes */
-    uint16_t touched[3][RHO_ACCUMULATOR_SPARSE_MAX];
-    uint16_t reached[3][RHO_ACCUMULATOR_SPARSE_MAX];
+    int32_t touched[3][RHO_ACCUMULATOR_SPARSE_MAX];
+    uint16_t reached[3][RHO_ACCUMULATOR_SPARSE_MAX + 1];
     uint16_t num_reached[3];
 };
 

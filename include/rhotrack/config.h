@@ -45,19 +45,19 @@
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
 #endif
 
-/* Cells of rho in a row of the Hough accumulator. RAM: 6 bytes a cell. 64 .. 32704. */
+/* Cells of rho in a row of the Hough accumulator. RAM: 12 bytes a cell. 64 .. 32704. */
 #ifndef RHO_MAX_RHO_CELLS
 #define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
 #endif
 
-/* Up to so many points the accumulator remembers which cells they touched, and looks at no others. RAM: 12 bytes a point.
+/* Up to so many points the accumulator remembers which cells they touched, and looks at no others. RAM: 18 bytes a point.
  * 1 .. 4096. */
 #ifndef RHO_ACCUMULATOR_SPARSE_MAX
 #define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
 #endif
 
 /* Rows are looked through in blocks of 64 cells; two are guards. */
-#define RHO_ACCUMULATOR_PADDING 66
+#define RHO_ACCUMULATOR_PADDING 68
 
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS

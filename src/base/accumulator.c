@@ -12,6 +12,7 @@
 #define THETA_CELL_MIN_RAD 1.0e-4f
 #define BLOCK 64  /* cells looked at together */
 #define CHUNK 256 /* points whose cells are found together */
+#define TURN_BLOCK RHO_ACCUMULATOR_TURNS
 #define NARROW_SCANS 8u
 #define NARROW_POINTS 255u
 
@@ -25,15 +26,10 @@ struct pass {
     struct rho_accumulator_result *result;
     unsigned num_points, min_votes, neighbours;
     int counts_points, is_narrow, is_sparse, may_be_outside;
-    /* the row that gets its votes */
-    uint16_t *touched, *reached;
-    unsigned num_touched, num_reached;
-    /* the rows above, in and below the one that is looked through */
+    /* the rows above, in and below the one that is looked through: of votes, or where points are few as they got them */
     const void *rows[3];
-    unsigned middle_theta_cell, middle_num_reached;
-    const uint16_t *middle_reached;
-    unsigned above_is_first,
-        below_is_first; /* rows that come before the middle one count as having more */
+    unsigned middle_theta_cell;
+    unsigned above_is_first, below_is_first; /* such rows win a tie */
 };
 
 static const uint8_t bits_of_byte[256] = {
@@ -96,7 +92,7 @@ static void keep(struct pass *pass, unsigned cell, unsigned votes, unsigned mask
     struct rho_accumulator_peak peak = {.theta_cell = (uint16_t)pass->middle_theta_cell,
                                         .rho_cell = (uint16_t)(cell - 1u),
                                         .votes = (uint16_t)votes,
-                                        .mask = (uint16_t)mask};
+                                        .mask = (uint16_t)(pass->counts_points ? 0u : mask)};
     if (result->num_peaks < pass->max_peaks) {
         pass->peaks[result->num_peaks] = peak;
         rise(pass->peaks, result->num_peaks++);
@@ -120,6 +116,13 @@ static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
     }
 }
 
+static void note_most(struct pass *pass, unsigned votes)
+{
+    if (votes > pass->result->votes_max) {
+        pass->result->votes_max = (uint16_t)votes;
+    }
+}
+
 /* ---- rows ------------------------------------------------------------------------------------- */
 
 #define CELL uint8_t
@@ -138,11 +141,16 @@ struct place {
     float by_x, by_y, first;
 };
 
+/* The middle of every TURN_BLOCKth cell by sine and cosine, the others turned on from there. */
 static struct place place_of(const struct rho_accumulator *accumulator, unsigned theta_cell)
 {
-    float theta_rad = rho_accumulator_theta_rad(accumulator, theta_cell);
-    return (struct place){rho_cos(theta_rad) * accumulator->cells_per_m,
-                          rho_sin(theta_rad) * accumulator->cells_per_m, accumulator->first_cell};
+    unsigned rest = theta_cell % TURN_BLOCK;
+    float theta_rad = rho_accumulator_theta_rad(accumulator, theta_cell - rest);
+    float c = rho_cos(theta_rad), s = rho_sin(theta_rad);
+    float turn_c = accumulator->turn_cos[rest], turn_s = accumulator->turn_sin[rest];
+    return (struct place){(c * turn_c - s * turn_s) * accumulator->cells_per_m,
+                          (s * turn_c + c * turn_s) * accumulator->cells_per_m,
+                          accumulator->first_cell};
 }
 
 static void find_cells(const float *restrict x_m, const float *restrict y_m, unsigned n,
@@ -168,33 +176,24 @@ static unsigned find_cells_within(const float *restrict x_m, const float *restri
     return outside;
 }
 
-static unsigned find_some(const struct pass *pass, unsigned from, unsigned n, struct place place,
-                          int32_t cells[CHUNK])
+/* Cells of points from .. from + n - 1; those outside are taken off the votes. */
+static void find_some(const struct pass *pass, unsigned from, unsigned n, struct place place,
+                      int32_t *cells)
 {
     const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
+    unsigned outside = 0;
     if (pass->may_be_outside) {
-        return find_cells_within(x_m, y_m, n, place, (float)(pass->accumulator->rho_cells + 1u),
-                                 cells);
+        float last = (float)(pass->accumulator->rho_cells + 1u);
+        outside = find_cells_within(x_m, y_m, n, place, last, cells);
+    } else {
+        find_cells(x_m, y_m, n, place, cells);
     }
-    find_cells(x_m, y_m, n, place, cells);
-    return 0;
+    pass->result->votes = rho_count(pass->result->votes, n - outside);
 }
 
-static void vote_scan(struct pass *pass, void *row, struct place place, unsigned scan)
+static unsigned scan_start(const struct pass *pass, unsigned scan)
 {
-    unsigned from = scan > 0 ? pass->points->scan_end[scan - 1u] : 0u;
-    unsigned end = pass->points->scan_end[scan], bit = pass->counts_points ? 0u : 1u << scan;
-    for (; from < end; from += CHUNK) {
-        int32_t cells[CHUNK];
-        unsigned n = end - from < CHUNK ? end - from : CHUNK;
-        unsigned outside = find_some(pass, from, n, place, cells);
-        pass->result->votes = rho_count(pass->result->votes, n - outside);
-        if (pass->is_narrow) {
-            vote_narrow(pass, row, cells, n, (uint8_t)bit);
-        } else {
-            vote_wide(pass, row, cells, n, (uint16_t)bit);
-        }
-    }
+    return scan > 0 ? pass->points->scan_end[scan - 1u] : 0u;
 }
 
 /* Guard cells hold no votes: nothing beyond the last cell is a neighbour. */
@@ -208,51 +207,167 @@ static void empty_guards(const struct pass *pass, void *row)
     }
 }
 
+static void turn_round(const struct pass *pass, void *row)
+{
+    if (pass->is_narrow) {
+        turn_round_narrow(row, pass->accumulator->rho_cells);
+    } else {
+        turn_round_wide(row, pass->accumulator->rho_cells);
+    }
+}
+
+/* ---- few points ------------------------------------------------------------------------------- */
+
+static unsigned vote_few(const struct pass *pass, void *row, const int32_t *cells, unsigned n,
+                         unsigned scan, uint16_t *reached)
+{
+    unsigned bit = pass->counts_points ? 0u : 1u << scan;
+    if (bit && scan + 1u < pass->min_votes) {
+        /* so few scans cannot reach it */
+        if (pass->is_narrow) {
+            vote_early_narrow(row, cells, n, (uint8_t)bit);
+        } else {
+            vote_early_wide(row, cells, n, (uint16_t)bit);
+        }
+        return 0;
+    }
+    return pass->is_narrow ? vote_few_narrow(pass, row, cells, n, (uint8_t)bit, reached)
+                           : vote_few_wide(pass, row, cells, n, (uint16_t)bit, reached);
+}
+
+static void clear_few(const struct pass *pass, void *row, const int32_t *cells)
+{
+    for (unsigned i = 0; i < pass->num_points; i++) {
+        if (pass->is_narrow) {
+            ((uint8_t *)row)[cells[i]] = 0;
+        } else {
+            ((uint16_t *)row)[cells[i]] = 0;
+        }
+    }
+}
+
+static void fill_few(struct pass *pass, unsigned slot, struct place place, int is_turned)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    int32_t *cells = accumulator->touched[slot];
+    void *row = accumulator->rows[slot];
+    unsigned num_reached = 0;
+    clear_few(pass, row, cells);
+    find_some(pass, 0, pass->num_points, place, cells);
+    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
+        unsigned from = scan_start(pass, scan), n = pass->points->scan_end[scan] - from;
+        num_reached +=
+            vote_few(pass, row, cells + from, n, scan, accumulator->reached[slot] + num_reached);
+    }
+    accumulator->num_reached[slot] = (uint16_t)num_reached;
+    empty_guards(pass, row);
+    if (is_turned) {
+        turn_round(pass, row);
+        for (unsigned i = 0; i < pass->num_points; i++) {
+            cells[i] = accumulator->rho_cells + 1 - cells[i];
+        }
+    }
+}
+
+/* ---- many points ------------------------------------------------------------------------------ */
+
+static void vote_many(const struct pass *pass, void *row, const int32_t *cells, unsigned n,
+                      unsigned scan)
+{
+    if (pass->counts_points && pass->is_narrow) {
+        vote_points_narrow(row, cells, n);
+    } else if (pass->counts_points) {
+        vote_points_wide(row, cells, n);
+    } else if (pass->is_narrow) {
+        vote_scan_narrow(row, cells, n, (uint8_t)(1u << scan));
+    } else {
+        vote_scan_wide(row, cells, n, (uint16_t)(1u << scan));
+    }
+}
+
+static void vote_chunks(struct pass *pass, void *row, struct place place, unsigned scan)
+{
+    unsigned end = pass->points->scan_end[scan];
+    for (unsigned from = scan_start(pass, scan); from < end; from += CHUNK) {
+        int32_t cells[CHUNK];
+        unsigned n = end - from < CHUNK ? end - from : CHUNK;
+        find_some(pass, from, n, place, cells);
+        vote_many(pass, row, cells, n, scan);
+    }
+}
+
+static void fill_many(struct pass *pass, unsigned slot, struct place place, int is_turned)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    void *row = accumulator->rows[slot], *votes = accumulator->votes[slot];
+    unsigned cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
+    memset(row, 0, cells * (pass->is_narrow ? 1u : 2u));
+    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
+        vote_chunks(pass, row, place, scan);
+    }
+    empty_guards(pass, row);
+    if (pass->counts_points) {
+        memcpy(votes, row, cells * (pass->is_narrow ? 1u : 2u));
+    } else if (pass->is_narrow) {
+        count_scans_narrow(row, votes, cells);
+    } else {
+        count_scans_wide(row, votes, cells);
+    }
+    if (is_turned) {
+        turn_round(pass, votes);
+    }
+}
+
+/* ---- all rows --------------------------------------------------------------------------------- */
+
 /* Row theta_cell into a slot; turned round where it is a neighbour from the other end of theta. */
 static void fill_row(struct pass *pass, unsigned slot, unsigned theta_cell, int is_turned)
 {
-    struct rho_accumulator *accumulator = pass->accumulator;
-    void *row = accumulator->rows[slot];
-    struct place place = place_of(accumulator, theta_cell);
+    struct place place = place_of(pass->accumulator, theta_cell);
     uint32_t votes = pass->result->votes;
-    pass->touched = accumulator->touched[slot];
-    pass->reached = accumulator->reached[slot];
-    if (pass->is_narrow) {
-        clear_narrow(pass, row);
+    if (pass->is_sparse) {
+        fill_few(pass, slot, place, is_turned);
     } else {
-        clear_wide(pass, row);
+        fill_many(pass, slot, place, is_turned);
     }
-    pass->num_touched = pass->num_reached = 0;
-    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
-        vote_scan(pass, row, place, scan);
-    }
-    empty_guards(pass, row);
     if (is_turned) {
         pass->result->votes = votes; /* the row votes twice, and counts once */
-        if (pass->is_narrow) {
-            turn_round_narrow(pass, row);
-        } else {
-            turn_round_wide(pass, row);
-        }
     }
-    accumulator->num_reached[slot] = (uint16_t)pass->num_reached;
+}
+
+static void look_at_few(struct pass *pass, unsigned slot)
+{
+    const struct rho_accumulator *accumulator = pass->accumulator;
+    if (pass->is_narrow) {
+        look_at_few_narrow(pass, accumulator->reached[slot], accumulator->num_reached[slot]);
+    } else {
+        look_at_few_wide(pass, accumulator->reached[slot], accumulator->num_reached[slot]);
+    }
+}
+
+static void look_at_all(struct pass *pass, unsigned slot)
+{
+    if (pass->is_narrow) {
+        look_at_all_narrow(pass, (const uint8_t *)pass->accumulator->rows[slot]);
+    } else {
+        look_at_all_wide(pass, pass->accumulator->rows[slot]);
+    }
 }
 
 static void look_through(struct pass *pass, unsigned slot, unsigned theta_cell)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
-    pass->rows[0] = accumulator->rows[(slot + 2u) % 3u];
-    pass->rows[1] = accumulator->rows[slot];
-    pass->rows[2] = accumulator->rows[(slot + 1u) % 3u];
+    for (unsigned i = 0; i < 3; i++) {
+        unsigned of = (slot + 2u + i) % 3u;
+        pass->rows[i] = pass->is_sparse ? accumulator->rows[of] : accumulator->votes[of];
+    }
     pass->middle_theta_cell = theta_cell;
-    pass->middle_reached = accumulator->reached[slot];
-    pass->middle_num_reached = accumulator->num_reached[slot];
     pass->above_is_first = theta_cell > 0;
     pass->below_is_first = theta_cell + 1u == accumulator->theta_cells;
-    if (pass->is_narrow) {
-        look_through_narrow(pass);
+    if (pass->is_sparse) {
+        look_at_few(pass, slot);
     } else {
-        look_through_wide(pass);
+        look_at_all(pass, slot);
     }
 }
 
@@ -300,6 +415,10 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
     accumulator->rho_cells = (uint16_t)(2.0f * config->rho_max_m / config->rho_cell_m + 0.5f);
     accumulator->cells_per_m = 1.0f / config->rho_cell_m;
     accumulator->first_cell = 1.0f + config->rho_max_m / config->rho_cell_m;
+    for (unsigned i = 0; i < TURN_BLOCK; i++) {
+        accumulator->turn_cos[i] = rho_cos((float)i * config->theta_cell_rad);
+        accumulator->turn_sin[i] = rho_sin((float)i * config->theta_cell_rad);
+    }
     accumulator->magic = ACCUMULATOR_MAGIC;
     return RHO_OK;
 }
@@ -375,8 +494,10 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                         .neighbours = accumulator->config.neighbours};
     choose_rows(&pass, farthest2);
     memset(result, 0, sizeof *result);
-    memset(accumulator->rows, 0, sizeof accumulator->rows);
-    memset(accumulator->touched, 0, sizeof accumulator->touched);
+    if (pass.is_sparse) {
+        memset(accumulator->rows, 0, sizeof accumulator->rows);
+        memset(accumulator->touched, 0, sizeof accumulator->touched);
+    }
     stream(&pass);
     sort_peaks(peaks, result->num_peaks);
     return RHO_OK;

@@ -1,82 +1,38 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Rows of the accumulator in cells of one size: included twice by accumulator.c, with CELL an unsigned type and NAME(f)
- * the functions' names. The hot loops stand here; they want -O3, and nothing that keeps a compiler from vector code.
+ * the functions' names. The hot loops stand here: they want -O3, and nothing that keeps a compiler from vector code.
  */
 
-/* Votes of scan `bit` (0: of points) where few points vote: notes what was touched, and what reached min_votes. */
-static void NAME(vote_few)(struct pass *pass, CELL *row, const int32_t *cells, unsigned n, CELL bit)
+/* ---- few points: only what they touch is looked at ---- */
+
+/* Votes of one scan (bit 0: of points). Notes the cells that reach min_votes; `may_reach` 0 where none can yet. */
+static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t *cells, unsigned n,
+                               CELL bit, uint16_t *reached)
 {
-    uint16_t *touched = pass->touched + pass->num_touched, *reached = pass->reached;
-    unsigned num_reached = pass->num_reached;
+    unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
-        CELL before = row[cells[i]];
-        CELL after = (CELL)(bit ? before | bit : before + 1u);
+        CELL before = row[cells[i]], after = (CELL)(bit ? before | bit : before + 1u);
         row[cells[i]] = after;
-        touched[i] = (uint16_t)cells[i];
         reached[num_reached] = (uint16_t)cells[i];
         num_reached += after != before && NAME(votes)(pass, after) == pass->min_votes;
     }
-    pass->num_touched += n;
-    pass->num_reached = num_reached;
+    return num_reached;
 }
 
-static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
+static void NAME(vote_early)(CELL *row, const int32_t *cells, unsigned n, CELL bit)
 {
     for (unsigned i = 0; i < n; i++) {
         row[cells[i]] |= bit;
     }
 }
 
-static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells, unsigned n)
-{
-    for (unsigned i = 0; i < n; i++) {
-        CELL before = row[cells[i]];
-        row[cells[i]] = (CELL)(before + (before != (CELL)~0u));
-    }
-}
-
-static void NAME(vote)(struct pass *pass, CELL *row, const int32_t *cells, unsigned n, CELL bit)
-{
-    if (pass->is_sparse) {
-        NAME(vote_few)(pass, row, cells, n, bit);
-    } else if (bit) {
-        NAME(vote_scan)(row, cells, n, bit);
-    } else {
-        NAME(vote_points)(row, cells, n);
-    }
-}
-
-/* The best cell of a block, in votes. */
-static CELL NAME(best_points)(const CELL *restrict block)
-{
-    CELL best = 0;
-    for (int i = 0; i < BLOCK; i++) {
-        best = block[i] > best ? block[i] : best;
-    }
-    return best;
-}
-
-static CELL NAME(best_scans)(const CELL *restrict block)
-{
-    CELL best = 0;
-    for (int i = 0; i < BLOCK; i++) {
-        CELL v = block[i];
-        v = (CELL)(v - ((v >> 1) & (CELL)0x5555u));
-        v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
-        v = (CELL)((v + (v >> 4)) & (CELL)0x0f0fu);
-        v = (CELL)(sizeof(CELL) > 1 ? (v + (v >> 8)) & (CELL)0x1fu : v);
-        best = v > best ? v : best;
-    }
-    return best;
-}
-
 static unsigned NAME(most_around)(const struct pass *pass, const CELL *row, unsigned cell)
 {
     unsigned most = NAME(votes)(pass, row[cell]);
     if (pass->neighbours == 8) {
-        unsigned left = NAME(votes)(pass, row[cell - 1u]),
-                 right = NAME(votes)(pass, row[cell + 1u]);
+        unsigned left = NAME(votes)(pass, row[cell - 1u]);
+        unsigned right = NAME(votes)(pass, row[cell + 1u]);
         most = left > most ? left : most;
         most = right > most ? right : most;
     }
@@ -97,62 +53,126 @@ static int NAME(is_peak)(const struct pass *pass, unsigned cell, unsigned votes)
            below + pass->below_is_first <= votes;
 }
 
-static void NAME(judge)(struct pass *pass, unsigned cell)
+static void NAME(look_at_few)(struct pass *pass, const uint16_t *reached, unsigned num_reached)
 {
-    CELL value = ((const CELL *)pass->rows[1])[cell];
-    unsigned votes = NAME(votes)(pass, value);
-    if (votes < pass->min_votes) {
-        return;
-    }
-    if (votes > pass->result->votes_max) {
-        pass->result->votes_max = (uint16_t)votes;
-    }
-    if (NAME(is_peak)(pass, cell, votes)) {
-        keep(pass, cell, votes, pass->counts_points ? 0u : value);
-    }
-}
-
-/* Looks through the middle row. */
-static void NAME(look_through)(struct pass *pass)
-{
-    const CELL *row = pass->rows[1];
-    if (pass->is_sparse) {
-        for (unsigned i = 0; i < pass->middle_num_reached; i++) {
-            NAME(judge)(pass, pass->middle_reached[i]);
+    for (unsigned i = 0; i < num_reached; i++) {
+        CELL value = ((const CELL *)pass->rows[1])[reached[i]];
+        unsigned votes = NAME(votes)(pass, value);
+        if (votes < pass->min_votes) {
+            continue; /* a guard */
         }
-        return;
-    }
-    unsigned end = pass->accumulator->rho_cells + 1u;
-    for (unsigned first = 1; first < end; first += BLOCK) {
-        unsigned best =
-            pass->counts_points ? NAME(best_points)(&row[first]) : NAME(best_scans)(&row[first]);
-        for (unsigned i = first; i < first + BLOCK && i < end && best >= pass->min_votes; i++) {
-            NAME(judge)(pass, i);
+        note_most(pass, votes);
+        if (NAME(is_peak)(pass, reached[i], votes)) {
+            keep(pass, reached[i], votes, value);
         }
     }
 }
 
 /* The same line seen from the other end of theta. */
-static void NAME(turn_round)(struct pass *pass, CELL *row)
+static void NAME(turn_round)(CELL *row, unsigned num_cells)
 {
-    unsigned last = pass->accumulator->rho_cells;
-    for (unsigned i = 1; i < last + 1u - i; i++) {
+    for (unsigned i = 1; i < num_cells + 1u - i; i++) {
         CELL swapped = row[i];
-        row[i] = row[last + 1u - i];
-        row[last + 1u - i] = swapped;
-    }
-    for (unsigned i = 0; i < pass->num_touched; i++) {
-        pass->touched[i] = (uint16_t)(last + 1u - pass->touched[i]);
+        row[i] = row[num_cells + 1u - i];
+        row[num_cells + 1u - i] = swapped;
     }
 }
 
-static void NAME(clear)(struct pass *pass, CELL *row)
+/* ---- many points: all cells are looked at, a block together ---- */
+
+static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
 {
-    if (pass->is_sparse) {
-        for (unsigned i = 0; i < pass->num_points; i++) {
-            row[pass->touched[i]] = 0;
-        }
+    for (unsigned i = 0; i < n; i++) {
+        row[cells[i]] |= bit;
+    }
+}
+
+static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells, unsigned n)
+{
+    for (unsigned i = 0; i < n; i++) {
+        CELL before = row[cells[i]];
+        row[cells[i]] = (CELL)(before + (before != (CELL)~0u));
+    }
+}
+
+/* Masks to numbers of scans. */
+static void NAME(count_scans)(const CELL *restrict row, CELL *restrict votes, unsigned n)
+{
+    for (unsigned i = 0; i < n; i++) {
+        CELL v = row[i];
+        v = (CELL)(v - ((v >> 1) & (CELL)0x5555u));
+        v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
+        v = (CELL)((v + (v >> 4)) & (CELL)0x0f0fu);
+        votes[i] = (CELL)(sizeof(CELL) > 1 ? (v + (v >> 8)) & (CELL)0x1fu : v);
+    }
+}
+
+static CELL NAME(most_of)(const CELL *restrict block)
+{
+    CELL most = 0;
+    for (int i = 0; i < BLOCK; i++) {
+        most = block[i] > most ? block[i] : most;
+    }
+    return most;
+}
+
+static CELL NAME(larger)(CELL a, CELL b)
+{
+    return a > b ? a : b;
+}
+
+/* Which cells of a block have more than the four or eight cells around, and min_votes. Rows of votes. */
+static void NAME(mark_peaks)(const struct pass *pass, const CELL *restrict above,
+                             const CELL *restrict row, const CELL *restrict below,
+                             uint8_t *restrict is_peak)
+{
+    CELL least = (CELL)pass->min_votes, corners = (CELL)(pass->neighbours == 8 ? ~0u : 0u);
+    CELL above_first = (CELL)pass->above_is_first, below_first = (CELL)pass->below_is_first;
+    for (int i = 0; i < BLOCK; i++) {
+        CELL v = row[i];
+        CELL up =
+            NAME(larger)(above[i], (CELL)(NAME(larger)(above[i - 1], above[i + 1]) & corners));
+        CELL down =
+            NAME(larger)(below[i], (CELL)(NAME(larger)(below[i - 1], below[i + 1]) & corners));
+        is_peak[i] = (uint8_t)((v >= least) & (v > row[i - 1]) & (v >= row[i + 1]) &
+                               ((v > up) | ((v == up) & !above_first)) &
+                               ((v > down) | ((v == down) & !below_first)));
+    }
+}
+
+static void NAME(mark_all)(const struct pass *pass, const CELL *restrict row,
+                           uint8_t *restrict is_peak)
+{
+    for (int i = 0; i < BLOCK; i++) {
+        is_peak[i] = row[i] >= pass->min_votes;
+    }
+}
+
+static void NAME(look_at_block)(struct pass *pass, const CELL *masks, unsigned first)
+{
+    const CELL *above = pass->rows[0], *row = pass->rows[1], *below = pass->rows[2];
+    uint8_t is_peak[BLOCK];
+    if (pass->neighbours > 0) {
+        NAME(mark_peaks)(pass, above + first, row + first, below + first, is_peak);
     } else {
-        memset(row, 0, (pass->accumulator->rho_cells + RHO_ACCUMULATOR_PADDING) * sizeof(CELL));
+        NAME(mark_all)(pass, row + first, is_peak);
+    }
+    for (unsigned i = 0; i < BLOCK; i++) {
+        if (is_peak[i]) {
+            keep(pass, first + i, row[first + i], masks[first + i]);
+        }
+    }
+}
+
+/* Behind the last cell all is 0. */
+static void NAME(look_at_all)(struct pass *pass, const CELL *masks)
+{
+    const CELL *row = pass->rows[1];
+    for (unsigned first = 1; first <= pass->accumulator->rho_cells; first += BLOCK) {
+        unsigned most = NAME(most_of)(row + first);
+        if (most >= pass->min_votes) {
+            note_most(pass, most);
+            NAME(look_at_block)(pass, masks, first);
+        }
     }
 }
