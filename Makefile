@@ -87,6 +87,11 @@ $(BUILD)/embedded/%.o: %.c Makefile
 $(BUILD)/workstation/%.o: %.c Makefile
 	$(call compile,$(library_flags) -DRHO_PROFILE_WORKSTATION) $(LIBRARY_CFLAGS) -c -o $@ $<
 
+# The votes' loops want vector code, which gcc makes at -O3 only.
+ifeq ($(OPT),-O2)
+$(BUILD)/embedded/src/base/accumulator.o $(BUILD)/workstation/src/base/accumulator.o: OPT := -O3
+endif
+
 $(BUILD)/program/%.o: %.c Makefile
 	$(call compile,$(program_flags) -DRHOTRACK_VERSION='"$(VERSION)"') -c -o $@ $<
 

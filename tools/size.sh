@@ -45,7 +45,7 @@ row 'all' $(${prefix}size -t "$folder"/*.o | tail -n 1 | awk '{print $1, $2, $3}
     for header in include/rhotrack/*.h; do
         echo "#include \"rhotrack/$(basename "$header")\""
     done
-    for object in window initiator assignment tracker report; do
+    for object in accumulator window initiator assignment tracker report; do
         echo "char rho_sizeof_$object[sizeof(struct rho_$object)];"
     done
     echo 'char rho_sizeof_track_slot[sizeof(struct rho_track)];'

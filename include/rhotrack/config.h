@@ -106,7 +106,7 @@
 #endif
 
 /*
- * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (initiator.c, tracker.c).
+ * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c, initiator.c, tracker.c).
  * Embedded: initiator 64 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \
@@ -114,6 +114,7 @@
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 400)
+#define RHO_RAM_ACCUMULATOR_BYTES (12 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \
      512)

@@ -16,6 +16,11 @@
 #define NARROW_SCANS 8u
 #define NARROW_POINTS 255u
 
+/* The build fails where the RAM formula of config.h is no longer an upper bound. */
+typedef char rho_assert_accumulator_ram[sizeof(struct rho_accumulator) <= RHO_RAM_ACCUMULATOR_BYTES
+                                            ? 1
+                                            : -1];
+
 /* ---- one pass over theta ---------------------------------------------------------------------- */
 
 struct pass {

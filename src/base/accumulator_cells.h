@@ -12,8 +12,9 @@ static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
-        CELL before = row[cells[i]], after = (CELL)(bit ? before | bit : before + 1u);
-        row[cells[i]] = after;
+        CELL *cell = &row[(uint32_t)cells[i]], before = *cell;
+        CELL after = (CELL)(bit ? before | bit : before + 1u);
+        *cell = after;
         reached[num_reached] = (uint16_t)cells[i];
         num_reached += after != before && NAME(votes)(pass, after) == pass->min_votes;
     }
@@ -23,7 +24,7 @@ static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t
 static void NAME(vote_early)(CELL *row, const int32_t *cells, unsigned n, CELL bit)
 {
     for (unsigned i = 0; i < n; i++) {
-        row[cells[i]] |= bit;
+        row[(uint32_t)cells[i]] |= bit;
     }
 }
 
@@ -80,18 +81,26 @@ static void NAME(turn_round)(CELL *row, unsigned num_cells)
 
 /* ---- many points: all cells are looked at, a block together ---- */
 
+/* Four at a time: the stores are the limit, not the loop. */
 static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
 {
-    for (unsigned i = 0; i < n; i++) {
-        row[cells[i]] |= bit;
+    unsigned i = 0;
+    for (; i + 4u <= n; i += 4u) {
+        row[(uint32_t)cells[i]] |= bit;
+        row[(uint32_t)cells[i + 1u]] |= bit;
+        row[(uint32_t)cells[i + 2u]] |= bit;
+        row[(uint32_t)cells[i + 3u]] |= bit;
+    }
+    for (; i < n; i++) {
+        row[(uint32_t)cells[i]] |= bit;
     }
 }
 
 static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells, unsigned n)
 {
     for (unsigned i = 0; i < n; i++) {
-        CELL before = row[cells[i]];
-        row[cells[i]] = (CELL)(before + (before != (CELL)~0u));
+        CELL before = row[(uint32_t)cells[i]];
+        row[(uint32_t)cells[i]] = (CELL)(before + (before != (CELL)~0u));
     }
 }
 
