@@ -62,7 +62,7 @@ jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib test-programs test demo layers poison size instructions examples determinism lint format \
+.PHONY: all lib bench-opencv test-programs test demo layers poison size instructions examples determinism lint format \
         format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
@@ -137,6 +137,16 @@ scenario_objects := $(filter-out %/main.o,$(program_objects))
 $(BUILD)/tests/scenario/%: tests/scenario/%.c $(scenario_objects) $(workstation_library) Makefile
 	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \
 	    $(scenario_objects) $(workstation_library) -lcmocka $(program_libraries)
+
+# Only where OpenCV is installed: `rhotrack bench hough` compares with it.
+opencv_flags := $(shell pkg-config --silence-errors --cflags opencv4 2>/dev/null || \
+                  { test -d /usr/include/opencv4 && echo -I/usr/include/opencv4; })
+## Build what `rhotrack bench hough` compares with, where OpenCV is installed
+bench-opencv: $(if $(opencv_flags),$(BUILD)/tests/bench/hough_opencv)
+
+$(BUILD)/tests/bench/hough_opencv: tests/bench/hough_opencv.cpp Makefile
+	@mkdir -p $(@D) && echo "  c++      $@" && \
+	g++ -O2 $(opencv_flags) -o $@ $< -lopencv_imgproc -lopencv_core
 
 ## Unit, scenario and bad-input tests with address and undefined-behaviour sanitizers (clang)
 sanitize:

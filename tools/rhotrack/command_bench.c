@@ -8,20 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bench.h"
 #include "chain.h"
 #include "commands.h"
 #include "common.h"
 #include "grid.h"
 #include "scenario.h"
 
-#define ROUNDS 7
 #define FILTER_STEPS 20000
 #define FILTER_LIFE 200
-
-struct bench {
-    cJSON *json; /* NULL: tables are wanted */
-    uint64_t seed;
-};
 
 /* ---- kalman ----------------------------------------------------------------------------------- */
 
@@ -59,7 +54,7 @@ static void bench_kalman(const struct bench *bench)
     for (size_t i = 0; i < 3; i++) {
         double best = INFINITY;
         char name[48];
-        for (int round = 0; round < ROUNDS; round++) {
+        for (int round = 0; round < BENCH_ROUNDS; round++) {
             best = fmin(best, filter_ns(updates[i]));
         }
         snprintf(name, sizeof name, "predict + %d scalar updates", updates[i]);
@@ -157,7 +152,7 @@ static void initiate_row(const struct bench *bench, struct grid *grid,
         (struct rho_extent){(float)simulation->area.x_min_m, (float)simulation->area.x_max_m,
                             (float)simulation->area.y_min_m, (float)simulation->area.y_max_m};
     double best = INFINITY;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < BENCH_ROUNDS; round++) {
         best = fmin(best, window_us(initiator, &recording, &config));
     }
     grid_row(grid, "%.0f|%.0f|%u|%u|%u|%u", clutter, best, initiator->work.seeds,
@@ -222,7 +217,7 @@ static struct cost track_cost(const struct bench *bench, struct chain *chain, do
     struct simulation *simulation = scenario_simulate("traffic", &parameters, bench->seed, 0);
     struct recording recording = record(simulation);
     struct cost best = {.mean_us = INFINITY, .worst_us = INFINITY};
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < BENCH_ROUNDS; round++) {
         struct cost cost = run_chain(chain, &parameters, &recording);
         best.mean_us = fmin(best.mean_us, cost.mean_us);
         best.worst_us = fmin(best.worst_us, cost.worst_us);
@@ -264,7 +259,10 @@ static void bench_track(const struct bench *bench)
 static const struct {
     const char *name;
     void (*run)(const struct bench *bench);
-} benches[] = {{"kalman", bench_kalman}, {"initiate", bench_initiate}, {"track", bench_track}};
+} benches[] = {{"kalman", bench_kalman},
+               {"initiate", bench_initiate},
+               {"track", bench_track},
+               {"hough", bench_hough}};
 
 #define NUM_BENCHES (sizeof benches / sizeof benches[0])
 
@@ -293,7 +291,7 @@ static void check_name(const char *name)
             return;
         }
     }
-    fail(EXIT_USAGE, "no bench '%s'; there is: kalman, initiate, track", name);
+    fail(EXIT_USAGE, "no bench '%s'; there is: kalman, initiate, track, hough", name);
 }
 
 int command_bench(struct command_line *line)
@@ -302,7 +300,7 @@ int command_bench(struct command_line *line)
     const char *wanted = line->num_arguments > 0 ? line->arguments[0] : NULL;
     struct bench bench = {.seed = line->seed};
     if (line->num_arguments > 1) {
-        fail(EXIT_USAGE, "bench: give one name or none; there is: kalman, initiate, track");
+        fail(EXIT_USAGE, "bench: give one name or none; there is: kalman, initiate, track, hough");
     }
     if (wanted) {
         check_name(wanted);
@@ -312,7 +310,7 @@ int command_bench(struct command_line *line)
         bench.json = cJSON_CreateObject();
         cJSON_AddStringToObject(bench.json, "machine", machine);
     } else {
-        printf("%s; minimum of %d rounds\n\n", machine, ROUNDS);
+        printf("%s; minimum of %d rounds\n\n", machine, BENCH_ROUNDS);
     }
     for (size_t i = 0; i < NUM_BENCHES; i++) {
         if (!wanted || strcmp(benches[i].name, wanted) == 0) {

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* bench: what the parts of `rhotrack bench` share. */
+#ifndef RHOTRACK_TOOL_BENCH_H
+#define RHOTRACK_TOOL_BENCH_H
+
+#include <cjson/cJSON.h>
+#include <stdint.h>
+
+#define BENCH_ROUNDS 7
+
+struct bench {
+    cJSON *json; /* NULL: tables are wanted */
+    uint64_t seed;
+};
+
+/* The Hough accumulator against a dense one, and against OpenCV where tests/bench/hough_opencv.cpp was built. */
+void bench_hough(const struct bench *bench);
+
+#endif
