@@ -3,9 +3,11 @@
  * bench_hough: the streamed accumulator, a dense one in plain C, and OpenCV's, all on the same points in one run: 30 x 30 km,
  * 7 scans. A call clears, votes and finds the peaks.
  */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "bench.h"
@@ -160,29 +162,47 @@ static void write_points(const struct cloud *cloud, const char *path)
     fclose(file);
 }
 
+/* What the program prints on its standard output, as a number; NAN where it prints none. */
+static double run_for_number(char *const arguments[])
+{
+    char answer[64] = "";
+    int ends[2];
+    if (pipe(ends) != 0) {
+        fail(EXIT_RUNTIME, "pipe: %s", strerror(errno));
+    }
+    pid_t child = fork();
+    if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        execv(arguments[0], arguments);
+        _exit(127);
+    }
+    close(ends[1]);
+    ssize_t length = child > 0 ? read(ends[0], answer, sizeof answer - 1) : 0;
+    close(ends[0]);
+    if (child > 0) {
+        waitpid(child, NULL, 0);
+    }
+    char *end = answer;
+    double value = length > 0 ? strtod(answer, &end) : 0.0;
+    return end == answer ? NAN : value;
+}
+
 /* NAN where it is not there. */
 static double opencv_us(const struct cloud *cloud, float rho_cell_m, float theta_cell_rad)
 {
-    char program[512], points[64], command[800];
-    double ms = NAN;
-    char answer[64];
+    char program[512], points[64], rho_max[32], rho_cell[32], theta_cell[32], votes[16], rounds[16];
     if (!opencv_path(program)) {
         return NAN;
     }
     snprintf(points, sizeof points, "/tmp/rhotrack-hough-%ld", (long)getpid());
+    snprintf(rho_max, sizeof rho_max, "%g", (double)RHO_MAX_M);
+    snprintf(rho_cell, sizeof rho_cell, "%g", (double)rho_cell_m);
+    snprintf(theta_cell, sizeof theta_cell, "%.9g", (double)theta_cell_rad);
+    snprintf(votes, sizeof votes, "%d", MIN_VOTES);
+    snprintf(rounds, sizeof rounds, "%d", OPENCV_ROUNDS);
+    char *const arguments[] = {program, points, rho_max, rho_cell, theta_cell, votes, rounds, NULL};
     write_points(cloud, points);
-    snprintf(command, sizeof command, "'%s' %s %g %g %.9g %d %d", program, points,
-             (double)RHO_MAX_M, (double)rho_cell_m, (double)theta_cell_rad, MIN_VOTES,
-             OPENCV_ROUNDS);
-    FILE *pipe = popen(command, "r");
-    if (pipe && fgets(answer, sizeof answer, pipe)) {
-        char *end;
-        ms = strtod(answer, &end);
-        ms = end == answer ? NAN : ms;
-    }
-    if (pipe) {
-        pclose(pipe);
-    }
+    double ms = run_for_number(arguments);
     remove(points);
     return 1e3 * ms;
 }
