@@ -25,9 +25,6 @@
 #include "rhotrack/config.h"
 #include "rhotrack/status.h"
 
-/* Cells of theta from one that is found by sine and cosine to the next. */
-#define RHO_ACCUMULATOR_TURNS 16u
-
 /* Scans whose votes are told apart. */
 #define RHO_ACCUMULATOR_SCANS_MAX 16u
 
@@ -39,12 +36,12 @@ enum rho_accumulator_votes {
 struct rho_accumulator_config {
     float rho_max_m;  /* cells of rho from -rho_max_m to rho_max_m; points outside do not vote */
     float rho_cell_m; /* 2 rho_max_m / rho_cell_m, rounded, is 1 .. RHO_MAX_RHO_CELLS */
-    float
-        theta_cell_rad; /* 1e-4 .. pi; cell i is at (i + 1/2) theta_cell_rad; the last one may reach beyond pi */
+    /* 1e-4 .. pi; cell i is at (i + 1/2) theta_cell_rad; the last one may reach beyond pi */
+    float theta_cell_rad;
     enum rho_accumulator_votes votes;
     uint16_t min_votes; /* of a peak; at least 1 */
-    uint8_t
-        neighbours; /* that a peak is compared with: 0 (every cell with min_votes is one), 4 or 8 */
+    /* that a peak is compared with: 0 (every cell with min_votes is one), 4 or 8 */
+    uint8_t neighbours;
 };
 
 /* Points in the order of their scans. The arrays stay the caller's. */
@@ -72,9 +69,8 @@ struct rho_accumulator {
     uint32_t magic;
     uint16_t theta_cells, rho_cells;
     struct rho_accumulator_config config;
-    float cells_per_m,
-        first_cell; /* cell of rho: first_cell + rho cells_per_m, after a guard cell */
-    float turn_cos[RHO_ACCUMULATOR_TURNS], turn_sin[RHO_ACCUMULATOR_TURNS]; /* by so many cells */
+    /* cell of rho: first_cell + rho cells_per_m, after a guard cell */
+    float cells_per_m, first_cell;
     /* Three rows of bytes, or of 16 bits for more than 8 scans or 255 points, a guard cell at each end: as points left them,
      * and the number of votes in each cell. */
     uint16_t rows[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];

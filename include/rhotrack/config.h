@@ -56,7 +56,7 @@
 #define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
 #endif
 
-/* Rows are looked through in blocks of 64 cells; two are guards. */
+/* Rows are looked through in blocks of 64 cells, with a cell on either side; a multiple of 4 bytes. */
 #define RHO_ACCUMULATOR_PADDING 68
 
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */

@@ -12,7 +12,6 @@
 #define THETA_CELL_MIN_RAD 1.0e-4f
 #define BLOCK 64  /* cells looked at together */
 #define CHUNK 256 /* points whose cells are found together */
-#define TURN_BLOCK RHO_ACCUMULATOR_TURNS
 #define NARROW_SCANS 8u
 #define NARROW_POINTS 255u
 
@@ -31,8 +30,7 @@ struct pass {
     struct rho_accumulator_result *result;
     unsigned num_points, min_votes, neighbours;
     int counts_points, is_narrow, is_sparse, may_be_outside;
-    /* the rows above, in and below the one that is looked through: of votes, or where points are few as they got them */
-    const void *rows[3];
+    const void *rows[3]; /* above, in and below the one that is looked through: votes_of() */
     unsigned middle_theta_cell;
     unsigned above_is_first, below_is_first; /* such rows win a tie */
 };
@@ -146,16 +144,11 @@ struct place {
     float by_x, by_y, first;
 };
 
-/* The middle of every TURN_BLOCKth cell by sine and cosine, the others turned on from there. */
 static struct place place_of(const struct rho_accumulator *accumulator, unsigned theta_cell)
 {
-    unsigned rest = theta_cell % TURN_BLOCK;
-    float theta_rad = rho_accumulator_theta_rad(accumulator, theta_cell - rest);
-    float c = rho_cos(theta_rad), s = rho_sin(theta_rad);
-    float turn_c = accumulator->turn_cos[rest], turn_s = accumulator->turn_sin[rest];
-    return (struct place){(c * turn_c - s * turn_s) * accumulator->cells_per_m,
-                          (s * turn_c + c * turn_s) * accumulator->cells_per_m,
-                          accumulator->first_cell};
+    float theta_rad = rho_accumulator_theta_rad(accumulator, theta_cell);
+    return (struct place){rho_cos(theta_rad) * accumulator->cells_per_m,
+                          rho_sin(theta_rad) * accumulator->cells_per_m, accumulator->first_cell};
 }
 
 static void find_cells(const float *restrict x_m, const float *restrict y_m, unsigned n,
@@ -221,6 +214,14 @@ static void turn_round(const struct pass *pass, void *row)
     }
 }
 
+/* Where a slot's votes are compared: few points, and numbers of points, as they voted; masks as numbers of scans. */
+static void *votes_of(const struct pass *pass, unsigned slot)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    return pass->is_sparse || pass->counts_points ? accumulator->rows[slot]
+                                                  : accumulator->votes[slot];
+}
+
 /* ---- few points ------------------------------------------------------------------------------- */
 
 static unsigned vote_few(const struct pass *pass, void *row, const int32_t *cells, unsigned n,
@@ -230,9 +231,9 @@ static unsigned vote_few(const struct pass *pass, void *row, const int32_t *cell
     if (bit && scan + 1u < pass->min_votes) {
         /* so few scans cannot reach it */
         if (pass->is_narrow) {
-            vote_early_narrow(row, cells, n, (uint8_t)bit);
+            vote_scan_narrow(row, cells, n, (uint8_t)bit);
         } else {
-            vote_early_wide(row, cells, n, (uint16_t)bit);
+            vote_scan_wide(row, cells, n, (uint16_t)bit);
         }
         return 0;
     }
@@ -304,18 +305,16 @@ static void vote_chunks(struct pass *pass, void *row, struct place place, unsign
 static void fill_many(struct pass *pass, unsigned slot, struct place place, int is_turned)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
-    void *row = accumulator->rows[slot], *votes = accumulator->votes[slot];
+    void *row = accumulator->rows[slot], *votes = votes_of(pass, slot);
     unsigned cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
     memset(row, 0, cells * (pass->is_narrow ? 1u : 2u));
     for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
         vote_chunks(pass, row, place, scan);
     }
     empty_guards(pass, row);
-    if (pass->counts_points) {
-        memcpy(votes, row, cells * (pass->is_narrow ? 1u : 2u));
-    } else if (pass->is_narrow) {
+    if (votes != row && pass->is_narrow) {
         count_scans_narrow(row, votes, cells);
-    } else {
+    } else if (votes != row) {
         count_scans_wide(row, votes, cells);
     }
     if (is_turned) {
@@ -364,7 +363,7 @@ static void look_through(struct pass *pass, unsigned slot, unsigned theta_cell)
     struct rho_accumulator *accumulator = pass->accumulator;
     for (unsigned i = 0; i < 3; i++) {
         unsigned of = (slot + 2u + i) % 3u;
-        pass->rows[i] = pass->is_sparse ? accumulator->rows[of] : accumulator->votes[of];
+        pass->rows[i] = votes_of(pass, of);
     }
     pass->middle_theta_cell = theta_cell;
     pass->above_is_first = theta_cell > 0;
@@ -420,10 +419,6 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
     accumulator->rho_cells = (uint16_t)(2.0f * config->rho_max_m / config->rho_cell_m + 0.5f);
     accumulator->cells_per_m = 1.0f / config->rho_cell_m;
     accumulator->first_cell = 1.0f + config->rho_max_m / config->rho_cell_m;
-    for (unsigned i = 0; i < TURN_BLOCK; i++) {
-        accumulator->turn_cos[i] = rho_cos((float)i * config->theta_cell_rad);
-        accumulator->turn_sin[i] = rho_sin((float)i * config->theta_cell_rad);
-    }
     accumulator->magic = ACCUMULATOR_MAGIC;
     return RHO_OK;
 }
@@ -479,14 +474,15 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
     if (accumulator->magic != ACCUMULATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    unsigned num_points = points->num_scans > 0 && are_in_order(points)
-                              ? points->scan_end[points->num_scans - 1u]
-                              : 0u;
+    if (!are_in_order(points)) {
+        return RHO_ERROR_VALUE;
+    }
+    unsigned num_points = points->num_scans > 0 ? points->scan_end[points->num_scans - 1u] : 0u;
     if (num_points > 0 && (!points->x_m || !points->y_m)) {
         return RHO_ERROR_NULL;
     }
     float farthest2 = farthest2_m2(points, num_points);
-    if (!are_in_order(points) || farthest2 < 0.0f) {
+    if (farthest2 < 0.0f) {
         return RHO_ERROR_VALUE;
     }
     struct pass pass = {.accumulator = accumulator,

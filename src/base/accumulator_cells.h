@@ -4,9 +4,24 @@
  * the functions' names. The hot loops stand here: they want -O3, and nothing that keeps a compiler from vector code.
  */
 
+/* Four at a time: the stores are the limit, not the loop. */
+static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
+{
+    unsigned i = 0;
+    for (; i + 4u <= n; i += 4u) {
+        row[(uint32_t)cells[i]] |= bit;
+        row[(uint32_t)cells[i + 1u]] |= bit;
+        row[(uint32_t)cells[i + 2u]] |= bit;
+        row[(uint32_t)cells[i + 3u]] |= bit;
+    }
+    for (; i < n; i++) {
+        row[(uint32_t)cells[i]] |= bit;
+    }
+}
+
 /* ---- few points: only what they touch is looked at ---- */
 
-/* Votes of one scan (bit 0: of points). Notes the cells that reach min_votes; `may_reach` 0 where none can yet. */
+/* Votes of one scan (bit 0: of points). Notes the cells that reach min_votes; returns how many. */
 static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t *cells, unsigned n,
                                CELL bit, uint16_t *reached)
 {
@@ -19,13 +34,6 @@ static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t
         num_reached += after != before && NAME(votes)(pass, after) == pass->min_votes;
     }
     return num_reached;
-}
-
-static void NAME(vote_early)(CELL *row, const int32_t *cells, unsigned n, CELL bit)
-{
-    for (unsigned i = 0; i < n; i++) {
-        row[(uint32_t)cells[i]] |= bit;
-    }
 }
 
 static unsigned NAME(most_around)(const struct pass *pass, const CELL *row, unsigned cell)
@@ -80,21 +88,6 @@ static void NAME(turn_round)(CELL *row, unsigned num_cells)
 }
 
 /* ---- many points: all cells are looked at, a block together ---- */
-
-/* Four at a time: the stores are the limit, not the loop. */
-static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
-{
-    unsigned i = 0;
-    for (; i + 4u <= n; i += 4u) {
-        row[(uint32_t)cells[i]] |= bit;
-        row[(uint32_t)cells[i + 1u]] |= bit;
-        row[(uint32_t)cells[i + 2u]] |= bit;
-        row[(uint32_t)cells[i + 3u]] |= bit;
-    }
-    for (; i < n; i++) {
-        row[(uint32_t)cells[i]] |= bit;
-    }
-}
 
 static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells, unsigned n)
 {
