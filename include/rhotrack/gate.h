@@ -14,10 +14,6 @@
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
-#define RHO_GATE_CHI2_2D 13.8155f /* 99.9 % of two-dimensional normal innovations */
-#define RHO_GATE_CHI2_3D 16.2662f /* of three-dimensional ones */
-#define RHO_GATE_CHI2_4D 18.4668f /* of four-dimensional ones */
-
 /* A track's prediction at a scan's time, as its gate sees it. The sensor stays the caller's. */
 struct rho_gate {
     struct rho_kalman predicted;

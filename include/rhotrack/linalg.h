@@ -60,6 +60,9 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int i
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
                                                       float innovation, float variance, float *nis);
 
+/* projected := p row for a symmetric 6 x 6 p; returns row . p row, the variance of row . x. Cost: about 90 instructions. */
+float rho_linalg_project6(const float p[21], const float row[6], float projected[6]);
+
 /*
  * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p G^T with new a =
  * c a + s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by 2^-22 of the larger one, more than

@@ -21,6 +21,15 @@
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
+/* 99.9 % of the squared Mahalanobis distances of normal errors in so many dimensions. */
+#define RHO_GATE_CHI2_1D 10.8276f
+#define RHO_GATE_CHI2_2D 13.8155f
+#define RHO_GATE_CHI2_3D 16.2662f
+#define RHO_GATE_CHI2_4D 18.4668f
+
+/* Where heights count, clutter and births are taken to spread over so many metres of them. */
+#define RHO_CLUTTER_HEIGHT_M 20000.0f
+
 /* A plot opened up: its place, the frame of its noise, and the noise's variances. */
 struct rho_measurement {
     float place_m[3]; /* x, y, z; z 0 where not measured */
@@ -59,6 +68,9 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures);
  */
 void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out);
+
+/* True where a sensor's place and biases are finite and within the limits of types.h. Constant cost. */
+int rho_measurement_is_sensor(const struct rho_sensor *sensor);
 
 /* The noise's covariance in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant cost. */
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6]);

@@ -97,11 +97,6 @@ struct rho_window_place {
     uint16_t skip_flags;
 };
 
-/* 99.9 % of the squared Mahalanobis distances of normal errors in 2, 3 and 4 dimensions. */
-#define RHO_WINDOW_CHI2_2D 13.8155f
-#define RHO_WINDOW_CHI2_3D 16.2662f
-#define RHO_WINDOW_CHI2_4D 18.4668f
-
 /* Work done, for measurement: moves with each look-up and saturates. */
 struct rho_window_work {
     uint32_t lookups;   /* queries */

@@ -281,8 +281,7 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     return RHO_OK;
 }
 
-/* p row, and row . p row. */
-static float project(const float p[21], const float row[6], float projected[6])
+float rho_linalg_project6(const float p[21], const float row[6], float projected[6])
 {
     float variance = 0.0f;
     int i, j;
@@ -310,7 +309,7 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
     if (x == NULL || p == NULL || row == NULL) {
         return RHO_ERROR_NULL;
     }
-    predicted = project(p, row, projected);
+    predicted = rho_linalg_project6(p, row, projected);
     sum = predicted + variance;
     inverse = 1.0f / sum;
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {

@@ -10,7 +10,6 @@
 #define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 #define RANGE_MAX_M RHO_LIMIT_POSITION_M
-#define HALF_PI 1.57079637f
 
 /* ---- what can be believed --------------------------------------------------------------------- */
 
@@ -61,6 +60,14 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
     return !(measures & RHO_MEASURES_VELOCITY) || is_valid_velocity(plot, measures);
 }
 
+int rho_measurement_is_sensor(const struct rho_sensor *sensor)
+{
+    return is_position(sensor->x_m) && is_position(sensor->y_m) && is_position(sensor->z_m) &&
+           rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
+           rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
+           rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
+}
+
 /* ---- polar plots ------------------------------------------------------------------------------ */
 
 static int is_usable_polar(const struct rho_polar_plot *polar, uint32_t measures)
@@ -70,22 +77,13 @@ static int is_usable_polar(const struct rho_polar_plot *polar, uint32_t measures
         !is_sigma_rad(polar->sigma_azimuth_rad)) {
         return 0;
     }
-    if ((measures & RHO_MEASURES_Z) && !(rho_is_within(polar->elevation_rad, -HALF_PI, HALF_PI) &&
-                                         is_sigma_rad(polar->sigma_elevation_rad))) {
+    if ((measures & RHO_MEASURES_Z) &&
+        !(rho_is_within(polar->elevation_rad, -RHO_HALF_PI, RHO_HALF_PI) &&
+          is_sigma_rad(polar->sigma_elevation_rad))) {
         return 0;
     }
     return !(measures & RHO_MEASURES_RANGE_RATE) ||
            (is_speed(polar->range_rate_mps) && is_sigma(polar->sigma_range_rate_mps));
-}
-
-static int is_usable_sensor(const struct rho_sensor *sensor)
-{
-    return rho_is_within(sensor->x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(sensor->y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(sensor->z_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
-           rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
-           rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
 }
 
 /* A polar plot without its sensor's biases, and where it was seen from. */
@@ -174,7 +172,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     if (!polar || !plot) {
         return RHO_ERROR_NULL;
     }
-    if (!is_usable_polar(polar, measures) || (sensor && !is_usable_sensor(sensor))) {
+    if (!is_usable_polar(polar, measures) || (sensor && !rho_measurement_is_sensor(sensor))) {
         return RHO_ERROR_VALUE;
     }
     struct sighting seen = sight(polar, measures, sensor);
@@ -256,25 +254,23 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
     float ca = measurement->cos_azimuth, sa = measurement->sin_azimuth;
     float ce = measurement->cos_elevation, se = measurement->sin_elevation;
     const float *variance = measurement->variance_m2;
+    if (measurement->is_isotropic) {
+        covariance[0] = covariance[2] = variance[1];
+        covariance[5] = variance[2];
+        covariance[1] = covariance[3] = covariance[4] = 0.0f;
+        return;
+    }
     /* level: along the ground; slant: between ground and height */
     float level = ce * ce * variance[0] + se * se * variance[2];
     float slant = ce * se * (variance[0] - variance[2]);
     /* what rounding may take off the thinnest of ellipses */
-    float allowance = (level > variance[1] ? level : variance[1]) * ROUNDING_ALLOWANCE;
-    if (measurement->is_isotropic) {
-        slant = allowance = 0.0f;
-        level = variance[1];
-    }
+    float allowance = larger(level, variance[1]) * ROUNDING_ALLOWANCE;
     covariance[0] = ca * ca * level + sa * sa * variance[1] + allowance;
     covariance[1] = ca * sa * (level - variance[1]);
     covariance[2] = sa * sa * level + ca * ca * variance[1] + allowance;
-    if (measurement->is_isotropic) {
-        covariance[0] = covariance[2] = variance[1];
-    }
     covariance[3] = ca * slant;
     covariance[4] = sa * slant;
-    covariance[5] =
-        measurement->is_isotropic ? variance[2] : se * se * variance[0] + ce * ce * variance[2];
+    covariance[5] = se * se * variance[0] + ce * ce * variance[2];
 }
 
 /* ---- range rate ------------------------------------------------------------------------------- */

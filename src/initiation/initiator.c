@@ -6,7 +6,10 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
+/* A pause counts as so many usual intervals. */
 #define PAUSE_GAPS 3.0f
+
+/* Slower "fastest targets" would leave no room for velocities in float32. */
 #define V_MAX_LEAST_MPS 0.01f
 
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
@@ -66,8 +69,8 @@ static void open_span(struct search *search, unsigned a, unsigned b, struct span
     span->misses_outside = search->num_scans - (b - a + 1u);
     if (!search->is_isotropic) {
         span->slack_m =
-            rho_sqrt(GATE_CHI2 * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
-                                  span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
+            rho_sqrt(RHO_GATE_CHI2_2D * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
+                                         span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
     }
     order_votes(span);
     for (unsigned k = 0; k < span->num_between; k++) {
@@ -93,7 +96,7 @@ static int vote(struct search *search, const struct span *span, const struct ker
         .variance_m2 = (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 +
                        span->process_m2[m],
         .sigma_factor = 1.0f,
-        .gate_chi2 = GATE_CHI2,
+        .gate_chi2 = RHO_GATE_CHI2_2D,
         .reach_m = span->reach_m[m],
         .skip_flags = search->skip_flags,
     };
@@ -398,7 +401,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     }
     search.wanted_mask = kind == RHO_SEARCH_NEWEST ? 1u << (search.num_scans - 1u) : 0u;
     search.has_more = has_more(&search);
-    search.reach_chi2 = search.has_more ? RHO_WINDOW_CHI2_4D : GATE_CHI2;
+    search.reach_chi2 = search.has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
     search.is_isotropic = is_isotropic(&search);
     lay_times(&search);
     rho_initiator_prepare_process(&search);

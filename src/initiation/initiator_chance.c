@@ -3,10 +3,6 @@
 
 #include "rhotrack/approx.h"
 
-#define LOG_PI 1.14472989f
-#define LOG_TWO_PI 1.83787707f
-#define LOG_HALF (-0.69314718f)
-
 /* A tentative track's next place is known so much worse than its plot: determinants of both axes. */
 #define PREDICTION_SPREAD 4.0f
 

@@ -5,14 +5,12 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
-#include "rhotrack/measurement.h"
 
 /* A plot misses the fitted track by its own noise and the fit's: 1 + leverage, which is 1.46 at the ends of seven
  * evenly spread hits. Fewer hits reach farther; their plots are gated a little too tightly, and the votes were cast
  * before. */
 #define FIT_GATE_FACTOR 1.5f
 
-#define LOG_TWO_PI 1.83787707f
 #define FIT_ROUNDS 2
 
 /* ---- process noise ---------------------------------------------------------------------------- */
@@ -158,8 +156,9 @@ static int nearest(struct search *search, const struct line_fit *fit, float fact
         .vy_mps = fit->vy_mps,
         .variance_m2 = bend_m2,
         .sigma_factor = factor,
-        .gate_chi2 = GATE_CHI2,
-        .reach_m = rho_sqrt(GATE_CHI2 * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .gate_chi2 = RHO_GATE_CHI2_2D,
+        .reach_m =
+            rho_sqrt(RHO_GATE_CHI2_2D * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
     return rho_window_nearest(scan, &query, &search->initiator->work.window);

@@ -5,16 +5,8 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
-#include "rhotrack/measurement.h"
 
-#define LOG_TWO_PI 1.83787707f
-
-/* 99.9 % of the squared errors of one dimension. */
-#define GATE_CHI2_1D 10.8276f
-
-/* Where heights are measured, targets and clutter are anywhere in so many metres of them ... */
-#define LOG_HEIGHT 9.90348755f /* ln 20 000 m */
-/* ... and targets climb or sink by up to this share of v_max. */
+/* Targets climb or sink by up to this share of v_max. */
 #define CLIMB_SHARE 0.5f
 
 #define ROWS_MAX 4     /* along, cross, up, range rate */
@@ -55,7 +47,7 @@ static int is_range_rate(const struct rho_window_scan *scan, const struct rho_wi
                          const struct rho_window_place *place)
 {
     return !(scan->measures & RHO_MEASURES_RANGE_RATE) ||
-           rho_window_range_rate_distance2(scan, plot, place) <= GATE_CHI2_1D;
+           rho_window_range_rate_distance2(scan, plot, place) <= RHO_GATE_CHI2_1D;
 }
 
 static int climbs_too_fast(const struct search *search, const struct rho_window_place *place)
@@ -63,7 +55,7 @@ static int climbs_too_fast(const struct search *search, const struct rho_window_
     float over_mps = (place->vz_mps < 0.0f ? -place->vz_mps : place->vz_mps) -
                      CLIMB_SHARE * search->initiator->config.v_max_mps;
     return place->has_z && over_mps > 0.0f &&
-           over_mps * over_mps > GATE_CHI2_1D * place->velocity_noise.zz_m2;
+           over_mps * over_mps > RHO_GATE_CHI2_1D * place->velocity_noise.zz_m2;
 }
 
 int rho_initiator_own_kernel(const struct search *search, const struct span *span,
@@ -338,7 +330,8 @@ float rho_initiator_log_room(const struct search *search, int has_z, unsigned he
     float v_max_mps = search->initiator->config.v_max_mps;
     float room = (float)range_rates * rho_log(2.0f * v_max_mps);
     if (has_z) {
-        room += ((float)heights - 1.0f) * LOG_HEIGHT - rho_log(2.0f * CLIMB_SHARE * v_max_mps);
+        room += ((float)heights - 1.0f) * rho_log(RHO_CLUTTER_HEIGHT_M) -
+                rho_log(2.0f * CLIMB_SHARE * v_max_mps);
     }
     return room;
 }

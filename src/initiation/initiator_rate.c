@@ -61,7 +61,7 @@ static struct turn_of_luck luck_of(const struct chance *chance, float start_nat)
     const struct search *search = chance->search;
     unsigned newest = search->num_scans - 1u;
     struct turn_of_luck luck = {.gain_nat = rho_initiator_gain_of_hit(chance),
-                                .gains = (unsigned)(0.5f * GATE_CHI2 / CLIMB_STEP),
+                                .gains = (unsigned)(0.5f * RHO_GATE_CHI2_2D / CLIMB_STEP),
                                 .miss_nat = -search->log_miss[newest]};
     luck.each = rho_initiator_stay_inside(chance, start_nat) * CLIMB_STEP *
                 rho_exp(search->log_pd[newest] - luck.gain_nat);

@@ -6,9 +6,11 @@
 #define RHOTRACK_INITIATOR_SEARCH_H
 
 #include "rhotrack/initiator.h"
+#include "rhotrack/measurement.h"
 
-/* 99.9 % of the squared distances of a target's plots, two dimensions. */
-#define GATE_CHI2 13.8155f
+#define LOG_PI 1.14472989f
+#define LOG_TWO_PI 1.83787707f
+#define LOG_HALF (-0.69314718f)
 
 struct search {
     struct rho_initiator *initiator;

@@ -11,9 +11,7 @@
 
 /* ln of the targets expected in the area and window before any plot was seen: a half, so that one target and none are
  * equally likely. */
-#define LOG_TARGETS_EXPECTED (-0.69314718f)
-
-#define LOG_PI 1.14472989f
+#define LOG_TARGETS_EXPECTED LOG_HALF
 
 /* ---- how many votes --------------------------------------------------------------------------- */
 

@@ -202,7 +202,7 @@ static float gate_chi2(const struct rho_window_scan *scan, const struct rho_wind
 {
     int more = ((scan->measures & RHO_MEASURES_Z) && place->has_z ? 1 : 0) +
                ((scan->measures & RHO_MEASURES_RANGE_RATE) ? 1 : 0);
-    return more == 0 ? RHO_WINDOW_CHI2_2D : more == 1 ? RHO_WINDOW_CHI2_3D : RHO_WINDOW_CHI2_4D;
+    return more == 0 ? RHO_GATE_CHI2_2D : more == 1 ? RHO_GATE_CHI2_3D : RHO_GATE_CHI2_4D;
 }
 
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,

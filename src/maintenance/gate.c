@@ -59,18 +59,12 @@ static int add_range_rate(const struct rho_gate *gate, const struct rho_kalman *
     if (!rho_measurement_range_rate(at->state, gate->sensor, gate->has_z, row, &rate_mps)) {
         return 0;
     }
-    float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
-    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        projected[i] = 0.0f;
-        for (int j = 0; j < RHO_KALMAN_STATES; j++) {
-            projected[i] += at->covariance[RHO_AT(i, j)] * row[j];
-        }
-        variance += projected[i] * row[i];
-    }
+    float predicted = rho_linalg_project6(at->covariance, row, projected);
     for (int i = 0; i < n; i++) {
         innovation->s[RHO_AT(n, i)] = projected[i];
     }
-    innovation->s[RHO_AT(n, n)] = variance;
+    innovation->s[RHO_AT(n, n)] =
+        predicted + plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
     innovation->d[n] = plot->range_rate_mps - rate_mps;
     innovation->num = n + 1;
     return 1;

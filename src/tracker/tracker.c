@@ -33,18 +33,12 @@ static const struct rho_sensor *find_sensor(const struct rho_tracker *tracker, i
 
 static int is_usable_sensor(const struct rho_sensor *sensor)
 {
-    return rho_is_within(sensor->x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(sensor->y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(sensor->z_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(sensor->pd, 0.01f, 0.999f) &&
+    return rho_measurement_is_sensor(sensor) && rho_is_within(sensor->pd, 0.01f, 0.999f) &&
            rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            sensor->range_min_m < sensor->range_max_m &&
            rho_is_within(sensor->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
-           rho_is_within(sensor->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
-           rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
-           rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
-           rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
+           rho_is_within(sensor->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI);
 }
 
 /* ---- begin: which plots can be believed ------------------------------------------------------- */

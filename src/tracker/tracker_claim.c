@@ -7,9 +7,6 @@
 
 #define LOG_TWO_PI 1.83787707f
 
-/* Where heights count, clutter is taken to spread over so many metres of them. */
-#define CLUTTER_HEIGHT_M 20000.0f
-
 /* The least area that clutter is spread over while few plots were seen. */
 #define CLUTTER_SIDE_MIN_M 1000.0f
 
@@ -59,7 +56,7 @@ static float log_ratio(const struct step *step, const struct rho_gate_result *re
 {
     float dimensions = 2.0f;
     if (result->has_z) {
-        log_density -= rho_log(CLUTTER_HEIGHT_M);
+        log_density -= rho_log(RHO_CLUTTER_HEIGHT_M);
         dimensions += 1.0f;
     }
     if (result->has_range_rate) {

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "rhotrack/measurement.h"
 #include "rhotrack/window.h"
 
 #define PLOTS 60
@@ -378,8 +379,8 @@ static struct rho_window_place random_place(uint32_t measures)
 static void own_covariances_heights_and_range_rates_decide(void **state)
 {
     (void)state;
-    static const double gate[3] = {(double)RHO_WINDOW_CHI2_2D, (double)RHO_WINDOW_CHI2_3D,
-                                   (double)RHO_WINDOW_CHI2_4D};
+    static const double gate[3] = {(double)RHO_GATE_CHI2_2D, (double)RHO_GATE_CHI2_3D,
+                                   (double)RHO_GATE_CHI2_4D};
     int found = 0;
     for (int round = 0; round < 400; round++) {
         uint32_t measures =

@@ -81,7 +81,7 @@ static void add_spread(struct spread *sum, struct spread other, double factor)
 static void put_gate(FILE *file, double x_m, double y_m, const struct spread *spread)
 {
     double l11 = sqrt(spread->xx_m2), l21 = spread->xy_m2 / l11;
-    double l22 = sqrt(spread->yy_m2 - l21 * l21), reach = sqrt((double)RHO_WINDOW_CHI2_2D);
+    double l22 = sqrt(spread->yy_m2 - l21 * l21), reach = sqrt((double)RHO_GATE_CHI2_2D);
     for (int i = 0; i <= 72; i++) {
         double angle_rad = i * 0.08726646259971647;
         double u = reach * cos(angle_rad), v = reach * sin(angle_rad);
