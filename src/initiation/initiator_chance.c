@@ -389,11 +389,11 @@ float rho_initiator_stay_inside(const struct chance *chance, float start_nat)
 {
     const struct search *search = chance->search;
     unsigned newest = search->num_scans - 1u;
-    float interval_s = (search->time_s[newest] - search->time_s[0]) / (float)newest;
     float stay[RHO_MAX_SCANS], sum = 0.0f, all = 0.0f;
     for (unsigned first = 0; first + 3u <= search->num_scans; first++) {
         float span_s = search->time_s[newest] - search->time_s[first];
-        stay[first] = share_inside(search, span_s + interval_s) / share_inside(search, span_s);
+        stay[first] =
+            share_inside(search, span_s + search->interval_s) / share_inside(search, span_s);
     }
     for (unsigned k = 0; k < chance->num_patterns; k++) {
         float sets = sets_of(chance, k, start_nat, start_nat);

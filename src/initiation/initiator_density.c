@@ -197,20 +197,26 @@ static void lay_square(const struct rho_initiator *initiator, struct rho_density
     map->content = rho_initiator_area_m2(initiator);
 }
 
-static void lay_map(const struct search *search, uint32_t num_plots)
+/* Where the map lies follows from all plots held, whichever are counted. */
+void rho_initiator_lay_map(struct search *search)
 {
     struct rho_density_map *map = &search->initiator->density;
     const struct rho_sensor *radar = only_radar(search);
-    uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
-    float cells = (float)wanted;
     memset(map, 0, sizeof *map);
     if (!radar || !lay_polar(search, radar)) {
         lay_square(search->initiator, map);
     }
+}
+
+static void lay_cells(struct rho_density_map *map, uint32_t num_plots)
+{
+    uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
+    float cells = (float)wanted;
     /* an arc of half the range is as long as azimuth times that */
     float aspect = map->is_polar ? 2.0f / map->height : map->width / map->height;
     map->columns = (uint16_t)clamp_cells(rho_sqrt(cells * aspect));
     map->rows = (uint16_t)clamp_cells(cells / (float)map->columns);
+    memset(map->count, 0, sizeof map->count);
 }
 
 /* ---- counting --------------------------------------------------------------------------------- */
@@ -299,7 +305,7 @@ static void measure_sensors(struct search *search, const uint32_t by_scan[RHO_MA
     }
 }
 
-/* Counts the plots that are not skipped, and more_plots beside, over the area. */
+/* Counts the plots that are not skipped, and more_plots beside, over the map as it was laid. */
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
 {
     struct rho_initiator *initiator = search->initiator;
@@ -308,7 +314,7 @@ void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, f
     for (unsigned m = 0; m < search->num_scans; m++) {
         plots += by_scan[m];
     }
-    lay_map(search, plots);
+    lay_cells(&initiator->density, plots);
     initiator->density.mean =
         mean_density(search, (float)plots + more_plots, initiator->density.content);
     initiator->density_per_m2 =

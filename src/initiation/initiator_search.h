@@ -82,6 +82,7 @@ void rho_initiator_prepare(struct search *search);
 /* initiator_density.c: what the scans tell of clutter */
 float rho_initiator_area_m2(const struct rho_initiator *initiator);
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m);
+void rho_initiator_lay_map(struct search *search);
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
                                 unsigned m);
