@@ -1,24 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a sensor's coverage and its detection probability have to do with the score: hits and misses. */
-#include "initiator_setup.h"
-
-#define SCANS 7
-#define SCAN_S 2.0
-#define PD 0.9
-
-static const struct rho_extent east = {1000.0f, 41000.0f, -20000.0f, 20000.0f}; /* not the origin */
-
-static struct rho_initiator_config usual(void)
-{
-    struct rho_initiator_config config;
-    rho_initiator_config_default(&config);
-    config.min_scans = 4;
-    config.v_max_mps = 400.0f;
-    config.score_min_nat = -1000.0f;
-    config.area_is_fixed = 1;
-    config.area = east;
-    return config;
-}
+#include "initiator_east.h"
 
 /*
  * A target at 20 km range, azimuth 0, that scan 2 misses: its only plot is far off. Each scan has one plot, so that the

@@ -1,28 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Plots with a covariance, a height and a range rate of their own: what votes, what is fitted, and what it scores. */
-#include "initiator_setup.h"
+#include "initiator_east.h"
 #include "straight.h"
 
 #define Z RHO_MEASURES_Z
 #define RATE RHO_MEASURES_RANGE_RATE
-
-#define SCANS 7
-#define SCAN_S 2.0
-#define PD 0.9
-
-static const struct rho_extent east = {1000.0f, 41000.0f, -20000.0f, 20000.0f}; /* not the origin */
-
-static struct rho_initiator_config usual(void)
-{
-    struct rho_initiator_config config;
-    rho_initiator_config_default(&config);
-    config.min_scans = 4;
-    config.v_max_mps = 400.0f;
-    config.score_min_nat = -1000.0f;
-    config.area_is_fixed = 1;
-    config.area = east;
-    return config;
-}
 
 /* ---- two axes that are nearly one ------------------------------------------------------------- */
 

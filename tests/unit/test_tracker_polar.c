@@ -426,15 +426,21 @@ static long score_moves(int32_t sensor_id, const struct target *target, int k)
     return score;
 }
 
+/* Sensor 2, in the same place, sees less often. */
+static void describe_weak(float pd)
+{
+    struct rho_sensor weak = radar;
+    weak.sensor_id = 2;
+    weak.pd = pd;
+    assert_int_equal(rho_tracker_set_sensor(&world.tracker, &weak), RHO_OK);
+}
+
 /* 1000 ln(1 - pd), cut to whole thousandths. */
 static void a_miss_costs_what_the_sensors_own_pd_says(void **state)
 {
     (void)state;
     start(0);
-    struct rho_sensor weak = radar;
-    weak.sensor_id = 2;
-    weak.pd = 0.5f;
-    assert_int_equal(rho_tracker_set_sensor(&world.tracker, &weak), RHO_OK);
+    describe_weak(0.5f);
     fly(&early, 0, 6);
     assert_int_equal(score_moves(1, NULL, 6), -2302);
     assert_int_equal(score_moves(2, NULL, 6), -693);
@@ -448,10 +454,7 @@ static void a_weak_sensor_s_scan_does_not_end_what_a_good_one_missed_once(void *
 {
     (void)state;
     start(0);
-    struct rho_sensor weak = radar;
-    weak.sensor_id = 2;
-    weak.pd = 0.3f;
-    assert_int_equal(rho_tracker_set_sensor(&world.tracker, &weak), RHO_OK);
+    describe_weak(0.3f);
     fly(&early, 0, 6);
     turn(6);
     assert_int_equal(the_track()->status, RHO_TRACK_COASTING);

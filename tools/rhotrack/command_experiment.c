@@ -16,6 +16,14 @@ static const struct {
 
 #define NAMES "initiation, polar, false-alarms"
 
+static void check_method(const struct command_line *line)
+{
+    if (line->method != NULL && strcmp(line->method, "kernel") != 0) {
+        fail(EXIT_USAGE, "experiment %s knows the method kernel, not `%s`", line->arguments[0],
+             line->method);
+    }
+}
+
 int command_experiment(struct command_line *line)
 {
     if (line->num_arguments != 1) {
@@ -23,6 +31,7 @@ int command_experiment(struct command_line *line)
     }
     for (size_t i = 0; i < sizeof experiments / sizeof experiments[0]; i++) {
         if (strcmp(experiments[i].name, line->arguments[0]) == 0) {
+            check_method(line);
             return experiments[i].run(line);
         }
     }

@@ -276,9 +276,6 @@ static void print_tables(const struct alarm_figures *figures, const struct verdi
 
 int experiment_false_alarms(const struct command_line *line)
 {
-    if (line->method != NULL && strcmp(line->method, "kernel") != 0) {
-        fail(EXIT_USAGE, "experiment false-alarms knows the method kernel, not `%s`", line->method);
-    }
     size_t num_runs = line->runs > 0 ? (size_t)line->runs : DEFAULT_RUNS;
     struct alarm_figures figures = measure(line->seed, num_runs);
     struct verdicts verdicts = judge(&figures);

@@ -18,11 +18,9 @@ const double delay_per_km2[DELAY_LEVELS] = {0.0, 0.1, 1.0, 3.0, 10.0, 30.0};
 static struct parameters parameters_of(double wanted_per_hour)
 {
     struct parameters parameters;
-    char assignment[64];
     parameters_default(&parameters);
     scenario_suggest("crossing", &parameters);
-    snprintf(assignment, sizeof assignment, "false_tracks_per_hour=%g", wanted_per_hour);
-    parameters_set(&parameters, assignment);
+    parameters_suggest(&parameters, PARAMETER_FALSE_TRACKS_PER_HOUR, wanted_per_hour);
     return parameters;
 }
 
@@ -173,10 +171,10 @@ static void judge(struct delay_result *result, size_t target, size_t scan, bool 
 /* The scenario's area grows with the targets' paths. */
 static void take_area(struct parameters *parameters, const struct scenario_box *area)
 {
-    parameters->value[PARAMETER_AREA_X_MIN_M] = area->x_min_m;
-    parameters->value[PARAMETER_AREA_X_MAX_M] = area->x_max_m;
-    parameters->value[PARAMETER_AREA_Y_MIN_M] = area->y_min_m;
-    parameters->value[PARAMETER_AREA_Y_MAX_M] = area->y_max_m;
+    parameters_suggest(parameters, PARAMETER_AREA_X_MIN_M, area->x_min_m);
+    parameters_suggest(parameters, PARAMETER_AREA_X_MAX_M, area->x_max_m);
+    parameters_suggest(parameters, PARAMETER_AREA_Y_MIN_M, area->y_min_m);
+    parameters_suggest(parameters, PARAMETER_AREA_Y_MAX_M, area->y_max_m);
 }
 
 struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run, struct chain *chain)
@@ -184,11 +182,8 @@ struct delay_result delay_run(double per_km2, uint64_t seed, uint64_t run, struc
     struct parameters parameters = parameters_of(DELAY_WANTED_PER_HOUR);
     struct history histories[DELAY_TARGETS] = {{.count = 0}};
     struct delay_result result;
-    char assignment[64];
-    snprintf(assignment, sizeof assignment, "clutter_per_km2=%g", per_km2);
-    parameters_set(&parameters, assignment);
-    snprintf(assignment, sizeof assignment, "num_scans=%d", DELAY_SCANS);
-    parameters_set(&parameters, assignment);
+    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_KM2, per_km2);
+    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, DELAY_SCANS);
     struct simulation *simulation = scenario_simulate("crossing", &parameters, seed, run);
     take_area(&parameters, &simulation->area);
     for (size_t target = 0; target < DELAY_TARGETS; target++) {

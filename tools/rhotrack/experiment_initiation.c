@@ -237,9 +237,6 @@ static void print_tables(const struct initiation_summary *summaries,
 
 int experiment_initiation(const struct command_line *line)
 {
-    if (line->method != NULL && strcmp(line->method, "kernel") != 0) {
-        fail(EXIT_USAGE, "experiment initiation knows the method kernel, not `%s`", line->method);
-    }
     size_t num_runs = line->runs > 0 ? (size_t)line->runs : DEFAULT_RUNS;
     struct initiation_summary *summaries = initiation_summaries(line->seed, num_runs);
     if (line->json) {

@@ -235,9 +235,6 @@ static void print_tables(const struct polar_summary *summaries, const struct ver
 
 int experiment_polar(const struct command_line *line)
 {
-    if (line->method != NULL && strcmp(line->method, "kernel") != 0) {
-        fail(EXIT_USAGE, "experiment polar knows the method kernel, not `%s`", line->method);
-    }
     size_t num_runs = line->runs > 0 ? (size_t)line->runs : DEFAULT_RUNS;
     struct polar_summary *summaries = polar_summaries(line->seed, num_runs);
     struct verdicts verdicts = polar_verdicts(summaries);

@@ -161,7 +161,7 @@ static void draw_gates(const struct simulation *simulation, const char *path)
 static void draw_run(uint64_t seed, const char *map, const char *gates)
 {
     struct parameters parameters = polar_parameters(polar_clutter[POLAR_LEVELS - 1]);
-    parameters_set(&parameters, "true_pd=1");
+    parameters_suggest(&parameters, PARAMETER_TRUE_PD, 1.0);
     struct simulation *simulation = scenario_simulate("polar", &parameters, seed, 0);
     struct chain chain = chain_start();
     polar_search(&polar_cases[0], &parameters, simulation, &chain);

@@ -26,11 +26,9 @@ const struct polar_case polar_cases[POLAR_CASES] = {
 struct parameters polar_parameters(double clutter)
 {
     struct parameters parameters;
-    char assignment[48];
     parameters_default(&parameters);
     scenario_suggest("polar", &parameters);
-    snprintf(assignment, sizeof assignment, "clutter_per_scan=%g", clutter);
-    parameters_set(&parameters, assignment);
+    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, clutter);
     return parameters;
 }
 
