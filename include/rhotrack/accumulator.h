@@ -40,6 +40,8 @@ struct rho_accumulator_config {
     float theta_cell_rad;
     enum rho_accumulator_votes votes;
     uint16_t min_votes; /* of a peak; at least 1 */
+    float
+        min_share; /* 0 .. 1: a peak has at least this share of the most votes of any; 0: no matter */
     /* that a peak is compared with: 0 (every cell with min_votes is one), 4 or 8 */
     uint8_t neighbours;
 };
@@ -53,16 +55,37 @@ struct rho_accumulator_points {
 };
 
 struct rho_accumulator_peak {
+    uint32_t votes;
     uint16_t theta_cell, rho_cell;
-    uint16_t votes;
-    uint16_t mask; /* bit m: scan m voted; 0 with RHO_VOTES_POINTS */
+    uint32_t mask; /* bit m: scan m voted; 0 with RHO_VOTES_POINTS */
 };
 
 struct rho_accumulator_result {
     uint32_t num_peaks;
-    uint32_t peaks_dropped; /* beyond the caller's capacity: the lowest; saturates */
+    /* beyond the caller's capacity, the lowest; where min_share is given, at most so many; saturates */
+    uint32_t peaks_dropped;
     uint32_t votes; /* points times cells of theta, those outside rho_max_m taken off; saturates */
-    uint16_t votes_max; /* of the cells with at least min_votes; 0 where there is none */
+    uint32_t votes_max; /* of the cells with at least min_votes; 0 where there is none */
+};
+
+/*
+ * The best peaks of any search, in an array of the caller's. They come in any order; a heap keeps the best by votes, then
+ * lower theta_cell, then lower rho_cell. Set up the first four fields, the others 0.
+ */
+struct rho_peak_list {
+    struct rho_accumulator_peak *peaks;
+    uint32_t max_peaks; /* room */
+    uint32_t min_votes; /* of a peak; rises with votes_max */
+    float min_share;    /* of votes_max */
+    uint32_t num_peaks;
+    uint32_t peaks_dropped; /* as above */
+    uint32_t votes_max;
+};
+
+/* The plane's cells, and how far two peaks must be apart. */
+struct rho_peak_distance {
+    uint16_t theta_cells, rho_cells; /* of the plane */
+    uint16_t theta, rho;             /* nearer in both, or as near: only the better peak stays */
 };
 
 struct rho_accumulator {
@@ -106,13 +129,22 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_find(struct rho_accumulator *accu
                                                     uint32_t max_peaks,
                                                     struct rho_accumulator_result *result);
 
+/* Takes a cell with its votes, unless they are fewer than min_votes. Cost: the logarithm of max_peaks. */
+void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak peak);
+
+/* Sorts the list, best first, and cuts off what has turned out to be below min_share. Cost: n log n. */
+void rho_peak_list_finish(struct rho_peak_list *list);
+
 /*
- * Greedy suppression: of peaks in their order keeps the first, drops all within +-theta_cells and +-rho_cells of it (also
- * round the end of theta), and so on. Returns how many are kept, at the head of the list. Cost: peaks x kept.
+ * Greedy suppression: of peaks, best first, keeps the first, drops all near it (also round the end of theta), and so on.
+ * Returns how many are kept, at the head of the list.
+ *   scratch  num_scratch words, a power of two; NULL and 0: none
+ * Cost: a few look-ups a peak while scratch holds half as many words again as peaks are kept; kept peaks beyond are
+ * compared one by one.
  */
-uint32_t rho_accumulator_suppress(const struct rho_accumulator *accumulator,
-                                  struct rho_accumulator_peak *peaks, uint32_t num_peaks,
-                                  unsigned theta_cells, unsigned rho_cells);
+uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num_peaks,
+                                const struct rho_peak_distance *distance, uint32_t *scratch,
+                                uint32_t num_scratch);
 
 /* The cell of rho of a point in a row of theta, or -1 where it is beyond rho_max_m: the very numbers that votes go by. */
 int rho_accumulator_cell(const struct rho_accumulator *accumulator, unsigned theta_cell, float x_m,

@@ -25,10 +25,9 @@ typedef char rho_assert_accumulator_ram[sizeof(struct rho_accumulator) <= RHO_RA
 struct pass {
     struct rho_accumulator *accumulator;
     const struct rho_accumulator_points *points;
-    struct rho_accumulator_peak *peaks; /* a heap, the lowest peak on top */
-    uint32_t max_peaks;
-    struct rho_accumulator_result *result;
-    unsigned num_points, min_votes, neighbours;
+    struct rho_peak_list list; /* its min_votes may rise from row to row */
+    uint32_t votes;
+    unsigned num_points, neighbours;
     int counts_points, is_narrow, is_sparse, may_be_outside;
     const void *rows[3]; /* above, in and below the one that is looked through: votes_of() */
     unsigned middle_theta_cell;
@@ -52,78 +51,13 @@ static unsigned votes_wide(const struct pass *pass, uint16_t cell)
                                : (unsigned)bits_of_byte[cell & 255u] + bits_of_byte[cell >> 8];
 }
 
-/* ---- the best peaks --------------------------------------------------------------------------- */
-
-/* More votes, then the lower theta, then the lower rho. */
-static int is_better(const struct rho_accumulator_peak *a, const struct rho_accumulator_peak *b)
-{
-    if (a->votes != b->votes) {
-        return a->votes > b->votes;
-    }
-    return a->theta_cell != b->theta_cell ? a->theta_cell < b->theta_cell
-                                          : a->rho_cell < b->rho_cell;
-}
-
-/* Lets the peak at `place` of a heap of n sink below those that are lower. */
-static void sink(struct rho_accumulator_peak *heap, uint32_t n, uint32_t place)
-{
-    struct rho_accumulator_peak peak = heap[place];
-    for (uint32_t child = 2u * place + 1u; child < n; child = 2u * place + 1u) {
-        child += child + 1u < n && is_better(&heap[child], &heap[child + 1u]);
-        if (!is_better(&peak, &heap[child])) {
-            break;
-        }
-        heap[place] = heap[child];
-        place = child;
-    }
-    heap[place] = peak;
-}
-
-static void rise(struct rho_accumulator_peak *heap, uint32_t place)
-{
-    struct rho_accumulator_peak peak = heap[place];
-    while (place > 0 && is_better(&heap[(place - 1u) / 2u], &peak)) {
-        heap[place] = heap[(place - 1u) / 2u];
-        place = (place - 1u) / 2u;
-    }
-    heap[place] = peak;
-}
-
 static void keep(struct pass *pass, unsigned cell, unsigned votes, unsigned mask)
 {
-    struct rho_accumulator_result *result = pass->result;
-    struct rho_accumulator_peak peak = {.theta_cell = (uint16_t)pass->middle_theta_cell,
+    struct rho_accumulator_peak peak = {.votes = votes,
+                                        .theta_cell = (uint16_t)pass->middle_theta_cell,
                                         .rho_cell = (uint16_t)(cell - 1u),
-                                        .votes = (uint16_t)votes,
-                                        .mask = (uint16_t)(pass->counts_points ? 0u : mask)};
-    if (result->num_peaks < pass->max_peaks) {
-        pass->peaks[result->num_peaks] = peak;
-        rise(pass->peaks, result->num_peaks++);
-        return;
-    }
-    result->peaks_dropped = rho_count(result->peaks_dropped, 1);
-    if (pass->max_peaks > 0 && is_better(&peak, &pass->peaks[0])) {
-        pass->peaks[0] = peak;
-        sink(pass->peaks, result->num_peaks, 0);
-    }
-}
-
-/* The heap's top goes behind the rest, again and again: best first. */
-static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
-{
-    while (n > 1) {
-        struct rho_accumulator_peak lowest = heap[0];
-        heap[0] = heap[--n];
-        heap[n] = lowest;
-        sink(heap, n, 0);
-    }
-}
-
-static void note_most(struct pass *pass, unsigned votes)
-{
-    if (votes > pass->result->votes_max) {
-        pass->result->votes_max = (uint16_t)votes;
-    }
+                                        .mask = pass->counts_points ? 0u : mask};
+    rho_peak_list_add(&pass->list, peak);
 }
 
 /* ---- rows ------------------------------------------------------------------------------------- */
@@ -175,7 +109,7 @@ static unsigned find_cells_within(const float *restrict x_m, const float *restri
 }
 
 /* Cells of points from .. from + n - 1; those outside are taken off the votes. */
-static void find_some(const struct pass *pass, unsigned from, unsigned n, struct place place,
+static void find_some(struct pass *pass, unsigned from, unsigned n, struct place place,
                       int32_t *cells)
 {
     const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
@@ -186,7 +120,7 @@ static void find_some(const struct pass *pass, unsigned from, unsigned n, struct
     } else {
         find_cells(x_m, y_m, n, place, cells);
     }
-    pass->result->votes = rho_count(pass->result->votes, n - outside);
+    pass->votes = rho_count(pass->votes, n - outside);
 }
 
 static unsigned scan_start(const struct pass *pass, unsigned scan)
@@ -228,7 +162,7 @@ static unsigned vote_few(const struct pass *pass, void *row, const int32_t *cell
                          unsigned scan, uint16_t *reached)
 {
     unsigned bit = pass->counts_points ? 0u : 1u << scan;
-    if (bit && scan + 1u < pass->min_votes) {
+    if (bit && scan + 1u < pass->list.min_votes) {
         /* so few scans cannot reach it */
         if (pass->is_narrow) {
             vote_scan_narrow(row, cells, n, (uint8_t)bit);
@@ -328,14 +262,14 @@ static void fill_many(struct pass *pass, unsigned slot, struct place place, int 
 static void fill_row(struct pass *pass, unsigned slot, unsigned theta_cell, int is_turned)
 {
     struct place place = place_of(pass->accumulator, theta_cell);
-    uint32_t votes = pass->result->votes;
+    uint32_t votes = pass->votes;
     if (pass->is_sparse) {
         fill_few(pass, slot, place, is_turned);
     } else {
         fill_many(pass, slot, place, is_turned);
     }
     if (is_turned) {
-        pass->result->votes = votes; /* the row votes twice, and counts once */
+        pass->votes = votes; /* the row votes twice, and counts once */
     }
 }
 
@@ -397,7 +331,7 @@ static int is_usable(const struct rho_accumulator_config *config)
                          config->rho_cell_m * 0.5f * (float)RHO_MAX_RHO_CELLS) &&
            rho_is_within(config->theta_cell_rad, THETA_CELL_MIN_RAD, RHO_PI) &&
            (config->votes == RHO_VOTES_SCANS || config->votes == RHO_VOTES_POINTS) &&
-           config->min_votes >= 1 &&
+           config->min_votes >= 1 && rho_is_within(config->min_share, 0.0f, 1.0f) &&
            (config->neighbours == 0 || config->neighbours == 4 || config->neighbours == 8);
 }
 
@@ -487,58 +421,24 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
     }
     struct pass pass = {.accumulator = accumulator,
                         .points = points,
-                        .peaks = peaks,
-                        .max_peaks = max_peaks,
-                        .result = result,
+                        .list = {.peaks = peaks,
+                                 .max_peaks = max_peaks,
+                                 .min_votes = accumulator->config.min_votes,
+                                 .min_share = accumulator->config.min_share},
                         .num_points = num_points,
-                        .min_votes = accumulator->config.min_votes,
                         .neighbours = accumulator->config.neighbours};
     choose_rows(&pass, farthest2);
-    memset(result, 0, sizeof *result);
     if (pass.is_sparse) {
         memset(accumulator->rows, 0, sizeof accumulator->rows);
         memset(accumulator->touched, 0, sizeof accumulator->touched);
     }
     stream(&pass);
-    sort_peaks(peaks, result->num_peaks);
+    rho_peak_list_finish(&pass.list);
+    *result = (struct rho_accumulator_result){.num_peaks = pass.list.num_peaks,
+                                              .peaks_dropped = pass.list.peaks_dropped,
+                                              .votes = pass.votes,
+                                              .votes_max = pass.list.votes_max};
     return RHO_OK;
-}
-
-/* Cells between two rows of theta, the short way; *is_turned where it leads round the end. */
-static unsigned rows_between(unsigned a, unsigned b, unsigned theta_cells, int *is_turned)
-{
-    unsigned apart = a > b ? a - b : b - a;
-    *is_turned = 2u * apart > theta_cells;
-    return *is_turned ? theta_cells - apart : apart;
-}
-
-static int is_near(const struct rho_accumulator *accumulator, const struct rho_accumulator_peak *a,
-                   const struct rho_accumulator_peak *b, unsigned theta_cells, unsigned rho_cells)
-{
-    int is_turned;
-    if (rows_between(a->theta_cell, b->theta_cell, accumulator->theta_cells, &is_turned) >
-        theta_cells) {
-        return 0;
-    }
-    unsigned rho = is_turned ? accumulator->rho_cells - 1u - b->rho_cell : b->rho_cell;
-    return (a->rho_cell > rho ? a->rho_cell - rho : rho - a->rho_cell) <= rho_cells;
-}
-
-uint32_t rho_accumulator_suppress(const struct rho_accumulator *accumulator,
-                                  struct rho_accumulator_peak *peaks, uint32_t num_peaks,
-                                  unsigned theta_cells, unsigned rho_cells)
-{
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < num_peaks; i++) {
-        uint32_t k = 0;
-        while (k < kept && !is_near(accumulator, &peaks[k], &peaks[i], theta_cells, rho_cells)) {
-            k++;
-        }
-        if (k == kept) {
-            peaks[kept++] = peaks[i];
-        }
-    }
-    return kept;
 }
 
 int rho_accumulator_cell(const struct rho_accumulator *accumulator, unsigned theta_cell, float x_m,

@@ -31,7 +31,7 @@ static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t
         CELL after = (CELL)(bit ? before | bit : before + 1u);
         *cell = after;
         reached[num_reached] = (uint16_t)cells[i];
-        num_reached += after != before && NAME(votes)(pass, after) == pass->min_votes;
+        num_reached += after != before && NAME(votes)(pass, after) == pass->list.min_votes;
     }
     return num_reached;
 }
@@ -67,11 +67,8 @@ static void NAME(look_at_few)(struct pass *pass, const uint16_t *reached, unsign
     for (unsigned i = 0; i < num_reached; i++) {
         CELL value = ((const CELL *)pass->rows[1])[reached[i]];
         unsigned votes = NAME(votes)(pass, value);
-        if (votes < pass->min_votes) {
-            continue; /* a guard */
-        }
-        note_most(pass, votes);
-        if (NAME(is_peak)(pass, reached[i], votes)) {
+        /* not a guard, nor below what has become the least since */
+        if (votes >= pass->list.min_votes && NAME(is_peak)(pass, reached[i], votes)) {
             keep(pass, reached[i], votes, value);
         }
     }
@@ -128,7 +125,7 @@ static void NAME(mark_peaks)(const struct pass *pass, const CELL *restrict above
                              const CELL *restrict row, const CELL *restrict below,
                              uint8_t *restrict is_peak)
 {
-    CELL least = (CELL)pass->min_votes, corners = (CELL)(pass->neighbours == 8 ? ~0u : 0u);
+    CELL least = (CELL)pass->list.min_votes, corners = (CELL)(pass->neighbours == 8 ? ~0u : 0u);
     CELL above_first = (CELL)pass->above_is_first, below_first = (CELL)pass->below_is_first;
     for (int i = 0; i < BLOCK; i++) {
         CELL v = row[i];
@@ -146,7 +143,7 @@ static void NAME(mark_all)(const struct pass *pass, const CELL *restrict row,
                            uint8_t *restrict is_peak)
 {
     for (int i = 0; i < BLOCK; i++) {
-        is_peak[i] = row[i] >= pass->min_votes;
+        is_peak[i] = row[i] >= pass->list.min_votes;
     }
 }
 
@@ -171,9 +168,7 @@ static void NAME(look_at_all)(struct pass *pass, const CELL *masks)
 {
     const CELL *row = pass->rows[1];
     for (unsigned first = 1; first <= pass->accumulator->rho_cells; first += BLOCK) {
-        unsigned most = NAME(most_of)(row + first);
-        if (most >= pass->min_votes) {
-            note_most(pass, most);
+        if (NAME(most_of)(row + first) >= pass->list.min_votes) {
             NAME(look_at_block)(pass, masks, first);
         }
     }

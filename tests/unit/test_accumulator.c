@@ -145,8 +145,8 @@ static uint32_t expect_peaks(void)
             }
             assert_true(count < PEAKS_MAX);
             unsigned mask = of->votes == RHO_VOTES_SCANS ? plane[theta * num_rho() + rho] : 0u;
-            expected[count++] = (struct rho_accumulator_peak){
-                (uint16_t)theta, (uint16_t)rho, (uint16_t)votes_at(cell), (uint16_t)mask};
+            expected[count++] = (struct rho_accumulator_peak){(uint32_t)votes_at(cell),
+                                                              (uint16_t)theta, (uint16_t)rho, mask};
         }
     }
     free(plane);
@@ -155,6 +155,12 @@ static uint32_t expect_peaks(void)
 }
 
 /* ---- runs ------------------------------------------------------------------------------------- */
+
+static uint32_t suppress(uint32_t num_peaks, uint32_t *scratch, uint32_t num_scratch)
+{
+    struct rho_peak_distance distance = {accumulator.theta_cells, accumulator.rho_cells, 8, 8};
+    return rho_peak_list_suppress(peaks, num_peaks, &distance, scratch, num_scratch);
+}
 
 static struct rho_accumulator_config paper_cells(void)
 {
@@ -275,7 +281,7 @@ static void a_line_at_the_end_of_theta_is_one_peak(void **state)
         config.min_votes = 7;
         prepare(&config);
         find(PEAKS_MAX);
-        uint32_t kept = rho_accumulator_suppress(&accumulator, peaks, result.num_peaks, 8, 8);
+        uint32_t kept = suppress(result.num_peaks, NULL, 0);
         assert_int_equal(kept, 1);
     }
 }
@@ -319,6 +325,41 @@ static void the_best_are_kept_and_the_others_counted(void **state)
         assert_int_equal(result.num_peaks, most);
         assert_int_equal(result.peaks_dropped, all - most);
         assert_memory_equal(peaks, expected, most * sizeof peaks[0]);
+    }
+}
+
+/* However many there is room for, and wherever the most votes are met. */
+static void a_share_of_the_most_votes_is_a_threshold(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    for (int run = 0; run < 8; run++) {
+        scatter(7, run % 2 ? 200 : 1500, 2500.0);
+        config.min_votes = 2;
+        config.min_share = 0.0f;
+        config.neighbours = run % 3 ? 8 : 0;
+        config.votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
+        prepare(&config);
+        find(PEAKS_MAX);
+        uint32_t most = result.votes_max, least = (uint32_t)ceil(0.6 * most), count = 0;
+        while (count < result.num_peaks && peaks[count].votes >= least) {
+            count++;
+        }
+        memcpy(expected, peaks, count * sizeof peaks[0]);
+        config.min_share = 0.6f;
+        prepare(&config);
+        for (uint32_t room = count + 1; room <= PEAKS_MAX;
+             room = room < PEAKS_MAX ? PEAKS_MAX : room + 1) {
+            find(room);
+            assert_int_equal(result.num_peaks, count);
+            assert_int_equal(result.votes_max, most);
+            assert_int_equal(result.peaks_dropped, 0);
+            assert_memory_equal(peaks, expected, count * sizeof peaks[0]);
+        }
+        find(count / 2);
+        assert_int_equal(result.num_peaks, count / 2);
+        assert_true(result.peaks_dropped >= count - count / 2);
+        assert_memory_equal(peaks, expected, count / 2 * sizeof peaks[0]);
     }
 }
 
@@ -387,6 +428,9 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
+    static struct rho_accumulator_peak unsuppressed[3000];
+    static uint32_t scratch[4096];
+    const uint32_t sizes[] = {0, 1, 16, 512, 4096}; /* none, and from too small to large */
     scatter(7, 150, 2500.0);
     config.min_votes = 3;
     config.neighbours = 0;
@@ -402,8 +446,13 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
             expected[kept++] = peaks[i];
         }
     }
-    assert_int_equal(rho_accumulator_suppress(&accumulator, peaks, all, 8, 8), kept);
-    assert_memory_equal(peaks, expected, kept * sizeof peaks[0]);
+    assert_true(all > 500);
+    memcpy(unsuppressed, peaks, all * sizeof peaks[0]);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        memcpy(peaks, unsuppressed, all * sizeof peaks[0]);
+        assert_int_equal(suppress(all, sizes[i] ? scratch : NULL, sizes[i]), kept);
+        assert_memory_equal(peaks, expected, kept * sizeof peaks[0]);
+    }
     assert_true(kept < all);
 }
 
@@ -434,6 +483,8 @@ static void bad_configs_are_refused(void **state)
     REFUSED(theta_cell_rad, NAN);
     REFUSED(votes, (enum rho_accumulator_votes)2);
     REFUSED(min_votes, 0);
+    REFUSED(min_share, 1.1f);
+    REFUSED(min_share, NAN);
     REFUSED(neighbours, 6);
 }
 
@@ -478,6 +529,7 @@ int main(void)
         cmocka_unit_test(a_line_at_the_end_of_theta_is_one_peak),
         cmocka_unit_test(a_scan_votes_once_in_a_cell),
         cmocka_unit_test(the_best_are_kept_and_the_others_counted),
+        cmocka_unit_test(a_share_of_the_most_votes_is_a_threshold),
         cmocka_unit_test(points_beyond_the_largest_rho_do_not_vote),
         cmocka_unit_test(what_was_in_it_before_does_not_matter),
         cmocka_unit_test(nothing_gives_nothing),
