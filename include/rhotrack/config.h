@@ -59,6 +59,19 @@
 /* Rows are looked through in blocks of 64 cells, with a cell on either side; a multiple of 4 bytes. */
 #define RHO_ACCUMULATOR_PADDING 68
 
+/* Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two, 256 .. 4194304. */
+#ifndef RHO_MAX_CLASSIC_CELLS
+#define RHO_MAX_CLASSIC_CELLS RHO_CONFIG_PICK(4096, 131072)
+#endif
+
+/* Pairs of one scan and the next that they hold at a time. RAM: 32 bytes a pair. 16 .. 65534. */
+#ifndef RHO_MAX_CLASSIC_KERNELS
+#define RHO_MAX_CLASSIC_KERNELS RHO_CONFIG_PICK(256, 16384)
+#endif
+
+/* Chains in which these pairs are found by their line. RAM: 2 bytes each. A power of two. */
+#define RHO_CLASSIC_CHAINS RHO_CONFIG_PICK(256, 16384)
+
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
@@ -95,6 +108,13 @@
 #if RHO_ACCUMULATOR_SPARSE_MAX < 1 || RHO_ACCUMULATOR_SPARSE_MAX > 4096
 #error "RHO_ACCUMULATOR_SPARSE_MAX must be 1 .. 4096"
 #endif
+#if RHO_MAX_CLASSIC_CELLS < 256 || RHO_MAX_CLASSIC_CELLS > 4194304 ||                              \
+    (RHO_MAX_CLASSIC_CELLS & (RHO_MAX_CLASSIC_CELLS - 1))
+#error "RHO_MAX_CLASSIC_CELLS must be a power of two, 256 .. 4194304"
+#endif
+#if RHO_MAX_CLASSIC_KERNELS < 16 || RHO_MAX_CLASSIC_KERNELS > 65534
+#error "RHO_MAX_CLASSIC_KERNELS must be 16 .. 65534"
+#endif
 #if RHO_MAX_TRACKS < 1 || RHO_MAX_TRACKS > 8192
 #error "RHO_MAX_TRACKS must be 1 .. 8192"
 #endif
@@ -115,6 +135,15 @@
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 400)
 #define RHO_RAM_ACCUMULATOR_BYTES (12 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024)
+/* as much as either needs: the accumulator, or cells with pairs or a row */
+#define RHO_RAM_CLASSIC_MAX(a, b) ((a) > (b) ? (a) : (b))
+#define RHO_RAM_CLASSIC_BYTES                                                                      \
+    (RHO_RAM_CLASSIC_MAX(                                                                          \
+         RHO_RAM_ACCUMULATOR_BYTES,                                                                \
+         8 * RHO_MAX_CLASSIC_CELLS +                                                               \
+             RHO_RAM_CLASSIC_MAX(4 * RHO_MAX_RHO_CELLS,                                            \
+                                 32 * RHO_MAX_CLASSIC_KERNELS + 2 * RHO_CLASSIC_CHAINS)) +         \
+     128)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \
      512)
