@@ -104,6 +104,13 @@ struct rho_accumulator {
     uint16_t num_reached[3];
 };
 
+/* Rows of theta and cells of rho of a config's plane. Errors: CONFIG. Constant cost. */
+RHO_MUST_CHECK enum rho_status rho_accumulator_plane(const struct rho_accumulator_config *config,
+                                                     uint16_t *theta_cells, uint16_t *rho_cells);
+
+/* Whether rho_accumulator_find takes these points: its errors NULL and VALUE. Cost: the points. */
+RHO_MUST_CHECK enum rho_status rho_accumulator_check(const struct rho_accumulator_points *points);
+
 /*
  * Prepares an accumulator; the config is copied.
  *   size   sizeof(struct rho_accumulator) of the caller

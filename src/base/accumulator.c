@@ -335,6 +335,18 @@ static int is_usable(const struct rho_accumulator_config *config)
            (config->neighbours == 0 || config->neighbours == 4 || config->neighbours == 8);
 }
 
+enum rho_status rho_accumulator_plane(const struct rho_accumulator_config *config,
+                                      uint16_t *theta_cells, uint16_t *rho_cells)
+{
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    float rows = RHO_PI / config->theta_cell_rad;
+    *theta_cells = (uint16_t)((float)(uint16_t)rows < rows ? rows + 1.0f : rows);
+    *rho_cells = (uint16_t)(2.0f * config->rho_max_m / config->rho_cell_m + 0.5f);
+    return RHO_OK;
+}
+
 enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t size,
                                      const struct rho_accumulator_config *config)
 {
@@ -344,13 +356,11 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
     if (size != sizeof *accumulator) {
         return RHO_ERROR_SIZE;
     }
-    if (!is_usable(config)) {
+    if (rho_accumulator_plane(config, &accumulator->theta_cells, &accumulator->rho_cells) !=
+        RHO_OK) {
         return RHO_ERROR_CONFIG;
     }
-    float rows = RHO_PI / config->theta_cell_rad;
     accumulator->config = *config;
-    accumulator->theta_cells = (uint16_t)((float)(uint16_t)rows < rows ? rows + 1.0f : rows);
-    accumulator->rho_cells = (uint16_t)(2.0f * config->rho_max_m / config->rho_cell_m + 0.5f);
     accumulator->cells_per_m = 1.0f / config->rho_cell_m;
     accumulator->first_cell = 1.0f + config->rho_max_m / config->rho_cell_m;
     accumulator->magic = ACCUMULATOR_MAGIC;
@@ -385,6 +395,29 @@ static int are_in_order(const struct rho_accumulator_points *points)
     return 1;
 }
 
+/* The square of the farthest point's distance, where they are usable. */
+static enum rho_status check(const struct rho_accumulator_points *points, float *farthest2)
+{
+    if (points->num_scans > 0 && !points->scan_end) {
+        return RHO_ERROR_NULL;
+    }
+    if (!are_in_order(points)) {
+        return RHO_ERROR_VALUE;
+    }
+    unsigned num_points = points->num_scans > 0 ? points->scan_end[points->num_scans - 1u] : 0u;
+    if (num_points > 0 && (!points->x_m || !points->y_m)) {
+        return RHO_ERROR_NULL;
+    }
+    *farthest2 = farthest2_m2(points, num_points);
+    return *farthest2 < 0.0f ? RHO_ERROR_VALUE : RHO_OK;
+}
+
+enum rho_status rho_accumulator_check(const struct rho_accumulator_points *points)
+{
+    float farthest2;
+    return points ? check(points, &farthest2) : RHO_ERROR_NULL;
+}
+
 static void choose_rows(struct pass *pass, float farthest2)
 {
     const struct rho_accumulator_config *config = &pass->accumulator->config;
@@ -401,24 +434,18 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                                      struct rho_accumulator_peak *peaks, uint32_t max_peaks,
                                      struct rho_accumulator_result *result)
 {
-    if (!accumulator || !points || !result || (max_peaks > 0 && !peaks) ||
-        (points->num_scans > 0 && !points->scan_end)) {
+    if (!accumulator || !points || !result || (max_peaks > 0 && !peaks)) {
         return RHO_ERROR_NULL;
     }
     if (accumulator->magic != ACCUMULATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    if (!are_in_order(points)) {
-        return RHO_ERROR_VALUE;
+    float farthest2;
+    enum rho_status status = check(points, &farthest2);
+    if (status != RHO_OK) {
+        return status;
     }
     unsigned num_points = points->num_scans > 0 ? points->scan_end[points->num_scans - 1u] : 0u;
-    if (num_points > 0 && (!points->x_m || !points->y_m)) {
-        return RHO_ERROR_NULL;
-    }
-    float farthest2 = farthest2_m2(points, num_points);
-    if (farthest2 < 0.0f) {
-        return RHO_ERROR_VALUE;
-    }
     struct pass pass = {.accumulator = accumulator,
                         .points = points,
                         .list = {.peaks = peaks,
