@@ -4,23 +4,27 @@
 #include "commands.h"
 #include "common.h"
 #include "experiment.h"
+#include "experiment_classic.h"
 
 static const struct {
     const char *name;
     int (*run)(const struct command_line *line);
+    bool has_papers; /* and knows the papers' methods, too */
 } experiments[] = {
-    {"initiation", experiment_initiation},
-    {"polar", experiment_polar},
-    {"false-alarms", experiment_false_alarms},
+    {"initiation", experiment_initiation, true},
+    {"polar", experiment_polar, false},
+    {"false-alarms", experiment_false_alarms, false},
 };
 
 #define NAMES "initiation, polar, false-alarms"
 
-static void check_method(const struct command_line *line)
+static void check_method(const struct command_line *line, bool has_papers)
 {
-    if (line->method != NULL && strcmp(line->method, "kernel") != 0) {
-        fail(EXIT_USAGE, "experiment %s knows the method kernel, not `%s`", line->arguments[0],
-             line->method);
+    bool is_known = line->method == NULL || strcmp(line->method, "kernel") == 0 ||
+                    (has_papers && classic_methods_named(line->method) != 0);
+    if (!is_known) {
+        fail(EXIT_USAGE, "experiment %s knows the method%s, not `%s`", line->arguments[0],
+             has_papers ? "s kernel, ht, mht, iht, nht" : " kernel", line->method);
     }
 }
 
@@ -31,7 +35,7 @@ int command_experiment(struct command_line *line)
     }
     for (size_t i = 0; i < sizeof experiments / sizeof experiments[0]; i++) {
         if (strcmp(experiments[i].name, line->arguments[0]) == 0) {
-            check_method(line);
+            check_method(line, experiments[i].has_papers);
             return experiments[i].run(line);
         }
     }

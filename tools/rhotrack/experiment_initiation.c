@@ -8,6 +8,7 @@
 
 #include "common.h"
 #include "experiment.h"
+#include "experiment_classic.h"
 #include "experiment_initiation_page.h"
 #include "grid.h"
 #include "workers.h"
@@ -192,12 +193,9 @@ static cJSON *case_json(const struct initiation_summary *summary)
     return object;
 }
 
-static void print_json(const struct initiation_summary *summaries, const struct command_line *line,
-                       size_t num_runs)
+static void add_bars(cJSON *root, const struct initiation_summary *summaries)
 {
-    struct initiation_score score = initiation_score(summaries);
     struct initiation_verdict work[3];
-    cJSON *root = cJSON_CreateObject();
     cJSON *list = cJSON_AddArrayToObject(root, "cases");
     cJSON *work_json = cJSON_AddObjectToObject(root, "work");
     size_t num_work = initiation_work(summaries, work);
@@ -207,22 +205,47 @@ static void print_json(const struct initiation_summary *summaries, const struct 
     for (size_t i = 0; i < num_work; i++) {
         cJSON_AddNumberToObject(work_json, work[i].what, work[i].value);
     }
+}
+
+/* Both parts together; either may be NULL. */
+static struct initiation_score score_of(const struct initiation_summary *summaries,
+                                        const struct classic_report *paper)
+{
+    struct initiation_score score = {0, 0};
+    if (summaries != NULL) {
+        score = initiation_score(summaries);
+    }
+    if (paper != NULL) {
+        score.held += paper->held;
+        score.missed += paper->missed;
+    }
+    return score;
+}
+
+static void print_json(const struct initiation_summary *summaries,
+                       const struct classic_report *paper, const struct command_line *line,
+                       size_t num_runs)
+{
+    struct initiation_score score = score_of(summaries, paper);
+    cJSON *root = cJSON_CreateObject();
+    if (summaries != NULL) {
+        add_bars(root, summaries);
+    }
+    if (paper != NULL) {
+        classic_json(paper, root);
+    }
     cJSON_AddStringToObject(root, "experiment", "initiation");
-    cJSON_AddStringToObject(root, "method", "kernel");
+    cJSON_AddStringToObject(root, "method", line->method != NULL ? line->method : "all");
     cJSON_AddNumberToObject(root, "runs", (double)num_runs);
     cJSON_AddNumberToObject(root, "seed", (double)line->seed);
     cJSON_AddNumberToObject(root, "bars_held", score.held);
     cJSON_AddNumberToObject(root, "bars_missed", score.missed);
-    char *text = cJSON_Print(root);
-    puts(text);
-    free(text);
-    cJSON_Delete(root);
+    json_print(root);
 }
 
-static void print_tables(const struct initiation_summary *summaries,
-                         const struct command_line *line, size_t num_runs)
+static void print_bars(const struct initiation_summary *summaries, const struct command_line *line,
+                       size_t num_runs)
 {
-    struct initiation_score score = initiation_score(summaries);
     struct grid grid = initiation_grid(summaries, initiation_num_cases());
     struct grid work = initiation_work_grid(summaries);
     printf("Track initiation, method kernel: %zu runs a case, seed %llu\n\n", num_runs,
@@ -230,22 +253,43 @@ static void print_tables(const struct initiation_summary *summaries,
     grid_print(&grid, stdout);
     printf("\n");
     grid_print(&work, stdout);
-    printf("\n%d bars held, %d missed\n", score.held, score.missed);
+    printf("\n");
     grid_free(&work);
     grid_free(&grid);
 }
 
+static void print_tables(const struct initiation_summary *summaries,
+                         const struct classic_report *paper, const struct command_line *line,
+                         size_t num_runs)
+{
+    struct initiation_score score = score_of(summaries, paper);
+    if (paper != NULL) {
+        classic_print(paper);
+    }
+    if (summaries != NULL) {
+        print_bars(summaries, line, num_runs);
+    }
+    printf("%d bars held, %d missed\n", score.held, score.missed);
+}
+
+/* The kernel's bars, the paper's experiments with one method, or, where no method is named, all of it. */
 int experiment_initiation(const struct command_line *line)
 {
     size_t num_runs = line->runs > 0 ? (size_t)line->runs : DEFAULT_RUNS;
-    struct initiation_summary *summaries = initiation_summaries(line->seed, num_runs);
-    if (line->json) {
-        print_json(summaries, line, num_runs);
-    } else {
-        print_tables(summaries, line, num_runs);
-    }
-    initiation_page(summaries, num_runs, line->seed,
+    unsigned methods = classic_methods_named(line->method);
+    bool has_bars = (methods >> CLASSIC_KERNEL & 1u) != 0;
+    struct initiation_summary *summaries =
+        has_bars ? initiation_summaries(line->seed, num_runs) : NULL;
+    struct classic_report *paper =
+        methods == 1u << CLASSIC_KERNEL ? NULL : classic_report_make(methods, line->seed, num_runs);
+    initiation_page(summaries, paper, num_runs, line->seed,
                     line->output != NULL ? line->output : "build/experiment/initiation");
+    if (line->json) {
+        print_json(summaries, paper, line, num_runs);
+    } else {
+        print_tables(summaries, paper, line, num_runs);
+    }
+    classic_report_free(paper);
     free(summaries);
     return 0;
 }

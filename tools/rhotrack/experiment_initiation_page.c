@@ -164,51 +164,62 @@ static void make_example(uint64_t seed, const char *path)
 
 /* ---- the page --------------------------------------------------------------------------------- */
 
-static void write_page(const struct initiation_summary *summaries, size_t num_runs, uint64_t seed,
-                       const char *path)
+static void write_bars(struct page *page, const struct initiation_summary *summaries,
+                       size_t num_runs, uint64_t seed)
 {
-    struct page page = page_open(path, "Track initiation from plots in clutter");
     struct grid cases = initiation_grid(summaries, initiation_num_cases());
     struct grid work = initiation_work_grid(summaries);
     struct initiation_score score = initiation_score(summaries);
-    page_text(&page,
+    page_heading(page, "The default method's bars");
+    page_text(page,
               "Method kernel, %zu runs a case, seed %llu: %d bars held, %d missed. A target is "
-              "found when a track is, "
-              "in the mean over the scans, within the case's tolerance of it, one to one. The "
-              "clairvoyant fit knows "
-              "which plots are the target's, and is held against the same threshold.",
+              "found when a track is, in the mean over the scans, within the case's tolerance of "
+              "it, one to one. The clairvoyant fit knows which plots are the target's, and is held "
+              "against the same threshold.",
               num_runs, (unsigned long long)seed, score.held, score.missed);
-    page_figure(&page, "example.svg",
+    page_figure(page, "example.svg",
                 "One run: Table 1's three targets among 100 clutter plots a scan, 7 scans, and the "
                 "tracks found.");
-    page_heading(&page, "Targets found");
+    page_heading(page, "Targets found");
     page_figure(
-        &page, "found.svg",
+        page, "found.svg",
         "Share of the targets found, or of the runs where all were found where the bar is about "
         "these, beside what the clairvoyant fit finds.");
-    page_heading(&page, "False tracks");
-    page_figure(&page, "false.svg", "Tracks that are no target's, in the mean over the runs.");
-    page_heading(&page, "All figures");
-    page_table(&page, &cases);
-    page_heading(&page, "Work");
-    page_table(&page, &work);
-    page_close(&page);
+    page_heading(page, "False tracks");
+    page_figure(page, "false.svg", "Tracks that are no target's, in the mean over the runs.");
+    page_heading(page, "All figures");
+    page_table(page, &cases);
+    page_heading(page, "Work");
+    page_table(page, &work);
     grid_free(&cases);
     grid_free(&work);
 }
 
-void initiation_page(const struct initiation_summary *summaries, size_t num_runs, uint64_t seed,
-                     const char *folder)
+static void draw_bars(const struct initiation_summary *summaries, uint64_t seed, const char *folder)
 {
-    make_folder(folder);
     char *found = path_join(folder, "found.svg"), *wrong = path_join(folder, "false.svg");
-    char *example = path_join(folder, "example.svg"), *page = path_join(folder, "index.html");
+    char *example = path_join(folder, "example.svg");
     draw_found(summaries, found);
     draw_false(summaries, wrong);
     make_example(seed, example);
-    write_page(summaries, num_runs, seed, page);
     free(found);
     free(wrong);
     free(example);
-    free(page);
+}
+
+void initiation_page(const struct initiation_summary *summaries, const struct classic_report *paper,
+                     size_t num_runs, uint64_t seed, const char *folder)
+{
+    make_folder(folder);
+    char *path = path_join(folder, "index.html");
+    struct page page = page_open(path, "Track initiation from plots in clutter");
+    if (paper != NULL) {
+        classic_page(paper, &page, folder);
+    }
+    if (summaries != NULL) {
+        draw_bars(summaries, seed, folder);
+        write_bars(&page, summaries, num_runs, seed);
+    }
+    page_close(&page);
+    free(path);
 }

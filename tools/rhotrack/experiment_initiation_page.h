@@ -3,6 +3,7 @@
 #ifndef RHOTRACK_TOOL_EXPERIMENT_INITIATION_PAGE_H
 #define RHOTRACK_TOOL_EXPERIMENT_INITIATION_PAGE_H
 
+#include "experiment_classic.h"
 #include "experiment_initiation.h"
 #include "grid.h"
 
@@ -23,8 +24,8 @@ size_t initiation_work(const struct initiation_summary *summaries,
 /* Bars over all cases and the work figures. */
 struct initiation_score initiation_score(const struct initiation_summary *summaries);
 
-/* FOLDER/index.html and its pictures. */
-void initiation_page(const struct initiation_summary *summaries, size_t num_runs, uint64_t seed,
-                     const char *folder);
+/* FOLDER/index.html and its pictures: the paper's experiments, then the bars; either may be NULL. */
+void initiation_page(const struct initiation_summary *summaries, const struct classic_report *paper,
+                     size_t num_runs, uint64_t seed, const char *folder);
 
 #endif
