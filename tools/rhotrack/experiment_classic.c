@@ -198,7 +198,7 @@ static double votes_of_table3(const struct classic_report *report, struct classi
     struct classic_data data = classic_simulate(&alone, report->seed, 0, 0);
     struct rho_classic_config config = classic_config(&alone, RHO_CLASSIC_NHT_A);
     classic_load(tools, &data);
-    struct rho_classic_result result = classic_find(tools, &config);
+    struct rho_classic_result result = classic_find(tools, &config, &tools->points);
     classic_data_free(&data);
     return result.votes;
 }

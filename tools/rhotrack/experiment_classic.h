@@ -85,6 +85,11 @@ const char *classic_word(size_t situation, size_t method, size_t row);
 
 /* ---- one run ---------------------------------------------------------------------------------- */
 
+struct classic_plots {
+    float *x_m, *y_m, *t_s;
+    uint32_t scan_end[INITIATION_SCANS];
+};
+
 /* Memory that a thread needs for all methods. */
 struct classic_tools {
     struct rho_classic *classic;
@@ -92,8 +97,7 @@ struct classic_tools {
     struct rho_accumulator_peak *peaks;
     uint32_t max_peaks;
     struct rho_initiator *initiator;
-    float *x_m, *y_m, *t_s; /* the plots of one run */
-    uint32_t scan_end[INITIATION_SCANS];
+    struct classic_plots plots, chosen; /* of one run; those near a line */
     struct rho_classic_points points;
 };
 struct classic_tools classic_tools_start(uint32_t max_peaks);
@@ -122,13 +126,13 @@ struct rho_classic_config classic_config(const struct classic_situation *situati
 
 /* Votes and peaks. */
 struct rho_classic_result classic_find(struct classic_tools *tools,
-                                       const struct rho_classic_config *config);
+                                       const struct rho_classic_config *config,
+                                       const struct rho_classic_points *points);
 
 struct classic_run {
     double value[CLASSIC_FIGURES]; /* NAN where there is none; RHO, THETA: sums over the matched */
     double rho2, theta2;           /* sums of squares */
     int matched;                   /* targets detected */
-    double near_votes[INITIATION_TARGETS_MAX]; /* highest cell near each target's line, votes */
     double time_us;
     int found, false_tracks; /* the default: as its own bars count them, one to one in position */
 };
@@ -136,6 +140,10 @@ struct classic_run {
 /* One method on one run's data. ideal_votes: the height for DECLINE. */
 struct classic_run classic_run(struct classic_tools *tools, const struct classic_data *data,
                                size_t method, double ideal_votes);
+
+/* The most votes of a cell within 40 m and 8 mrad of a line. The tools' peaks are overwritten. */
+double classic_near_votes(struct classic_tools *tools, const struct rho_classic_config *config,
+                          struct classic_line line);
 
 /* Heights of the targets' cells in Situation I with every plot detected, in the mean over the targets, for each method. */
 void classic_ideal_votes(struct classic_tools *tools, double ideal_votes[CLASSIC_KERNEL]);

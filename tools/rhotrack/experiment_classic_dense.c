@@ -17,13 +17,13 @@ static void vote(const struct plane *plane, const struct classic_tools *tools,
 {
     float per_m = 1.0f / config->rho_cell_m, first = config->rho_max_m * per_m,
           end = (float)plane->width;
-    uint32_t count = tools->scan_end[tools->points.at.num_scans - 1];
+    uint32_t count = tools->plots.scan_end[tools->points.at.num_scans - 1];
     for (size_t row = 0; row < plane->height; row++) {
         float theta_rad = ((float)row + 0.5f) * config->theta_cell_rad;
         float by_x = cosf(theta_rad) * per_m, by_y = sinf(theta_rad) * per_m;
         uint16_t *votes = plane->votes + row * plane->width;
         for (uint32_t i = 0; i < count; i++) {
-            float cell = tools->x_m[i] * by_x + tools->y_m[i] * by_y + first;
+            float cell = tools->plots.x_m[i] * by_x + tools->plots.y_m[i] * by_y + first;
             if (cell >= 0.0f && cell < end) {
                 votes[(size_t)cell]++;
             }

@@ -10,7 +10,6 @@
 #define PI 3.14159265358979323846
 #define WINDOW_RHO_M 40.0
 #define WINDOW_THETA_RAD 0.008
-#define NEAR_CELLS 8    /* as many: 40 m at 5 m, 8 mrad at 1 mrad */
 #define PEAKS_MAX 4096u /* that are judged */
 #define TOP 3u
 
@@ -26,15 +25,21 @@ struct classic_tools classic_tools_start(uint32_t max_peaks)
                                   .initiator = must_alloc(sizeof(struct rho_initiator))};
 }
 
+static void free_plots(struct classic_plots *plots)
+{
+    free(plots->x_m);
+    free(plots->y_m);
+    free(plots->t_s);
+}
+
 void classic_tools_free(struct classic_tools *tools)
 {
     free(tools->classic);
     free(tools->rows);
     free(tools->peaks);
     free(tools->initiator);
-    free(tools->x_m);
-    free(tools->y_m);
-    free(tools->t_s);
+    free_plots(&tools->plots);
+    free_plots(&tools->chosen);
     *tools = (struct classic_tools){0};
 }
 
@@ -64,23 +69,30 @@ static size_t count_plots(const struct simulation *simulation)
     return count;
 }
 
+static void make_room(struct classic_plots *plots, size_t count)
+{
+    plots->x_m = must_realloc(plots->x_m, (count + 1) * sizeof *plots->x_m);
+    plots->y_m = must_realloc(plots->y_m, (count + 1) * sizeof *plots->y_m);
+    plots->t_s = must_realloc(plots->t_s, (count + 1) * sizeof *plots->t_s);
+}
+
 void classic_load(struct classic_tools *tools, const struct classic_data *data)
 {
     const struct simulation *simulation = data->simulation;
-    size_t bytes = (count_plots(simulation) + 1) * sizeof(float), count = 0;
-    tools->x_m = must_realloc(tools->x_m, bytes);
-    tools->y_m = must_realloc(tools->y_m, bytes);
-    tools->t_s = must_realloc(tools->t_s, bytes);
+    struct classic_plots *plots = &tools->plots;
+    size_t count = 0;
+    make_room(plots, count_plots(simulation));
+    make_room(&tools->chosen, count_plots(simulation));
     for (size_t scan = 0; scan < simulation->num_scans; scan++) {
         for (size_t i = 0; i < simulation->scans[scan].num_plots; i++, count++) {
-            tools->x_m[count] = (float)simulation->scans[scan].plots[i].x_m;
-            tools->y_m[count] = (float)simulation->scans[scan].plots[i].y_m;
-            tools->t_s[count] = (float)simulation->scans[scan].t_s;
+            plots->x_m[count] = (float)simulation->scans[scan].plots[i].x_m;
+            plots->y_m[count] = (float)simulation->scans[scan].plots[i].y_m;
+            plots->t_s[count] = (float)simulation->scans[scan].t_s;
         }
-        tools->scan_end[scan] = (uint32_t)count;
+        plots->scan_end[scan] = (uint32_t)count;
     }
     tools->points = (struct rho_classic_points){
-        {tools->x_m, tools->y_m, (unsigned)simulation->num_scans, tools->scan_end}, tools->t_s};
+        {plots->x_m, plots->y_m, (unsigned)simulation->num_scans, plots->scan_end}, plots->t_s};
 }
 
 struct rho_classic_config classic_config(const struct classic_situation *situation, size_t method)
@@ -92,14 +104,14 @@ struct rho_classic_config classic_config(const struct classic_situation *situati
 }
 
 struct rho_classic_result classic_find(struct classic_tools *tools,
-                                       const struct rho_classic_config *config)
+                                       const struct rho_classic_config *config,
+                                       const struct rho_classic_points *points)
 {
     struct rho_classic_result result;
     must_succeed(rho_classic_init(tools->classic, sizeof *tools->classic, config),
                  "rho_classic_init");
-    must_succeed(
-        rho_classic_find(tools->classic, &tools->points, tools->peaks, tools->max_peaks, &result),
-        "rho_classic_find");
+    must_succeed(rho_classic_find(tools->classic, points, tools->peaks, tools->max_peaks, &result),
+                 "rho_classic_find");
     return result;
 }
 
@@ -241,69 +253,6 @@ static void set_figures(struct classic_run *run, const struct classic_data *data
 
 /* ---- the paper's methods ---------------------------------------------------------------------- */
 
-/* HT's votes of the cells of a row near rho, from the very cells that the search goes by. */
-static double highest_in_row(const struct classic_tools *tools, unsigned theta_cell, int rho_cell)
-{
-    unsigned votes[2 * NEAR_CELLS + 1] = {0}, most = 0;
-    for (uint32_t i = 0; i < tools->scan_end[tools->points.at.num_scans - 1]; i++) {
-        int cell = rho_accumulator_cell(tools->rows, theta_cell, tools->x_m[i], tools->y_m[i]);
-        if (cell >= 0 && abs(cell - rho_cell) <= NEAR_CELLS) {
-            unsigned now = ++votes[cell - rho_cell + NEAR_CELLS];
-            most = now > most ? now : most;
-        }
-    }
-    return most;
-}
-
-static double highest_of_cells(struct classic_tools *tools, unsigned theta_cell, int rho_cell)
-{
-    double most = 0.0;
-    for (int cell = rho_cell - NEAR_CELLS; cell <= rho_cell + NEAR_CELLS; cell++) {
-        struct rho_classic_track track;
-        if (cell >= 0 && cell < tools->classic->rho_cells) {
-            must_succeed(rho_classic_track(tools->classic, &tools->points, theta_cell,
-                                           (unsigned)cell, 0.0f, &track),
-                         "rho_classic_track");
-            most = fmax(most, (double)track.votes / RHO_CLASSIC_VOTE);
-        }
-    }
-    return most;
-}
-
-/* The plane that HT's cells are counted on. */
-static void set_rows(struct classic_tools *tools, const struct rho_classic_config *config)
-{
-    const struct rho_accumulator_config plane = {.rho_max_m = config->rho_max_m,
-                                                 .rho_cell_m = config->rho_cell_m,
-                                                 .theta_cell_rad = config->theta_cell_rad,
-                                                 .votes = RHO_VOTES_POINTS,
-                                                 .min_votes = 1};
-    must_succeed(rho_accumulator_init(tools->rows, sizeof *tools->rows, &plane),
-                 "rho_accumulator_init");
-}
-
-/* The most votes of a cell within NEAR_CELLS of the line's. */
-static double near_votes(struct classic_tools *tools, struct classic_line line)
-{
-    const struct rho_classic *classic = tools->classic;
-    const struct rho_classic_config *config = &classic->config;
-    int theta_cell = (int)(line.theta_rad / (double)config->theta_cell_rad);
-    int rho_cell =
-        (int)floor((line.rho_m + (double)config->rho_max_m) / (double)config->rho_cell_m);
-    bool is_ht = config->method == RHO_CLASSIC_HT;
-    double most = 0.0;
-    for (int row = theta_cell - NEAR_CELLS; row <= theta_cell + NEAR_CELLS; row++) {
-        bool is_turned = row < 0 || row >= classic->theta_cells;
-        unsigned theta = (unsigned)(row < 0                       ? row + classic->theta_cells
-                                    : row >= classic->theta_cells ? row - classic->theta_cells
-                                                                  : row);
-        int rho = is_turned ? classic->rho_cells - 1 - rho_cell : rho_cell;
-        most = fmax(most, is_ht ? highest_in_row(tools, theta, rho)
-                                : highest_of_cells(tools, theta, rho));
-    }
-    return most;
-}
-
 static struct peaks peaks_of(const struct classic_tools *tools, uint32_t num_peaks)
 {
     uint32_t count = num_peaks < PEAKS_MAX ? num_peaks : PEAKS_MAX;
@@ -322,11 +271,11 @@ static struct peaks peaks_of(const struct classic_tools *tools, uint32_t num_pea
 static void set_heights(struct classic_run *run, struct classic_tools *tools,
                         const struct classic_data *data, double highest_false, double ideal_votes)
 {
+    struct rho_classic_config config = tools->classic->config;
     double n = (double)data->plan.num_targets, sum = 0.0;
-    set_rows(tools, &tools->classic->config);
     for (size_t target = 0; target < data->plan.num_targets; target++) {
-        run->near_votes[target] = near_votes(tools, classic_true_line(&data->plan, target));
-        sum += run->near_votes[target] / n;
+        struct classic_line line = classic_true_line(&data->plan, target);
+        sum += classic_near_votes(tools, &config, line) / n;
     }
     run->value[CLASSIC_DISCRIMINATION] = highest_false > 0.0 ? sum / highest_false : 0.0;
     run->value[CLASSIC_DECLINE] = 1.0 - sum / ideal_votes;
@@ -338,7 +287,7 @@ static struct classic_run run_paper(struct classic_tools *tools, const struct cl
     struct rho_classic_config config = classic_config(data->situation, method);
     struct classic_run run = {.matched = 0};
     int64_t start_us = clock_us();
-    struct rho_classic_result result = classic_find(tools, &config);
+    struct rho_classic_result result = classic_find(tools, &config, &tools->points);
     run.time_us = (double)(clock_us() - start_us);
     struct peaks peaks = peaks_of(tools, result.num_peaks);
     struct match match = match_peaks(data, &peaks);
