@@ -57,7 +57,7 @@ enum classic_figure {
     /* mean over the targets: highest cell near the true line / highest false peak, or tau of the most votes, below which
      * nothing is listed */
     CLASSIC_DISCRIMINATION,
-    CLASSIC_TOP3,  /* whether the three highest peaks are the three targets */
+    CLASSIC_TOP3,  /* share of the targets: detected by one of the three highest peaks */
     CLASSIC_RHO,   /* m; mean absolute error of peaks that detect a target: divergence */
     CLASSIC_THETA, /* mrad */
     CLASSIC_VOTES,
@@ -219,10 +219,8 @@ void classic_json(const struct classic_report *report, cJSON *root);
 /* Pictures into the folder, text and tables onto the page. */
 void classic_page(const struct classic_report *report, struct page *page, const char *folder);
 
-/* FOLDER/situation-NAME.svg for the paper's figures, and the others. */
+/* FOLDER/situation-I.svg and so on, as the paper's Figs. 7 .. 10 and 15. */
 void classic_draw_planes(const struct classic_report *report, const char *folder);
-void classic_draw_sweep(const struct classic_report *report, const char *path);
-void classic_draw_times(const struct classic_report *report, const char *path);
-char *classic_plane_name(const struct classic_situation *situation);
+void classic_plane_name(char name[32], size_t situation);
 
 #endif

@@ -247,7 +247,7 @@ static void set_figures(struct classic_run *run, const struct classic_data *data
     run->matched = (int)detected;
     run->value[CLASSIC_DETECTED] = (double)detected / (double)num_targets;
     run->value[CLASSIC_MET] = (double)met / (double)num_targets;
-    run->value[CLASSIC_TOP3] = top == num_targets;
+    run->value[CLASSIC_TOP3] = (double)top / (double)num_targets;
     run->value[CLASSIC_FALSE] = match->num_false;
 }
 

@@ -12,6 +12,7 @@
 /* "0.98" as ".98". */
 static void strip_zero(char *text)
 {
+    text += text[0] == '-';
     if (text[0] == '0' && text[1] == '.') {
         memmove(text, text + 1, strlen(text));
     }

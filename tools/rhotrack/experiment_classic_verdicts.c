@@ -65,9 +65,8 @@ static double least_variance(enum classic_figure figure, double mean)
     switch (figure) {
     case CLASSIC_DETECTED:
     case CLASSIC_MET:
-        return mean * (1.0 - mean) / INITIATION_TARGETS_MAX;
     case CLASSIC_TOP3:
-        return mean * (1.0 - mean);
+        return mean * (1.0 - mean) / INITIATION_TARGETS_MAX;
     case CLASSIC_FALSE:
         return mean;
     default:
