@@ -13,7 +13,6 @@
 
 #include "experiment_initiation.h"
 #include "grid.h"
-#include "page.h"
 #include "rhotrack/classic.h"
 
 /* The paper's methods, numbered as in enum rho_classic_method, then the default. */
@@ -217,6 +216,7 @@ void classic_print(const struct classic_report *report);
 void classic_json(const struct classic_report *report, cJSON *root);
 
 /* Pictures into the folder, text and tables onto the page. */
+struct page;
 void classic_page(const struct classic_report *report, struct page *page, const char *folder);
 
 /* FOLDER/situation-I.svg and so on, as the paper's Figs. 7 .. 10 and 15. */

@@ -59,8 +59,8 @@ static void expect_at_least(struct classic_verdict *verdict, double value, doubl
 
 /* ---- the reference ---------------------------------------------------------------------------- */
 
-/* Few runs can all come out the same: the least variance of a run's figure, by what kind of number it is. */
-static double least_variance(enum classic_figure figure, double mean)
+/* Variance that a run's figure has, by what kind of number it is. */
+static double usual_variance(enum classic_figure figure, double mean)
 {
     switch (figure) {
     case CLASSIC_DETECTED:
@@ -69,9 +69,19 @@ static double least_variance(enum classic_figure figure, double mean)
         return mean * (1.0 - mean) / INITIATION_TARGETS_MAX;
     case CLASSIC_FALSE:
         return mean;
+    case CLASSIC_DISCRIMINATION:
+        return mean * fmax(2.0 - mean, 0.0) / INITIATION_TARGETS_MAX;
     default:
-        return 0.0;
+        return mean * mean;
     }
+}
+
+/* Few runs can all come out the same. Counts vary at least as usual; with others, a usual run more is reckoned with. */
+static double variance_of(enum classic_figure figure, double mean, double variance, double runs)
+{
+    double usual = usual_variance(figure, mean);
+    bool is_count = figure <= CLASSIC_FALSE || figure == CLASSIC_TOP3;
+    return is_count ? fmax(variance, usual) : (runs * variance + usual) / (runs + 1.0);
 }
 
 /* Standard error of the difference between these runs' mean and the reference's, which is taken to vary as much. */
@@ -81,7 +91,8 @@ static double error_of_difference(const struct classic_report *report,
 {
     double runs = (double)report->num_runs, all = runs + CLASSIC_REFERENCE_RUNS;
     double pooled = (runs * summary->mean[figure] + CLASSIC_REFERENCE_RUNS * expected) / all;
-    double variance = fmax(runs * pow(summary->error[figure], 2.0), least_variance(figure, pooled));
+    double own = runs * summary->error[figure] * summary->error[figure];
+    double variance = variance_of(figure, pooled, own, runs);
     return sqrt(variance * (1.0 / runs + 1.0 / CLASSIC_REFERENCE_RUNS));
 }
 
