@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's experiments of `rhotrack experiment initiation` with few runs and a fixed seed: figures of its methods in its
- * Situations. The bounds are four standard deviations of so few runs away from the figures of many (the comment at each).
+ * The paper's experiments of `rhotrack experiment initiation` with few runs and a fixed seed: figures of its methods in
+ * its Situations. The bounds are four standard deviations of so few runs away from the figures of many (the comments).
  */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,8 +3,8 @@
  * experiment_classic: the experiments of Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method for
  * Multiple Target Tracking", section V, with its methods (rhotrack/classic.h) and the default.
  *
- * A target is detected when a peak is within 40 m and 8 mrad (2 eps) of the line through its true positions; it is met when
- * a peak's line is within 30 m (real data: 100 m) of its true positions in the mean. Other peaks are false.
+ * A target is detected when a peak is within 40 m and 8 mrad (2 eps) of the line through its true positions; it is met
+ * when a peak's line is within 30 m (real data: 100 m) of its true positions in the mean. Other peaks are false.
  */
 #ifndef RHOTRACK_TOOL_EXPERIMENT_CLASSIC_H
 #define RHOTRACK_TOOL_EXPERIMENT_CLASSIC_H
@@ -53,8 +53,8 @@ enum classic_figure {
     CLASSIC_DETECTED, /* share of the targets */
     CLASSIC_MET,      /* share of the targets */
     CLASSIC_FALSE,    /* peaks */
-    /* mean over the targets: highest cell near the true line / highest false peak, or tau of the most votes, below which
-     * nothing is listed */
+    /* mean over the targets: highest cell near the true line / highest false peak, or tau of the most votes, below
+     * which nothing is listed */
     CLASSIC_DISCRIMINATION,
     CLASSIC_TOP3,  /* share of the targets: detected by one of the three highest peaks */
     CLASSIC_RHO,   /* m; mean absolute error of peaks that detect a target: divergence */
@@ -79,7 +79,8 @@ struct classic_expected {
 struct classic_expected classic_expected(size_t situation, size_t method,
                                          enum classic_figure figure);
 
-/* The paper's Table 2: its word for discrimination, divergence, decline; NULL for the default and beyond Situation IV. */
+/* The paper's Table 2: its word for row 0 discrimination, 1 divergence, 2 decline; NULL for the default and beyond
+ * Situation IV. */
 const char *classic_word(size_t situation, size_t method, size_t row);
 
 /* ---- one run ---------------------------------------------------------------------------------- */
@@ -144,7 +145,7 @@ struct classic_run classic_run(struct classic_tools *tools, const struct classic
 double classic_near_votes(struct classic_tools *tools, const struct rho_classic_config *config,
                           struct classic_line line);
 
-/* Heights of the targets' cells in Situation I with every plot detected, in the mean over the targets, for each method. */
+/* Heights of the targets' cells in Situation I with nothing missed, in the mean over the targets, for each method. */
 void classic_ideal_votes(struct classic_tools *tools, double ideal_votes[CLASSIC_KERNEL]);
 
 /* ---- HT on a plane that is wholly there ------------------------------------------------------- */

@@ -35,7 +35,7 @@ unsigned classic_methods_named(const char *name)
 
 #define CROSSING_CASE(label, density, count)                                                       \
     {                                                                                              \
-        .group = "-", .name = label, .paths = PATHS_CROSSING, .box = {0, 4000, -1000, 1500},       \
+        .group = "-", .name = (label), .paths = PATHS_CROSSING, .box = {0, 4000, -1000, 1500},     \
         .clutter_per_km2 = (density), .clutter_per_scan = (count), .true_pd = 0.99,                \
         .min_scans = 5, .score_min_nat = -3.0, .tolerance_m = 30.0, .bars = {                      \
             NAN,                                                                                   \
@@ -45,7 +45,7 @@ unsigned classic_methods_named(const char *name)
     }
 #define REAL_CASE(label, count)                                                                    \
     {                                                                                              \
-        .group = "-", .name = label, .paths = PATHS_RADAR, .box = {-25000, -1000, 13000, 29000},   \
+        .group = "-", .name = (label), .paths = PATHS_RADAR, .box = {-25000, -1000, 13000, 29000}, \
         .clutter_per_scan = (count), .true_pd = 0.99, .min_scans = 5, .score_min_nat = -3.0,       \
         .tolerance_m = 120.0, .bars = {                                                            \
             NAN,                                                                                   \

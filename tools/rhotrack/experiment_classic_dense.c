@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The Hough transform as the paper has it, on a plane that is wholly there: what the other methods' times are held against. */
+/* The Hough transform on a plane that is wholly there, as the paper has it: the measure of the other methods' times. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

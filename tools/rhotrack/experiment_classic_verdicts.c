@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What must hold of the paper's experiments: agreement with the reference, work, and what was found about the claims. */
+/* What must hold of the paper's experiments: agreement with the reference, work, what was found about the claims. */
 #include <math.h>
 #include <stdarg.h>
 

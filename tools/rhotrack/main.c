@@ -42,7 +42,8 @@ static const struct command commands[] = {
      "orSmjsC", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
-     "build/experiment/NAME). Experiments: initiation, polar, false-alarms.\n"},
+     "build/experiment/NAME). Experiments: initiation, polar, false-alarms; initiation takes\n"
+     "--method kernel, ht, mht, iht or nht, and without it runs all.\n"},
     {"plot", command_plot, "scans|tracks|parameter-space|errors FILES... -o FILE.svg", 2, INT_MAX,
      "osC", "pictures", "Draws plots, tracks, the parameter space of lines, or errors, as SVG.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
