@@ -58,7 +58,7 @@ static double cells_for(double range_m, double cell_m)
 {
     double cells = floor(range_m / cell_m) + 1.0;
 
-    if (cells > RHO_MAX_RHO_CELLS / 2) {
+    if (2.0 * cells > RHO_MAX_RHO_CELLS) {
         fail(EXIT_USAGE,
              "plots %.0f m from the origin take %.0f cells of rho at d_rho_m %.9g; there are %d: "
              "d_rho_m %.3g would do",
