@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The same input gives the same bytes, whatever the compiler and its optimisation: builds the program with gcc and clang
-# at -O0 and -O3, lets each simulate, track and initiate with a fixed seed, and compares all files.
+# at -O0 and -O3, lets each simulate, track and initiate by every method with a fixed seed, and compares all files.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}/determinism
@@ -22,11 +22,17 @@ export build
 printf '%s\n' $variants | xargs -P "$(nproc)" -I{} bash -euc 'make_variant {}'
 
 run() { # variant, scenario: its files in output/SCENARIO
-    local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2
+    local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2 method files='tracks.csv kernel.csv'
     "$rhotrack" simulate "$2" --seed 3 -o "$data" &&
         "$rhotrack" track "$data/plots.csv" --covariance -o "$data/tracks.csv" &&
-        "$rhotrack" initiate "$data/plots.csv" -o "$data/initiated.csv" || return 1
-    for file in tracks.csv initiated.csv; do
+        "$rhotrack" initiate "$data/plots.csv" -o "$data/kernel.csv" || return 1
+    if [ "$2" = crossing ]; then # traffic's area has too many cells of 5 m
+        for method in ht mht iht nht; do
+            "$rhotrack" initiate "$data/plots.csv" --method "$method" -o "$data/$method.csv" || return 1
+            files+=" $method.csv"
+        done
+    fi
+    for file in $files; do
         if [ "$(wc -l <"$data/$file")" -le 1 ]; then
             echo "$data/$file holds no track: there is nothing to compare"
             return 1

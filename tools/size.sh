@@ -45,9 +45,12 @@ row 'all' $(${prefix}size -t "$folder"/*.o | tail -n 1 | awk '{print $1, $2, $3}
     for header in include/rhotrack/*.h; do
         echo "#include \"rhotrack/$(basename "$header")\""
     done
-    for object in accumulator window initiator assignment tracker report; do
+    for object in accumulator classic window initiator assignment tracker report; do
         echo "char rho_sizeof_$object[sizeof(struct rho_$object)];"
     done
+    # HT on 4 x 2.5 km at 5 m x 1 mrad: the object, a window of plots with their times, and 128 peaks
+    echo 'char rho_sizeof_classic_and_its_plots[sizeof(struct rho_classic) + 12 * RHO_MAX_SCANS * RHO_MAX_PLOTS +'
+    echo '    128 * sizeof(struct rho_accumulator_peak)];'
     echo 'char rho_sizeof_track_slot[sizeof(struct rho_track)];'
     echo 'char rho_sizeof_plot[sizeof(struct rho_plot)];'
 } >"$folder/objects.c"

@@ -153,7 +153,7 @@ RHO_MUST_CHECK enum rho_status rho_classic_init(struct rho_classic *classic, siz
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a scan, a place or time not
  * finite or beyond RHO_LIMIT_POSITION_M); nothing but *classic's scratch is changed.
  * Cost: HT as rho_accumulator_find. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2 additions a vote. Then the
- * cells above the thresholds, n log n. Stack: 300 bytes, HT 1.5 KB.
+ * cells above the thresholds, n log n. Stack: 700 bytes, HT 1.9 KB, NHT_C 2.8 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
                                                 const struct rho_classic_points *points,
@@ -165,7 +165,7 @@ RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
  * The votes of any cell of the plane, and whose they are.
  *   at_s   the time that the place is for
  * Errors: as above, and VALUE for a cell outside the plane. Cost: the plots, and the pairs (NHT: pairs of pairs) of those
- * near the line. Stack: 300 bytes.
+ * near the line. Stack: 2.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_classic_track(struct rho_classic *classic,
                                                  const struct rho_classic_points *points,

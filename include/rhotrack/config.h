@@ -126,7 +126,8 @@
 #endif
 
 /*
- * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c, initiator.c, tracker.c).
+ * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c,
+ * classic.c, initiator.c, tracker.c).
  * Embedded: initiator 64 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \

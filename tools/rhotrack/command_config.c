@@ -5,6 +5,20 @@
 
 #include "commands.h"
 #include "common.h"
+#include "method.h"
+
+/* A number, or a word where the parameter is one. */
+static void add_value(cJSON *object, const char *name, const struct parameter_text *text,
+                      double value)
+{
+    char word[PARAMETER_VALUE_BYTES];
+
+    if (text->choices) {
+        cJSON_AddStringToObject(object, name, parameters_value_text(text, value, word));
+    } else {
+        cJSON_AddNumberToObject(object, name, value);
+    }
+}
 
 static cJSON *parameter_json(const struct parameter_text *text, double value,
                              enum parameter_source source)
@@ -13,14 +27,18 @@ static cJSON *parameter_json(const struct parameter_text *text, double value,
 
     cJSON_AddStringToObject(object, "unit", text->unit);
     if (text->has_default) {
-        cJSON_AddNumberToObject(object, "default", text->value);
+        add_value(object, "default", text, text->value);
     } else {
         cJSON_AddNullToObject(object, "default");
     }
-    cJSON_AddNumberToObject(object, "min", text->min);
-    cJSON_AddNumberToObject(object, "max", text->max);
+    if (text->choices) {
+        cJSON_AddStringToObject(object, "choices", text->choices);
+    } else {
+        cJSON_AddNumberToObject(object, "min", text->min);
+        cJSON_AddNumberToObject(object, "max", text->max);
+    }
     if (source != SOURCE_UNSET) {
-        cJSON_AddNumberToObject(object, "value", value);
+        add_value(object, "value", text, value);
     } else {
         cJSON_AddNullToObject(object, "value");
     }
@@ -60,6 +78,9 @@ int command_config(struct command_line *line)
 {
     struct output output;
 
+    if (line->method) {
+        method_suggest(method_find(line->method), &line->parameters);
+    }
     parameters_check(&line->parameters);
     if (line->json) {
         print_json(&line->parameters);

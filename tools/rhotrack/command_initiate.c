@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "common.h"
+#include "initiate_classic.h"
 #include "scan_reader.h"
 #include "tracks_writer.h"
 
@@ -16,13 +17,6 @@ struct batch {
     uint64_t scans, plots, plots_no_room;
     int64_t wall_us;
 };
-
-static void check_method(const char *method)
-{
-    if (method && strcmp(method, "kernel") != 0) {
-        fail(EXIT_USAGE, "method '%s' is not in this version; there is: kernel", method);
-    }
-}
 
 static void check_status(enum rho_status status)
 {
@@ -56,17 +50,11 @@ static void push(struct batch *batch, const struct rho_scan *scan, const struct 
 /* Pushes the last scans of the reader that fit the window. */
 static void push_last(struct batch *batch, struct scan_reader *reader)
 {
-    uint64_t total = scan_reader_total(reader), scans = batch->initiator->config.scans;
     const struct rho_scan *scan;
 
-    if (total > scans) {
-        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " scans are taken\n", scans,
-                total);
-    }
-    for (uint64_t i = 0; (scan = scan_reader_next(reader)); i++) {
-        if (i + scans >= total) {
-            push(batch, scan, scan_reader_sensor(reader));
-        }
+    scan_reader_skip(reader, batch->initiator->config.scans);
+    while ((scan = scan_reader_next(reader))) {
+        push(batch, scan, scan_reader_sensor(reader));
     }
 }
 
@@ -85,10 +73,7 @@ static void search(struct batch *batch, const struct command_line *line)
     start_us = clock_us();
     check_status(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
     batch->wall_us += clock_us() - start_us;
-    if (scan_reader_counts(reader).rows_skipped) {
-        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n",
-                scan_reader_counts(reader).rows_skipped);
-    }
+    scan_reader_report(reader);
     if (batch->plots_no_room) {
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
                 batch->plots_no_room, RHO_MAX_PLOTS);
@@ -104,7 +89,10 @@ static void write_found(const struct batch *batch, const char *path)
 
     initiated_write_header(output.file);
     for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
-        initiated_write_row(output.file, i + 1, batch->time_us, &batch->initiator->candidates[i]);
+        struct initiated row =
+            initiated_from(i + 1, batch->time_us, &batch->initiator->candidates[i]);
+
+        initiated_write_row(output.file, &row);
     }
     output_close(&output);
 }
@@ -159,11 +147,10 @@ static void print_json(const struct batch *batch)
     json_print(object);
 }
 
-int command_initiate(struct command_line *line)
+static void initiate_kernel(const struct command_line *line)
 {
     struct batch batch = {.wall_us = 0};
 
-    check_method(line->method);
     search(&batch, line);
     if (line->output || !line->json) {
         write_found(&batch, line->output);
@@ -172,5 +159,17 @@ int command_initiate(struct command_line *line)
         print_json(&batch);
     }
     free(batch.initiator);
+}
+
+int command_initiate(struct command_line *line)
+{
+    enum method method = method_find(line->method);
+
+    method_suggest(method, &line->parameters);
+    if (method == METHOD_KERNEL) {
+        initiate_kernel(line);
+    } else {
+        initiate_classic(line, method);
+    }
     return 0;
 }

@@ -21,11 +21,14 @@ static const struct command commands[] = {
      "time), starts and maintains tracks, and writes one row a track and scan (CSV) to OUTPUT or\n"
      "standard output. A summary goes to standard error. With --json the results go to standard\n"
      "output as one JSON object, and tracks only to OUTPUT.\n"},
-    {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method kernel]", 1, 1, "omjksC",
+    {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method METHOD]", 1, 1, "omjksC",
      "initiation alone, on the last scans as one batch",
      "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks "
      "found\n"
-     "in it (CSV), best first, at the time of the last scan. Method: kernel.\n"},
+     "in it (CSV), best first, at the time of the last scan. Methods: kernel (the default), and\n"
+     "those of the literature, for comparison: ht, mht, iht, nht (score: votes; place and "
+     "velocity\n"
+     "are fitted through the plots that voted).\n"},
     {"simulate", command_simulate, "SCENARIO -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
      "made-up targets, noise, misses and clutter",
      "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and "
@@ -48,8 +51,11 @@ static const struct command commands[] = {
      "osC", "pictures", "Draws plots, tracks, the parameter space of lines, or errors, as SVG.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
-    {"config", command_config, "", 0, 0, "jsC", "every parameter with unit, default and range",
-     "Prints each parameter's unit, default, range, and its value now with where it came from.\n"},
+    {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",
+     "every parameter with unit, default and range",
+     "Prints each parameter's unit, default, range, and its value now with where it came from; "
+     "with\n"
+     "--method, that method's customary values.\n"},
     {"maintain", NULL, "", 0, 0, "", "", ""},
     {"convert", NULL, "", 0, 0, "", "", ""},
     {"node", NULL, "", 0, 0, "", "", ""},

@@ -11,20 +11,44 @@
 
 static const struct parameter_text texts[NUM_PARAMETERS] = {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text)                          \
-    {name, unit, text, value, min, max, is_integer, has_default},
+    {name, unit, text, value, min, max, is_integer, has_default, NULL},
     PARAMETERS(X)
 #undef X
 };
 
 static const struct parameter_text sensor_texts[NUM_SENSOR_PARAMETERS] = {
-#define X(id, name, unit, min, max, text) {name, unit, text, 0, min, max, false, false},
+#define X(id, name, unit, min, max, text) {name, unit, text, 0, min, max, false, false, NULL},
     SENSOR_PARAMETERS(X)
 #undef X
 };
 
+/* Parameters that are words. */
+static const char *choices_of(enum parameter_id id)
+{
+    return id == PARAMETER_NHT_READING ? "a|c" : id == PARAMETER_VOTE ? "scans|counts" : NULL;
+}
+
 struct parameter_text parameters_text(enum parameter_id id)
 {
-    return texts[id];
+    struct parameter_text text = texts[id];
+
+    text.choices = choices_of(id);
+    return text;
+}
+
+const char *parameters_value_text(const struct parameter_text *text, double value,
+                                  char buffer[PARAMETER_VALUE_BYTES])
+{
+    const char *word = text->choices;
+
+    snprintf(buffer, PARAMETER_VALUE_BYTES, "%.9g", value);
+    for (int i = (int)value; word && i > 0; i--) {
+        word = strchr(word, '|') + 1;
+    }
+    if (word) {
+        snprintf(buffer, PARAMETER_VALUE_BYTES, "%.*s", (int)strcspn(word, "|"), word);
+    }
+    return buffer;
 }
 
 struct parameter_text parameters_sensor_text(enum sensor_parameter_id id)
@@ -75,12 +99,43 @@ static int find_name(const char *key, hint_name name, char *reason)
     return -1;
 }
 
+/* The number of a word among "a|b|c", or -1. */
+static int find_word(const char *words, const char *word)
+{
+    for (int i = 0;; i++, words++) {
+        size_t length = strcspn(words, "|");
+
+        if (strlen(word) == length && strncmp(words, word, length) == 0) {
+            return i;
+        }
+        words += length;
+        if (*words == '\0') {
+            return -1;
+        }
+    }
+}
+
+static bool read_word(const struct parameter_text *text, const char *cell, double *value,
+                      char *reason)
+{
+    *value = find_word(text->choices, cell);
+    if (*value < 0) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not one of %s", text->name, cell,
+                 text->choices);
+    }
+    return *value >= 0;
+}
+
 static bool read_value(const struct parameter_text *text, const char *cell, double *value,
                        char *reason)
 {
     double number;
-    const char *why = table_number(cell, &number);
+    const char *why;
 
+    if (text->choices) {
+        return read_word(text, cell, value, reason);
+    }
+    why = table_number(cell, &number);
     if (why) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' %s", text->name, cell, why);
     } else if (text->is_integer && number != floor(number)) {
@@ -170,6 +225,7 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
                        enum parameter_source source, char reason[PARAMETER_REASON_BYTES])
 {
     static const char prefix[] = "sensor.";
+    struct parameter_text text;
     double number;
     int id;
 
@@ -177,7 +233,11 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
         return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);
     }
     id = find_name(key, text_name, reason);
-    if (id < 0 || !read_value(&texts[id], value, &number, reason)) {
+    if (id < 0) {
+        return false;
+    }
+    text = parameters_text((enum parameter_id)id);
+    if (!read_value(&text, value, &number, reason)) {
         return false;
     }
     store(&parameters->value[id], &parameters->source[id], number, source);

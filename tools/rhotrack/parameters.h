@@ -56,6 +56,23 @@
     X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MIN_M, "area_y_min_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MAX_M, "area_y_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(D_RHO_M, "d_rho_m", "m", 5, 0.001, 1e5, 0, 1, "ht, mht, iht, nht: cell of rho")              \
+    X(D_THETA_RAD, "d_theta_rad", "rad", 0.001, 1e-4, 0.5, 0, 1,                                   \
+      "ht, mht, iht, nht: cell of theta")                                                          \
+    X(EPS_RHO_M, "eps_rho_m", "m", 20, 0.01, 1e5, 0, 1,                                            \
+      "ht, mht, iht, nht: within 2 of it lines are neighbours, and peaks are one")                 \
+    X(EPS_THETA_RAD, "eps_theta_rad", "rad", 0.004, 1e-4, 0.5, 0, 1, "the same in theta")          \
+    X(P_FALSE, "p_false", "-", 0.01, 0, 1, 0, 1, "nht: P_F, false alarm rate of the sensor")       \
+    X(LAMBDA_K, "lambda_k", "-", 1, 0, 1e6, 0, 1,                                                  \
+      "nht: adjustment factor of the falsity lambda_k P_F^2")                                      \
+    X(TAU, "tau", "-", 0.5, 0, 1, 0, 1,                                                            \
+      "ht, mht, iht, nht: votes of a peak, as a share of the most")                                \
+    X(VOTES_MIN, "votes_min", "-", 0, 0, 65535, 0, 1, "ht, mht, iht, nht: votes of a peak")        \
+    X(NHT_READING, "nht_reading", "-", 1, 0, 1, 1, 1,                                              \
+      "nht: votes go to the pair's own cell (a) or all cells around it (c)")                       \
+    X(NHT_INDETERMINACY, "nht_indeterminacy", "-", 0, 0, 1, 1, 1,                                  \
+      "nht: 1: the line between the two best kernels counts too")                                  \
+    X(VOTE, "vote", "-", 0, 0, 1, 1, 1, "ht: a cell's votes are distinct scans, or plots")         \
     X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
       "distance beyond which a track and a target are not paired")                                 \
     X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0,                               \
@@ -176,9 +193,14 @@ struct parameter_text {
     const char *name, *unit, *text;
     double value, min, max;
     bool is_integer, has_default;
+    const char *choices; /* "a|b": a word, whose value is its number from 0; NULL: a number */
 };
 struct parameter_text parameters_text(enum parameter_id id);
 struct parameter_text parameters_sensor_text(enum sensor_parameter_id id); /* value: 0 */
+/* A value as one would type it. */
+#define PARAMETER_VALUE_BYTES 32
+const char *parameters_value_text(const struct parameter_text *text, double value,
+                                  char buffer[PARAMETER_VALUE_BYTES]);
 const char *parameters_source_name(enum parameter_source source);
 
 /* The table with unit, default, range, value and text (command `config`). */

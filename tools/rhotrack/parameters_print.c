@@ -6,12 +6,15 @@
 static void print_row(FILE *out, const struct parameter_text *text, const char *value,
                       enum parameter_source source)
 {
-    char initial[32] = "unset", range[48];
+    char initial[PARAMETER_VALUE_BYTES] = "unset", range[48];
 
     if (text->has_default) {
-        snprintf(initial, sizeof initial, "%.9g", text->value);
+        parameters_value_text(text, text->value, initial);
     }
     snprintf(range, sizeof range, "%.9g .. %.9g", text->min, text->max);
+    if (text->choices) {
+        snprintf(range, sizeof range, "%s", text->choices);
+    }
     fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", text->name, text->unit, initial, range,
             value, parameters_source_name(source), text->text);
 }
@@ -52,10 +55,10 @@ void parameters_print(const struct parameters *parameters, FILE *out)
             "value", "source", "meaning");
     for (int i = 0; i < NUM_PARAMETERS; i++) {
         struct parameter_text text = parameters_text((enum parameter_id)i);
-        char value[32] = "-";
+        char value[PARAMETER_VALUE_BYTES] = "-";
 
         if (parameters->source[i] != SOURCE_UNSET) {
-            snprintf(value, sizeof value, "%.9g", parameters->value[i]);
+            parameters_value_text(&text, parameters->value[i], value);
         }
         print_row(out, &text, value, parameters->source[i]);
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "scan_reader.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -268,6 +269,15 @@ const struct rho_scan *scan_reader_next(struct scan_reader *reader)
     return reader->next < reader->num_entries ? &reader->entries[reader->next++].scan : NULL;
 }
 
+void scan_reader_skip(struct scan_reader *reader, uint64_t scans)
+{
+    if (reader->num_entries > scans) {
+        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " scans are taken\n", scans,
+                (uint64_t)reader->num_entries);
+        reader->next = reader->num_entries - scans;
+    }
+}
+
 const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader)
 {
     const struct entry *entry = reader->next > 0 ? &reader->entries[reader->next - 1] : NULL;
@@ -284,6 +294,13 @@ struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader)
 {
     return (struct scan_reader_counts){reader->num_entries, reader->num_members,
                                        reader->rows_skipped};
+}
+
+void scan_reader_report(const struct scan_reader *reader)
+{
+    if (reader->rows_skipped) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", reader->rows_skipped);
+    }
 }
 
 void scan_reader_close(struct scan_reader *reader)

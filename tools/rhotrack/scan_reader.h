@@ -35,6 +35,9 @@ struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
  */
 const struct rho_scan *scan_reader_next(struct scan_reader *reader);
 
+/* Leaves out all but the last so many scans, and says so on standard error where that leaves any out. */
+void scan_reader_skip(struct scan_reader *reader, uint64_t scans);
+
 /* Who saw the last scan that was handed out; NULL where nothing was said of the sensor. Valid until the close. */
 const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader);
 
@@ -42,6 +45,9 @@ const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader);
 uint64_t scan_reader_total(const struct scan_reader *reader);
 
 struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader);
+
+/* Bad rows that were skipped, if any, on standard error. */
+void scan_reader_report(const struct scan_reader *reader);
 void scan_reader_close(struct scan_reader *reader);
 
 #endif

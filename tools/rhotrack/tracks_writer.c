@@ -68,21 +68,40 @@ void initiated_write_header(FILE *file)
     fputs("track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score\n", file);
 }
 
-void initiated_write_row(FILE *file, unsigned track_id, int64_t time_us,
-                         const struct rho_candidate *candidate)
+void initiated_write_row(FILE *file, const struct initiated *row)
+{
+    fprintf(file, "%u,", row->track_id);
+    write_time(file, row->time_us);
+    if (row->has_state) {
+        write_float(file, row->x_m);
+        write_float(file, row->y_m);
+        write_float(file, row->vx_mps);
+        write_float(file, row->vy_mps);
+    } else {
+        fputs(",,,,", file);
+    }
+    write_float(file, row->rho_m);
+    write_float(file, row->theta_rad);
+    fprintf(file, ",%u", row->scans);
+    write_float(file, (float)row->score);
+    fputc('\n', file);
+}
+
+struct initiated initiated_from(unsigned track_id, int64_t time_us,
+                                const struct rho_candidate *candidate)
 {
     struct rho_line line =
         rho_angle_line(candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps);
 
-    fprintf(file, "%u,", track_id);
-    write_time(file, time_us);
-    write_float(file, candidate->x_m);
-    write_float(file, candidate->y_m);
-    write_float(file, candidate->vx_mps);
-    write_float(file, candidate->vy_mps);
-    write_float(file, line.rho_m);
-    write_float(file, line.theta_rad);
-    fprintf(file, ",%u", (unsigned)candidate->hits);
-    write_float(file, (float)candidate->score_mnat / 1000.0f);
-    fputc('\n', file);
+    return (struct initiated){.track_id = track_id,
+                              .time_us = time_us,
+                              .has_state = true,
+                              .x_m = candidate->x_m,
+                              .y_m = candidate->y_m,
+                              .vx_mps = candidate->vx_mps,
+                              .vy_mps = candidate->vy_mps,
+                              .rho_m = line.rho_m,
+                              .theta_rad = line.theta_rad,
+                              .scans = candidate->hits,
+                              .score = (double)((float)candidate->score_mnat / 1000.0f)};
 }

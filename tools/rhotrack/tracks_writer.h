@@ -25,8 +25,20 @@ void tracks_write_report(FILE *file, const struct rho_report *report, bool with_
 /* track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score */
 void initiated_write_header(FILE *file);
 
-/* A candidate at the time of the batch's last scan; score in nats. */
-void initiated_write_row(FILE *file, unsigned track_id, int64_t time_us,
-                         const struct rho_candidate *candidate);
+/* One track found. */
+struct initiated {
+    unsigned track_id;
+    int64_t time_us; /* of the batch's last scan, which place and velocity are for */
+    bool has_state;  /* else the columns x_m .. vy_mps are empty */
+    float x_m, y_m, vx_mps, vy_mps;
+    float rho_m, theta_rad;
+    unsigned scans; /* that voted */
+    double score;   /* nats or votes */
+};
+void initiated_write_row(FILE *file, const struct initiated *row);
+
+/* A candidate's row; its score is in nats. */
+struct initiated initiated_from(unsigned track_id, int64_t time_us,
+                                const struct rho_candidate *candidate);
 
 #endif

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+#include "method.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common.h"
+
+static const char *const names[NUM_METHODS] = {"kernel", "ht", "mht", "iht", "nht"};
+
+const char *method_name(enum method method)
+{
+    return names[method];
+}
+
+enum method method_find(const char *name)
+{
+    if (!name) {
+        return METHOD_KERNEL;
+    }
+    for (int i = 0; i < NUM_METHODS; i++) {
+        if (!strcmp(names[i], name)) {
+            return (enum method)i;
+        }
+    }
+    if (!strcmp(name, "passive") || !strcmp(name, "passive-paper")) {
+        fail(EXIT_USAGE, "method '%s' is not in this version; there are: " METHOD_NAMES, name);
+    }
+    fail(EXIT_USAGE, "no method '%s'; there are: " METHOD_NAMES, name);
+}
+
+void method_suggest(enum method method, struct parameters *parameters)
+{
+    if (method == METHOD_KERNEL) {
+        return;
+    }
+    parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
+    parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
+    parameters_suggest(parameters, PARAMETER_VOTE, 1); /* counts */
+}
+
+static enum rho_classic_method classic_of(enum method method, const struct parameters *parameters)
+{
+    switch (method) {
+    case METHOD_HT:
+        return RHO_CLASSIC_HT;
+    case METHOD_MHT:
+        return RHO_CLASSIC_MHT;
+    case METHOD_IHT:
+        return RHO_CLASSIC_IHT;
+    default:
+        return parameters->value[PARAMETER_NHT_READING] > 0 ? RHO_CLASSIC_NHT_C : RHO_CLASSIC_NHT_A;
+    }
+}
+
+/* Cells of rho to either side that hold every line through such plots. */
+static double cells_for(double range_m, double cell_m)
+{
+    double cells = floor(range_m / cell_m) + 1.0;
+
+    if (2.0 * cells > RHO_MAX_RHO_CELLS) {
+        fail(EXIT_USAGE,
+             "plots %.0f m from the origin take %.0f cells of rho at d_rho_m %.9g; there are %d: "
+             "d_rho_m %.3g would do",
+             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS,
+             ceil(100.0 * 2.0 * range_m / (RHO_MAX_RHO_CELLS - 2)) / 100.0);
+    }
+    return cells;
+}
+
+/* 2 eps spans at most so many cells. */
+static void check_reach(const struct parameters *parameters, enum parameter_id eps,
+                        enum parameter_id cell)
+{
+    if (2.0 * parameters->value[eps] > RHO_CLASSIC_REACH_MAX * parameters->value[cell]) {
+        fail(EXIT_USAGE, "2 %s is more than %u cells of %s %.9g", parameters_name(eps),
+             RHO_CLASSIC_REACH_MAX, parameters_name(cell), parameters->value[cell]);
+    }
+}
+
+struct rho_classic_config method_classic(enum method method, const struct parameters *parameters,
+                                         double range_m)
+{
+    const double *value = parameters->value;
+    struct rho_classic_config config;
+
+    parameters_check(parameters);
+    check_reach(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
+    check_reach(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
+    rho_classic_config_default(&config, classic_of(method, parameters));
+    config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
+    config.rho_max_m = (float)cells_for(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
+    config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.eps_rho_m = (float)value[PARAMETER_EPS_RHO_M];
+    config.eps_theta_rad = (float)value[PARAMETER_EPS_THETA_RAD];
+    config.v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
+    config.v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    config.p_false = (float)value[PARAMETER_P_FALSE];
+    config.lambda_k = (float)value[PARAMETER_LAMBDA_K];
+    config.uses_indeterminacy = value[PARAMETER_NHT_INDETERMINACY] > 0;
+    config.votes = value[PARAMETER_VOTE] > 0 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
+    config.tau = (float)value[PARAMETER_TAU];
+    config.votes_min = (float)value[PARAMETER_VOTES_MIN];
+    return config;
+}
