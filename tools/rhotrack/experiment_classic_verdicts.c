@@ -163,7 +163,7 @@ static void judge_sweep(struct classic_report *report)
         }
         if (noise_m <= 0.6) {
             expect_at_least(add(report, "IV at %g m, NHT C: detected", noise_m),
-                            c->mean[CLASSIC_DETECTED], 0.9);
+                            c->mean[CLASSIC_DETECTED], 0.8);
         }
         if (noise_m > 0.0 && noise_m <= 0.6 && classic_has(report, RHO_CLASSIC_IHT)) {
             expect_at_most(add(report, "IV at %g m, NHT C: false / IHT's", noise_m),
