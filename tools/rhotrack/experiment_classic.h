@@ -216,9 +216,10 @@ struct grid classic_verdicts_grid(const struct classic_report *report, bool only
 void classic_print(const struct classic_report *report);
 void classic_json(const struct classic_report *report, cJSON *root);
 
-/* Pictures into the folder, text and tables onto the page. */
+/* Pictures into the folder, text and tables onto the page; the long list of what must hold is a part of its own. */
 struct page;
 void classic_page(const struct classic_report *report, struct page *page, const char *folder);
+void classic_page_verdicts(const struct classic_report *report, struct page *page);
 
 /* FOLDER/situation-I.svg and so on, as the paper's Figs. 7 .. 10 and 15. */
 void classic_draw_planes(const struct classic_report *report, const char *folder);

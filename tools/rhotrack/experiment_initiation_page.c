@@ -218,8 +218,13 @@ void initiation_page(const struct initiation_summary *summaries, const struct cl
     }
     if (summaries != NULL) {
         draw_bars(summaries, seed, folder);
+
         write_bars(&page, summaries, num_runs, seed);
     }
+    if (paper != NULL) {
+        classic_page_verdicts(paper, &page);
+    }
+
     page_close(&page);
     free(path);
 }
