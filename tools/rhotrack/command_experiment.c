@@ -5,6 +5,7 @@
 #include "common.h"
 #include "experiment.h"
 #include "experiment_classic.h"
+#include "method.h"
 
 static const struct {
     const char *name;
@@ -24,7 +25,7 @@ static void check_method(const struct command_line *line, bool has_papers)
                     (has_papers && classic_methods_named(line->method) != 0);
     if (!is_known) {
         fail(EXIT_USAGE, "experiment %s knows the method%s, not `%s`", line->arguments[0],
-             has_papers ? "s kernel, ht, mht, iht, nht" : " kernel", line->method);
+             has_papers ? "s " METHOD_NAMES : " kernel", line->method);
     }
 }
 

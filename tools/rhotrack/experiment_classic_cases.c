@@ -4,28 +4,26 @@
 #include <string.h>
 
 #include "experiment_classic.h"
+#include "method.h"
 
 const char *const classic_method_names[CLASSIC_METHODS] = {"HT",    "MHT",   "IHT",
                                                            "NHT A", "NHT C", "default"};
 
 unsigned classic_methods_named(const char *name)
 {
-    static const struct {
-        const char *name;
-        unsigned methods;
-    } names[] = {
-        {"kernel", 1u << CLASSIC_KERNEL},
-        {"ht", 1u << RHO_CLASSIC_HT},
-        {"mht", 1u << RHO_CLASSIC_MHT},
-        {"iht", 1u << RHO_CLASSIC_IHT},
-        {"nht", 1u << RHO_CLASSIC_NHT_A | 1u << RHO_CLASSIC_NHT_C},
+    static const unsigned methods[NUM_METHODS] = {
+        [METHOD_KERNEL] = 1u << CLASSIC_KERNEL,
+        [METHOD_HT] = 1u << RHO_CLASSIC_HT,
+        [METHOD_MHT] = 1u << RHO_CLASSIC_MHT,
+        [METHOD_IHT] = 1u << RHO_CLASSIC_IHT,
+        [METHOD_NHT] = 1u << RHO_CLASSIC_NHT_A | 1u << RHO_CLASSIC_NHT_C,
     };
     if (name == NULL) {
         return (1u << CLASSIC_METHODS) - 1u;
     }
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (strcmp(name, names[i].name) == 0) {
-            return names[i].methods;
+    for (int i = 0; i < NUM_METHODS; i++) {
+        if (strcmp(name, method_name((enum method)i)) == 0) {
+            return methods[i];
         }
     }
     return 0;
