@@ -77,20 +77,40 @@ void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak p
     }
 }
 
+/* What came in before the threshold rose above it. Returns how many stay, no longer a heap. */
+static uint32_t cut(const struct rho_peak_list *list)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < list->num_peaks; i++) {
+        if (list->peaks[i].votes >= list->min_votes) {
+            list->peaks[n++] = list->peaks[i];
+        }
+    }
+    return n;
+}
+
 /* The heap's top goes behind the rest, again and again: best first. */
+static void sort(struct rho_accumulator_peak *heap, uint32_t n)
+{
+    while (n > 1) {
+        struct rho_accumulator_peak lowest = heap[0];
+        heap[0] = heap[--n];
+        heap[n] = lowest;
+        sink(heap, n, 0);
+    }
+}
+
 void rho_peak_list_finish(struct rho_peak_list *list)
 {
-    uint32_t n = list->num_peaks;
-    while (n > 1) {
-        struct rho_accumulator_peak lowest = list->peaks[0];
-        list->peaks[0] = list->peaks[--n];
-        list->peaks[n] = lowest;
-        sink(list->peaks, n, 0);
+    uint32_t n = cut(list);
+    if (n < list->num_peaks) {
+        list->num_peaks = n;
+        list->peaks_dropped = 0; /* none of those was better than what is cut off here */
+        for (uint32_t i = n / 2u; i > 0; i--) {
+            sink(list->peaks, n, i - 1u);
+        }
     }
-    while (list->num_peaks > 0 && list->peaks[list->num_peaks - 1u].votes < list->min_votes) {
-        list->num_peaks--;
-        list->peaks_dropped = 0; /* none of those was better than this one */
-    }
+    sort(list->peaks, n);
 }
 
 /* ---- suppression ------------------------------------------------------------------------------ */
