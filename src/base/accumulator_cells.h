@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Rows of the accumulator in cells of one size: included twice by accumulator.c, with CELL an unsigned type and NAME(f)
+ * Rows of the accumulator in cells of one size: included twice by accumulator_rows.c, with CELL an unsigned type and NAME(f)
  * the functions' names. The hot loops stand here: they want -O3, and nothing that keeps a compiler from vector code.
  */
 
@@ -19,10 +19,23 @@ static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, u
     }
 }
 
+/* Many points of one scan: written to a row of their own, which no store has to wait for, then added to the others. */
+static void NAME(vote_scan_apart)(CELL *restrict row, CELL *restrict apart, unsigned num_cells,
+                                  const int32_t *restrict cells, unsigned n, CELL bit)
+{
+    memset(apart, 0, num_cells * sizeof *apart);
+    for (unsigned i = 0; i < n; i++) {
+        apart[(uint32_t)cells[i]] = bit;
+    }
+    for (unsigned i = 0; i < num_cells; i++) {
+        row[i] |= apart[i];
+    }
+}
+
 /* ---- few points: only what they touch is looked at ---- */
 
 /* Votes of one scan (bit 0: of points). Notes the cells that reach min_votes; returns how many. */
-static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t *cells, unsigned n,
+static unsigned NAME(vote_few)(const struct rho_accumulator_pass *pass, CELL *row, const int32_t *cells, unsigned n,
                                CELL bit, uint16_t *reached)
 {
     unsigned num_reached = 0;
@@ -36,7 +49,20 @@ static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t
     return num_reached;
 }
 
-static unsigned NAME(most_around)(const struct pass *pass, const CELL *row, unsigned cell)
+/* Votes of points of all scans; a bit each, or 0. */
+static unsigned NAME(vote_kept)(const struct rho_accumulator_pass *pass, CELL *row,
+                                const int32_t *cells, const uint16_t *bits, unsigned n,
+                                uint16_t *reached)
+{
+    unsigned num_reached = 0;
+    for (unsigned i = 0; i < n; i++) {
+        num_reached +=
+            NAME(vote_few)(pass, row, cells + i, 1, (CELL)bits[i], reached + num_reached);
+    }
+    return num_reached;
+}
+
+static unsigned NAME(most_around)(const struct rho_accumulator_pass *pass, const CELL *row, unsigned cell)
 {
     unsigned most = NAME(votes)(pass, row[cell]);
     if (pass->neighbours == 8) {
@@ -49,7 +75,7 @@ static unsigned NAME(most_around)(const struct pass *pass, const CELL *row, unsi
 }
 
 /* Of equal neighbours the first by theta, then rho, is the peak. */
-static int NAME(is_peak)(const struct pass *pass, unsigned cell, unsigned votes)
+static int NAME(is_peak)(const struct rho_accumulator_pass *pass, unsigned cell, unsigned votes)
 {
     const CELL *row = pass->rows[1];
     if (pass->neighbours == 0) {
@@ -62,7 +88,7 @@ static int NAME(is_peak)(const struct pass *pass, unsigned cell, unsigned votes)
            below + pass->below_is_first <= votes;
 }
 
-static void NAME(look_at_few)(struct pass *pass, const uint16_t *reached, unsigned num_reached)
+static void NAME(look_at_few)(struct rho_accumulator_pass *pass, const uint16_t *reached, unsigned num_reached)
 {
     for (unsigned i = 0; i < num_reached; i++) {
         CELL value = ((const CELL *)pass->rows[1])[reached[i]];
@@ -94,25 +120,13 @@ static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells,
     }
 }
 
-/* Masks to numbers of scans. */
-static void NAME(count_scans)(const CELL *restrict row, CELL *restrict votes, unsigned n)
+/* A mask to the number of its scans. */
+static inline CELL NAME(scans)(CELL mask)
 {
-    for (unsigned i = 0; i < n; i++) {
-        CELL v = row[i];
-        v = (CELL)(v - ((v >> 1) & (CELL)0x5555u));
-        v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
-        v = (CELL)((v + (v >> 4)) & (CELL)0x0f0fu);
-        votes[i] = (CELL)(sizeof(CELL) > 1 ? (v + (v >> 8)) & (CELL)0x1fu : v);
-    }
-}
-
-static CELL NAME(most_of)(const CELL *restrict block)
-{
-    CELL most = 0;
-    for (int i = 0; i < BLOCK; i++) {
-        most = block[i] > most ? block[i] : most;
-    }
-    return most;
+    CELL v = (CELL)(mask - ((mask >> 1) & (CELL)0x5555u));
+    v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
+    v = (CELL)((v + (v >> 4)) & (CELL)0x0f0fu);
+    return (CELL)(sizeof(CELL) > 1 ? (v + (v >> 8)) & (CELL)0x1fu : v);
 }
 
 static CELL NAME(larger)(CELL a, CELL b)
@@ -120,8 +134,40 @@ static CELL NAME(larger)(CELL a, CELL b)
     return a > b ? a : b;
 }
 
+/* The most scans, or points, in a cell of a block. */
+static CELL NAME(most_scans)(const CELL *restrict block)
+{
+    CELL most = 0;
+    for (int i = 0; i < BLOCK; i++) {
+        most = NAME(larger)(NAME(scans)(block[i]), most);
+    }
+    return most;
+}
+
+static CELL NAME(most_points)(const CELL *restrict block)
+{
+    CELL most = 0;
+    for (int i = 0; i < BLOCK; i++) {
+        most = NAME(larger)(block[i], most);
+    }
+    return most;
+}
+
+/* A block as numbers of votes, with the cell on either side. */
+static void NAME(count)(const struct rho_accumulator_pass *pass, const CELL *restrict block,
+                        CELL *restrict votes)
+{
+    if (pass->counts_points) {
+        memcpy(votes, block - 1, (BLOCK + 2) * sizeof *votes);
+        return;
+    }
+    for (int i = 0; i < BLOCK + 2; i++) {
+        votes[i] = NAME(scans)(block[i - 1]);
+    }
+}
+
 /* Which cells of a block have more than the four or eight cells around, and min_votes. Rows of votes. */
-static void NAME(mark_peaks)(const struct pass *pass, const CELL *restrict above,
+static void NAME(mark_peaks)(const struct rho_accumulator_pass *pass, const CELL *restrict above,
                              const CELL *restrict row, const CELL *restrict below,
                              uint8_t *restrict is_peak)
 {
@@ -139,7 +185,7 @@ static void NAME(mark_peaks)(const struct pass *pass, const CELL *restrict above
     }
 }
 
-static void NAME(mark_all)(const struct pass *pass, const CELL *restrict row,
+static void NAME(mark_all)(const struct rho_accumulator_pass *pass, const CELL *restrict row,
                            uint8_t *restrict is_peak)
 {
     for (int i = 0; i < BLOCK; i++) {
@@ -147,29 +193,35 @@ static void NAME(mark_all)(const struct pass *pass, const CELL *restrict row,
     }
 }
 
-static void NAME(look_at_block)(struct pass *pass, const CELL *masks, unsigned first)
+static void NAME(look_at_block)(struct rho_accumulator_pass *pass, unsigned first)
 {
-    const CELL *above = pass->rows[0], *row = pass->rows[1], *below = pass->rows[2];
+    CELL votes[3][BLOCK + 2];
     uint8_t is_peak[BLOCK];
+    const CELL *row = pass->rows[1];
+    NAME(count)(pass, row + first, votes[1]);
     if (pass->neighbours > 0) {
-        NAME(mark_peaks)(pass, above + first, row + first, below + first, is_peak);
+        NAME(count)(pass, (const CELL *)pass->rows[0] + first, votes[0]);
+        NAME(count)(pass, (const CELL *)pass->rows[2] + first, votes[2]);
+        NAME(mark_peaks)(pass, votes[0] + 1, votes[1] + 1, votes[2] + 1, is_peak);
     } else {
-        NAME(mark_all)(pass, row + first, is_peak);
+        NAME(mark_all)(pass, votes[1] + 1, is_peak);
     }
     for (unsigned i = 0; i < BLOCK; i++) {
         if (is_peak[i]) {
-            keep(pass, first + i, row[first + i], masks[first + i]);
+            keep(pass, first + i, votes[1][i + 1u], row[first + i]);
         }
     }
 }
 
 /* Behind the last cell all is 0. */
-static void NAME(look_at_all)(struct pass *pass, const CELL *masks)
+static void NAME(look_at_all)(struct rho_accumulator_pass *pass)
 {
     const CELL *row = pass->rows[1];
     for (unsigned first = 1; first <= pass->accumulator->rho_cells; first += BLOCK) {
-        if (NAME(most_of)(row + first) >= pass->list.min_votes) {
-            NAME(look_at_block)(pass, masks, first);
+        CELL most = pass->counts_points ? NAME(most_points)(row + first)
+                                        : NAME(most_scans)(row + first);
+        if (most >= pass->list.min_votes) {
+            NAME(look_at_block)(pass, first);
         }
     }
 }

@@ -388,8 +388,9 @@ static void what_was_in_it_before_does_not_matter(void **state)
     memcpy(first, peaks, sizeof first);
     for (int run = 0; run < 2; run++) {
         memset(accumulator.rows, 0xa5, sizeof accumulator.rows);
-        memset(accumulator.votes, 0xa5, sizeof accumulator.votes);
+        memset(&accumulator.room, 0xa5, sizeof accumulator.room);
         memset(accumulator.touched, run ? 0x7f : 0xff, sizeof accumulator.touched);
+        memset(accumulator.num_touched, 0xff, sizeof accumulator.num_touched);
         find(64);
         assert_int_equal(result.num_peaks, count);
         assert_memory_equal(peaks, first, count * sizeof peaks[0]);

@@ -260,7 +260,7 @@ void bench_hough(const struct bench *bench)
     }
     if (!bench->json) {
         printf("hough: 30 x 30 km, 7 scans, distinct scans count; streamed rows of %zu bytes\n",
-               sizeof accumulator->rows + sizeof accumulator->votes);
+               sizeof accumulator->rows);
         grid_print(&grid, stdout);
         printf("\n");
     }
