@@ -51,7 +51,7 @@
 #endif
 
 /* Up to so many points the accumulator remembers which cells they touched, and looks at no others. RAM: 18 or 32 bytes a
- * point. 1 .. 4096. */
+ * point. 64 .. 4096. */
 #ifndef RHO_ACCUMULATOR_SPARSE_MAX
 #define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
 #endif
@@ -98,8 +98,8 @@
 #if RHO_MAX_RHO_CELLS < 64 || RHO_MAX_RHO_CELLS > 32704
 #error "RHO_MAX_RHO_CELLS must be 64 .. 32704"
 #endif
-#if RHO_ACCUMULATOR_SPARSE_MAX < 1 || RHO_ACCUMULATOR_SPARSE_MAX > 4096
-#error "RHO_ACCUMULATOR_SPARSE_MAX must be 1 .. 4096"
+#if RHO_ACCUMULATOR_SPARSE_MAX < 64 || RHO_ACCUMULATOR_SPARSE_MAX > 4096
+#error "RHO_ACCUMULATOR_SPARSE_MAX must be 64 .. 4096"
 #endif
 #if RHO_ACCUMULATOR_BINS < 64 || RHO_ACCUMULATOR_BINS > 16384 ||                                   \
     (RHO_ACCUMULATOR_BINS & (RHO_ACCUMULATOR_BINS - 1)) != 0

@@ -172,6 +172,8 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
     choose_rows(&pass, farthest2);
     if (pass.is_sparse) {
         empty(&pass);
+    } else {
+        memset(accumulator->room.scan, 0, sizeof accumulator->room.scan);
     }
     if (pass.is_pruned) {
         rho_accumulator_prune(&pass);

@@ -19,16 +19,17 @@ static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, u
     }
 }
 
-/* Many points of one scan: written to a row of their own, which no store has to wait for, then added to the others. */
+/* Many points of one scan: written to a row of their own, where no store waits for another, then added to the others. That
+ * row is empty before and after. */
 static void NAME(vote_scan_apart)(CELL *restrict row, CELL *restrict apart, unsigned num_cells,
                                   const int32_t *restrict cells, unsigned n, CELL bit)
 {
-    memset(apart, 0, num_cells * sizeof *apart);
     for (unsigned i = 0; i < n; i++) {
         apart[(uint32_t)cells[i]] = bit;
     }
     for (unsigned i = 0; i < num_cells; i++) {
         row[i] |= apart[i];
+        apart[i] = 0;
     }
 }
 
@@ -121,7 +122,7 @@ static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells,
 }
 
 /* A mask to the number of its scans. */
-static inline CELL NAME(scans)(CELL mask)
+static CELL NAME(scans)(CELL mask)
 {
     CELL v = (CELL)(mask - ((mask >> 1) & (CELL)0x5555u));
     v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
@@ -134,23 +135,20 @@ static CELL NAME(larger)(CELL a, CELL b)
     return a > b ? a : b;
 }
 
-/* The most scans, or points, in a cell of a block. */
-static CELL NAME(most_scans)(const CELL *restrict block)
+/* Whether a cell of n, a multiple of BLOCK, may have min_votes: of scans, or of points. */
+static int NAME(may_have_points)(const CELL *restrict row, unsigned n, unsigned min_votes)
 {
     CELL most = 0;
-    for (int i = 0; i < BLOCK; i++) {
-        most = NAME(larger)(NAME(scans)(block[i]), most);
+    for (unsigned i = 0; i < n; i++) {
+        most = NAME(larger)(row[i], most);
     }
-    return most;
+    return most >= min_votes;
 }
 
-static CELL NAME(most_points)(const CELL *restrict block)
+static int NAME(may_have)(const struct rho_accumulator_pass *pass, const CELL *row, unsigned n)
 {
-    CELL most = 0;
-    for (int i = 0; i < BLOCK; i++) {
-        most = NAME(larger)(block[i], most);
-    }
-    return most;
+    return pass->counts_points ? NAME(may_have_points)(row, n, pass->list.min_votes)
+                               : NAME(may_have_scans)(row, n, pass->list.min_votes);
 }
 
 /* A block as numbers of votes, with the cell on either side. */
@@ -196,7 +194,7 @@ static void NAME(mark_all)(const struct rho_accumulator_pass *pass, const CELL *
 static void NAME(look_at_block)(struct rho_accumulator_pass *pass, unsigned first)
 {
     CELL votes[3][BLOCK + 2];
-    uint8_t is_peak[BLOCK];
+    uint8_t is_peak[BLOCK], found[BLOCK];
     const CELL *row = pass->rows[1];
     NAME(count)(pass, row + first, votes[1]);
     if (pass->neighbours > 0) {
@@ -206,9 +204,21 @@ static void NAME(look_at_block)(struct rho_accumulator_pass *pass, unsigned firs
     } else {
         NAME(mark_all)(pass, votes[1] + 1, is_peak);
     }
+    unsigned num_found = 0;
     for (unsigned i = 0; i < BLOCK; i++) {
-        if (is_peak[i]) {
-            keep(pass, first + i, votes[1][i + 1u], row[first + i]);
+        found[num_found] = (uint8_t)i;
+        num_found += is_peak[i];
+    }
+    for (unsigned i = 0; i < num_found; i++) {
+        keep(pass, first + found[i], votes[1][found[i] + 1u], row[first + found[i]]);
+    }
+}
+
+static void NAME(look_at_blocks)(struct rho_accumulator_pass *pass, unsigned first, unsigned n)
+{
+    for (unsigned end = first + n; first < end; first += BLOCK) {
+        if (NAME(may_have)(pass, (const CELL *)pass->rows[1] + first, BLOCK)) {
+            NAME(look_at_block)(pass, first);
         }
     }
 }
@@ -216,12 +226,12 @@ static void NAME(look_at_block)(struct rho_accumulator_pass *pass, unsigned firs
 /* Behind the last cell all is 0. */
 static void NAME(look_at_all)(struct rho_accumulator_pass *pass)
 {
-    const CELL *row = pass->rows[1];
-    for (unsigned first = 1; first <= pass->accumulator->rho_cells; first += BLOCK) {
-        CELL most = pass->counts_points ? NAME(most_points)(row + first)
-                                        : NAME(most_scans)(row + first);
-        if (most >= pass->list.min_votes) {
-            NAME(look_at_block)(pass, first);
+    unsigned blocks = (pass->accumulator->rho_cells + BLOCK - 1u) / BLOCK, step = BLOCKS;
+    for (unsigned block = 0; block < blocks; block += step) {
+        unsigned first = 1u + block * BLOCK;
+        unsigned n = (blocks - block < step ? blocks - block : step) * BLOCK;
+        if (NAME(may_have)(pass, (const CELL *)pass->rows[1] + first, n)) {
+            NAME(look_at_blocks)(pass, first, n);
         }
     }
 }

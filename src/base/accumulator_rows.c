@@ -5,8 +5,8 @@
 #include "rhotrack/types.h"
 
 #define BLOCK 64  /* cells looked at together */
-#define CHUNK 256 /* points whose cells are found together */
-#define CROWDED 4 /* cells a point of a scan; fewer: points wait for each other's votes */
+#define BLOCKS 4  /* passed over together */
+#define CROWDED 4 /* cells a point of a scan; fewer: points would wait for each other's votes */
 
 /* ---- votes ------------------------------------------------------------------------------------ */
 
@@ -34,6 +34,36 @@ static void keep(struct rho_accumulator_pass *pass, unsigned cell, unsigned vote
                                         .rho_cell = (uint16_t)(cell - 1u),
                                         .mask = pass->counts_points ? 0u : mask};
     rho_peak_list_add(&pass->list, peak);
+}
+
+/*
+ * Whether a mask of n bytes, a multiple of BLOCK, has min_votes bits: eight bytes at a time, in words that a compiler makes
+ * vectors of. The sum of a byte's bits ends in its upper half; what the shift brings into the lower one stays there.
+ */
+static int may_have_scans_narrow(const uint8_t *row, unsigned n, unsigned min_votes)
+{
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
+    for (unsigned i = 0; i < n; i += 8u) {
+        uint64_t v;
+        memcpy(&v, row + i, sizeof v);
+        v -= v >> 1 & ones * 0x55u;
+        v = (v & ones * 0x33u) + (v >> 2 & ones * 0x33u);
+        reached |= v + (v << 4) + add;
+    }
+    return (reached & ones * 0x80u) != 0;
+}
+
+static uint16_t scans_wide(uint16_t mask);
+
+static int may_have_scans_wide(const uint16_t *row, unsigned n, unsigned min_votes)
+{
+    uint16_t most = 0;
+    for (unsigned i = 0; i < n; i++) {
+        uint16_t v = scans_wide(row[i]);
+        most = v > most ? v : most;
+    }
+    return most >= min_votes;
 }
 
 /* ---- rows ------------------------------------------------------------------------------------- */
@@ -197,10 +227,10 @@ static void vote_many(const struct rho_accumulator_pass *pass, void *row, const 
 static void vote_chunks(struct rho_accumulator_pass *pass, void *row,
                         struct rho_accumulator_place place, unsigned scan)
 {
-    unsigned end = pass->points->scan_end[scan];
-    for (unsigned from = scan_start(pass, scan); from < end; from += CHUNK) {
-        int32_t cells[CHUNK];
-        unsigned n = end - from < CHUNK ? end - from : CHUNK;
+    int32_t *cells = pass->accumulator->touched[0]; /* few points need it, not these */
+    unsigned end = pass->points->scan_end[scan], most = RHO_ACCUMULATOR_SPARSE_MAX;
+    for (unsigned from = scan_start(pass, scan); from < end; from += most) {
+        unsigned n = end - from < most ? end - from : most;
         find_some(pass, from, n, place, cells);
         vote_many(pass, row, cells, n, scan);
     }
