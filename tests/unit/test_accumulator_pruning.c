@@ -169,6 +169,59 @@ static void targets_among_clutter_keep_their_peaks(void **state)
     }
 }
 
+/* A point of a line by its distance from the foot of the perpendicular. */
+static void lay_point(unsigned i, double theta, double rho_m, double along_m)
+{
+    x_m[i] = (float)(rho_m * cos(theta) - along_m * sin(theta));
+    y_m[i] = (float)(rho_m * sin(theta) + along_m * cos(theta));
+}
+
+/* A line's points at its two ends alone: of all lines these part the fastest as theta changes. */
+static void a_line_of_two_ends_is_kept(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    unsigned found = 0;
+    for (int run = 0; run < 300; run++) {
+        double theta = uniform(0.0, 3.14159), rho_m = uniform(-1500.0, 1500.0);
+        double middle_m = uniform(-500.0, 500.0), half_m = uniform(10.0, 2500.0);
+        points.num_scans = 6;
+        for (unsigned scan = 0; scan < 6; scan++) {
+            lay_point(scan, theta, rho_m, middle_m + (scan % 2 ? half_m : -half_m));
+            scan_end[scan] = scan + 1;
+        }
+        config.min_votes = 6;
+        config.neighbours = (uint8_t)(4 * (run % 3));
+        expect_the_same_unpruned(config, PEAKS_MAX);
+        found += result.num_peaks > 0; /* the others have the edge of a cell between their ends */
+    }
+    assert_true(found > 150);
+}
+
+/* Between two lines rows are left out; the second one's must not meet what is left of the first one's. */
+static void a_line_does_not_hide_a_later_one(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    unsigned found = 0;
+    config.min_votes = 6;
+    for (int run = 0; run < 1000; run++) {
+        double theta = uniform(0.0, 3.0), rho_m = uniform(-1500.0, 1500.0);
+        double turn = 0.001 * (3 + below(20));
+        points.num_scans = 7;
+        for (unsigned scan = 0; scan < 7; scan++) {
+            double along_m = 300.0 * scan - 900.0;
+            lay_point(2 * scan, theta, rho_m, along_m);
+            lay_point(2 * scan + 1, theta + turn, rho_m, along_m);
+            scan_end[scan] = 2 * scan + 2;
+        }
+        x_m[1] = y_m[1] = 0.0f; /* the second line has six points */
+        expect_the_same_unpruned(config, PEAKS_MAX);
+        found += result.num_peaks > 1;
+    }
+    assert_true(found > 300);
+}
+
 /* A threshold that nothing can reach, up to the largest. */
 static void no_scans_are_enough(void **state)
 {
@@ -209,6 +262,8 @@ int main(void)
         cmocka_unit_test(pruning_changes_nothing),
         cmocka_unit_test(pruned_peaks_are_those_of_the_whole_plane),
         cmocka_unit_test(targets_among_clutter_keep_their_peaks),
+        cmocka_unit_test(a_line_of_two_ends_is_kept),
+        cmocka_unit_test(a_line_does_not_hide_a_later_one),
         cmocka_unit_test(no_scans_are_enough),
         cmocka_unit_test(far_points_on_many_cells_lose_nothing),
     };
