@@ -44,7 +44,8 @@ struct rho_accumulator_config {
         min_share; /* 0 .. 1: a peak has at least this share of the most votes of any; 0: no matter */
     /* that a peak is compared with: 0 (every cell with min_votes is one), 4 or 8 */
     uint8_t neighbours;
-    uint8_t no_pruning; /* 1: every point votes in every row; the result is the same, only later. 0 or 1 */
+    uint8_t
+        no_pruning; /* 1: every point votes in every row; the result is the same, only later. 0 or 1 */
 };
 
 /* Points in the order of their scans. The arrays stay the caller's. */

@@ -62,8 +62,8 @@
 #define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
 #endif
 
-/* Rows are looked through in blocks of 64 cells, with a cell on either side; a multiple of 4 bytes. */
-#define RHO_ACCUMULATOR_PADDING 68
+/* Rows are looked through in blocks of 64 cells, read with what is around them as 80; a multiple of 4 bytes. */
+#define RHO_ACCUMULATOR_PADDING 84
 
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS

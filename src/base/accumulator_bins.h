@@ -19,8 +19,8 @@ static void NAME(vote)(const struct rho_accumulator_pass *pass, CELL *restrict v
 }
 
 /* Sets are_enough[b] where the points in bins b .. b + 2 have min_votes. Returns whether there is one. */
-static int NAME(find_points)(const CELL *restrict votes, CELL *restrict are_enough, unsigned num_bins,
-                             CELL min_votes)
+static int NAME(find_points)(const CELL *restrict votes, CELL *restrict are_enough,
+                             unsigned num_bins, CELL min_votes)
 {
     CELL any = 0;
     for (unsigned i = 0; i < num_bins; i++) {
@@ -30,8 +30,8 @@ static int NAME(find_points)(const CELL *restrict votes, CELL *restrict are_enou
     return any;
 }
 
-static int NAME(find_scans)(const CELL *restrict votes, CELL *restrict are_enough, unsigned num_bins,
-                            CELL min_votes)
+static int NAME(find_scans)(const CELL *restrict votes, CELL *restrict are_enough,
+                            unsigned num_bins, CELL min_votes)
 {
     CELL any = 0, add = (CELL)(0x80u - min_votes);
     for (unsigned i = 0; i < num_bins; i++) {

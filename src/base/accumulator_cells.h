@@ -36,8 +36,8 @@ static void NAME(vote_scan_apart)(CELL *restrict row, CELL *restrict apart, unsi
 /* ---- few points: only what they touch is looked at ---- */
 
 /* Votes of one scan (bit 0: of points). Notes the cells that reach min_votes; returns how many. */
-static unsigned NAME(vote_few)(const struct rho_accumulator_pass *pass, CELL *row, const int32_t *cells, unsigned n,
-                               CELL bit, uint16_t *reached)
+static unsigned NAME(vote_few)(const struct rho_accumulator_pass *pass, CELL *row,
+                               const int32_t *cells, unsigned n, CELL bit, uint16_t *reached)
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -63,7 +63,8 @@ static unsigned NAME(vote_kept)(const struct rho_accumulator_pass *pass, CELL *r
     return num_reached;
 }
 
-static unsigned NAME(most_around)(const struct rho_accumulator_pass *pass, const CELL *row, unsigned cell)
+static unsigned NAME(most_around)(const struct rho_accumulator_pass *pass, const CELL *row,
+                                  unsigned cell)
 {
     unsigned most = NAME(votes)(pass, row[cell]);
     if (pass->neighbours == 8) {
@@ -89,7 +90,8 @@ static int NAME(is_peak)(const struct rho_accumulator_pass *pass, unsigned cell,
            below + pass->below_is_first <= votes;
 }
 
-static void NAME(look_at_few)(struct rho_accumulator_pass *pass, const uint16_t *reached, unsigned num_reached)
+static void NAME(look_at_few)(struct rho_accumulator_pass *pass, const uint16_t *reached,
+                              unsigned num_reached)
 {
     for (unsigned i = 0; i < num_reached; i++) {
         CELL value = ((const CELL *)pass->rows[1])[reached[i]];
@@ -156,10 +158,10 @@ static void NAME(count)(const struct rho_accumulator_pass *pass, const CELL *res
                         CELL *restrict votes)
 {
     if (pass->counts_points) {
-        memcpy(votes, block - 1, (BLOCK + 2) * sizeof *votes);
+        memcpy(votes, block - 1, AROUND * sizeof *votes);
         return;
     }
-    for (int i = 0; i < BLOCK + 2; i++) {
+    for (int i = 0; i < AROUND; i++) {
         votes[i] = NAME(scans)(block[i - 1]);
     }
 }
@@ -193,7 +195,7 @@ static void NAME(mark_all)(const struct rho_accumulator_pass *pass, const CELL *
 
 static void NAME(look_at_block)(struct rho_accumulator_pass *pass, unsigned first)
 {
-    CELL votes[3][BLOCK + 2];
+    CELL votes[3][AROUND];
     uint8_t is_peak[BLOCK], found[BLOCK];
     const CELL *row = pass->rows[1];
     NAME(count)(pass, row + first, votes[1]);
@@ -214,24 +216,21 @@ static void NAME(look_at_block)(struct rho_accumulator_pass *pass, unsigned firs
     }
 }
 
-static void NAME(look_at_blocks)(struct rho_accumulator_pass *pass, unsigned first, unsigned n)
-{
-    for (unsigned end = first + n; first < end; first += BLOCK) {
-        if (NAME(may_have)(pass, (const CELL *)pass->rows[1] + first, BLOCK)) {
-            NAME(look_at_block)(pass, first);
-        }
-    }
-}
-
-/* Behind the last cell all is 0. */
+/* Behind the last cell all is 0. Where several blocks in a row had nothing, the next ones are passed over together. */
 static void NAME(look_at_all)(struct rho_accumulator_pass *pass)
 {
-    unsigned blocks = (pass->accumulator->rho_cells + BLOCK - 1u) / BLOCK, step = BLOCKS;
-    for (unsigned block = 0; block < blocks; block += step) {
-        unsigned first = 1u + block * BLOCK;
-        unsigned n = (blocks - block < step ? blocks - block : step) * BLOCK;
-        if (NAME(may_have)(pass, (const CELL *)pass->rows[1] + first, n)) {
-            NAME(look_at_blocks)(pass, first, n);
+    unsigned cells = (pass->accumulator->rho_cells + BLOCK - 1u) / BLOCK * BLOCK, num_passed = 0;
+    for (unsigned first = 1; first <= cells;) {
+        unsigned left = cells + 1u - first, most = num_passed < BLOCKS ? BLOCK : BLOCKS * BLOCK;
+        unsigned n = most < left ? most : left;
+        int may_have = NAME(may_have)(pass, (const CELL *)pass->rows[1] + first, n);
+        num_passed = may_have ? 0u : num_passed + 1u;
+        if (may_have && n > BLOCK) {
+            continue; /* one by one, then */
         }
+        if (may_have) {
+            NAME(look_at_block)(pass, first);
+        }
+        first += n;
     }
 }

@@ -16,17 +16,16 @@
 
 #define ROWS_START 16u /* of the first interval */
 #define ROWS_MAX 1024u
-#define ROWS_LEAST 2u   /* of an interval that is worth bins */
-#define ROWS_UNPRUNED 32u
+#define ROWS_LEAST 2u         /* of an interval that is worth bins */
+#define ROWS_UNPRUNED 32u     /* at first, then twice as many each time */
 #define ROUNDING_CELLS 0.125f /* more than all roundings of a cell's place, see DESIGN.md */
 #define BINS_MIN 64u
-#ifndef ROWS_WHOLE
-#define ROWS_WHOLE 2u
-#define ROWS_BLUNT 4u
-#define SHRINK_KEPT 2u
-#define GROW_KEPT 8u
-#endif
-#define HALVINGS_MAX 11
+#define ROWS_WHOLE 2u /* of an interval that is not halved */
+#define ROWS_BLUNT 4u /* nor so few where most points are kept */
+#define SHRINK_KEPT                                                                                \
+    3u /* shorter intervals where more than a third is kept, longer ones up to a sixteenth */
+#define GROW_KEPT 16u
+#define HALVINGS_MAX 11 /* of ROWS_MAX, and one more */
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
@@ -49,6 +48,7 @@ struct prune {
     unsigned next_row;                          /* not yet in an interval */
     unsigned last_filled;                       /* row that was not looked through; NONE */
     unsigned num_rows;                          /* of the next interval; 1: they are not worth it */
+    unsigned num_unpruned;                      /* rows without any, then */
 };
 
 #define NONE UINT32_MAX
@@ -163,8 +163,8 @@ static void drop_points(const struct prune *prune, struct interval *of)
     }
     find_bins(accumulator->room.few.x_m, accumulator->room.few.y_m, n, place_of_bins(prune, *of),
               num_bins, accumulator->room.few.bins);
-    of->num_points = pass->is_narrow ? choose_narrow(pass, n, num_bins)
-                                     : choose_wide(pass, n, num_bins);
+    of->num_points =
+        pass->is_narrow ? choose_narrow(pass, n, num_bins) : choose_wide(pass, n, num_bins);
     if (of->num_points < n) {
         move_to_front(accumulator, of->num_points);
     }
@@ -226,7 +226,8 @@ static void add_rows(struct prune *prune, struct interval of)
 /* Whether its halves may lose more than bins of their own cost. */
 static int is_worth_halving(struct interval of, unsigned num_before)
 {
-    return of.num_rows > ROWS_WHOLE && (of.num_rows > ROWS_BLUNT || 2u * of.num_points < num_before);
+    return of.num_rows > ROWS_WHOLE &&
+           (of.num_rows > ROWS_BLUNT || 2u * of.num_points < num_before);
 }
 
 /* An interval, halves of it, halves of these: the points that rows keep vote in the end. Returns how many points the whole
@@ -242,8 +243,8 @@ static unsigned search_halves(struct prune *prune, struct interval whole)
         drop_points(prune, &of);
         num_kept = of.num_rows == whole.num_rows ? of.num_points : num_kept;
         if (of.num_points > 0 && is_worth_halving(of, num_before)) {
-            stack[depth++] = (struct interval){of.first + num_left, of.num_rows - num_left,
-                                               of.num_points};
+            stack[depth++] =
+                (struct interval){of.first + num_left, of.num_rows - num_left, of.num_points};
             stack[depth++] = (struct interval){of.first, num_left, of.num_points};
         } else if (of.num_points > 0) {
             add_rows(prune, of);
@@ -260,26 +261,31 @@ static void search_next(struct prune *prune, unsigned rows_left)
 {
     unsigned n = prune->pass->num_points, num_rows = prune->num_rows;
     int is_pruned = num_rows >= ROWS_LEAST;
-    num_rows = is_pruned ? num_rows : ROWS_UNPRUNED;
+    num_rows = is_pruned ? num_rows : prune->num_unpruned;
     num_rows = num_rows < rows_left ? num_rows : rows_left;
     struct interval of = {prune->next_row, num_rows, n};
     prune->next_row += num_rows;
     if (!is_pruned) {
         add_rows(prune, of);
         prune->num_rows = ROWS_LEAST;
+        prune->num_unpruned += prune->num_unpruned < ROWS_MAX ? prune->num_unpruned : 0u;
         return;
     }
     unsigned num_kept = search_halves(prune, of);
     if (SHRINK_KEPT * num_kept > n) {
         prune->num_rows /= 2u;
-    } else if (GROW_KEPT * num_kept <= n && prune->num_rows < ROWS_MAX) {
+        return;
+    }
+    prune->num_unpruned = ROWS_UNPRUNED;
+    if (GROW_KEPT * num_kept <= n && prune->num_rows < ROWS_MAX) {
         prune->num_rows *= 2u;
     }
 }
 
 void rho_accumulator_prune(struct rho_accumulator_pass *pass)
 {
-    struct prune prune = {.pass = pass, .last_filled = NONE, .num_rows = ROWS_START};
+    struct prune prune = {
+        .pass = pass, .last_filled = NONE, .num_rows = ROWS_START, .num_unpruned = ROWS_UNPRUNED};
     unsigned num_rows = pass->accumulator->theta_cells;
     if (pass->num_points == 0) {
         return;

@@ -5,7 +5,8 @@
 #include "rhotrack/types.h"
 
 #define BLOCK 64  /* cells looked at together */
-#define BLOCKS 4  /* passed over together */
+#define BLOCKS 4u /* passed over together */
+#define AROUND 80 /* a block with a cell on either side, in whole vectors */
 #define CROWDED 4 /* cells a point of a scan; fewer: points would wait for each other's votes */
 
 /* ---- votes ------------------------------------------------------------------------------------ */
@@ -80,8 +81,8 @@ static int may_have_scans_wide(const uint16_t *row, unsigned n, unsigned min_vot
 #undef NAME
 
 /* Cells of points from .. from + n - 1; those outside are taken off the votes. */
-static void find_some(struct rho_accumulator_pass *pass, unsigned from, unsigned n, struct rho_accumulator_place place,
-                      int32_t *cells)
+static void find_some(struct rho_accumulator_pass *pass, unsigned from, unsigned n,
+                      struct rho_accumulator_place place, int32_t *cells)
 {
     const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
     unsigned outside = 0;
@@ -121,8 +122,8 @@ static void turn_round(const struct rho_accumulator_pass *pass, void *row)
 
 /* ---- few points ------------------------------------------------------------------------------- */
 
-static unsigned vote_few(const struct rho_accumulator_pass *pass, void *row, const int32_t *cells, unsigned n,
-                         unsigned scan, uint16_t *reached)
+static unsigned vote_few(const struct rho_accumulator_pass *pass, void *row, const int32_t *cells,
+                         unsigned n, unsigned scan, uint16_t *reached)
 {
     unsigned bit = pass->counts_points ? 0u : 1u << scan;
     if (bit && scan + 1u < pass->list.min_votes) {

@@ -60,7 +60,8 @@ static void lay_targets(unsigned num_scans, unsigned num_targets, unsigned clutt
         for (int axis = 0; axis < 2; axis++) {
             from_m[target][axis] = uniform(-0.6 * half_m, 0.6 * half_m);
             /* also along an axis, and standing still */
-            step_m[target][axis] = below(4) ? uniform(-0.3 * half_m, 0.3 * half_m) / num_scans : 0.0;
+            step_m[target][axis] =
+                below(4) ? uniform(-0.3 * half_m, 0.3 * half_m) / num_scans : 0.0;
         }
     }
     for (unsigned scan = 0; scan < num_scans; scan++) {
@@ -68,7 +69,8 @@ static void lay_targets(unsigned num_scans, unsigned num_targets, unsigned clutt
             x_m[i] = (float)(from_m[target][0] + step_m[target][0] * scan);
             y_m[i] = (float)(from_m[target][1] + step_m[target][1] * scan);
         }
-        for (unsigned k = clutter * scan / num_scans; k < clutter * (scan + 1) / num_scans; k++, i++) {
+        for (unsigned k = clutter * scan / num_scans; k < clutter * (scan + 1) / num_scans;
+             k++, i++) {
             x_m[i] = (float)uniform(-half_m, half_m);
             y_m[i] = (float)uniform(-half_m, half_m);
         }
