@@ -93,19 +93,15 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
     return RHO_OK;
 }
 
-/* The farthest of the points from the origin, squared; -1 where one is not usable. */
-static float farthest2_m2(const struct rho_accumulator_points *points, unsigned num_points)
+static int are_believed(const struct rho_accumulator_points *points, unsigned num_points)
 {
-    float farthest = 0.0f;
     for (unsigned i = 0; i < num_points; i++) {
-        float x_m = points->x_m[i], y_m = points->y_m[i], range2 = x_m * x_m + y_m * y_m;
-        if (!rho_is_within(x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) ||
-            !rho_is_within(y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M)) {
-            return -1.0f;
+        if (!rho_is_within(points->x_m[i], -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) ||
+            !rho_is_within(points->y_m[i], -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M)) {
+            return 0;
         }
-        farthest = range2 > farthest ? range2 : farthest;
     }
-    return farthest;
+    return 1;
 }
 
 static int are_in_order(const struct rho_accumulator_points *points)
@@ -121,18 +117,44 @@ static int are_in_order(const struct rho_accumulator_points *points)
     return 1;
 }
 
-static void choose_rows(struct rho_accumulator_pass *pass, float farthest2)
+/* The square of a distance from the origin within which no point is outside any row; 0 where there is none. */
+static float inside2_m2(const struct rho_accumulator *accumulator)
+{
+    const struct rho_accumulator_config *config = &accumulator->config;
+    float last_m = (float)accumulator->rho_cells * config->rho_cell_m - config->rho_max_m;
+    float least_m = last_m < config->rho_max_m ? last_m : config->rho_max_m;
+    float inside_m = least_m - RHO_ACCUMULATOR_ROUNDING * config->rho_cell_m;
+    return inside_m > 0.0f ? inside_m * inside_m : 0.0f;
+}
+
+/* Which scans have points that may lie beyond rho_max_m: a bit each. */
+static unsigned scans_outside(const struct rho_accumulator_pass *pass)
+{
+    const struct rho_accumulator_points *points = pass->points;
+    float inside2 = inside2_m2(pass->accumulator);
+    unsigned i = 0, scans = 0;
+    for (unsigned scan = 0; scan < points->num_scans; scan++) {
+        float farthest2 = 0.0f;
+        for (; i < points->scan_end[scan]; i++) {
+            float range2 = points->x_m[i] * points->x_m[i] + points->y_m[i] * points->y_m[i];
+            farthest2 = range2 > farthest2 ? range2 : farthest2;
+        }
+        scans |= farthest2 < inside2 ? 0u : 1u << scan;
+    }
+    return scans;
+}
+
+static void choose_rows(struct rho_accumulator_pass *pass)
 {
     const struct rho_accumulator_config *config = &pass->accumulator->config;
-    float inside_m = config->rho_max_m - config->rho_cell_m;
     pass->counts_points = config->votes == RHO_VOTES_POINTS;
     pass->is_narrow = pass->counts_points ? pass->num_points <= NARROW_POINTS
                                           : pass->points->num_scans <= NARROW_SCANS;
     pass->is_sparse =
         pass->num_points <= RHO_ACCUMULATOR_SPARSE_MAX &&
         pass->num_points <= pass->accumulator->rho_cells / SPARSE_CELLS + SPARSE_POINTS;
-    pass->may_be_outside = !(inside_m > 0.0f && farthest2 < inside_m * inside_m);
-    pass->is_pruned = pass->is_sparse && !pass->may_be_outside && !config->no_pruning &&
+    pass->scans_outside = scans_outside(pass);
+    pass->is_pruned = pass->is_sparse && pass->scans_outside == 0 && !config->no_pruning &&
                       config->min_votes >= PRUNED_VOTES;
 }
 
@@ -166,8 +188,7 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
     if (num_points > 0 && (!points->x_m || !points->y_m)) {
         return RHO_ERROR_NULL;
     }
-    float farthest2 = farthest2_m2(points, num_points);
-    if (farthest2 < 0.0f) {
+    if (!are_believed(points, num_points)) {
         return RHO_ERROR_VALUE;
     }
     struct rho_accumulator_pass pass = {.accumulator = accumulator,
@@ -178,7 +199,7 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                                                  .min_share = accumulator->config.min_share},
                                         .num_points = num_points,
                                         .neighbours = accumulator->config.neighbours};
-    choose_rows(&pass, farthest2);
+    choose_rows(&pass);
     if (pass.is_sparse) {
         empty(&pass);
     } else {

@@ -8,14 +8,18 @@
 
 #include "rhotrack/accumulator.h"
 
+/* Cells: more than all roundings of a point's place in a row. src/DESIGN.md counts them up. */
+#define RHO_ACCUMULATOR_ROUNDING 0.125f
+
 struct rho_accumulator_pass {
     struct rho_accumulator *accumulator;
     const struct rho_accumulator_points *points;
     struct rho_peak_list list; /* its min_votes may rise from row to row */
     uint32_t votes;
     unsigned num_points, neighbours;
-    int counts_points, is_narrow, is_sparse, is_pruned, may_be_outside;
-    const void *rows[3]; /* above, in and below the one that is looked through */
+    int counts_points, is_narrow, is_sparse, is_pruned;
+    unsigned scans_outside; /* bit m: scan m has points that may lie beyond rho_max_m */
+    const void *rows[3];    /* above, in and below the one that is looked through */
     unsigned middle_theta_cell;
     unsigned above_is_first, below_is_first; /* such rows win a tie */
 };

@@ -16,9 +16,8 @@
 
 #define ROWS_START 16u /* of the first interval */
 #define ROWS_MAX 1024u
-#define ROWS_LEAST 2u         /* of an interval that is worth bins */
-#define ROWS_UNPRUNED 32u     /* at first, then twice as many each time */
-#define ROUNDING_CELLS 0.125f /* more than all roundings of a cell's place, see DESIGN.md */
+#define ROWS_LEAST 2u     /* of an interval that is worth bins */
+#define ROWS_UNPRUNED 32u /* at first, then twice as many each time */
 #define BINS_MIN 64u
 #define ROWS_WHOLE 2u /* of an interval that is not halved */
 #define ROWS_BLUNT 4u /* nor so few where most points are kept */
@@ -143,7 +142,7 @@ static struct rho_accumulator_place place_of_bins(const struct prune *prune, str
     float theta_cell_rad = accumulator->config.theta_cell_rad;
     float theta_rad = ((float)of.first + 0.5f * (float)of.num_rows) * theta_cell_rad;
     float half_rad = 0.5f * (float)(of.num_rows - 1u) * theta_cell_rad;
-    float width_cells = prune->radius_cells * half_rad + 0.5f + ROUNDING_CELLS;
+    float width_cells = prune->radius_cells * half_rad + 0.5f + RHO_ACCUMULATOR_ROUNDING;
     float per_m = accumulator->cells_per_m / width_cells;
     float by_x = rho_cos(theta_rad) * per_m, by_y = rho_sin(theta_rad) * per_m;
     return (struct rho_accumulator_place){by_x, by_y,

@@ -80,13 +80,13 @@ static int may_have_scans_wide(const uint16_t *row, unsigned n, unsigned min_vot
 #undef CELL
 #undef NAME
 
-/* Cells of points from .. from + n - 1; those outside are taken off the votes. */
-static void find_some(struct rho_accumulator_pass *pass, unsigned from, unsigned n,
+/* Cells of points from .. from + n - 1 of these scans; those outside are taken off the votes. */
+static void find_some(struct rho_accumulator_pass *pass, unsigned scans, unsigned from, unsigned n,
                       struct rho_accumulator_place place, int32_t *cells)
 {
     const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
     unsigned outside = 0;
-    if (pass->may_be_outside) {
+    if (pass->scans_outside & scans) {
         float last = (float)(pass->accumulator->rho_cells + 1u);
         outside = rho_accumulator_cells_within(x_m, y_m, n, place, last, cells);
     } else {
@@ -161,7 +161,7 @@ static void fill_few(struct rho_accumulator_pass *pass, unsigned slot,
     void *row = accumulator->rows[slot];
     unsigned num_reached = 0;
     clear_few(pass, slot);
-    find_some(pass, 0, pass->num_points, place, cells);
+    find_some(pass, ~0u, 0, pass->num_points, place, cells);
     for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
         unsigned from = scan_start(pass, scan), n = pass->points->scan_end[scan] - from;
         num_reached +=
@@ -232,7 +232,7 @@ static void vote_chunks(struct rho_accumulator_pass *pass, void *row,
     unsigned end = pass->points->scan_end[scan], most = RHO_ACCUMULATOR_SPARSE_MAX;
     for (unsigned from = scan_start(pass, scan); from < end; from += most) {
         unsigned n = end - from < most ? end - from : most;
-        find_some(pass, from, n, place, cells);
+        find_some(pass, 1u << scan, from, n, place, cells);
         vote_many(pass, row, cells, n, scan);
     }
 }
