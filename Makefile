@@ -183,7 +183,7 @@ size:
 	@BUILD=$(BUILD) tools/size.sh
 
 ## Instructions that typical jobs execute (valgrind); own covariances cost at most 1.5 times isotropic noise
-instructions: $(library)
+instructions: $(library) $(workstation_library)
 	@BUILD=$(BUILD) tools/instructions.sh
 
 # One clang-tidy a file, as many at a time as there are processors; silent where all is well.
