@@ -20,9 +20,10 @@
 #define ROWS_UNPRUNED 32u /* at first, then twice as many each time */
 #define BINS_MIN 64u
 #define ROWS_WHOLE 2u /* of an interval that is not halved */
-#define ROWS_BLUNT 4u /* nor so few where most points are kept */
-#define SHRINK_KEPT                                                                                \
-    3u /* shorter intervals where more than a third is kept, longer ones up to a sixteenth */
+/* Nor is one of so few rows that keeps more than three quarters of its points. */
+#define ROWS_BLUNT 16u
+/* Intervals get shorter where more than a third of all points is kept, longer where a sixteenth or less is. */
+#define SHRINK_KEPT 3u
 #define GROW_KEPT 16u
 #define HALVINGS_MAX 11 /* of ROWS_MAX, and one more */
 
@@ -226,7 +227,7 @@ static void add_rows(struct prune *prune, struct interval of)
 static int is_worth_halving(struct interval of, unsigned num_before)
 {
     return of.num_rows > ROWS_WHOLE &&
-           (of.num_rows > ROWS_BLUNT || 2u * of.num_points < num_before);
+           (of.num_rows > ROWS_BLUNT || 4u * of.num_points <= 3u * num_before);
 }
 
 /* An interval, halves of it, halves of these: the points that rows keep vote in the end. Returns how many points the whole
