@@ -25,6 +25,11 @@
 /* Intervals get shorter where more than a third of all points is kept, longer where a sixteenth or less is. */
 #define SHRINK_KEPT 3u
 #define GROW_KEPT 16u
+/* About nanoseconds of a workstation: bins of an interval, a point in them; a row, a kept point in it. */
+#define WORK_BINS 50u
+#define WORK_BIN 2u
+#define WORK_ROW 50u
+#define WORK_POINT 2u
 #define HALVINGS_MAX 11 /* of ROWS_MAX, and one more */
 
 #define CELL uint8_t
@@ -49,6 +54,7 @@ struct prune {
     unsigned last_filled;                       /* row that was not looked through; NONE */
     unsigned num_rows;                          /* of the next interval; 1: they are not worth it */
     unsigned num_unpruned;                      /* rows without any, then */
+    unsigned work;                              /* of this interval, see work_plain() */
 };
 
 #define NONE UINT32_MAX
@@ -216,8 +222,15 @@ static void add_row(struct prune *prune, unsigned row, unsigned num_points)
 
 /* ---- intervals -------------------------------------------------------------------------------- */
 
+/* Of rows where all points vote, in their order: half a unit a point less. */
+static unsigned work_plain(const struct prune *prune, unsigned num_rows)
+{
+    return num_rows * (WORK_ROW + prune->pass->num_points * 3u / 2u);
+}
+
 static void add_rows(struct prune *prune, struct interval of)
 {
+    prune->work += of.num_rows * (WORK_ROW + WORK_POINT * of.num_points);
     for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
         add_row(prune, row, of.num_points);
     }
@@ -240,6 +253,7 @@ static unsigned search_halves(struct prune *prune, struct interval whole)
     while (depth > 0) {
         struct interval of = stack[--depth];
         unsigned num_before = of.num_points, num_left = of.num_rows / 2u;
+        prune->work += WORK_BINS + WORK_BIN * num_before;
         drop_points(prune, &of);
         num_kept = of.num_rows == whole.num_rows ? of.num_points : num_kept;
         if (of.num_points > 0 && is_worth_halving(of, num_before)) {
@@ -255,7 +269,8 @@ static unsigned search_halves(struct prune *prune, struct interval whole)
 
 /*
  * The next rows. Intervals grow while they lose nearly all points, and shrink where they lose few: at the best length one
- * costs about what its halves do. Where even ROWS_LEAST keep most, many rows vote with all points before the next try.
+ * costs about what its halves do. Where one was more work than its rows without pruning, or even ROWS_LEAST keep many
+ * points, rows vote with all points for a while before the next try.
  */
 static void search_next(struct prune *prune, unsigned rows_left)
 {
@@ -271,7 +286,12 @@ static void search_next(struct prune *prune, unsigned rows_left)
         prune->num_unpruned += prune->num_unpruned < ROWS_MAX ? prune->num_unpruned : 0u;
         return;
     }
+    prune->work = 0;
     unsigned num_kept = search_halves(prune, of);
+    if (prune->work > work_plain(prune, num_rows)) {
+        prune->num_rows = 1;
+        return;
+    }
     if (SHRINK_KEPT * num_kept > n) {
         prune->num_rows /= 2u;
         return;
