@@ -132,8 +132,8 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accu
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, a point not finite or beyond RHO_LIMIT_POSITION_M);
  * nothing but *accumulator's scratch is changed. Cost: theta cells times (points, and the rho cells where there are more
  * than RHO_ACCUMULATOR_SPARSE_MAX points), and max_peaks' logarithm for each peak. No more than RHO_ACCUMULATOR_SPARSE_MAX
- * points, all within rho_max_m: parts of the plane that cannot reach min_votes are left out, so that few points cost a
- * tenth of that.
+ * points, all within rho_max_m, min_votes 3 or more: rows that cannot have it are left out, and few points cost down to a
+ * thirtieth of that.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                                                     const struct rho_accumulator_points *points,
