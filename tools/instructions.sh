@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Instructions that the library executes for typical jobs (valgrind), and the initiator's window with each plot's own
-# covariance against the isotropic path: at most 1.5 times. Then the accumulator's, a vote. Exit 1 where that does not hold. Environment: BUILD, CC.
+# covariance against the isotropic path: at most 1.5 times. Then the accumulator's, a vote.
+# Exit 1 where that does not hold. Environment: BUILD, CC.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build} most=1.5 failed=0
