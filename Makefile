@@ -89,7 +89,8 @@ $(BUILD)/workstation/%.o: %.c Makefile
 
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)
-$(BUILD)/embedded/src/base/accumulator.o $(BUILD)/workstation/src/base/accumulator.o: OPT := -O3
+vote_objects := $(foreach part,accumulator accumulator_rows accumulator_prune,%/src/base/$(part).o)
+$(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): OPT := -O3
 endif
 
 $(BUILD)/program/%.o: %.c Makefile
@@ -182,7 +183,7 @@ size:
 	@BUILD=$(BUILD) tools/size.sh
 
 ## Instructions that typical jobs execute (valgrind); own covariances cost at most 1.5 times isotropic noise
-instructions: $(library)
+instructions: $(library) $(workstation_library)
 	@BUILD=$(BUILD) tools/instructions.sh
 
 # One clang-tidy a file, as many at a time as there are processors; silent where all is well.

@@ -1,24 +1,29 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Instructions that the library executes for typical jobs (valgrind), and the initiator's window with each plot's own
-# covariance against the isotropic path: at most 1.5 times. Exit 1 where that does not hold. Environment: BUILD, CC.
+# covariance against the isotropic path: at most 1.5 times. Then the accumulator's, a vote.
+# Exit 1 where that does not hold. Environment: BUILD, CC.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-build=${BUILD:-build} most=1.5
+build=${BUILD:-build} most=1.5 failed=0
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/jobs" tools/instructions/jobs.c "$build/librhotrack.a"
+${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o "$folder/hough" \
+    tools/instructions/hough.c "$build/workstation/librhotrack.a"
 
-instructions() { # job
-    valgrind --tool=callgrind --callgrind-out-file="$folder/out" --toggle-collect=job "$folder/jobs" "$1" \
+instructions() { # program arguments
+    local program=$1
+    shift
+    valgrind --tool=callgrind --callgrind-out-file="$folder/out" --toggle-collect=job "$folder/$program" "$@" \
         >"$folder/stdout" 2>"$folder/stderr" || { cat "$folder/stderr" >&2; exit 1; }
     awk '/Collected/ {print $NF}' "$folder/stderr"
 }
 
 row() { # job, text
     local count
-    count=$(instructions "$1")
+    count=$(instructions jobs "$1")
     printf '%-62s %12s\n' "$2" "$count"
     echo "$count" >"$folder/$1"
 }
@@ -35,4 +40,19 @@ row newest-own 'the same, own covariances'
 awk -v most="$most" '{count[NR] = $1} END {
     ratio = count[2] / count[1]
     printf "own covariances over isotropic: %.2f (at most %s)\n", ratio, most
-    exit ratio > most }' "$folder/batch-isotropic" "$folder/batch-own"
+    exit ratio > most }' "$folder/batch-isotropic" "$folder/batch-own" || failed=1
+
+votes() { # points: a row with and without pruning
+    local plain pruned
+    plain=$(instructions hough "$1" plain)
+    pruned=$(instructions hough "$1" pruned)
+    awk -v points="$1" -v plain="$plain" -v pruned="$pruned" '{
+        printf "%-8s %12s %12s %15.2f %15.2f\n", points, pruned, plain, pruned / $1, plain / $1 }' "$folder/stdout"
+}
+
+printf '\naccumulator, workstation profile: 5 m x 1 mrad, 30 x 30 km, 7 scans, 5 votes\n'
+printf '%-8s %12s %12s %15s %15s\n' points instructions 'not pruned' 'a vote' 'not pruned'
+votes 30
+votes 300
+votes 3000
+exit "$failed"

@@ -44,6 +44,8 @@ struct rho_accumulator_config {
         min_share; /* 0 .. 1: a peak has at least this share of the most votes of any; 0: no matter */
     /* that a peak is compared with: 0 (every cell with min_votes is one), 4 or 8 */
     uint8_t neighbours;
+    uint8_t
+        no_pruning; /* 1: every point votes in every row; the result is the same, only later. 0 or 1 */
 };
 
 /* Points in the order of their scans. The arrays stay the caller's. */
@@ -94,14 +96,22 @@ struct rho_accumulator {
     struct rho_accumulator_config config;
     /* cell of rho: first_cell + rho cells_per_m, after a guard cell */
     float cells_per_m, first_cell;
-    /* Three rows of bytes, or of 16 bits for more than 8 scans or 255 points, a guard cell at each end: as points left them,
-     * and the number of votes in each cell. */
+    /* Three rows of bytes, or of 16 bits for more than 8 scans or 255 points, a guard cell at each end. */
     uint16_t rows[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
-    uint16_t votes[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
     /* few points: the cells that each row's points touched, and those that reached min_votes */
     int32_t touched[3][RHO_ACCUMULATOR_SPARSE_MAX];
     uint16_t reached[3][RHO_ACCUMULATOR_SPARSE_MAX + 1];
-    uint16_t num_reached[3];
+    uint16_t num_touched[3], num_reached[3];
+    /* many points need the one, few points the other */
+    union {
+        uint16_t scan[RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING]; /* a row of one scan */
+        struct {
+            float x_m[RHO_ACCUMULATOR_SPARSE_MAX], y_m[RHO_ACCUMULATOR_SPARSE_MAX];
+            int32_t bins[RHO_ACCUMULATOR_SPARSE_MAX];
+            uint16_t bits[RHO_ACCUMULATOR_SPARSE_MAX]; /* of their scans */
+            uint16_t votes[RHO_ACCUMULATOR_BINS + 2], are_enough[RHO_ACCUMULATOR_BINS + 2];
+        } few;
+    } room;
 };
 
 /* Rows of theta and cells of rho of a config's plane. Errors: CONFIG. Constant cost. */
@@ -128,7 +138,9 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accu
  * theta_cell, then rho_cell) has as many.
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, a point not finite or beyond RHO_LIMIT_POSITION_M);
  * nothing but *accumulator's scratch is changed. Cost: theta cells times (points, and the rho cells where there are more
- * than RHO_ACCUMULATOR_SPARSE_MAX points), and max_peaks' logarithm for each peak.
+ * than RHO_ACCUMULATOR_SPARSE_MAX points), and max_peaks' logarithm for each peak. No more than RHO_ACCUMULATOR_SPARSE_MAX
+ * points, all within rho_max_m, min_votes 3 or more: rows that cannot have it are left out, and few points cost down to a
+ * thirtieth of that.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                                                     const struct rho_accumulator_points *points,

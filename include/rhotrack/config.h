@@ -45,19 +45,25 @@
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
 #endif
 
-/* Cells of rho in a row of the Hough accumulator. RAM: 12 bytes a cell. 64 .. 32704. */
+/* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
 #ifndef RHO_MAX_RHO_CELLS
 #define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
 #endif
 
-/* Up to so many points the accumulator remembers which cells they touched, and looks at no others. RAM: 18 bytes a point.
- * 1 .. 4096. */
+/* Up to so many points the accumulator remembers which cells they touched, and looks at no others. RAM: 18 or 32 bytes a
+ * point. 64 .. 4096. */
 #ifndef RHO_ACCUMULATOR_SPARSE_MAX
 #define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
 #endif
 
-/* Rows are looked through in blocks of 64 cells, with a cell on either side; a multiple of 4 bytes. */
-#define RHO_ACCUMULATOR_PADDING 68
+/* Bins of rho in which the accumulator counts whether points can reach min_votes at all. About 4 a point that counts as
+ * few; less of them leave out less. RAM: 4 bytes a bin. A power of two, 64 .. 16384. */
+#ifndef RHO_ACCUMULATOR_BINS
+#define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
+#endif
+
+/* Rows are looked through in blocks of 64 cells, read with what is around them as 80; a multiple of 4 bytes. */
+#define RHO_ACCUMULATOR_PADDING 84
 
 /* Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two, 256 .. 4194304. */
 #ifndef RHO_MAX_CLASSIC_CELLS
@@ -105,8 +111,12 @@
 #if RHO_MAX_RHO_CELLS < 64 || RHO_MAX_RHO_CELLS > 32704
 #error "RHO_MAX_RHO_CELLS must be 64 .. 32704"
 #endif
-#if RHO_ACCUMULATOR_SPARSE_MAX < 1 || RHO_ACCUMULATOR_SPARSE_MAX > 4096
-#error "RHO_ACCUMULATOR_SPARSE_MAX must be 1 .. 4096"
+#if RHO_ACCUMULATOR_SPARSE_MAX < 64 || RHO_ACCUMULATOR_SPARSE_MAX > 4096
+#error "RHO_ACCUMULATOR_SPARSE_MAX must be 64 .. 4096"
+#endif
+#if RHO_ACCUMULATOR_BINS < 64 || RHO_ACCUMULATOR_BINS > 16384 ||                                   \
+    (RHO_ACCUMULATOR_BINS & (RHO_ACCUMULATOR_BINS - 1)) != 0
+#error "RHO_ACCUMULATOR_BINS must be a power of two, 64 .. 16384"
 #endif
 #if RHO_MAX_CLASSIC_CELLS < 256 || RHO_MAX_CLASSIC_CELLS > 4194304 ||                              \
     (RHO_MAX_CLASSIC_CELLS & (RHO_MAX_CLASSIC_CELLS - 1))
@@ -135,15 +145,17 @@
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 400)
-#define RHO_RAM_ACCUMULATOR_BYTES (12 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024)
+#define RHO_RAM_LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define RHO_RAM_ACCUMULATOR_BYTES                                                                  \
+    (6 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024 +                              \
+     RHO_RAM_LARGER(2 * RHO_MAX_RHO_CELLS,                                                         \
+                    14 * RHO_ACCUMULATOR_SPARSE_MAX + 4 * RHO_ACCUMULATOR_BINS))
 /* as much as either needs: the accumulator, or cells with pairs or a row */
-#define RHO_RAM_CLASSIC_MAX(a, b) ((a) > (b) ? (a) : (b))
 #define RHO_RAM_CLASSIC_BYTES                                                                      \
-    (RHO_RAM_CLASSIC_MAX(                                                                          \
-         RHO_RAM_ACCUMULATOR_BYTES,                                                                \
-         8 * RHO_MAX_CLASSIC_CELLS +                                                               \
-             RHO_RAM_CLASSIC_MAX(4 * RHO_MAX_RHO_CELLS,                                            \
-                                 32 * RHO_MAX_CLASSIC_KERNELS + 2 * RHO_CLASSIC_CHAINS)) +         \
+    (RHO_RAM_LARGER(RHO_RAM_ACCUMULATOR_BYTES,                                                     \
+                    8 * RHO_MAX_CLASSIC_CELLS +                                                    \
+                        RHO_RAM_LARGER(4 * RHO_MAX_RHO_CELLS,                                      \
+                                       32 * RHO_MAX_CLASSIC_KERNELS + 2 * RHO_CLASSIC_CHAINS)) +   \
      128)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (192 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Rows of the accumulator in cells of one size: included twice by accumulator.c, with CELL an unsigned type and NAME(f)
+ * Rows of the accumulator in cells of one size: included twice by accumulator_rows.c, with CELL an unsigned type and NAME(f)
  * the functions' names. The hot loops stand here: they want -O3, and nothing that keeps a compiler from vector code.
  */
 
@@ -19,11 +19,25 @@ static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, u
     }
 }
 
+/* Many points of one scan: written to a row of their own, where no store waits for another, then added to the others. That
+ * row is empty before and after. */
+static void NAME(vote_scan_apart)(CELL *restrict row, CELL *restrict apart, unsigned num_cells,
+                                  const int32_t *restrict cells, unsigned n, CELL bit)
+{
+    for (unsigned i = 0; i < n; i++) {
+        apart[(uint32_t)cells[i]] = bit;
+    }
+    for (unsigned i = 0; i < num_cells; i++) {
+        row[i] |= apart[i];
+        apart[i] = 0;
+    }
+}
+
 /* ---- few points: only what they touch is looked at ---- */
 
 /* Votes of one scan (bit 0: of points). Notes the cells that reach min_votes; returns how many. */
-static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t *cells, unsigned n,
-                               CELL bit, uint16_t *reached)
+static unsigned NAME(vote_few)(const struct rho_accumulator_pass *pass, CELL *row,
+                               const int32_t *cells, unsigned n, CELL bit, uint16_t *reached)
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -36,7 +50,21 @@ static unsigned NAME(vote_few)(const struct pass *pass, CELL *row, const int32_t
     return num_reached;
 }
 
-static unsigned NAME(most_around)(const struct pass *pass, const CELL *row, unsigned cell)
+/* Votes of points of all scans; a bit each, or 0. */
+static unsigned NAME(vote_kept)(const struct rho_accumulator_pass *pass, CELL *row,
+                                const int32_t *cells, const uint16_t *bits, unsigned n,
+                                uint16_t *reached)
+{
+    unsigned num_reached = 0;
+    for (unsigned i = 0; i < n; i++) {
+        num_reached +=
+            NAME(vote_few)(pass, row, cells + i, 1, (CELL)bits[i], reached + num_reached);
+    }
+    return num_reached;
+}
+
+static unsigned NAME(most_around)(const struct rho_accumulator_pass *pass, const CELL *row,
+                                  unsigned cell)
 {
     unsigned most = NAME(votes)(pass, row[cell]);
     if (pass->neighbours == 8) {
@@ -49,7 +77,7 @@ static unsigned NAME(most_around)(const struct pass *pass, const CELL *row, unsi
 }
 
 /* Of equal neighbours the first by theta, then rho, is the peak. */
-static int NAME(is_peak)(const struct pass *pass, unsigned cell, unsigned votes)
+static int NAME(is_peak)(const struct rho_accumulator_pass *pass, unsigned cell, unsigned votes)
 {
     const CELL *row = pass->rows[1];
     if (pass->neighbours == 0) {
@@ -62,7 +90,8 @@ static int NAME(is_peak)(const struct pass *pass, unsigned cell, unsigned votes)
            below + pass->below_is_first <= votes;
 }
 
-static void NAME(look_at_few)(struct pass *pass, const uint16_t *reached, unsigned num_reached)
+static void NAME(look_at_few)(struct rho_accumulator_pass *pass, const uint16_t *reached,
+                              unsigned num_reached)
 {
     for (unsigned i = 0; i < num_reached; i++) {
         CELL value = ((const CELL *)pass->rows[1])[reached[i]];
@@ -94,25 +123,13 @@ static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells,
     }
 }
 
-/* Masks to numbers of scans. */
-static void NAME(count_scans)(const CELL *restrict row, CELL *restrict votes, unsigned n)
+/* A mask to the number of its scans. */
+static CELL NAME(scans)(CELL mask)
 {
-    for (unsigned i = 0; i < n; i++) {
-        CELL v = row[i];
-        v = (CELL)(v - ((v >> 1) & (CELL)0x5555u));
-        v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
-        v = (CELL)((v + (v >> 4)) & (CELL)0x0f0fu);
-        votes[i] = (CELL)(sizeof(CELL) > 1 ? (v + (v >> 8)) & (CELL)0x1fu : v);
-    }
-}
-
-static CELL NAME(most_of)(const CELL *restrict block)
-{
-    CELL most = 0;
-    for (int i = 0; i < BLOCK; i++) {
-        most = block[i] > most ? block[i] : most;
-    }
-    return most;
+    CELL v = (CELL)(mask - ((mask >> 1) & (CELL)0x5555u));
+    v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
+    v = (CELL)((v + (v >> 4)) & (CELL)0x0f0fu);
+    return (CELL)(sizeof(CELL) > 1 ? (v + (v >> 8)) & (CELL)0x1fu : v);
 }
 
 static CELL NAME(larger)(CELL a, CELL b)
@@ -120,8 +137,37 @@ static CELL NAME(larger)(CELL a, CELL b)
     return a > b ? a : b;
 }
 
+/* Whether a cell of n, a multiple of BLOCK, may have min_votes: of scans, or of points. */
+static int NAME(may_have_points)(const CELL *restrict row, unsigned n, unsigned min_votes)
+{
+    CELL most = 0;
+    for (unsigned i = 0; i < n; i++) {
+        most = NAME(larger)(row[i], most);
+    }
+    return most >= min_votes;
+}
+
+static int NAME(may_have)(const struct rho_accumulator_pass *pass, const CELL *row, unsigned n)
+{
+    return pass->counts_points ? NAME(may_have_points)(row, n, pass->list.min_votes)
+                               : NAME(may_have_scans)(row, n, pass->list.min_votes);
+}
+
+/* A block as numbers of votes, with the cell on either side. */
+static void NAME(count)(const struct rho_accumulator_pass *pass, const CELL *restrict block,
+                        CELL *restrict votes)
+{
+    if (pass->counts_points) {
+        memcpy(votes, block - 1, AROUND * sizeof *votes);
+        return;
+    }
+    for (int i = 0; i < AROUND; i++) {
+        votes[i] = NAME(scans)(block[i - 1]);
+    }
+}
+
 /* Which cells of a block have more than the four or eight cells around, and min_votes. Rows of votes. */
-static void NAME(mark_peaks)(const struct pass *pass, const CELL *restrict above,
+static void NAME(mark_peaks)(const struct rho_accumulator_pass *pass, const CELL *restrict above,
                              const CELL *restrict row, const CELL *restrict below,
                              uint8_t *restrict is_peak)
 {
@@ -139,7 +185,7 @@ static void NAME(mark_peaks)(const struct pass *pass, const CELL *restrict above
     }
 }
 
-static void NAME(mark_all)(const struct pass *pass, const CELL *restrict row,
+static void NAME(mark_all)(const struct rho_accumulator_pass *pass, const CELL *restrict row,
                            uint8_t *restrict is_peak)
 {
     for (int i = 0; i < BLOCK; i++) {
@@ -147,29 +193,44 @@ static void NAME(mark_all)(const struct pass *pass, const CELL *restrict row,
     }
 }
 
-static void NAME(look_at_block)(struct pass *pass, const CELL *masks, unsigned first)
+static void NAME(look_at_block)(struct rho_accumulator_pass *pass, unsigned first)
 {
-    const CELL *above = pass->rows[0], *row = pass->rows[1], *below = pass->rows[2];
-    uint8_t is_peak[BLOCK];
+    CELL votes[3][AROUND];
+    uint8_t is_peak[BLOCK], found[BLOCK];
+    const CELL *row = pass->rows[1];
+    NAME(count)(pass, row + first, votes[1]);
     if (pass->neighbours > 0) {
-        NAME(mark_peaks)(pass, above + first, row + first, below + first, is_peak);
+        NAME(count)(pass, (const CELL *)pass->rows[0] + first, votes[0]);
+        NAME(count)(pass, (const CELL *)pass->rows[2] + first, votes[2]);
+        NAME(mark_peaks)(pass, votes[0] + 1, votes[1] + 1, votes[2] + 1, is_peak);
     } else {
-        NAME(mark_all)(pass, row + first, is_peak);
+        NAME(mark_all)(pass, votes[1] + 1, is_peak);
     }
+    unsigned num_found = 0;
     for (unsigned i = 0; i < BLOCK; i++) {
-        if (is_peak[i]) {
-            keep(pass, first + i, row[first + i], masks[first + i]);
-        }
+        found[num_found] = (uint8_t)i;
+        num_found += is_peak[i];
+    }
+    for (unsigned i = 0; i < num_found; i++) {
+        keep(pass, first + found[i], votes[1][found[i] + 1u], row[first + found[i]]);
     }
 }
 
-/* Behind the last cell all is 0. */
-static void NAME(look_at_all)(struct pass *pass, const CELL *masks)
+/* Behind the last cell all is 0. Where several blocks in a row had nothing, the next ones are passed over together. */
+static void NAME(look_at_all)(struct rho_accumulator_pass *pass)
 {
-    const CELL *row = pass->rows[1];
-    for (unsigned first = 1; first <= pass->accumulator->rho_cells; first += BLOCK) {
-        if (NAME(most_of)(row + first) >= pass->list.min_votes) {
-            NAME(look_at_block)(pass, masks, first);
+    unsigned cells = (pass->accumulator->rho_cells + BLOCK - 1u) / BLOCK * BLOCK, num_passed = 0;
+    for (unsigned first = 1; first <= cells;) {
+        unsigned left = cells + 1u - first, most = num_passed < BLOCKS ? BLOCK : BLOCKS * BLOCK;
+        unsigned n = most < left ? most : left;
+        int may_have = NAME(may_have)(pass, (const CELL *)pass->rows[1] + first, n);
+        num_passed = may_have ? 0u : num_passed + 1u;
+        if (may_have && n > BLOCK) {
+            continue; /* one by one, then */
         }
+        if (may_have) {
+            NAME(look_at_block)(pass, first);
+        }
+        first += n;
     }
 }

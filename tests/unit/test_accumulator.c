@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The streamed accumulator against one that holds the whole plane, written here without a thought of speed: the same
- * peaks, cell by cell.
+ * The streamed accumulator against one that holds the whole plane (accumulator_plane.h): the same peaks, cell by cell.
  */
 #include <float.h>
 #include <math.h>
@@ -14,197 +13,14 @@
 
 #include <cmocka.h>
 
+#include "accumulator_plane.h"
 #include "rhotrack/accumulator.h"
 #include "rhotrack/types.h"
-
-#define POINTS_MAX 2000
-#define PEAKS_MAX 200000
-#define DEG_RAD 0.0174532925f
-
-static struct rho_accumulator accumulator;
-static struct rho_accumulator_peak peaks[PEAKS_MAX], expected[PEAKS_MAX];
-static struct rho_accumulator_result result;
-static float x_m[POINTS_MAX], y_m[POINTS_MAX];
-static uint32_t scan_end[RHO_ACCUMULATOR_SCANS_MAX];
-static struct rho_accumulator_points points = {.x_m = x_m, .y_m = y_m, .scan_end = scan_end};
-static uint64_t random_state = 1;
-
-static double uniform(double from, double to)
-{
-    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
-}
-
-/* ---- the whole plane -------------------------------------------------------------------------- */
-
-static uint16_t *plane; /* masks, or numbers of points */
-static const struct rho_accumulator_config *of;
-
-static int num_theta(void)
-{
-    return accumulator.theta_cells;
-}
-
-static int num_rho(void)
-{
-    return accumulator.rho_cells;
-}
-
-static int bits(unsigned mask)
-{
-    int n = 0;
-    for (; mask; mask &= mask - 1u) {
-        n++;
-    }
-    return n;
-}
-
-static void fill_plane(void)
-{
-    plane = calloc((size_t)num_theta() * (size_t)num_rho(), sizeof *plane);
-    for (int theta = 0; theta < num_theta(); theta++) {
-        unsigned scan = 0, total = points.num_scans ? scan_end[points.num_scans - 1] : 0;
-        for (unsigned i = 0; i < total; i++) {
-            while (i >= scan_end[scan]) {
-                scan++;
-            }
-            int rho = rho_accumulator_cell(&accumulator, (unsigned)theta, x_m[i], y_m[i]);
-            if (rho >= 0) {
-                uint16_t *cell = &plane[theta * num_rho() + rho];
-                *cell = (uint16_t)(of->votes == RHO_VOTES_SCANS ? *cell | 1u << scan : *cell + 1u);
-            }
-        }
-    }
-}
-
-/* A place of the plane; beyond the ends of theta the same line from the other side. */
-struct cell {
-    int theta, rho;
-};
-
-static struct cell wrapped(int theta, int rho)
-{
-    struct cell cell = {theta, rho};
-    if (theta < 0 || theta >= num_theta()) {
-        cell.theta = theta < 0 ? theta + num_theta() : theta - num_theta();
-        cell.rho = num_rho() - 1 - rho;
-    }
-    return cell;
-}
-
-static int votes_at(struct cell cell)
-{
-    if (cell.rho < 0 || cell.rho >= num_rho()) {
-        return 0;
-    }
-    unsigned value = plane[cell.theta * num_rho() + cell.rho];
-    return of->votes == RHO_VOTES_SCANS ? bits(value) : (int)value;
-}
-
-static int beats(struct cell other, struct cell cell)
-{
-    int is_first = other.theta < cell.theta || (other.theta == cell.theta && other.rho < cell.rho);
-    return votes_at(other) > votes_at(cell) || (votes_at(other) == votes_at(cell) && is_first);
-}
-
-static int is_peak(struct cell cell)
-{
-    for (int theta = -1; theta <= 1 && of->neighbours; theta++) {
-        for (int rho = -1; rho <= 1; rho++) {
-            int is_corner = theta != 0 && rho != 0, is_self = theta == 0 && rho == 0;
-            if (!is_self && !(is_corner && of->neighbours == 4) &&
-                beats(wrapped(cell.theta + theta, cell.rho + rho), cell)) {
-                return 0;
-            }
-        }
-    }
-    return votes_at(cell) >= of->min_votes;
-}
-
-static int by_rank(const void *a, const void *b)
-{
-    const struct rho_accumulator_peak *p = a, *q = b;
-    if (p->votes != q->votes) {
-        return p->votes < q->votes ? 1 : -1;
-    }
-    if (p->theta_cell != q->theta_cell) {
-        return p->theta_cell < q->theta_cell ? -1 : 1;
-    }
-    return p->rho_cell < q->rho_cell ? -1 : 1;
-}
-
-static uint32_t expect_peaks(void)
-{
-    uint32_t count = 0;
-    fill_plane();
-    for (int theta = 0; theta < num_theta(); theta++) {
-        for (int rho = 0; rho < num_rho(); rho++) {
-            struct cell cell = {theta, rho};
-            if (votes_at(cell) < of->min_votes || !is_peak(cell)) {
-                continue;
-            }
-            assert_true(count < PEAKS_MAX);
-            unsigned mask = of->votes == RHO_VOTES_SCANS ? plane[theta * num_rho() + rho] : 0u;
-            expected[count++] = (struct rho_accumulator_peak){(uint32_t)votes_at(cell),
-                                                              (uint16_t)theta, (uint16_t)rho, mask};
-        }
-    }
-    free(plane);
-    qsort(expected, count, sizeof expected[0], by_rank);
-    return count;
-}
-
-/* ---- runs ------------------------------------------------------------------------------------- */
 
 static uint32_t suppress(uint32_t num_peaks, uint32_t *scratch, uint32_t num_scratch)
 {
     struct rho_peak_distance distance = {accumulator.theta_cells, accumulator.rho_cells, 8, 8};
     return rho_peak_list_suppress(peaks, num_peaks, &distance, scratch, num_scratch);
-}
-
-static struct rho_accumulator_config paper_cells(void)
-{
-    return (struct rho_accumulator_config){.rho_max_m = 4300.0f,
-                                           .rho_cell_m = 5.0f,
-                                           .theta_cell_rad = 0.001f,
-                                           .min_votes = 3,
-                                           .neighbours = 8};
-}
-
-static void prepare(const struct rho_accumulator_config *config)
-{
-    of = config;
-    assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, config), RHO_OK);
-}
-
-/* So many points over so many scans in a square. */
-static void scatter(unsigned num_scans, unsigned count, double half_m)
-{
-    points.num_scans = num_scans;
-    for (unsigned i = 0; i < count; i++) {
-        x_m[i] = (float)uniform(-half_m, half_m);
-        y_m[i] = (float)uniform(-half_m, half_m);
-    }
-    for (unsigned scan = 0; scan < num_scans; scan++) {
-        scan_end[scan] = count * (scan + 1) / num_scans;
-    }
-}
-
-static void find(uint32_t max_peaks)
-{
-    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, max_peaks, &result),
-                     RHO_OK);
-}
-
-static void expect_the_same(const struct rho_accumulator_config *config)
-{
-    prepare(config);
-    find(PEAKS_MAX);
-    uint32_t count = expect_peaks();
-    assert_int_equal(result.num_peaks, count);
-    assert_int_equal(result.peaks_dropped, 0);
-    assert_memory_equal(peaks, expected, count * sizeof peaks[0]);
-    assert_int_equal(result.votes_max, count ? expected[0].votes : 0);
 }
 
 static void peaks_are_those_of_the_whole_plane_at_the_papers_cells(void **state)
@@ -388,8 +204,9 @@ static void what_was_in_it_before_does_not_matter(void **state)
     memcpy(first, peaks, sizeof first);
     for (int run = 0; run < 2; run++) {
         memset(accumulator.rows, 0xa5, sizeof accumulator.rows);
-        memset(accumulator.votes, 0xa5, sizeof accumulator.votes);
+        memset(&accumulator.room, 0xa5, sizeof accumulator.room);
         memset(accumulator.touched, run ? 0x7f : 0xff, sizeof accumulator.touched);
+        memset(accumulator.num_touched, 0xff, sizeof accumulator.num_touched);
         find(64);
         assert_int_equal(result.num_peaks, count);
         assert_memory_equal(peaks, first, count * sizeof peaks[0]);
@@ -486,6 +303,7 @@ static void bad_configs_are_refused(void **state)
     REFUSED(min_share, 1.1f);
     REFUSED(min_share, NAN);
     REFUSED(neighbours, 6);
+    REFUSED(no_pruning, 2);
 }
 
 static void bad_points_are_refused(void **state)

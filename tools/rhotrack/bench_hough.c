@@ -1,210 +1,148 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_hough: the streamed accumulator, a dense one in plain C, and OpenCV's, all on the same points in one run: 30 x 30 km,
- * 7 scans. A call clears, votes and finds the peaks.
+ * bench_hough: the streamed accumulator with and without pruning, a dense one in plain C, and OpenCV's, all on the same
+ * points in one run: 30 x 30 km, 7 scans. A call clears, votes and finds the peaks.
  */
-#include <errno.h>
+#include "bench_hough.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "bench.h"
 #include "chain.h"
 #include "common.h"
 #include "grid.h"
 #include "random.h"
-#include "rhotrack/accumulator.h"
+#include "verdicts.h"
 
-#define SCANS 7
-#define HALF_SIDE_M 15000.0
-#define RHO_MAX_M 21220.0f /* of its corners */
-#define MIN_VOTES 5
 #define PEAKS_MAX 1024
-#define POINTS_MAX 3000
-#define DENSE_ROUNDS 2
-#define OPENCV_ROUNDS 3
+#define ROUND_US 500 /* at least so long: the clock has microseconds */
+
+/* What a vote may cost; vectors of 32 bytes make it cheaper. */
+#ifdef __AVX2__
+#define NS_A_VOTE_MOST 0.7
+#else
+#define NS_A_VOTE_MOST 0.9
+#endif
+
+enum kind { FINE, COARSE };
 
 static const struct {
-    const char *name;
+    const char *name, *json_name;
     float rho_cell_m, theta_cell_rad;
-} cell_sizes[] = {{"5 m x 1 mrad", 5.0f, 0.001f}, {"100 m x 0.5 deg", 100.0f, 0.0087266463f}};
+    int dense_rounds, opencv_rounds;
+} kinds[] = {[FINE] = {"5 m x 1 mrad", "fine", 5.0f, 0.001f, 2, 3},
+             [COARSE] = {"100 m x 0.5 deg", "coarse", 100.0f, 0.0087266463f, 20, 50}};
 
-static const unsigned point_counts[] = {30, 300, 3000};
-
-struct cloud {
-    unsigned count;
-    float x_m[POINTS_MAX], y_m[POINTS_MAX];
-    uint32_t scan_end[SCANS];
+/* Clutter, and targets among it: a point a scan each. */
+struct job {
+    enum kind kind;
+    unsigned points, targets;
 };
 
-static void scatter(struct cloud *cloud, unsigned count, uint64_t seed)
+static const struct job jobs[] = {{FINE, 30, 0},    {FINE, 30, 3},   {FINE, 300, 0},
+                                  {FINE, 3000, 0},  {COARSE, 30, 0}, {COARSE, 300, 0},
+                                  {COARSE, 3000, 0}};
+
+#define NUM_JOBS (sizeof jobs / sizeof jobs[0])
+
+struct figures {
+    double votes; /* points times cells of theta */
+    double us, plain_us, dense_us;
+    double bytes, dense_bytes;
+    struct hough_cost opencv;
+};
+
+/* ---- points ----------------------------------------------------------------------------------- */
+
+static void scatter(struct hough_cloud *cloud, unsigned count, uint64_t seed)
 {
     struct random random = random_start(seed, 77, count);
     cloud->count = count;
     for (unsigned i = 0; i < count; i++) {
-        cloud->x_m[i] = (float)random_between(&random, -HALF_SIDE_M, HALF_SIDE_M);
-        cloud->y_m[i] = (float)random_between(&random, -HALF_SIDE_M, HALF_SIDE_M);
+        cloud->x_m[i] = (float)random_between(&random, -HOUGH_HALF_SIDE_M, HOUGH_HALF_SIDE_M);
+        cloud->y_m[i] = (float)random_between(&random, -HOUGH_HALF_SIDE_M, HOUGH_HALF_SIDE_M);
     }
-    for (unsigned scan = 0; scan < SCANS; scan++) {
-        cloud->scan_end[scan] = count * (scan + 1) / SCANS;
+    for (unsigned scan = 0; scan < HOUGH_SCANS; scan++) {
+        cloud->scan_end[scan] = count * (scan + 1) / HOUGH_SCANS;
     }
 }
 
-/* ---- the library's ---------------------------------------------------------------------------- */
+/* The first points of each scan become those of targets with up to 1 km a scan along each axis. */
+static void lay_targets(struct hough_cloud *cloud, unsigned targets, uint64_t seed)
+{
+    struct random random = random_start(seed, 78, targets);
+    for (unsigned target = 0; target < targets; target++) {
+        double x_m = random_between(&random, -8e3, 8e3), y_m = random_between(&random, -8e3, 8e3);
+        double dx_m = random_between(&random, -1e3, 1e3);
+        double dy_m = random_between(&random, -1e3, 1e3);
+        for (unsigned scan = 0; scan < HOUGH_SCANS; scan++) {
+            unsigned i = (scan > 0 ? cloud->scan_end[scan - 1] : 0) + target;
+            cloud->x_m[i] = (float)(x_m + dx_m * scan);
+            cloud->y_m[i] = (float)(y_m + dy_m * scan);
+        }
+    }
+}
 
-static double streamed_us(struct rho_accumulator *accumulator, const struct cloud *cloud,
-                          struct rho_accumulator_result *result)
+/* ---- times ------------------------------------------------------------------------------------ */
+
+static double calls_us(struct rho_accumulator *accumulator, const struct hough_cloud *cloud,
+                       int calls)
 {
     static struct rho_accumulator_peak peaks[PEAKS_MAX];
-    const struct rho_accumulator_points points = {cloud->x_m, cloud->y_m, SCANS, cloud->scan_end};
+    const struct rho_accumulator_points points = {cloud->x_m, cloud->y_m, HOUGH_SCANS,
+                                                  cloud->scan_end};
+    struct rho_accumulator_result result;
+    int64_t start_us = clock_us();
+    for (int call = 0; call < calls; call++) {
+        must_succeed(rho_accumulator_find(accumulator, &points, peaks, PEAKS_MAX, &result), "find");
+    }
+    return (double)(clock_us() - start_us);
+}
+
+static double streamed_us(struct rho_accumulator *accumulator, const struct hough_cloud *cloud)
+{
+    int calls = 1;
+    while (calls_us(accumulator, cloud, calls) < ROUND_US) {
+        calls *= 2;
+    }
     double best_us = INFINITY;
     for (int round = 0; round < BENCH_ROUNDS; round++) {
-        int64_t start_us = clock_us();
-        must_succeed(rho_accumulator_find(accumulator, &points, peaks, PEAKS_MAX, result), "find");
-        best_us = fmin(best_us, (double)(clock_us() - start_us));
+        best_us = fmin(best_us, calls_us(accumulator, cloud, calls) / calls);
     }
     return best_us;
 }
 
-/* ---- the whole plane -------------------------------------------------------------------------- */
-
-static unsigned bits(unsigned mask)
+static void prepare(struct rho_accumulator *accumulator, enum kind kind, int no_pruning)
 {
-    unsigned n = 0;
-    for (; mask; mask &= mask - 1u) {
-        n++;
-    }
-    return n;
+    struct rho_accumulator_config config = {.rho_max_m = HOUGH_RHO_MAX_M,
+                                            .rho_cell_m = kinds[kind].rho_cell_m,
+                                            .theta_cell_rad = kinds[kind].theta_cell_rad,
+                                            .min_votes = HOUGH_MIN_VOTES,
+                                            .neighbours = 8,
+                                            .no_pruning = (uint8_t)no_pruning};
+    must_succeed(rho_accumulator_init(accumulator, sizeof *accumulator, &config), "accumulator");
 }
 
-static void vote_dense(const struct rho_accumulator *accumulator, const struct cloud *cloud,
-                       uint16_t *plane, size_t width)
+static struct figures measure(struct rho_accumulator *accumulator, const struct job *job,
+                              uint64_t seed)
 {
-    float per_m = 1.0f / accumulator->config.rho_cell_m, first = RHO_MAX_M * per_m;
-    for (unsigned theta = 0; theta < accumulator->theta_cells; theta++) {
-        float theta_rad = rho_accumulator_theta_rad(accumulator, theta);
-        float by_x = cosf(theta_rad) * per_m, by_y = sinf(theta_rad) * per_m;
-        unsigned scan = 0;
-        for (unsigned i = 0; i < cloud->count; i++) {
-            while (i >= cloud->scan_end[scan]) {
-                scan++;
-            }
-            size_t rho = (size_t)(cloud->x_m[i] * by_x + cloud->y_m[i] * by_y + first);
-            plane[theta * width + rho] |= (uint16_t)(1u << scan);
-        }
-    }
-}
-
-/* Cells with min_votes that no neighbour beats; the ends of theta do not matter for the time. */
-static unsigned count_peaks(const uint16_t *plane, size_t width, size_t height)
-{
-    unsigned count = 0;
-    for (size_t theta = 1; theta + 1 < height; theta++) {
-        const uint16_t *row = plane + theta * width;
-        for (size_t rho = 1; rho + 1 < width; rho++) {
-            unsigned votes = row[rho] ? bits(row[rho]) : 0u, most = 0;
-            for (size_t i = 0; i < 9 && votes >= MIN_VOTES; i++) {
-                unsigned other = bits(row[rho + i % 3 - 1 + (i / 3) * width - width]);
-                most = other > most ? other : most;
-            }
-            count += votes >= MIN_VOTES && votes >= most;
-        }
-    }
-    return count;
-}
-
-static double dense_us(const struct rho_accumulator *accumulator, const struct cloud *cloud)
-{
-    size_t width = accumulator->rho_cells + 2u, height = accumulator->theta_cells;
-    uint16_t *plane = must_calloc(width * height, sizeof *plane);
-    double best_us = INFINITY;
-    for (int round = 0; round < DENSE_ROUNDS; round++) {
-        int64_t start_us = clock_us();
-        memset(plane, 0, width * height * sizeof *plane);
-        vote_dense(accumulator, cloud, plane, width);
-        if (count_peaks(plane, width, height) > width * height) {
-            fail(EXIT_RUNTIME, "more peaks than cells");
-        }
-        best_us = fmin(best_us, (double)(clock_us() - start_us));
-    }
-    free(plane);
-    return best_us;
-}
-
-/* ---- OpenCV's --------------------------------------------------------------------------------- */
-
-/* BUILD/tests/bench/hough_opencv beside this program; NULL where it was not built. */
-static const char *opencv_path(char path[512])
-{
-    char self[400];
-    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (length <= 0) {
-        return NULL;
-    }
-    self[length] = '\0';
-    char *end = strrchr(self, '/');
-    snprintf(path, 512, "%.*s/tests/bench/hough_opencv", end ? (int)(end - self) : 1, self);
-    return access(path, X_OK) == 0 ? path : NULL;
-}
-
-static void write_points(const struct cloud *cloud, const char *path)
-{
-    FILE *file = fopen(path, "wb");
-    if (!file) {
-        fail(EXIT_RUNTIME, "%s: cannot be written", path);
-    }
-    for (unsigned i = 0; i < cloud->count; i++) {
-        const float pair[2] = {cloud->x_m[i], cloud->y_m[i]};
-        fwrite(pair, sizeof pair, 1, file);
-    }
-    fclose(file);
-}
-
-/* What the program prints on its standard output, as a number; NAN where it prints none. */
-static double run_for_number(char *const arguments[])
-{
-    char answer[64] = "";
-    int ends[2];
-    if (pipe(ends) != 0) {
-        fail(EXIT_RUNTIME, "pipe: %s", strerror(errno));
-    }
-    pid_t child = fork();
-    if (child == 0) {
-        dup2(ends[1], STDOUT_FILENO);
-        execv(arguments[0], arguments);
-        _exit(127);
-    }
-    close(ends[1]);
-    ssize_t length = child > 0 ? read(ends[0], answer, sizeof answer - 1) : 0;
-    close(ends[0]);
-    if (child > 0) {
-        waitpid(child, NULL, 0);
-    }
-    char *end = answer;
-    double value = length > 0 ? strtod(answer, &end) : 0.0;
-    return end == answer ? NAN : value;
-}
-
-/* NAN where it is not there. */
-static double opencv_us(const struct cloud *cloud, float rho_cell_m, float theta_cell_rad)
-{
-    char program[512], points[64], rho_max[32], rho_cell[32], theta_cell[32], votes[16], rounds[16];
-    if (!opencv_path(program)) {
-        return NAN;
-    }
-    snprintf(points, sizeof points, "/tmp/rhotrack-hough-%ld", (long)getpid());
-    snprintf(rho_max, sizeof rho_max, "%g", (double)RHO_MAX_M);
-    snprintf(rho_cell, sizeof rho_cell, "%g", (double)rho_cell_m);
-    snprintf(theta_cell, sizeof theta_cell, "%.9g", (double)theta_cell_rad);
-    snprintf(votes, sizeof votes, "%d", MIN_VOTES);
-    snprintf(rounds, sizeof rounds, "%d", OPENCV_ROUNDS);
-    char *const arguments[] = {program, points, rho_max, rho_cell, theta_cell, votes, rounds, NULL};
-    write_points(cloud, points);
-    double ms = run_for_number(arguments);
-    remove(points);
-    return 1e3 * ms;
+    static struct hough_cloud cloud;
+    struct figures figures;
+    scatter(&cloud, job->points, seed);
+    lay_targets(&cloud, job->targets, seed);
+    prepare(accumulator, job->kind, 1);
+    figures.plain_us = streamed_us(accumulator, &cloud);
+    prepare(accumulator, job->kind, 0);
+    figures.us = streamed_us(accumulator, &cloud);
+    figures.votes = (double)job->points * accumulator->theta_cells;
+    figures.dense_us = hough_dense_us(accumulator, &cloud, kinds[job->kind].dense_rounds);
+    figures.opencv = hough_opencv(accumulator, &cloud, kinds[job->kind].opencv_rounds);
+    double points_bytes = 2.0 * sizeof(float) * job->points;
+    figures.bytes = sizeof *accumulator + points_bytes;
+    figures.dense_bytes = (double)hough_dense_bytes(accumulator) + points_bytes;
+    return figures;
 }
 
 /* ---- the table -------------------------------------------------------------------------------- */
@@ -215,55 +153,117 @@ static const char *or_dash(char text[32], const char *format, double value)
     return isnan(value) ? "-" : text;
 }
 
-static void add_row(const struct bench *bench, struct grid *grid,
-                    struct rho_accumulator *accumulator, size_t size, unsigned count)
+static void add_row(struct grid *grid, const struct job *job, const struct figures *figures)
 {
-    static struct cloud cloud;
-    struct rho_accumulator_result result;
-    struct rho_accumulator_config config = {.rho_max_m = RHO_MAX_M,
-                                            .rho_cell_m = cell_sizes[size].rho_cell_m,
-                                            .theta_cell_rad = cell_sizes[size].theta_cell_rad,
-                                            .min_votes = MIN_VOTES,
-                                            .neighbours = 8};
-    char ratio[32], opencv[32], over[32];
-    scatter(&cloud, count, bench->seed);
-    must_succeed(rho_accumulator_init(accumulator, sizeof *accumulator, &config), "accumulator");
-    double own_us = streamed_us(accumulator, &cloud, &result);
-    double whole_us = dense_us(accumulator, &cloud);
-    double other_us = opencv_us(&cloud, config.rho_cell_m, config.theta_cell_rad);
-    grid_row(grid, "%s|%u|%.3f|%.2f|%.1f|%s|%s|%s", cell_sizes[size].name, count, own_us / 1e3,
-             1e3 * own_us / result.votes, whole_us / 1e3, or_dash(ratio, "%.0f", whole_us / own_us),
-             or_dash(opencv, "%.2f", other_us / 1e3), or_dash(over, "%.1f", other_us / own_us));
-    if (bench->json) {
-        const char *kind = size == 0 ? "fine" : "coarse";
-        char name[64];
-        snprintf(name, sizeof name, "hough_%s_%u_points_us", kind, count);
-        cJSON_AddNumberToObject(bench->json, name, own_us);
-        snprintf(name, sizeof name, "hough_%s_%u_points_dense_us", kind, count);
-        cJSON_AddNumberToObject(bench->json, name, whole_us);
-        snprintf(name, sizeof name, "hough_%s_%u_points_opencv_us", kind, count);
-        if (!isnan(other_us)) {
-            cJSON_AddNumberToObject(bench->json, name, other_us);
+    char points[32], opencv[32], over[32], bytes[32];
+    snprintf(points, sizeof points, job->targets > 0 ? "%u (%u)" : "%u", job->points,
+             job->targets * HOUGH_SCANS);
+    grid_row(grid, "%s|%s|%.3f|%.3f|%.3f|%.2f|%.1f|%.0f|%s|%s|%.0f|%.0f|%s", kinds[job->kind].name,
+             points, figures->us / 1e3, 1e3 * figures->us / figures->votes, figures->plain_us / 1e3,
+             1e3 * figures->plain_us / figures->votes, figures->dense_us / 1e3,
+             figures->dense_us / figures->us, or_dash(opencv, "%.2f", figures->opencv.us / 1e3),
+             or_dash(over, "%.1f", figures->opencv.us / figures->us), figures->bytes / 1024.0,
+             figures->dense_bytes / 1024.0, or_dash(bytes, "%.0f", figures->opencv.bytes / 1024.0));
+}
+
+static void add_numbers(cJSON *json, const struct job *job, const struct figures *figures)
+{
+    const struct {
+        const char *name;
+        double value;
+    } numbers[] = {{"us", figures->us},
+                   {"ns_a_vote", 1e3 * figures->us / figures->votes},
+                   {"plain_us", figures->plain_us},
+                   {"plain_ns_a_vote", 1e3 * figures->plain_us / figures->votes},
+                   {"bytes", figures->bytes},
+                   {"dense_us", figures->dense_us},
+                   {"dense_bytes", figures->dense_bytes},
+                   {"opencv_us", figures->opencv.us},
+                   {"opencv_bytes", figures->opencv.bytes}};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        char name[80];
+        snprintf(name, sizeof name, "hough_%s_%u_points_%s%s", kinds[job->kind].json_name,
+                 job->points, job->targets > 0 ? "targets_" : "", numbers[i].name);
+        if (!isnan(numbers[i].value)) {
+            cJSON_AddNumberToObject(json, name, numbers[i].value);
         }
     }
+}
+
+/* ---- bars ------------------------------------------------------------------------------------- */
+
+static void judge_opencv(struct verdicts *verdicts, const struct job *job,
+                         const struct figures *figures)
+{
+    static const struct {
+        struct job job;
+        double least;
+    } bars[] = {{{FINE, 30, 0}, 4000.0},
+                {{FINE, 3000, 0}, 150.0},
+                {{COARSE, 30, 0}, 8.0},
+                {{COARSE, 3000, 0}, 4.0}};
+    for (size_t i = 0; i < sizeof bars / sizeof bars[0]; i++) {
+        if (bars[i].job.kind == job->kind && bars[i].job.points == job->points &&
+            bars[i].job.targets == job->targets && !isnan(figures->opencv.us)) {
+            verdicts_at_least(verdicts, figures->opencv.us / figures->us, bars[i].least,
+                              "%s, %u points: times OpenCV's speed", kinds[job->kind].name,
+                              job->points);
+        }
+    }
+}
+
+static void judge(struct verdicts *verdicts, const struct job *job, const struct figures *figures)
+{
+    if (job->kind == FINE && job->points == 30) {
+        verdicts_at_most(verdicts, figures->us / 1e3, 0.25, "%s, %u points%s: ms a call",
+                         kinds[FINE].name, job->points, job->targets > 0 ? " with targets" : "");
+    }
+    if (job->kind == FINE && job->points == 3000) {
+        verdicts_at_most(verdicts, 1e3 * figures->us / figures->votes, NS_A_VOTE_MOST,
+                         "%s, %u points: ns a vote", kinds[FINE].name, job->points);
+    }
+    judge_opencv(verdicts, job, figures);
+}
+
+/* ---- all -------------------------------------------------------------------------------------- */
+
+static void print(const struct grid *grid, const struct verdicts *verdicts, int has_opencv)
+{
+    printf(
+        "hough: 30 x 30 km, 7 scans, distinct scans count, %d votes; (21): so many are on 3 lines\n"
+        "plain: without pruning; a vote: a point in a row of theta; KiB: ours and the plane with "
+        "the "
+        "points, OpenCV's program\n",
+        HOUGH_MIN_VOTES);
+    grid_print(grid, stdout);
+    printf("\n");
+    verdicts_print(verdicts, stdout);
+    printf("%sinstructions a vote: make instructions\n\n",
+           has_opencv ? "" : "- : OpenCV's was not built (make bench-opencv), its bars are open\n");
 }
 
 void bench_hough(const struct bench *bench)
 {
     struct rho_accumulator *accumulator = must_alloc(sizeof *accumulator);
-    struct grid grid =
-        grid_start(1, "cells|points|ms a call|ns a vote|dense ms|over|OpenCV ms|over");
-    for (size_t size = 0; size < sizeof cell_sizes / sizeof cell_sizes[0]; size++) {
-        for (size_t i = 0; i < sizeof point_counts / sizeof point_counts[0]; i++) {
-            add_row(bench, &grid, accumulator, size, point_counts[i]);
+    struct verdicts verdicts = verdicts_start();
+    struct grid grid = grid_start(1, "cells|points|ms|ns a vote|plain ms|ns a vote|dense ms|over|"
+                                     "OpenCV ms|over|KiB|dense|OpenCV");
+    int has_opencv = 1;
+    for (size_t i = 0; i < NUM_JOBS; i++) {
+        struct figures figures = measure(accumulator, &jobs[i], bench->seed);
+        add_row(&grid, &jobs[i], &figures);
+        judge(&verdicts, &jobs[i], &figures);
+        has_opencv = has_opencv && !isnan(figures.opencv.us);
+        if (bench->json) {
+            add_numbers(bench->json, &jobs[i], &figures);
         }
     }
-    if (!bench->json) {
-        printf("hough: 30 x 30 km, 7 scans, distinct scans count; streamed rows of %zu bytes\n",
-               sizeof accumulator->rows + sizeof accumulator->votes);
-        grid_print(&grid, stdout);
-        printf("\n");
+    if (bench->json) {
+        verdicts_to_json(&verdicts, bench->json);
+    } else {
+        print(&grid, &verdicts, has_opencv);
     }
+    verdicts_free(&verdicts);
     grid_free(&grid);
     free(accumulator);
 }
