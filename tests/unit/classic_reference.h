@@ -255,7 +255,7 @@ static inline enum verdict is_gated(unsigned a, unsigned b)
                 verdict(d, (double)config.v_max_mps * dt, GATE_SLACK * d));
 }
 
-/* Of scan - 1 and scan; two plots in one place have no line. */
+/* Of scan - 1 and scan, those that may vote; two plots in one place have no line. */
 static inline struct pairs pairs_of(unsigned scan)
 {
     struct pairs pairs = {NULL, 0};
@@ -266,8 +266,9 @@ static inline struct pairs pairs_of(unsigned scan)
     pairs.list = malloc(((middle - from) * (end - middle) + 1) * sizeof *pairs.list);
     for (unsigned a = (unsigned)from; a < middle; a++) {
         for (unsigned b = (unsigned)middle; b < end; b++) {
-            if (length_of(a, b) > 0.0) {
-                pairs.list[pairs.num++] = (struct pair){a, b, line_of_plots(a, b), is_gated(a, b)};
+            enum verdict gated = is_gated(a, b);
+            if (length_of(a, b) > 0.0 && (gated != NO || config.method == RHO_CLASSIC_MHT)) {
+                pairs.list[pairs.num++] = (struct pair){a, b, line_of_plots(a, b), gated};
             }
         }
     }
@@ -311,6 +312,9 @@ static inline struct nearest nearest_of(const struct pair *pair, const struct pa
     struct nearest nearest = {.surely = 0.0};
     for (size_t i = 0; i < kernels->num; i++) {
         const struct pair *kernel = &kernels->list[i];
+        if (fabs(fabs(pair->line.rho) - fabs(kernel->line.rho)) > 3.0 * (double)config.eps_rho_m) {
+            continue; /* far off, on either side */
+        }
         struct line away = offset(pair->line, kernel->line);
         enum verdict counts = both(kernel->gated, is_near(away));
         if (counts != NO) {
@@ -372,9 +376,6 @@ static inline struct worth worth_of(const struct pair *pair, const struct pairs 
     }
     if (pair->gated != YES) {
         worth.least = 0.0;
-    }
-    if (pair->gated == NO) {
-        worth = (struct worth){0.0, 0.0, 0.0};
     }
     return worth;
 }
