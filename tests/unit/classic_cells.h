@@ -106,14 +106,15 @@ static inline double weight_of(long theta, long rho)
     return closeness(away);
 }
 
+/* Whole cells; what lacks a hundredth counts as one. */
 static inline long reach_theta(void)
 {
-    return (long)(2.0 * (double)config.eps_theta_rad / (double)config.theta_cell_rad + 1e-4);
+    return (long)(2.0 * (double)config.eps_theta_rad / (double)config.theta_cell_rad + 0.01);
 }
 
 static inline long reach_rho(void)
 {
-    return (long)(2.0 * (double)config.eps_rho_m / (double)config.rho_cell_m + 1e-4);
+    return (long)(2.0 * (double)config.eps_rho_m / (double)config.rho_cell_m + 0.01);
 }
 
 static inline void vote_around(struct place own, uint32_t source, struct worth worth)

@@ -101,6 +101,75 @@ static void other_cells_and_limits_vote_as_in_double_precision(void **state)
     }
 }
 
+static void lay_crowd(int num)
+{
+    points.at.num_scans = 0;
+    for (unsigned scan = 0; scan < 5; scan++) {
+        start_scan();
+        for (int i = 0; i < num; i++) {
+            add_plot(uniform(-600.0, 600.0), uniform(-600.0, 600.0), 2.0 * scan);
+        }
+    }
+}
+
+/* From 4 rows to hundreds, reach from none to a quarter of them; the last row is a sliver, or nearly whole. */
+static void few_rows_vote_as_in_double_precision(void **state)
+{
+    (void)state;
+    random_state = 19;
+    for (int run = 0; run < 48; run++) {
+        int rows = run < 24 ? 3 + run : 20 + 19 * (run - 24);
+        double part = run % 3 ? uniform(0.0, 1.0) : run % 2 ? 0.02 : 0.98;
+        lay_crowd(12);
+        paper_all(methods[run % 4]);
+        config.theta_cell_rad = (float)(REFERENCE_PI / (rows + part));
+        config.eps_theta_rad =
+            (float)fmin(uniform(0.2, run % 7 ? 8.0 : 100.0) * (double)config.theta_cell_rad, 0.5);
+        config.eps_rho_m = (float)uniform(1.0, run % 7 ? 100.0 : 20.0);
+        config.uses_indeterminacy = run & 4;
+        expect_the_same();
+    }
+}
+
+/* The same in the parts that the embedded build has to take: all round, each in sight of the next. */
+static void parts_of_theta_vote_as_in_double_precision(void **state)
+{
+    (void)state;
+    random_state = 21;
+    for (int run = 0; run < 16; run++) {
+        double part = run % 8 < 4 ? 0.02 : 0.98;
+        lay_crowd(60);
+        paper_all(methods[run % 4]);
+        config.theta_cell_rad = (float)(REFERENCE_PI / ((run < 8 ? 200.0 : 260.0) + part));
+        config.eps_theta_rad = (run < 8 ? 0.6f : 1.1f) * config.theta_cell_rad;
+        expect_the_same();
+#ifndef RHO_PROFILE_WORKSTATION
+        assert_true(result.passes > 1);
+#endif
+    }
+}
+
+/* Numbers of lists that any build and profile must give: 32-bit FNV-1a of all cells, their places and votes. */
+static void all_builds_give_the_same_lists(void **state)
+{
+    (void)state;
+    const uint32_t known[] = {0xa98d48cd, 0x039541b4, 0x26c37f29, 0xca6d9cca};
+    random_state = 20;
+    lay_table_1(7, 10.0, 1);
+    for (size_t i = 0; i < NUM(methods); i++) {
+        uint32_t hash = 2166136261u;
+        paper_all(methods[i]);
+        find();
+        for (uint32_t k = 0; k < result.num_peaks; k++) {
+            const uint32_t words[] = {peaks[k].theta_cell, peaks[k].rho_cell, peaks[k].votes};
+            for (size_t byte = 0; byte < 12; byte++) {
+                hash = (hash ^ (words[byte / 4] >> byte % 4 * 8 & 255u)) * 16777619u;
+            }
+        }
+        assert_int_equal(hash, known[i]);
+    }
+}
+
 /* ---- the end of theta ------------------------------------------------------------------------- */
 
 static void lay_columns(double noise_m, double lean)
@@ -225,6 +294,9 @@ int main(void)
         cmocka_unit_test(clutter_votes_as_in_double_precision),
         cmocka_unit_test(the_embedded_build_takes_theta_in_parts),
         cmocka_unit_test(other_cells_and_limits_vote_as_in_double_precision),
+        cmocka_unit_test(few_rows_vote_as_in_double_precision),
+        cmocka_unit_test(parts_of_theta_vote_as_in_double_precision),
+        cmocka_unit_test(all_builds_give_the_same_lists),
         cmocka_unit_test(lines_about_the_end_of_theta_vote_as_in_double_precision),
         cmocka_unit_test(a_vertical_target_is_one_peak),
         cmocka_unit_test(a_vertical_line_is_in_the_first_row),
