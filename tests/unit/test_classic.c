@@ -356,6 +356,26 @@ static void tracks_are_those_who_voted_and_the_line_through_them(void **state)
     }
 }
 
+static void tracks_hold_with_other_cells(void **state)
+{
+    (void)state;
+    unsigned sure = 0;
+    random_state = 24;
+    for (int run = 0; run < 20; run++) {
+        lay_table_1(7, 10.0, 0);
+        paper(methods[run % 5]);
+        config.keeps_all_cells = 1;
+        config.tau = 0.1f;
+        config.rho_cell_m = (float)uniform(10.0, 60.0);
+        config.theta_cell_rad = (float)(REFERENCE_PI / uniform(6.0, run < 10 ? 60.0 : 2000.0));
+        config.eps_rho_m = (float)uniform(5.0, 100.0);
+        config.eps_theta_rad = (float)fmin(uniform(0.5, 5.0) * (double)config.theta_cell_rad, 0.5);
+        find();
+        sure += expect_tracks(1 + result.num_peaks / 10);
+    }
+    assert_true(sure > 150);
+}
+
 static void tracks_hold_round_the_end_of_theta(void **state)
 {
     (void)state;
@@ -419,6 +439,7 @@ int main(void)
         cmocka_unit_test(hough_votes_as_in_double_precision),
         cmocka_unit_test(points_or_scans_are_counted),
         cmocka_unit_test(tracks_are_those_who_voted_and_the_line_through_them),
+        cmocka_unit_test(tracks_hold_with_other_cells),
         cmocka_unit_test(tracks_hold_round_the_end_of_theta),
         cmocka_unit_test(a_cell_without_votes_has_no_track),
         cmocka_unit_test(a_single_scan_has_a_place_and_no_velocity),
