@@ -85,6 +85,19 @@ static inline void add_plot(double x, double y, double t)
     t_s[(*end)++] = (float)t;
 }
 
+/* x first: the order in which a call's arguments are computed is the compiler's. */
+static inline void add_noisy(double x, double y, double t, double noise_m)
+{
+    double dx = noise_m * normal();
+    add_plot(x + dx, y + noise_m * normal(), t);
+}
+
+static inline void add_anywhere(double x_from, double x_to, double y_from, double y_to, double t)
+{
+    double x = uniform(x_from, x_to);
+    add_plot(x, uniform(y_from, y_to), t);
+}
+
 static inline unsigned scan_start(unsigned scan)
 {
     return scan ? scan_end[scan - 1] : 0;
@@ -111,11 +124,10 @@ static inline void lay_table_1(unsigned num_scans, double noise_m, int has_clutt
         start_scan();
         for (int i = 0; i < 3; i++) {
             const double *at = targets[i];
-            add_plot(at[0] + at[1] * t + noise_m * normal(), at[2] + at[3] * t + noise_m * normal(),
-                     t);
+            add_noisy(at[0] + at[1] * t, at[2] + at[3] * t, t, noise_m);
         }
         for (unsigned n = has_clutter ? poisson_of_100() : 0; n > 0; n--) {
-            add_plot(uniform(0.0, 4000.0), uniform(-1000.0, 1500.0), t);
+            add_anywhere(0.0, 4000.0, -1000.0, 1500.0, t);
         }
     }
 }
@@ -339,7 +351,7 @@ static inline struct worth indeterminacy(const struct pair *pair, const struct n
     double dx = ((double)x_m[p->b] + (double)x_m[q->b]) / 2.0 - x;
     double dy = ((double)y_m[p->b] + (double)y_m[q->b]) / 2.0 - y;
     int is_tied = nearest->best[2].kernel && nearest->best[1].mu - nearest->best[2].mu < 1e-3;
-    if (nearest->is_vague || is_tied || hypot(dx, dy) < 50.0) {
+    if (nearest->is_vague || is_tied || hypot(dx, dy) < 200.0) {
         return (struct worth){0.0, 0.0, 1.0};
     }
     struct line away = offset(pair->line, line_along(x, y, dx, dy));

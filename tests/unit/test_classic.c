@@ -342,6 +342,7 @@ static unsigned expect_tracks(uint32_t step)
 static void tracks_are_those_who_voted_and_the_line_through_them(void **state)
 {
     (void)state;
+    unsigned sure = 0;
     random_state = 22;
     for (int run = 0; run < 20; run++) {
         lay_table_1(run % 3 ? 7 : 4, run % 2 ? 10.0 : 0.5, run < 10);
@@ -351,9 +352,9 @@ static void tracks_are_those_who_voted_and_the_line_through_them(void **state)
         config.tau = 0.3f;
         config.lambda_k = 10.0f;
         find();
-        assert_true(result.num_peaks > 0);
-        assert_true(expect_tracks(1 + result.num_peaks / 10) > 0);
+        sure += expect_tracks(1 + result.num_peaks / 10);
     }
+    assert_true(sure > 150);
 }
 
 static void tracks_hold_with_other_cells(void **state)
