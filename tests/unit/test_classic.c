@@ -396,6 +396,20 @@ static void tracks_hold_round_the_end_of_theta(void **state)
     }
 }
 
+/* A velocity does not depend on the time that the place is for, nor how far that is from the plots'. */
+static void a_velocity_holds_for_any_time(void **state)
+{
+    (void)state;
+    const float at_s[] = {0.0f, 100.0f, -600.0f, 3600.0f, 100000.0f};
+    lay_table_1(7, 0.0, 0);
+    paper(RHO_CLASSIC_IHT);
+    find();
+    for (size_t i = 0; i < NUM(at_s); i++) {
+        look_up(peaks[0]);
+        expect_track(peaks[0], at_s[i]);
+    }
+}
+
 /* Any cell may be asked for. */
 static void a_cell_without_votes_has_no_track(void **state)
 {
@@ -442,6 +456,7 @@ int main(void)
         cmocka_unit_test(tracks_are_those_who_voted_and_the_line_through_them),
         cmocka_unit_test(tracks_hold_with_other_cells),
         cmocka_unit_test(tracks_hold_round_the_end_of_theta),
+        cmocka_unit_test(a_velocity_holds_for_any_time),
         cmocka_unit_test(a_cell_without_votes_has_no_track),
         cmocka_unit_test(a_single_scan_has_a_place_and_no_velocity),
     };

@@ -271,6 +271,32 @@ static void an_object_never_initialised_is_refused(void **state)
     refuse(RHO_ERROR_STATE, &points);
 }
 
+/* As the header has it: 0.1 mm is enough for eps, RHO_LIMIT_POSITION_M the end of times too. */
+static void limits_are_those_of_the_header(void **state)
+{
+    (void)state;
+    ACCEPTED(eps_rho_m, 0.001f);
+    lay_table_1(3, 0.0, 0);
+    t_s[4] = 2.001e6f;
+    paper(RHO_CLASSIC_MHT);
+    prepare();
+    refuse(RHO_ERROR_VALUE, &points);
+}
+
+/* A hundredth of 1 / 65536 more than a vote is more than a vote. */
+static void a_threshold_between_two_numbers_is_not_rounded_down(void **state)
+{
+    (void)state;
+    lay_table_1(2, 0.0, 0);
+    paper_all(RHO_CLASSIC_IHT);
+    config.votes_min = 1.0f;
+    find();
+    assert_int_equal(result.num_peaks, 3);
+    config.votes_min = 1.000001f;
+    find();
+    assert_int_equal(result.num_peaks, 0);
+}
+
 /* ---- room ------------------------------------------------------------------------------------- */
 
 static void the_first_peaks_are_right_however_few_there_is_room_for(void **state)
@@ -566,6 +592,8 @@ int main(void)
         cmocka_unit_test(scans_out_of_order_or_too_many_are_refused),
         cmocka_unit_test(a_scan_has_65535_plots_at_most),
         cmocka_unit_test(an_object_never_initialised_is_refused),
+        cmocka_unit_test(limits_are_those_of_the_header),
+        cmocka_unit_test(a_threshold_between_two_numbers_is_not_rounded_down),
         cmocka_unit_test(the_first_peaks_are_right_however_few_there_is_room_for),
         cmocka_unit_test(a_share_as_threshold_drops_no_more_than_it_says),
 #ifndef RHO_PROFILE_WORKSTATION
