@@ -51,7 +51,7 @@ struct rho_classic_config {
      * two mirror ones, and n_rho in (25) is for either sign. theta is in [0, pi): see rho_angle_line for (9). */
     float rho_max_m, rho_cell_m, theta_cell_rad;
     /* epsilon of (15), (27), (28): kernels lie within 2 eps, ends included, in rho and in theta, also round the end of
-     * theta; so do peaks that a better one suppresses. At least 0.1 mm and 0.1 mrad, at most RHO_CLASSIC_REACH_MAX / 2
+     * theta; so do peaks that a better one suppresses. At least 1 mm and 0.1 mrad, at most RHO_CLASSIC_REACH_MAX / 2
      * cells and 0.5 rad. */
     float eps_rho_m, eps_theta_rad;
     float v_min_mps, v_max_mps; /* 0 <= v_min < v_max; IHT and NHT */
@@ -150,8 +150,8 @@ RHO_MUST_CHECK enum rho_status rho_classic_init(struct rho_classic *classic, siz
  *           with HT and RHO_VOTES_SCANS
  *   result  filled whole
  * Two plots in one place have no line and do not vote as a pair; nor do lines beyond rho_max_m.
- * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a scan, a place or time not
- * finite or beyond RHO_LIMIT_POSITION_M); nothing but *classic's scratch is changed.
+ * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a scan, a place not
+ * finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s); nothing but *classic's scratch is changed.
  * Cost: HT as rho_accumulator_find. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2 additions a vote. Then the
  * cells above the thresholds, n log n. Stack: 700 bytes, HT 1.9 KB, NHT_C 2.8 KB.
  */

@@ -10,7 +10,7 @@
 #define CLASSIC_MAGIC 0x434c4153u /* "CLAS" */
 
 #define SCAN_POINTS_MAX 65535u
-#define EPS_RHO_MIN_M 0.01f
+#define EPS_RHO_MIN_M 0.001f
 #define EPS_THETA_MIN_RAD 1.0e-4f
 #define EPS_THETA_MAX_RAD 0.5f
 #define LAMBDA_MAX 1.0e6f
@@ -199,18 +199,20 @@ void rho_classic_count_pairs(const struct rho_classic *classic,
     }
 }
 
-/* ---- HT --------------------------------------------------------------------------------------- */
-
-static uint16_t whole_votes(float votes)
+/* Thresholds rounded up: a vote less is not enough. */
+static uint32_t whole(float votes)
 {
-    uint16_t whole = (uint16_t)votes;
-    return (uint16_t)((float)whole < votes ? whole + 1u : whole > 0 ? whole : 1u);
+    uint32_t below = (uint32_t)votes;
+    uint32_t whole = (float)below < votes ? below + 1u : below;
+    return whole > 0 ? whole : 1u;
 }
+
+/* ---- HT --------------------------------------------------------------------------------------- */
 
 static enum rho_status start_accumulator(struct rho_classic *classic)
 {
     struct rho_accumulator_config plane = plane_of(&classic->config);
-    plane.min_votes = whole_votes(classic->config.votes_min);
+    plane.min_votes = (uint16_t)whole(classic->config.votes_min);
     return rho_accumulator_init(&classic->work.accumulator, sizeof classic->work.accumulator,
                                 &plane);
 }
@@ -365,10 +367,10 @@ enum rho_status rho_classic_find(struct rho_classic *classic,
     if (classic->config.method == RHO_CLASSIC_HT) {
         status = find_lines(classic, points, peaks, max_peaks, result);
     } else {
-        float least = classic->config.votes_min * (float)RHO_CLASSIC_VOTE;
         struct rho_peak_list list = {.peaks = peaks,
                                      .max_peaks = max_peaks,
-                                     .min_votes = least > 1.0f ? (uint32_t)least : 1u,
+                                     .min_votes =
+                                         whole(classic->config.votes_min * (float)RHO_CLASSIC_VOTE),
                                      .min_share = classic->config.tau};
         find_pairs(classic, points, &list, result);
     }

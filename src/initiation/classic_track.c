@@ -125,20 +125,21 @@ static uint32_t votes_with(const struct target *target, unsigned scan, uint32_t 
 
 /* ---- the fit ---------------------------------------------------------------------------------- */
 
-/* Sums of least squares, from the first plot's place and the wanted time. */
+/* Sums of least squares, from the first plot's place and time. */
 struct sums {
-    float x0_m, y0_m, n, t, tt, x, tx, y, ty;
+    float x0_m, y0_m, t0_s, n, t, tt, x, tx, y, ty;
 };
 
-static void add_plot(const struct target *target, unsigned scan, uint32_t i, float at_s,
-                     struct sums *sums, struct rho_classic_track *track)
+static void add_plot(const struct target *target, unsigned scan, uint32_t i, struct sums *sums,
+                     struct rho_classic_track *track)
 {
     const struct rho_accumulator_points *at = &target->points->at;
     if (track->num_plots == 0) {
         sums->x0_m = at->x_m[i];
         sums->y0_m = at->y_m[i];
+        sums->t0_s = target->points->t_s[i];
     }
-    float t = target->points->t_s[i] - at_s, x = at->x_m[i] - sums->x0_m,
+    float t = target->points->t_s[i] - sums->t0_s, x = at->x_m[i] - sums->x0_m,
           y = at->y_m[i] - sums->y0_m;
     sums->n += 1.0f;
     sums->t += t;
@@ -152,17 +153,17 @@ static void add_plot(const struct target *target, unsigned scan, uint32_t i, flo
     track->mask = (uint16_t)(track->mask | 1u << scan);
 }
 
-static void fit(const struct sums *sums, struct rho_classic_track *track)
+static void fit(const struct sums *sums, float at_s, struct rho_classic_track *track)
 {
     float divisor = sums->n * sums->tt - sums->t * sums->t;
-    float n = sums->n > 0.0f ? sums->n : 1.0f;
+    float n = sums->n > 0.0f ? sums->n : 1.0f, ahead_s = at_s - sums->t0_s - sums->t / n;
     track->has_velocity = track->scans >= 2 && divisor > 1.0e-6f * sums->n * sums->tt;
     if (track->has_velocity) {
         track->vx_mps = (sums->n * sums->tx - sums->t * sums->x) / divisor;
         track->vy_mps = (sums->n * sums->ty - sums->t * sums->y) / divisor;
     }
-    track->x_m = sums->x0_m + (sums->x - sums->t * track->vx_mps) / n;
-    track->y_m = sums->y0_m + (sums->y - sums->t * track->vy_mps) / n;
+    track->x_m = sums->x0_m + sums->x / n + track->vx_mps * ahead_s;
+    track->y_m = sums->y0_m + sums->y / n + track->vy_mps * ahead_s;
 }
 
 /* ---- who voted -------------------------------------------------------------------------------- */
@@ -206,11 +207,11 @@ static void look_at_plots(const struct target *target, float at_s, struct rho_cl
         for (uint32_t i = rho_classic_scan_start(points, scan); i < end; i++) {
             if (is_alone ? votes_alone(target, scan, i, track)
                          : votes_in_pair(target, scan, i, track)) {
-                add_plot(target, scan, i, at_s, &sums, track);
+                add_plot(target, scan, i, &sums, track);
             }
         }
     }
-    fit(&sums, track);
+    fit(&sums, at_s, track);
 }
 
 void rho_classic_look(struct rho_classic *classic, const struct rho_classic_points *points,

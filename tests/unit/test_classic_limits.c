@@ -271,13 +271,13 @@ static void an_object_never_initialised_is_refused(void **state)
     refuse(RHO_ERROR_STATE, &points);
 }
 
-/* As the header has it: 0.1 mm is enough for eps, RHO_LIMIT_POSITION_M the end of times too. */
+/* As the header has it: 1 mm is enough for eps, 1e9 s the end of times. */
 static void limits_are_those_of_the_header(void **state)
 {
     (void)state;
     ACCEPTED(eps_rho_m, 0.001f);
     lay_table_1(3, 0.0, 0);
-    t_s[4] = 2.001e6f;
+    t_s[4] = 1.001e9f;
     paper(RHO_CLASSIC_MHT);
     prepare();
     refuse(RHO_ERROR_VALUE, &points);

@@ -59,7 +59,7 @@
     X(D_RHO_M, "d_rho_m", "m", 5, 0.001, 1e5, 0, 1, "ht, mht, iht, nht: cell of rho")              \
     X(D_THETA_RAD, "d_theta_rad", "rad", 0.001, 1e-4, 0.5, 0, 1,                                   \
       "ht, mht, iht, nht: cell of theta")                                                          \
-    X(EPS_RHO_M, "eps_rho_m", "m", 20, 0.01, 1e5, 0, 1,                                            \
+    X(EPS_RHO_M, "eps_rho_m", "m", 20, 0.001, 1e5, 0, 1,                                           \
       "ht, mht, iht, nht: within 2 of it lines are neighbours, and peaks are one")                 \
     X(EPS_THETA_RAD, "eps_theta_rad", "rad", 0.004, 1e-4, 0.5, 0, 1, "the same in theta")          \
     X(P_FALSE, "p_false", "-", 0.01, 0, 1, 0, 1, "nht: P_F, false alarm rate of the sensor")       \
