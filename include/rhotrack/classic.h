@@ -54,16 +54,16 @@ struct rho_classic_config {
      * theta; so do peaks that a better one suppresses. At least 1 mm and 0.1 mrad, at most RHO_CLASSIC_REACH_MAX / 2
      * cells and 0.5 rad. */
     float eps_rho_m, eps_theta_rad;
-    float v_min_mps, v_max_mps; /* 0 <= v_min < v_max; IHT and NHT */
+    float v_min_mps, v_max_mps; /* 0 <= v_min < v_max <= RHO_LIMIT_SPEED_MPS; IHT and NHT */
     /* P_F and lambda_k of (29): F = lambda_k P_F^2, and a pair whose T and I are below F does not vote. (24) and (30) cannot
-     * both hold: votes are max(T, I), and F only this threshold. p_false 0 .. 1, lambda_k >= 0. */
+     * both hold: votes are max(T, I), and F only this threshold. p_false 0 .. 1, lambda_k 0 .. 1e6. */
     float p_false, lambda_k;
     /* I: how near the pair's line is to that between the two best kernels, through the midpoints of their plots. It changes
      * nothing that could be measured; 0: left out */
     int uses_indeterminacy;
     enum rho_accumulator_votes votes; /* HT only; the paper counts points */
-    /* Thresholds: share of the most votes, eq. (32), 0 .. 1 (the paper gives none); and votes, which (32) lacks: by it
-     * clutter alone always has a "target". */
+    /* Thresholds: share of the most votes, eq. (32), 0 .. 1 (the paper gives none); and votes, 0 .. 65535, which (32)
+     * lacks: by it clutter alone always has a "target". */
     float tau, votes_min;
     int keeps_all_cells; /* no suppression: every cell above the thresholds is listed */
 };

@@ -215,6 +215,10 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
         return status;
     }
     unsigned num_points = count_points(points);
+    if (num_points == 0) { /* the arrays may be NULL */
+        memset(result, 0, sizeof *result);
+        return RHO_OK;
+    }
     struct rho_accumulator_pass pass = {.accumulator = accumulator,
                                         .points = points,
                                         .list = {.peaks = peaks,
