@@ -213,17 +213,17 @@ static void match_peak(struct match *match, const struct classic_data *data,
     }
 }
 
-static struct match match_peaks(const struct classic_data *data, const struct peaks *peaks)
+static void match_peaks(const struct classic_data *data, const struct peaks *peaks,
+                        struct match *match)
 {
     struct classic_line truth[INITIATION_TARGETS_MAX];
-    struct match match = {.num_false = 0};
+    memset(match, 0, sizeof *match);
     for (size_t target = 0; target < data->plan.num_targets; target++) {
         truth[target] = classic_true_line(&data->plan, target);
     }
     for (uint32_t i = 0; i < peaks->count; i++) {
-        match_peak(&match, data, truth, peaks, i);
+        match_peak(match, data, truth, peaks, i);
     }
-    return match;
 }
 
 static void set_figures(struct classic_run *run, const struct classic_data *data,
@@ -290,7 +290,8 @@ static struct classic_run run_paper(struct classic_tools *tools, const struct cl
     struct rho_classic_result result = classic_find(tools, &config, &tools->points);
     run.time_us = (double)(clock_us() - start_us);
     struct peaks peaks = peaks_of(tools, result.num_peaks);
-    struct match match = match_peaks(data, &peaks);
+    struct match match;
+    match_peaks(data, &peaks, &match);
     double listed = (double)config.tau * result.votes_max / RHO_CLASSIC_VOTE;
     set_figures(&run, data, &match);
     set_heights(&run, tools, data, fmax(match.false_votes, listed), ideal_votes);
@@ -315,7 +316,8 @@ static struct classic_run run_kernel(struct classic_tools *tools, const struct c
         peaks.lines[i] = line_of(atan2((double)track->vx_mps, -(double)track->vy_mps),
                                  (double)track->x_m, (double)track->y_m);
     }
-    struct match match = match_peaks(data, &peaks);
+    struct match match;
+    match_peaks(data, &peaks, &match);
     set_figures(&run, data, &match);
     run.value[CLASSIC_DISCRIMINATION] = run.value[CLASSIC_DECLINE] = run.value[CLASSIC_VOTES] = NAN;
     run.time_us = judged.time_us;
