@@ -78,6 +78,11 @@
 /* Chains in which these pairs are found by their line. RAM: 2 bytes each. A power of two. */
 #define RHO_CLASSIC_CHAINS RHO_CONFIG_PICK(256, 16384)
 
+/* Bearings of one scan of a passive sensor; the rest get the fate NO_ROOM. 1 .. 64. */
+#ifndef RHO_MAX_BEARINGS
+#define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
+#endif
+
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
@@ -124,6 +129,9 @@
 #endif
 #if RHO_MAX_CLASSIC_KERNELS < 16 || RHO_MAX_CLASSIC_KERNELS > 65534
 #error "RHO_MAX_CLASSIC_KERNELS must be 16 .. 65534"
+#endif
+#if RHO_MAX_BEARINGS < 1 || RHO_MAX_BEARINGS > 64
+#error "RHO_MAX_BEARINGS must be 1 .. 64"
 #endif
 #if RHO_MAX_TRACKS < 1 || RHO_MAX_TRACKS > 8192
 #error "RHO_MAX_TRACKS must be 1 .. 8192"
