@@ -79,6 +79,32 @@ struct rho_scan {
     const struct rho_plot *plots; /* num_plots of them; may be NULL for 0 */
 };
 
+/* One bearing of a sensor that measures nothing else. */
+struct rho_bearing {
+    int32_t offset_us; /* time of this bearing after the scan's time */
+    float bearing_rad; /* from the sensor to the target, -pi .. pi */
+    float sigma_rad;   /* RHO_LIMIT_SIGMA_RAD_MIN .. RHO_LIMIT_SIGMA_RAD_MAX */
+    float snr_db;      /* 0 where unknown; passed on, not used */
+};
+
+/* One look of one passive sensor. The bearings stay the caller's and are only read. */
+struct rho_bearing_scan {
+    int64_t time_us;
+    int32_t sensor_id;
+    float x_m, y_m; /* the sensor's place, the same at every look */
+    /* counter-clockwise from .. to; equal: the whole circle */
+    float sector_from_rad, sector_to_rad;
+    uint32_t num_bearings;
+    const struct rho_bearing *bearings; /* num_bearings of them; may be NULL for 0 */
+};
+
+/* Looks of several passive sensors at one time. */
+struct rho_frame {
+    int64_t time_us;
+    uint32_t num_scans;
+    const struct rho_bearing_scan *scans; /* one a sensor at most */
+};
+
 /* What is known of a sensor. Scans of a sensor that was never described use the tracker's defaults. */
 struct rho_sensor {
     int32_t sensor_id;
