@@ -83,6 +83,37 @@
 #define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
 #endif
 
+/* Passive sensors, and frames of them in a batch. RAM: 17 bytes a bearing, sensor and frame. 2 .. 8; 4 .. 16. */
+#ifndef RHO_MAX_PASSIVE_SENSORS
+#define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 4)
+#endif
+#ifndef RHO_MAX_PASSIVE_SCANS
+#define RHO_MAX_PASSIVE_SCANS RHO_CONFIG_PICK(8, 16)
+#endif
+
+/* Crossings that vote; the least certain give way. RAM: 24 bytes a crossing. 16 .. 65535. */
+#ifndef RHO_MAX_PASSIVE_POINTS
+#define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 1024)
+#endif
+
+/* Fitted hypotheses that compete in the selection. RAM: 24 bytes, and a byte a sensor and frame. 8 .. 255. */
+#ifndef RHO_MAX_PASSIVE_CANDIDATES
+#define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
+#endif
+
+/* Tracks of a batch. 1 .. 64. */
+#ifndef RHO_MAX_PASSIVE_TRACKS
+#define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
+#endif
+
+/* Cells of the passive Hough transform. RAM: 2 bytes a cell. */
+#ifndef RHO_PASSIVE_THETA_CELLS
+#define RHO_PASSIVE_THETA_CELLS 36
+#endif
+#ifndef RHO_PASSIVE_RHO_CELLS
+#define RHO_PASSIVE_RHO_CELLS 128
+#endif
+
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive: track initiation from bearings of two to RHO_MAX_PASSIVE_SENSORS sensors that stand still.
+ *
+ * Every pair of bearings of two sensors crosses somewhere, at a target or at a ghost. A batch of scans is searched in five
+ * steps:
+ *
+ *   1 cross     all pairs of sensors, scan by scan; ghosts are pruned (ghost), and with three sensors or more a crossing
+ *               needs a bearing of a third one
+ *   2 vote      crossings vote for lines (rho, theta), spread as far as their covariance says; a cell's votes are
+ *               distinct scans
+ *   3 propose   pairs of a line's crossings give constant velocities; those that most bearings agree with are fitted to
+ *               the bearings (Gauss-Newton, nearest bearing of each scan and sensor)
+ *   4 select    the tracks whose log-odds add up to the most when no bearing counts twice, all at once
+ *   5 again     on the bearings that nobody has claimed, with fewer votes and without the third sensor; then one
+ *               selection of all
+ *
+ * Source: the passive Hough transform paper (see crossing.h) for steps 1 and 2; it takes lines of crossings for tracks. A
+ * line knows no time, and straight lines of ghosts pass: steps 3 to 5 are what src/DESIGN.md derives instead.
+ */
+#ifndef RHOTRACK_PASSIVE_H
+#define RHOTRACK_PASSIVE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/ghost.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+struct rho_passive_config {
+    uint16_t scans;          /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
+    float range_max_m;       /* no sensor sees farther: 1000 .. 500000 */
+    float v_max_mps;         /* of targets: 1 .. RHO_LIMIT_SPEED_MPS */
+    float pd;                /* probability that a sensor sees a target in a scan: 0.01 .. 0.999 */
+    float field_of_view_rad; /* that false bearings are spread over: 0.01 .. 2 pi */
+    float hits_min; /* share of the scans and sensors that a track has a bearing of: 0.1 .. 1 */
+    float
+        rho_cell_m; /* 2 (range_max_m + the farthest sensor) over it: at most RHO_PASSIVE_RHO_CELLS */
+    float theta_cell_rad;     /* pi over it: at most RHO_PASSIVE_THETA_CELLS */
+    enum rho_ghost_rule rule; /* of step 1 */
+};
+
+struct rho_passive_sensor {
+    int32_t sensor_id;
+    float x_m, y_m;
+};
+
+/* One held bearing. */
+struct rho_passive_bearing {
+    float cosine, sine, bearing_rad;
+    float sigma_rad;
+};
+
+/* A track found: constant velocity, at the newest scan's time. */
+struct rho_passive_track {
+    float x_m, y_m, vx_mps, vy_mps;
+    float covariance[10]; /* of these four, lower triangle */
+    int32_t score_mnat;   /* log-odds that its bearings are one target's */
+    float chi2;           /* of the bearings, hits - 4 degrees of freedom */
+    uint16_t hits;        /* bearings */
+    uint16_t scans;       /* bit k: a bearing of scan k, 0 the oldest */
+    /* by scan and sensor: the bearing's place among those held of that scan and sensor, from 1; 0: none */
+    uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+};
+
+/* What a search did, and what its capacities cut. All saturate. */
+struct rho_passive_work {
+    uint32_t crossings,
+        ghosts;              /* of the first pass: all pairs of bearings; removed before voting */
+    uint32_t points_dropped; /* crossings beyond RHO_MAX_PASSIVE_POINTS: the least certain */
+    uint32_t peaks;          /* lines looked at */
+    uint32_t hypotheses;     /* pairs of crossings scored */
+    uint32_t fits;
+    uint32_t candidates_dropped; /* beyond RHO_MAX_PASSIVE_CANDIDATES */
+};
+
+/* A crossing that was not pruned; places from the sensors' middle. */
+struct rho_passive_point {
+    float x_m, y_m;
+    float xx_m2, xy_m2, yy_m2;
+    uint16_t scan;
+    uint16_t reserved; /* 0 */
+};
+
+/* A fitted hypothesis: place at mid-batch, and half the way flown in the batch. */
+struct rho_passive_candidate {
+    float state_m[4];
+    float score_nat;
+    uint16_t hits;
+    uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+};
+
+struct rho_passive {
+    uint32_t magic;
+    struct rho_passive_config config;
+    uint16_t num_sensors, num_scans;
+    uint16_t num_tracks; /* found by the last search, the best score first */
+    uint16_t num_candidates;
+    uint32_t num_points;
+    struct rho_passive_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
+    struct rho_passive_work work;
+    struct rho_passive_track tracks[RHO_MAX_PASSIVE_TRACKS];
+    /* the last scans, oldest first */
+    int64_t time_us[RHO_MAX_PASSIVE_SCANS];
+    uint8_t num_bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]; /* the sensor reported */
+    uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
+    struct rho_passive_bearing bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]
+                                       [RHO_MAX_BEARINGS];
+    /* scratch of a search */
+    uint16_t cells[RHO_PASSIVE_THETA_CELLS][RHO_PASSIVE_RHO_CELLS]; /* a bit a scan */
+    struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
+    struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
+    uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES]; /* bearings */
+};
+
+/* scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, cells of 2 km and 5 degrees, the safe
+ * rule. Constant cost. */
+void rho_passive_config_default(struct rho_passive_config *config);
+
+/*
+ * Prepares an empty batch; the config is copied.
+ *   size   sizeof(struct rho_passive) of the caller
+ * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(passive) bytes cleared.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
+                                                const struct rho_passive_config *config);
+
+/*
+ * Takes a frame; the oldest leaves when the batch is full. A sensor is known from its first scan on.
+ *   fates  one a bearing, in the order of the frame's scans; HELD ones are taken, and become INVALID (not finite, beyond
+ *          +-pi, sigma outside its limits) or NO_ROOM (beyond RHO_MAX_BEARINGS) where they cannot be
+ * Errors: NULL, STATE (not initialised, or the frame is not newer than the newest), CAPACITY (more sensors than
+ * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, in another place than before, nearer than
+ * RHO_CROSSING_BASE_MIN_M to another, or beyond what the cells of rho hold); nothing is changed. Cost: the bearings, and
+ * the batch moved by a frame. Stack: 100 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
+                                                const struct rho_frame *frame, uint8_t *fates);
+
+/*
+ * Searches the batch. Results: passive->tracks[0 .. num_tracks - 1].
+ * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no track.
+ * Cost: src/DESIGN.md. Stack: 2 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
+
+#endif

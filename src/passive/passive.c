@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/passive.h"
+
+#include <string.h>
+
+#include "passive_search.h"
+#include "rhotrack/approx.h"
+#include "rhotrack/types.h"
+
+#define PASSIVE_MAGIC 0x50415353u /* "PASS" */
+
+#define SCANS_MIN 4u
+#define LINES_MAX 96u
+#define DENSITY_MIN_PER_RAD 0.3f
+#define SQRT_TWO_PI 2.50662827f
+
+/* ---- setting up ------------------------------------------------------------------------------- */
+
+void rho_passive_config_default(struct rho_passive_config *config)
+{
+    *config = (struct rho_passive_config){.scans = 8,
+                                          .range_max_m = 100000.0f,
+                                          .v_max_mps = 450.0f,
+                                          .pd = 0.9f,
+                                          .field_of_view_rad = RHO_PI,
+                                          .hits_min = 0.65f,
+                                          .rho_cell_m = 2000.0f,
+                                          .theta_cell_rad = RHO_PI / 36.0f,
+                                          .rule = RHO_GHOST_SAFE};
+}
+
+static int is_usable(const struct rho_passive_config *config)
+{
+    return config->scans >= SCANS_MIN && config->scans <= RHO_MAX_PASSIVE_SCANS &&
+           rho_is_within(config->range_max_m, 1000.0f, 500000.0f) &&
+           rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(config->pd, 0.01f, 0.999f) &&
+           rho_is_within(config->field_of_view_rad, 0.01f, RHO_TWO_PI) &&
+           rho_is_within(config->hits_min, 0.1f, 1.0f) &&
+           rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
+           2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS &&
+           rho_is_within(config->theta_cell_rad, 0.99f * RHO_PI / (float)RHO_PASSIVE_THETA_CELLS,
+                         0.5f) &&
+           (unsigned)config->rule <= RHO_GHOST_SAFE;
+}
+
+enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
+                                 const struct rho_passive_config *config)
+{
+    if (!passive || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *passive) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    struct rho_passive_config kept = *config; /* it may lie within *passive */
+    memset(passive, 0, sizeof *passive);
+    passive->config = kept;
+    passive->magic = PASSIVE_MAGIC;
+    return RHO_OK;
+}
+
+/* ---- frames ----------------------------------------------------------------------------------- */
+
+static float distance_m(float dx_m, float dy_m)
+{
+    return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+}
+
+/* The known sensor of this identity, or num_sensors. */
+static unsigned find_sensor(const struct rho_passive *passive, int32_t sensor_id)
+{
+    unsigned i = 0;
+    while (i < passive->num_sensors && passive->sensors[i].sensor_id != sensor_id) {
+        i++;
+    }
+    return i;
+}
+
+/* Where it was before, or apart from the other sensors, and not so far from them that lines leave the cells. */
+static int is_place(const struct rho_passive *passive, const struct rho_bearing_scan *scan)
+{
+    const struct rho_passive_config *config = &passive->config;
+    float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
+    unsigned known = find_sensor(passive, scan->sensor_id);
+    if (!rho_is_within(scan->x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) ||
+        !rho_is_within(scan->y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < passive->num_sensors; i++) {
+        const struct rho_passive_sensor *sensor = &passive->sensors[i];
+        float apart_m = distance_m(scan->x_m - sensor->x_m, scan->y_m - sensor->y_m);
+        if (i == known ? apart_m > 0.0f
+                       : apart_m < RHO_CROSSING_BASE_MIN_M || apart_m > 2.0f * reach_m) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void add_sensor(struct rho_passive *passive, const struct rho_bearing_scan *scan)
+{
+    if (find_sensor(passive, scan->sensor_id) == passive->num_sensors) {
+        passive->sensors[passive->num_sensors++] = (struct rho_passive_sensor){
+            .sensor_id = scan->sensor_id, .x_m = scan->x_m, .y_m = scan->y_m};
+    }
+}
+
+static int is_twice(const struct rho_frame *frame, uint32_t number)
+{
+    for (uint32_t i = 0; i < number; i++) {
+        if (frame->scans[i].sensor_id == frame->scans[number].sensor_id) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Learns the frame's new sensors; nothing is learnt where one of them is refused. */
+static enum rho_status meet_sensors(struct rho_passive *passive, const struct rho_frame *frame)
+{
+    uint16_t known = passive->num_sensors;
+    enum rho_status status = RHO_OK;
+    for (uint32_t i = 0; i < frame->num_scans && status == RHO_OK; i++) {
+        const struct rho_bearing_scan *scan = &frame->scans[i];
+        if (scan->num_bearings > 0 && !scan->bearings) {
+            status = RHO_ERROR_NULL;
+        } else if (is_twice(frame, i) || !is_place(passive, scan)) {
+            status = RHO_ERROR_VALUE;
+        } else if (find_sensor(passive, scan->sensor_id) == RHO_MAX_PASSIVE_SENSORS) {
+            status = RHO_ERROR_CAPACITY;
+        } else {
+            add_sensor(passive, scan);
+        }
+    }
+    passive->num_sensors = status == RHO_OK ? passive->num_sensors : known;
+    return status;
+}
+
+static void drop_oldest(struct rho_passive *passive)
+{
+    size_t left = (size_t)passive->num_scans - 1u;
+    memmove(passive->time_us, passive->time_us + 1, left * sizeof passive->time_us[0]);
+    memmove(passive->num_bearings, passive->num_bearings + 1,
+            left * sizeof passive->num_bearings[0]);
+    memmove(passive->was_seen, passive->was_seen + 1, left * sizeof passive->was_seen[0]);
+    memmove(passive->bearings, passive->bearings + 1, left * sizeof passive->bearings[0]);
+    passive->num_scans--;
+}
+
+static int is_valid(const struct rho_bearing *bearing)
+{
+    return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
+           rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
+}
+
+static void take_scan(struct rho_passive *passive, const struct rho_bearing_scan *scan,
+                      uint8_t *fates)
+{
+    unsigned k = passive->num_scans, s = find_sensor(passive, scan->sensor_id);
+    passive->was_seen[k][s] = 1;
+    for (uint32_t i = 0; i < scan->num_bearings; i++) {
+        const struct rho_bearing *from = &scan->bearings[i];
+        uint8_t *count = &passive->num_bearings[k][s];
+        if (fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        if (!is_valid(from)) {
+            fates[i] = RHO_FATE_INVALID;
+        } else if (*count == RHO_MAX_BEARINGS) {
+            fates[i] = RHO_FATE_NO_ROOM;
+        } else {
+            passive->bearings[k][s][(*count)++] =
+                (struct rho_passive_bearing){.cosine = rho_cos(from->bearing_rad),
+                                             .sine = rho_sin(from->bearing_rad),
+                                             .bearing_rad = from->bearing_rad,
+                                             .sigma_rad = from->sigma_rad};
+        }
+    }
+}
+
+enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_frame *frame,
+                                 uint8_t *fates)
+{
+    if (!passive || !frame || (frame->num_scans > 0 && (!frame->scans || !fates))) {
+        return RHO_ERROR_NULL;
+    }
+    if (passive->magic != PASSIVE_MAGIC ||
+        (passive->num_scans > 0 && frame->time_us <= passive->time_us[passive->num_scans - 1])) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = meet_sensors(passive, frame);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (passive->num_scans == passive->config.scans) {
+        drop_oldest(passive);
+    }
+    unsigned k = passive->num_scans;
+    passive->time_us[k] = frame->time_us;
+    memset(passive->num_bearings[k], 0, sizeof passive->num_bearings[k]);
+    memset(passive->was_seen[k], 0, sizeof passive->was_seen[k]);
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        take_scan(passive, &frame->scans[i], fates);
+        fates += frame->scans[i].num_bearings;
+    }
+    passive->num_scans++;
+    passive->num_tracks = 0;
+    return RHO_OK;
+}
+
+/* ---- a search --------------------------------------------------------------------------------- */
+
+static void set_places(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    float n = (float)passive->num_sensors;
+    for (unsigned s = 0; s < passive->num_sensors; s++) {
+        search->middle_x_m += passive->sensors[s].x_m / n;
+        search->middle_y_m += passive->sensors[s].y_m / n;
+    }
+    for (unsigned s = 0; s < passive->num_sensors; s++) {
+        search->x_m[s] = passive->sensors[s].x_m - search->middle_x_m;
+        search->y_m[s] = passive->sensors[s].y_m - search->middle_y_m;
+    }
+}
+
+static void set_times(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    int64_t first_us = passive->time_us[0], last_us = passive->time_us[passive->num_scans - 1];
+    search->half_s = 0.5f * rho_seconds_between(first_us, last_us);
+    for (unsigned k = 0; k < passive->num_scans; k++) {
+        search->step[k] =
+            rho_seconds_between(first_us, passive->time_us[k]) / search->half_s - 1.0f;
+    }
+}
+
+/* The density of bearings is that of the batch: a false one is as likely anywhere in the field of view. */
+static void set_odds(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    const struct rho_passive_config *config = &passive->config;
+    float total = 0.0f, log_sigmas = 0.0f;
+    for (unsigned k = 0; k < passive->num_scans; k++) {
+        for (unsigned s = 0; s < passive->num_sensors; s++) {
+            search->looks += passive->was_seen[k][s];
+            total += (float)passive->num_bearings[k][s];
+            for (unsigned i = 0; i < passive->num_bearings[k][s]; i++) {
+                log_sigmas += rho_log(passive->bearings[k][s][i].sigma_rad);
+            }
+        }
+    }
+    float looks = search->looks > 0 ? (float)search->looks : 1.0f;
+    float density = total / looks / config->field_of_view_rad;
+    density = density > DENSITY_MIN_PER_RAD ? density : DENSITY_MIN_PER_RAD;
+    search->hit_nat = rho_log(config->pd / (density * SQRT_TWO_PI));
+    search->miss_nat = rho_log(1.0f - config->pd);
+    search->share_nat =
+        search->hit_nat - log_sigmas / (total > 0.0f ? total : 1.0f) - search->miss_nat;
+    search->hits_min = (unsigned)(config->hits_min * looks + 0.999f);
+}
+
+static void set_cells(struct rho_passive_search *search)
+{
+    const struct rho_passive_config *config = &search->passive->config;
+    search->theta_cells = (uint16_t)(RHO_PI / config->theta_cell_rad + 0.5f);
+    search->rho_cells = RHO_PASSIVE_RHO_CELLS;
+    for (unsigned i = 0; i < search->theta_cells; i++) {
+        float theta_rad = ((float)i + 0.5f) * RHO_PI / (float)search->theta_cells;
+        search->cosine[i] = rho_cos(theta_rad);
+        search->sine[i] = rho_sin(theta_rad);
+    }
+}
+
+/* One pass over the lines of the bearings that are there. */
+static void pass(struct rho_passive_search *search, float votes_share)
+{
+    struct rho_passive_line line;
+    float votes = votes_share * (float)search->passive->num_scans;
+    unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
+    rho_passive_cross(search);
+    rho_passive_vote(search);
+    for (unsigned i = 0; i < LINES_MAX && rho_passive_next_line(search, votes_min, &line); i++) {
+        search->passive->work.peaks = rho_count(search->passive->work.peaks, 1);
+        rho_passive_propose(search, &line);
+    }
+}
+
+enum rho_status rho_passive_search(struct rho_passive *passive)
+{
+    if (!passive) {
+        return RHO_ERROR_NULL;
+    }
+    if (passive->magic != PASSIVE_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    struct rho_passive_search search = {.passive = passive};
+    memset(&passive->work, 0, sizeof passive->work);
+    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
+    passive->num_tracks = passive->num_candidates = 0;
+    if (passive->num_scans < SCANS_MIN || passive->num_sensors < 2) {
+        return RHO_OK;
+    }
+    set_places(&search);
+    set_times(&search);
+    set_odds(&search);
+    set_cells(&search);
+    pass(&search, 0.6f);
+    rho_passive_select(&search);
+    search.is_second = 1;
+    pass(&search, 0.5f);
+    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
+    rho_passive_select(&search);
+    return RHO_OK;
+}
