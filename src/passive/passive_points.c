@@ -13,7 +13,7 @@
 #define PAIR_SCANS_MIN 3 /* apart: nearer ones say little of the velocity */
 #define SPEED_SLACK_MPS 150.0f
 #define LINE_POINTS_MAX 160u
-#define FITS_PER_LINE 10u
+#define FITS_PER_LINE 20u
 
 /* ---- crossings -------------------------------------------------------------------------------- */
 

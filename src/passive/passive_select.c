@@ -6,6 +6,7 @@
 
 #define TWIN_SHARE 0.8f
 #define STARTS 12u
+#define GAIN_MIN_NAT 1.0e-3f /* what rounding cannot make */
 
 /* ---- candidates ------------------------------------------------------------------------------- */
 
@@ -131,7 +132,7 @@ static void flip(struct choice *choice, unsigned which)
 static unsigned find_gain(const struct choice *choice, unsigned but)
 {
     unsigned best = choice->count;
-    float most = 0.0f;
+    float most = GAIN_MIN_NAT;
     for (unsigned i = 0; i < choice->count; i++) {
         if (!choice->is_in[i] && i != but && choice->gain_nat[i] > most) {
             most = choice->gain_nat[i];
@@ -147,26 +148,35 @@ static void fill_up(struct choice *choice, unsigned but)
     for (unsigned added; (added = find_gain(choice, but)) < choice->count;) {
         flip(choice, added);
         for (unsigned i = 0; i < choice->count; i++) {
-            if (choice->is_in[i] && i != added && choice->gain_nat[i] < 0.0f) {
+            if (choice->is_in[i] && i != added && choice->gain_nat[i] < -GAIN_MIN_NAT) {
                 flip(choice, i);
             }
         }
     }
 }
 
+/* Leaves one out and fills up again. Returns whether that is more. */
+static int leave_out(struct choice *choice, unsigned which)
+{
+    struct choice tried = *choice;
+    flip(&tried, which);
+    fill_up(&tried, which);
+    if (!(tried.total_nat > choice->total_nat + GAIN_MIN_NAT)) {
+        return 0;
+    }
+    *choice = tried;
+    return 1;
+}
+
 static void improve(struct choice *choice)
 {
-    for (unsigned i = 0; i < choice->count; i++) {
-        if (choice->is_in[i]) {
-            struct choice tried = *choice;
-            flip(&tried, i);
-            fill_up(&tried, i);
-            if (tried.total_nat > choice->total_nat + 1.0e-3f) {
-                *choice = tried;
-                i = 0;
-            }
+    int is_better;
+    do {
+        is_better = 0;
+        for (unsigned i = 0; i < choice->count; i++) {
+            is_better |= choice->is_in[i] && leave_out(choice, i);
         }
-    }
+    } while (is_better);
 }
 
 /* Candidates by score, best first. */
