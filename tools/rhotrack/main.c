@@ -35,8 +35,9 @@ static const struct command commands[] = {
      "so\n"
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
-     "same-line, clutter, slow-turn, traffic, polar (polar.csv: a turning radar's plots); their\n"
-     "parameters are set by --set.\n"},
+     "same-line, clutter, slow-turn, traffic, polar (polar.csv: a turning radar's plots),\n"
+     "passive-two, passive-three, passive-clutter (bearings.csv); their parameters are set by "
+     "--set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS", 2, 2, "jsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a "
      "tracks\n"
