@@ -64,8 +64,9 @@ bool bearing_row_read(const struct table *table, const struct bearing_columns *c
                       const struct parameters *parameters, struct bearing_row *bearing_row,
                       char reason[ROW_REASON_BYTES])
 {
-    const struct row_check check = {.table = table, .row = row, .reason = reason};
+    struct row_check check = {.table = table, .row = row};
 
+    check.reason = reason;
     *bearing_row = (struct bearing_row){.has_bearing = false};
     if (!row_key(&check, columns->t_s, columns->sensor_id, &bearing_row->time_us,
                  &bearing_row->sensor_id) ||

@@ -312,8 +312,7 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
                    const struct parameters *parameters, struct plot_row *plot_row,
                    char reason[PLOT_ROW_REASON_BYTES])
 {
-    struct checking checking = {.cells = {.table = table, .row = row, .reason = reason},
-                                .columns = columns};
+    struct checking checking = {.cells = {.table = table, .row = row}, .columns = columns};
     const int measured[] = {
         columns->x_m,           columns->y_m,           columns->z_m,
         columns->vx_mps,        columns->vy_mps,        columns->vz_mps,
@@ -321,6 +320,7 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
         columns->elevation_rad, columns->elevation_deg, columns->range_rate_mps};
     bool has_measurement = false;
 
+    checking.cells.reason = reason;
     *plot_row = (struct plot_row){.has_plot = false};
     if (!row_key(&checking.cells, columns->t_s, columns->sensor_id, &plot_row->time_us,
                  &plot_row->sensor_id) ||
