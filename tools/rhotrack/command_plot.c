@@ -7,67 +7,21 @@
 #include "commands.h"
 #include "common.h"
 #include "gospa.h"
+#include "map.h"
 #include "picture.h"
+#include "plot_bearings.h"
 #include "plot_data.h"
 #include "rhotrack/angle.h"
 
 #define PI 3.14159265358979323846
 #define LEGEND_TRACKS_MAX 8 /* more tracks than that get no line of their own in the legend */
-#define KILOMETRES_FROM_M 4000.0
 
 /* ---- maps ------------------------------------------------------------------------------------- */
 
-struct map {
-    FILE *script;
-    double unit_m; /* 1 or 1000 */
-};
-
-static double extent_m(const struct plot_points *points)
-{
-    double largest = 0.0;
-    for (size_t i = 1; i < points->count; i++) {
-        largest = fmax(largest, fabs(points->list[i].x_m - points->list[0].x_m));
-        largest = fmax(largest, fabs(points->list[i].y_m - points->list[0].y_m));
-    }
-    return largest;
-}
-
-static struct map map_start(struct picture *picture, const struct plot_data *data)
-{
-    double largest =
-        fmax(extent_m(&data->plots), fmax(extent_m(&data->tracks), extent_m(&data->truth)));
-    struct map map = {picture->script, largest > KILOMETRES_FROM_M ? 1000.0 : 1.0};
-    const char *unit = map.unit_m > 1.0 ? "km" : "m";
-    fprintf(map.script,
-            "set size ratio -1\nset key outside top center horizontal\nset xlabel 'x east "
-            "(%s)'\nset ylabel 'y north (%s)'\n",
-            unit, unit);
-    return map;
-}
-
-static void put_point(const struct map *map, const struct plot_point *point)
-{
-    fprintf(map->script, "%.6g %.6g %.6g %d\n", point->x_m / map->unit_m, point->y_m / map->unit_m,
-            (double)point->time_us * 1e-6, point->id);
-}
-
-/* One data block; identities are apart by two blank lines. */
-static void put_points(const struct map *map, const char *name, const struct plot_points *points)
-{
-    fprintf(map->script, "$%s << EOD\n", name);
-    for (size_t i = 0; i < points->count; i++) {
-        if (i > 0 && points->list[i].id != points->list[i - 1].id) {
-            fprintf(map->script, "\n\n");
-        }
-        put_point(map, &points->list[i]);
-    }
-    fprintf(map->script, "EOD\n");
-}
-
 static void draw_scans(struct picture *picture, const struct plot_data *data)
 {
-    struct map map = map_start(picture, data);
-    put_points(&map, "plots", &data->plots);
+    struct map map = map_start(picture->script, data);
+    map_put_points(&map, "plots", &data->plots);
     fprintf(map.script, "set key off\nset cblabel 'time (s)'\nset palette defined (0 '#00204d', "
                         "0.5 '#7c7b78', 1 '#ffd940')\n"
                         "plot $plots using 1:2:3 with points pt 7 ps 0.45 lc palette\n");
@@ -92,8 +46,8 @@ static void put_start_lines(const struct map *map, const struct plot_data *data)
                 : 0.0;
         origin.x_m -= back_s * start->vx_mps;
         origin.y_m -= back_s * start->vy_mps;
-        put_point(map, &origin);
-        put_point(map, start);
+        map_put_point(map, &origin);
+        map_put_point(map, start);
         fprintf(map->script, "\n\n");
     }
     fprintf(map->script, "EOD\n");
@@ -148,10 +102,10 @@ static void plot_track_lines(const struct map *map, const struct plot_points *tr
 
 static void draw_tracks(struct picture *picture, const struct plot_data *data)
 {
-    struct map map = map_start(picture, data);
-    put_points(&map, "plots", &data->plots);
-    put_points(&map, "truth", &data->truth);
-    put_points(&map, "tracks", &data->tracks);
+    struct map map = map_start(picture->script, data);
+    map_put_points(&map, "plots", &data->plots);
+    map_put_points(&map, "truth", &data->truth);
+    map_put_points(&map, "tracks", &data->tracks);
     put_start_lines(&map, data);
     put_labels(&map, &data->tracks);
     fprintf(map.script, "plot NaN notitle");
@@ -266,7 +220,7 @@ static void draw_parameter_space(struct picture *picture, const struct plot_data
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
     cast_votes(votes, &data->plots);
-    double unit_m = votes->rho_max_m - votes->rho_min_m > KILOMETRES_FROM_M ? 1000.0 : 1.0;
+    double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
     put_lines(picture->script, &data->tracks, unit_m);
     fprintf(
@@ -419,6 +373,13 @@ static void need(const struct plot_points *points, const char *kind, const char 
 
 static void check_content(const char *kind, const struct plot_data *data)
 {
+    if (data->bearings.num_sensors && strcmp(kind, "scans") != 0) {
+        fail(EXIT_USAGE, "plot %s: bearings (column 'bearing_rad') are shown by plot scans alone",
+             kind);
+    }
+    if (strcmp(kind, "scans") == 0 && data->bearings.num_sensors) {
+        return;
+    }
     if (strcmp(kind, "scans") == 0 || strcmp(kind, "parameter-space") == 0) {
         need(&data->plots, kind, "plots (t_s, x_m, y_m)");
     } else if (strcmp(kind, "errors") == 0) {
@@ -434,7 +395,9 @@ static void check_content(const char *kind, const struct plot_data *data)
 static void draw(const char *kind, struct picture *picture, const struct plot_data *data,
                  double cutoff_m)
 {
-    if (strcmp(kind, "scans") == 0) {
+    if (strcmp(kind, "scans") == 0 && data->bearings.num_sensors) {
+        plot_bearings(picture, data);
+    } else if (strcmp(kind, "scans") == 0) {
         draw_scans(picture, data);
     } else if (strcmp(kind, "tracks") == 0) {
         draw_tracks(picture, data);

@@ -51,6 +51,34 @@ static void write_polar(const struct simulation *simulation, const char *folder)
     free(path);
 }
 
+/* A sensor that saw nothing has a row without a bearing. */
+static void write_look(const struct simulation *simulation, const struct simulated_look *look,
+                       FILE *file)
+{
+    char place[80];
+    snprintf(place, sizeof place, "%.6f,%zu,%g,%g", look->t_s, look->sensor + 1,
+             simulation->passive.sensors[look->sensor].x_m,
+             simulation->passive.sensors[look->sensor].y_m);
+    for (size_t i = 0; i < look->num_bearings; i++) {
+        fprintf(file, "%s,%.8f\n", place, look->bearings[i].bearing_rad);
+    }
+    if (look->num_bearings == 0) {
+        fprintf(file, "%s,\n", place);
+    }
+}
+
+static void write_bearings(const struct simulation *simulation, const char *folder)
+{
+    char *path = path_join(folder, "bearings.csv");
+    struct output output = output_open(path);
+    fprintf(output.file, "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n");
+    for (size_t i = 0; i < simulation->num_looks; i++) {
+        write_look(simulation, &simulation->looks[i], output.file);
+    }
+    output_close(&output);
+    free(path);
+}
+
 static void write_truth(const struct simulation *simulation, const char *folder)
 {
     char *path = path_join(folder, "truth.csv");
@@ -89,7 +117,9 @@ static void write_settings(const char *name, const struct simulation *simulation
     char *path = path_join(folder, "scenario.ini");
     struct output output = output_open(path);
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
-    if (simulation->radar.is_used) {
+    if (simulation->passive.is_used) {
+        fprintf(output.file, "sigma_rad = %.9g\n", simulation->passive.sigma_rad);
+    } else if (simulation->radar.is_used) {
         write_radar(&simulation->radar, simulation->interval_s, output.file);
     } else {
         fprintf(output.file, "sigma_m = %g\n", simulation->sigma_m);
@@ -110,7 +140,9 @@ static void write_run(const struct command_line *line, const char *folder, uint6
     const char *name = line->arguments[0];
     struct simulation *simulation = scenario_simulate(name, &line->parameters, line->seed, run);
     make_folder(folder);
-    if (simulation->radar.is_used) {
+    if (simulation->passive.is_used) {
+        write_bearings(simulation, folder);
+    } else if (simulation->radar.is_used) {
         write_polar(simulation, folder);
     } else {
         write_plots(simulation, folder);

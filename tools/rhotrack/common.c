@@ -80,6 +80,15 @@ void *must_realloc(void *memory, size_t bytes)
     return check_memory(realloc(memory, bytes ? bytes : 1), bytes);
 }
 
+void *must_grow(void *array, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity) {
+        return array;
+    }
+    *capacity = 2 * *capacity + 16;
+    return must_realloc(array, *capacity * size);
+}
+
 char *must_copy(const char *text)
 {
     size_t bytes = strlen(text) + 1;

@@ -26,6 +26,9 @@ void *must_alloc(size_t bytes);
 void *must_calloc(size_t count, size_t size);
 void *must_realloc(void *memory, size_t bytes);
 
+/* The array with room for one element more than count. */
+void *must_grow(void *array, size_t count, size_t *capacity, size_t size);
+
 /* The text in new memory. */
 char *must_copy(const char *text);
 

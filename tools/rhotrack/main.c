@@ -35,8 +35,9 @@ static const struct command commands[] = {
      "so\n"
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
-     "same-line, clutter, slow-turn, traffic, polar (polar.csv: a turning radar's plots); their\n"
-     "parameters are set by --set.\n"},
+     "same-line, clutter, slow-turn, traffic, polar (polar.csv: a turning radar's plots),\n"
+     "passive-two, passive-three, passive-clutter (bearings.csv); their parameters are set by "
+     "--set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS", 2, 2, "jsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a "
      "tracks\n"
@@ -48,7 +49,8 @@ static const struct command commands[] = {
      "build/experiment/NAME). Experiments: initiation, polar, false-alarms; initiation takes\n"
      "--method kernel, ht, mht, iht or nht, and without it runs all.\n"},
     {"plot", command_plot, "scans|tracks|parameter-space|errors FILES... -o FILE.svg", 2, INT_MAX,
-     "osC", "pictures", "Draws plots, tracks, the parameter space of lines, or errors, as SVG.\n"},
+     "osC", "pictures",
+     "Draws plots or bearings, tracks, the parameter space of lines, or errors, as SVG.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",

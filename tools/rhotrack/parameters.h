@@ -38,6 +38,10 @@
       "elevation noise of a polar plot")                                                           \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 1, 0.001, 1e5, 0, 1,                    \
       "range-rate noise of a plot")                                                                \
+    X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
+      "bearing noise of a passive sensor")                                                         \
+    X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
+      "bearings of different sensors within it are one frame")                                     \
     X(PD, "pd", "-", 0.9, 0.01, 0.999, 0, 1, "assumed probability of detection")                   \
     X(V_MIN_MPS, "v_min_mps", "m/s", 0, 0, 2e4, 0, 1, "slowest target")                            \
     X(V_MAX_MPS, "v_max_mps", "m/s", 700, 1, 2e4, 0, 1, "fastest target")                          \
@@ -87,6 +91,9 @@
     X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
     X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0,                                                   \
       "simulate: number of targets, where the scenario leaves it open")                            \
+    X(SENSORS, "sensors", "-", 2, 2, 4, 1, 0, "simulate passive-...: number of sensors")           \
+    X(FALSE_ALARMS, "false_alarms", "-", 0, 0, 1e4, 0, 0,                                          \
+      "simulate passive-...: mean false bearings a sensor and scan")                               \
     X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
       "simulate parallel, same-line: distance of the two targets")                                 \
     X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0,                                       \
@@ -121,6 +128,7 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
       "elevation noise of a polar plot")                                                           \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 0.001, 1e5,                             \
       "range-rate noise of a plot")                                                                \
+    X(SIGMA_RAD, "sigma_rad", "rad", 1e-6, 0.5, "bearing noise of a passive sensor")               \
     X(RANGE_BIAS_M, "range_bias_m", "m", -1e4, 1e4, "it measures ranges so much too long")         \
     X(AZIMUTH_BIAS_RAD, "azimuth_bias_rad", "rad", -0.5, 0.5,                                      \
       "it measures azimuths so much too far counter-clockwise")                                    \

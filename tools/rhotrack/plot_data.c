@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "plot_data.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "common.h"
+#include "frame_reader.h"
 #include "plot_row.h"
 #include "table.h"
 
@@ -74,6 +76,57 @@ static void add_file(struct plot_data *data, const char *path, const struct para
     table_free(table);
 }
 
+/* ---- bearings --------------------------------------------------------------------------------- */
+
+static void keep_sensors(struct plot_rays *rays, const struct frame_reader *reader)
+{
+    const struct frame_sensor *sensors = frame_reader_sensors(reader, &rays->num_sensors);
+    rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
+    for (size_t i = 0; i < rays->num_sensors; i++) {
+        rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
+                                               .x_m = (double)sensors[i].x_m,
+                                               .y_m = (double)sensors[i].y_m};
+    }
+}
+
+static void add_rays(struct plot_rays *rays, const struct rho_bearing_scan *scan, double length_m)
+{
+    size_t sensor = 0;
+    while (rays->sensors[sensor].id != scan->sensor_id) {
+        sensor++;
+    }
+    for (uint32_t i = 0; i < scan->num_bearings; i++) {
+        double bearing_rad = (double)scan->bearings[i].bearing_rad;
+        const struct plot_point *place = &rays->sensors[sensor];
+        rays->list[rays->count++] =
+            (struct plot_ray){.sensor = sensor,
+                              .x_m = place->x_m,
+                              .y_m = place->y_m,
+                              .end_x_m = place->x_m + length_m * cos(bearing_rad),
+                              .end_y_m = place->y_m + length_m * sin(bearing_rad)};
+    }
+}
+
+static void read_bearings(struct plot_rays *rays, char *const *paths, int num_paths,
+                          const struct parameters *parameters)
+{
+    struct frame_reader *reader = frame_reader_open(paths, num_paths, parameters, false);
+    const struct rho_frame *frame;
+    keep_sensors(rays, reader);
+    rays->list = must_calloc(frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
+    while ((frame = frame_reader_next(reader)) != NULL) {
+        for (uint32_t i = 0; i < frame->num_scans; i++) {
+            double range_m =
+                parameters_of_sensor(parameters, frame->scans[i].sensor_id, SENSOR_RANGE_MAX_M,
+                                     parameters->value[PARAMETER_RANGE_MAX_M]);
+            add_rays(rays, &frame->scans[i], range_m);
+        }
+    }
+    frame_reader_close(reader);
+}
+
+/* ---- all -------------------------------------------------------------------------------------- */
+
 static int by_id_and_time(const void *a, const void *b)
 {
     const struct plot_point *one = a, *other = b;
@@ -131,9 +184,19 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
                                 const struct parameters *parameters)
 {
     struct plot_data data = {0};
+    char **bearings = must_calloc((size_t)num_paths, sizeof bearings[0]);
+    int num_bearings = 0;
     for (int i = 0; i < num_paths; i++) {
-        add_file(&data, paths[i], parameters);
+        if (frame_reader_is_bearings(paths[i])) {
+            bearings[num_bearings++] = paths[i];
+        } else {
+            add_file(&data, paths[i], parameters);
+        }
     }
+    if (num_bearings > 0) {
+        read_bearings(&data.bearings, bearings, num_bearings, parameters);
+    }
+    free(bearings);
     sort_points(&data.tracks);
     sort_points(&data.truth);
     drop_unconfirmed(&data.tracks);
@@ -145,4 +208,6 @@ void plot_data_free(struct plot_data *data)
     free(data->plots.list);
     free(data->tracks.list);
     free(data->truth.list);
+    free(data->bearings.list);
+    free(data->bearings.sensors);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* plot_data: what the plot command draws: plots, tracks and truth from CSV files, told apart by their columns. */
+/* plot_data: what the plot command draws: plots, bearings, tracks and truth from CSV files, told apart by their columns. */
 #ifndef RHOTRACK_TOOL_PLOT_DATA_H
 #define RHOTRACK_TOOL_PLOT_DATA_H
 
@@ -23,13 +23,28 @@ struct plot_points {
     size_t count;
 };
 
+/* From a passive sensor as far as it sees. */
+struct plot_ray {
+    size_t sensor; /* index of the list */
+    double x_m, y_m, end_x_m, end_y_m;
+};
+
+/* All bearings of the files, and their sensors in the order of sensor_id. */
+struct plot_rays {
+    struct plot_ray *list;
+    size_t count;
+    struct plot_point *sensors;
+    size_t num_sensors;
+};
+
 struct plot_data {
     struct plot_points plots, tracks, truth;
+    struct plot_rays bearings;
 };
 
 /* Reads the files; errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. A track's rows while tentative are kept, but
- * tracks that were never confirmed are left out. The parameters say where the sensors of polar plots are, and what
- * their biases are. */
+ * tracks that were never confirmed are left out. The parameters say where the sensors of polar plots are, what their
+ * biases are, and how far passive sensors see. */
 struct plot_data plot_data_read(char *const *paths, int num_paths,
                                 const struct parameters *parameters);
 void plot_data_free(struct plot_data *data);

@@ -1,18 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "plot_row.h"
 
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-
 #include "rhotrack/measurement.h"
+#include "row_check.h"
+#include <math.h>
 
 /* A row on its way through the checks. */
 struct checking {
-    const struct table *table;
+    struct row_check cells;
     const struct plot_columns *columns;
-    size_t row;
-    char *reason;
 };
 
 /* ---- Columns ---- */
@@ -29,7 +25,7 @@ static void check_kind(const struct table *table)
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         if (table_find(table, others[i][0]) >= 0) {
             table_fail(table, TABLE_HEADER,
-                       "%s (column '%s'): this version reads Cartesian and polar plots, columns "
+                       "%s (column '%s'): Cartesian and polar plots are read here, columns "
                        "'x_m' and 'y_m' are missing",
                        others[i][1], others[i][0]);
         }
@@ -41,15 +37,6 @@ static void check_not_both(const struct table *table, int first, int second)
     if (first >= 0 && second >= 0) {
         table_fail(table, TABLE_HEADER, "both '%s' and '%s' are there", table->names[first],
                    table->names[second]);
-    }
-}
-
-/* Columns that mean something only together. */
-static void check_pair(const struct table *table, int first, int second, const char *name,
-                       const char *beside)
-{
-    if (first >= 0 && second < 0) {
-        table_fail(table, TABLE_HEADER, "no column '%s' beside '%s'", name, beside);
     }
 }
 
@@ -94,74 +81,17 @@ struct plot_columns plot_columns_find(const struct table *table)
     if (is_polar && columns.azimuth_deg < 0) {
         (void)table_need(table, "azimuth_rad");
     }
-    check_pair(table, columns.sensor_x_m, columns.sensor_y_m, "sensor_y_m", "sensor_x_m");
-    check_pair(table, columns.sensor_y_m, columns.sensor_x_m, "sensor_x_m", "sensor_y_m");
-    check_pair(table, columns.vx_mps, columns.vy_mps, "vy_mps", "vx_mps");
-    check_pair(table, columns.vy_mps, columns.vx_mps, "vx_mps", "vy_mps");
-    check_pair(table, columns.sector_from_rad, columns.sector_to_rad, "sector_to_rad",
-               "sector_from_rad");
-    check_pair(table, columns.sector_to_rad, columns.sector_from_rad, "sector_from_rad",
-               "sector_to_rad");
+    row_need_both(table, "sensor_x_m", "sensor_y_m");
+    row_need_both(table, "vx_mps", "vy_mps");
+    row_need_both(table, "sector_from_rad", "sector_to_rad");
     return columns;
 }
 
 /* ---- Cells ---- */
 
-static bool refuse(const struct checking *checking, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-static bool refuse(const struct checking *checking, const char *format, ...)
-{
-    va_list arguments;
-
-    va_start(arguments, format);
-    vsnprintf(checking->reason, PLOT_ROW_REASON_BYTES, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
-static bool refuse_cell(const struct checking *checking, int column, const char *why)
-{
-    const char *cell = table_cell(checking->table, checking->row, column);
-    const char *name = checking->table->names[column];
-
-    if (!*cell) {
-        return refuse(checking, "%s is empty", name);
-    }
-    return refuse(checking, "%s '%.40s' %s", name, cell, why);
-}
-
-static bool is_there(const struct checking *checking, int column)
-{
-    return column >= 0 && *table_cell(checking->table, checking->row, column);
-}
-
-static bool read_float(const struct checking *checking, int column, float min, float max,
-                       float *value)
-{
-    const char *cell = table_cell(checking->table, checking->row, column);
-    double number;
-    const char *why = table_number(cell, &number);
-
-    if (why) {
-        return refuse_cell(checking, column, why);
-    }
-    if (number < (double)min || number > (double)max) {
-        return refuse(checking, "%s %.40s is outside %.9g .. %.9g", checking->table->names[column],
-                      cell, (double)min, (double)max);
-    }
-    *value = (float)number;
-    return true;
-}
-
-static bool read_position(const struct checking *checking, int column, float *value)
-{
-    return read_float(checking, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, value);
-}
-
 static bool read_speed(const struct checking *checking, int column, float *value)
 {
-    return read_float(checking, column, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS, value);
+    return row_float(&checking->cells, column, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS, value);
 }
 
 /* ---- Rows ---- */
@@ -169,18 +99,19 @@ static bool read_speed(const struct checking *checking, int column, float *value
 static bool read_velocity(const struct checking *checking, struct plot_row *row)
 {
     const struct plot_columns *columns = checking->columns;
-    bool has_vx = is_there(checking, columns->vx_mps), has_vy = is_there(checking, columns->vy_mps);
-    bool has_vz = is_there(checking, columns->vz_mps);
+    bool has_vx = row_has(&checking->cells, columns->vx_mps),
+         has_vy = row_has(&checking->cells, columns->vy_mps);
+    bool has_vz = row_has(&checking->cells, columns->vz_mps);
 
     if (!has_vx && !has_vy && !has_vz) {
         return true;
     }
     if (!has_vx || !has_vy) {
-        return refuse(checking, "%s is missing beside the other velocity",
-                      has_vx ? "vy_mps" : "vx_mps");
+        return row_refuse(&checking->cells, "%s is missing beside the other velocity",
+                          has_vx ? "vy_mps" : "vx_mps");
     }
     if (!has_vz && (row->measures & RHO_MEASURES_Z)) {
-        return refuse(checking, "vz_mps is missing beside z_m and vx_mps");
+        return row_refuse(&checking->cells, "vz_mps is missing beside z_m and vx_mps");
     }
     row->measures |= RHO_MEASURES_VELOCITY;
     return read_speed(checking, columns->vx_mps, &row->plot.vx_mps) &&
@@ -191,8 +122,8 @@ static bool read_velocity(const struct checking *checking, struct plot_row *row)
 /* A sigma: the row's own, else the sensor's, else the one for all. */
 static bool read_sigma(const struct checking *checking, int column, double otherwise, float *value)
 {
-    if (is_there(checking, column)) {
-        return read_float(checking, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX, value);
+    if (row_has(&checking->cells, column)) {
+        return row_float(&checking->cells, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX, value);
     }
     *value = (float)otherwise;
     return true;
@@ -206,7 +137,7 @@ static bool read_range_rate(const struct checking *checking, const struct parame
     double otherwise = parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_RATE_MPS,
                                             parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS]);
 
-    if (!is_there(checking, checking->columns->range_rate_mps)) {
+    if (!row_has(&checking->cells, checking->columns->range_rate_mps)) {
         return true;
     }
     *measures |= RHO_MEASURES_RANGE_RATE;
@@ -231,30 +162,23 @@ static bool read_sigmas(const struct checking *checking, const struct parameters
     return true;
 }
 
-static bool read_snr(const struct checking *checking, float *snr_db)
-{
-    int column = checking->columns->snr_db;
-
-    return !is_there(checking, column) || read_float(checking, column, -1000.0f, 1000.0f, snr_db);
-}
-
 static bool read_plot(const struct checking *checking, const struct parameters *parameters,
                       struct plot_row *row)
 {
     const struct plot_columns *columns = checking->columns;
-    bool has_z = is_there(checking, columns->z_m);
+    bool has_z = row_has(&checking->cells, columns->z_m);
 
     row->has_plot = true;
-    if (!read_position(checking, columns->x_m, &row->plot.x_m) ||
-        !read_position(checking, columns->y_m, &row->plot.y_m) ||
-        (has_z && !read_position(checking, columns->z_m, &row->plot.z_m))) {
+    if (!row_position(&checking->cells, columns->x_m, &row->plot.x_m) ||
+        !row_position(&checking->cells, columns->y_m, &row->plot.y_m) ||
+        (has_z && !row_position(&checking->cells, columns->z_m, &row->plot.z_m))) {
         return false;
     }
     row->measures = has_z ? RHO_MEASURES_Z : 0;
     return read_velocity(checking, row) && read_sigmas(checking, parameters, row) &&
            read_range_rate(checking, parameters, row->sensor_id, &row->measures,
                            &row->plot.range_rate_mps, &row->plot.sigma_range_rate_mps) &&
-           read_snr(checking, &row->plot.snr_db);
+           row_snr(&checking->cells, checking->columns->snr_db, &row->plot.snr_db);
 }
 
 /* ---- Polar rows ---- */
@@ -266,10 +190,11 @@ static bool read_range(const struct checking *checking, float *range_m)
 {
     int column = checking->columns->range_m;
 
-    if (!read_float(checking, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, range_m)) {
+    if (!row_float(&checking->cells, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
+                   range_m)) {
         return false;
     }
-    return *range_m > 0.0f || refuse_cell(checking, column, "is not above 0");
+    return *range_m > 0.0f || row_refuse_cell(&checking->cells, column, "is not above 0");
 }
 
 /* Clockwise from north, in degrees, as counter-clockwise from east in radians. */
@@ -286,9 +211,10 @@ static bool read_azimuth(const struct checking *checking, float *azimuth_rad)
     float azimuth_deg = 0.0f;
 
     if (columns->azimuth_deg < 0) {
-        return read_float(checking, columns->azimuth_rad, -(float)PI, (float)PI, azimuth_rad);
+        return row_float(&checking->cells, columns->azimuth_rad, -(float)PI, (float)PI,
+                         azimuth_rad);
     }
-    if (!read_float(checking, columns->azimuth_deg, -360.0f, 360.0f, &azimuth_deg)) {
+    if (!row_float(&checking->cells, columns->azimuth_deg, -360.0f, 360.0f, &azimuth_deg)) {
         return false;
     }
     *azimuth_rad = from_compass(azimuth_deg);
@@ -300,29 +226,18 @@ static bool read_elevation(const struct checking *checking, uint32_t *measures,
 {
     const struct plot_columns *columns = checking->columns;
 
-    if (is_there(checking, columns->elevation_rad)) {
+    if (row_has(&checking->cells, columns->elevation_rad)) {
         *measures |= RHO_MEASURES_Z;
-        return read_float(checking, columns->elevation_rad, -(float)(PI / 2), (float)(PI / 2),
-                          elevation_rad);
+        return row_float(&checking->cells, columns->elevation_rad, -(float)(PI / 2),
+                         (float)(PI / 2), elevation_rad);
     }
-    if (is_there(checking, columns->elevation_deg)) {
+    if (row_has(&checking->cells, columns->elevation_deg)) {
         *measures |= RHO_MEASURES_Z;
-        if (!read_float(checking, columns->elevation_deg, -90.0f, 90.0f, elevation_rad)) {
+        if (!row_float(&checking->cells, columns->elevation_deg, -90.0f, 90.0f, elevation_rad)) {
             return false;
         }
         *elevation_rad = (float)((double)*elevation_rad * DEG_RAD);
     }
-    return true;
-}
-
-static bool read_sigma_rad(const struct checking *checking, int column, double otherwise,
-                           float *value)
-{
-    if (is_there(checking, column)) {
-        return read_float(checking, column, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX,
-                          value);
-    }
-    *value = (float)otherwise;
     return true;
 }
 
@@ -336,14 +251,14 @@ static bool read_polar_sigmas(const struct checking *checking, const struct para
                       parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
                                            value[PARAMETER_SIGMA_RANGE_M]),
                       &polar->sigma_range_m) &&
-           read_sigma_rad(checking, columns->sigma_azimuth_rad,
-                          parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_AZIMUTH_RAD,
-                                               value[PARAMETER_SIGMA_AZIMUTH_RAD]),
-                          &polar->sigma_azimuth_rad) &&
-           read_sigma_rad(checking, columns->sigma_elevation_rad,
-                          parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_ELEVATION_RAD,
-                                               value[PARAMETER_SIGMA_ELEVATION_RAD]),
-                          &polar->sigma_elevation_rad);
+           row_sigma_rad(&checking->cells, columns->sigma_azimuth_rad,
+                         parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_AZIMUTH_RAD,
+                                              value[PARAMETER_SIGMA_AZIMUTH_RAD]),
+                         &polar->sigma_azimuth_rad) &&
+           row_sigma_rad(&checking->cells, columns->sigma_elevation_rad,
+                         parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_ELEVATION_RAD,
+                                              value[PARAMETER_SIGMA_ELEVATION_RAD]),
+                         &polar->sigma_elevation_rad);
 }
 
 static bool read_polar(const struct checking *checking, const struct parameters *parameters,
@@ -358,14 +273,14 @@ static bool read_polar(const struct checking *checking, const struct parameters 
         !read_polar_sigmas(checking, parameters, row->sensor_id, &polar) ||
         !read_range_rate(checking, parameters, row->sensor_id, &row->measures,
                          &polar.range_rate_mps, &polar.sigma_range_rate_mps) ||
-        !read_snr(checking, &polar.snr_db)) {
+        !row_snr(&checking->cells, checking->columns->snr_db, &polar.snr_db)) {
         return false;
     }
     if (rho_measurement_from_polar(&polar, row->measures, &row->sensor, &row->plot) != RHO_OK) {
-        return refuse(checking,
-                      "range_m %.9g at azimuth %.9g rad is no place that is believed, "
-                      "once the sensor's place and biases are taken into account",
-                      (double)polar.range_m, (double)polar.azimuth_rad);
+        return row_refuse(&checking->cells,
+                          "range_m %.9g at azimuth %.9g rad is no place that is believed, "
+                          "once the sensor's place and biases are taken into account",
+                          (double)polar.range_m, (double)polar.azimuth_rad);
     }
     return true;
 }
@@ -380,49 +295,24 @@ static bool read_sensor(const struct checking *checking, const struct parameters
                         struct plot_row *row)
 {
     const struct plot_columns *columns = checking->columns;
-    bool has_place =
-        is_there(checking, columns->sensor_x_m) || is_there(checking, columns->sensor_y_m);
-    bool has_height = is_there(checking, columns->sensor_z_m);
+    bool has_place = row_has(&checking->cells, columns->sensor_x_m) ||
+                     row_has(&checking->cells, columns->sensor_y_m);
+    bool has_height = row_has(&checking->cells, columns->sensor_z_m);
 
     row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
                       columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
     parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
-    return (!has_place || (read_position(checking, columns->sensor_x_m, &row->sensor.x_m) &&
-                           read_position(checking, columns->sensor_y_m, &row->sensor.y_m))) &&
-           (!has_height || read_position(checking, columns->sensor_z_m, &row->sensor.z_m));
-}
-
-static bool read_sector(const struct checking *checking, struct plot_row *row)
-{
-    static const float turn = 6.2831855f;
-    int from = checking->columns->sector_from_rad, to = checking->columns->sector_to_rad;
-
-    if (!is_there(checking, from) && !is_there(checking, to)) {
-        return true;
-    }
-    return read_float(checking, from, -turn, turn, &row->sector_from_rad) &&
-           read_float(checking, to, -turn, turn, &row->sector_to_rad);
-}
-
-static bool read_key(const struct checking *checking, struct plot_row *row)
-{
-    const struct plot_columns *columns = checking->columns;
-    const char *why;
-
-    why = table_time_us(table_cell(checking->table, checking->row, columns->t_s), &row->time_us);
-    if (why) {
-        return refuse_cell(checking, columns->t_s, why);
-    }
-    why = table_int32(table_cell(checking->table, checking->row, columns->sensor_id),
-                      &row->sensor_id);
-    return why ? refuse_cell(checking, columns->sensor_id, why) : true;
+    return (!has_place ||
+            (row_position(&checking->cells, columns->sensor_x_m, &row->sensor.x_m) &&
+             row_position(&checking->cells, columns->sensor_y_m, &row->sensor.y_m))) &&
+           (!has_height || row_position(&checking->cells, columns->sensor_z_m, &row->sensor.z_m));
 }
 
 bool plot_row_read(const struct table *table, const struct plot_columns *columns, size_t row,
                    const struct parameters *parameters, struct plot_row *plot_row,
                    char reason[PLOT_ROW_REASON_BYTES])
 {
-    struct checking checking = {.table = table, .columns = columns, .row = row};
+    struct checking checking = {.cells = {.table = table, .row = row}, .columns = columns};
     const int measured[] = {
         columns->x_m,           columns->y_m,           columns->z_m,
         columns->vx_mps,        columns->vy_mps,        columns->vz_mps,
@@ -430,14 +320,17 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
         columns->elevation_rad, columns->elevation_deg, columns->range_rate_mps};
     bool has_measurement = false;
 
-    checking.reason = reason;
+    checking.cells.reason = reason;
     *plot_row = (struct plot_row){.has_plot = false};
-    if (!read_key(&checking, plot_row) || !read_sector(&checking, plot_row) ||
+    if (!row_key(&checking.cells, columns->t_s, columns->sensor_id, &plot_row->time_us,
+                 &plot_row->sensor_id) ||
+        !row_sector(&checking.cells, columns->sector_from_rad, columns->sector_to_rad,
+                    &plot_row->sector_from_rad, &plot_row->sector_to_rad) ||
         !read_sensor(&checking, parameters, plot_row)) {
         return false;
     }
     for (size_t i = 0; i < sizeof measured / sizeof *measured; i++) {
-        has_measurement |= is_there(&checking, measured[i]);
+        has_measurement |= row_has(&checking.cells, measured[i]);
     }
     if (!has_measurement) {
         return true;

@@ -9,6 +9,7 @@
 
 #include "parameters.h"
 #include "rhotrack/types.h"
+#include "row_check.h"
 #include "table.h"
 
 struct plot_row {
@@ -36,7 +37,7 @@ struct plot_columns {
 struct plot_columns plot_columns_find(const struct table *table);
 
 /* Reads a row. Returns false and the reason where it is bad. */
-#define PLOT_ROW_REASON_BYTES 200
+#define PLOT_ROW_REASON_BYTES ROW_REASON_BYTES
 bool plot_row_read(const struct table *table, const struct plot_columns *columns, size_t row,
                    const struct parameters *parameters, struct plot_row *plot_row,
                    char reason[PLOT_ROW_REASON_BYTES]);

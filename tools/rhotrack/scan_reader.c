@@ -48,24 +48,14 @@ struct scan_reader {
     uint64_t rows_skipped;
 };
 
-/* Room for one element more. */
-static void *grown(void *array, size_t count, size_t *capacity, size_t size)
-{
-    if (count < *capacity) {
-        return array;
-    }
-    *capacity = 2 * *capacity + 16;
-    return must_realloc(array, *capacity * size);
-}
-
 /* ---- Rows to scans ---- */
 
 static size_t add_entry(struct scan_reader *reader, const struct plot_row *row)
 {
     struct entry *entry;
 
-    reader->entries = grown(reader->entries, reader->num_entries, &reader->entries_capacity,
-                            sizeof *reader->entries);
+    reader->entries = must_grow(reader->entries, reader->num_entries, &reader->entries_capacity,
+                                sizeof *reader->entries);
     entry = &reader->entries[reader->num_entries];
     *entry = (struct entry){
         .scan = {.time_us = row->time_us,
@@ -107,7 +97,7 @@ static size_t entry_of(struct scan_reader *reader, const struct plot_row *row)
     }
     if (!open) {
         reader->open =
-            grown(reader->open, reader->num_open, &reader->open_capacity, sizeof *reader->open);
+            must_grow(reader->open, reader->num_open, &reader->open_capacity, sizeof *reader->open);
         open = &reader->open[reader->num_open++];
         open->sensor_id = row->sensor_id;
     }
@@ -119,8 +109,8 @@ static void add_member(struct scan_reader *reader, size_t index, const struct pl
     struct entry *entry = &reader->entries[index];
     struct member *member;
 
-    reader->members = grown(reader->members, reader->num_members, &reader->members_capacity,
-                            sizeof *reader->members);
+    reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
+                                sizeof *reader->members);
     member = &reader->members[reader->num_members++];
     member->entry = index;
     member->plot = row->plot;

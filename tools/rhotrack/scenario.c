@@ -342,6 +342,45 @@ static const struct scenario {
      {-65000, 65000, -65000, 65000},
      0,
      100},
+    {"passive-two",
+     "two passive sensors: bearings of two targets that come towards them",
+     plan_passive,
+     8,
+     10,
+     10,
+     1,
+     150,
+     350,
+     5,
+     {0, 80000, -55000, 55000},
+     0,
+     0},
+    {"passive-three",
+     "the same with a third sensor",
+     plan_passive,
+     8,
+     10,
+     10,
+     1,
+     150,
+     350,
+     5,
+     {0, 80000, -55000, 55000},
+     0,
+     0},
+    {"passive-clutter",
+     "two passive sensors, four targets, misses and false bearings",
+     plan_passive,
+     8,
+     10,
+     10,
+     0.9,
+     150,
+     350,
+     5,
+     {0, 80000, -55000, 55000},
+     0,
+     0},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -380,6 +419,16 @@ static void suggest_area(struct parameters *parameters, const struct scenario_bo
     }
 }
 
+/* Bearings instead of plots. */
+static void suggest_passive(const char *name, struct parameters *parameters)
+{
+    bool has_clutter = strcmp(name, "passive-clutter") == 0;
+    parameters_suggest(parameters, PARAMETER_SENSORS, strcmp(name, "passive-three") == 0 ? 3 : 2);
+    parameters_suggest(parameters, PARAMETER_TARGETS, has_clutter ? 4 : 2);
+    parameters_suggest(parameters, PARAMETER_FALSE_ALARMS, has_clutter ? 1 : 0);
+    parameters_suggest(parameters, PARAMETER_SIGMA_RAD, 0.1 * DEG_RAD);
+}
+
 void scenario_suggest(const char *name, struct parameters *parameters)
 {
     const struct scenario *scenario = find_scenario(name);
@@ -401,6 +450,9 @@ void scenario_suggest(const char *name, struct parameters *parameters)
         parameters_suggest(parameters, PARAMETER_RANGE_RATE, 0);
         parameters_suggest(parameters, PARAMETER_RANGE_MIN_M, 1000);
         parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, scenario->box.x_max_m);
+    }
+    if (scenario->plan == plan_passive) {
+        suggest_passive(name, parameters);
     }
     if (scenario->clutter_per_km2 > 0.0) {
         parameters_suggest(parameters, PARAMETER_CLUTTER_PER_KM2, scenario->clutter_per_km2);

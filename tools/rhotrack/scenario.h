@@ -2,8 +2,8 @@
 /*
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
- * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, polar. The same seed
- * gives the same data on every machine.
+ * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, polar, passive-two,
+ * passive-three, passive-clutter. The same seed gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H
@@ -37,6 +37,32 @@ struct scenario_radar {
     double clutter_rate_max_mps;     /* its range rates are uniform within, either way */
 };
 
+#define SCENARIO_SENSORS_MAX 4
+
+/* Passive sensors, which look all round at each scan's time. */
+struct scenario_passive {
+    bool is_used; /* else there are plots */
+    size_t num_sensors;
+    struct {
+        double x_m, y_m;
+    } sensors[SCENARIO_SENSORS_MAX];
+    double sigma_rad;
+    double false_mean; /* false bearings a sensor and scan, uniform within pi/2 of +x */
+};
+
+struct simulated_bearing {
+    double bearing_rad; /* -pi .. pi */
+    int target_id;      /* -1: false */
+};
+
+/* One look of one passive sensor, in random order. */
+struct simulated_look {
+    double t_s;
+    size_t sensor; /* index of passive.sensors; its number in files is one more */
+    size_t num_bearings;
+    struct simulated_bearing *bearings;
+};
+
 struct simulated_scan {
     double t_s;
     size_t num_plots;
@@ -48,13 +74,15 @@ struct scenario_box {
 };
 
 struct simulation {
-    size_t num_scans, num_targets, num_truth;
+    size_t num_scans, num_targets, num_truth, num_looks;
     double sigma_m;           /* noise that a tracker should reckon with */
     struct scenario_box area; /* clutter is spread over it */
     double interval_s;
     struct scenario_radar radar;
-    struct simulated_scan *scans;
-    struct truth_point *truth; /* by time, then target */
+    struct scenario_passive passive;
+    struct simulated_scan *scans; /* without plots where passive is used */
+    struct simulated_look *looks; /* num_looks = num_scans x passive.num_sensors: by time, sensor */
+    struct truth_point *truth;    /* by time, then target */
 };
 
 /* Names and one-line texts of all scenarios, for help and errors; NULL past the last. */

@@ -200,11 +200,18 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
     simulation->area = plan->box;
     simulation->interval_s = plan->interval_s;
     simulation->radar = plan->radar;
+    simulation->passive = plan->passive;
+    simulation->num_looks = plan->num_scans * plan->passive.num_sensors;
+    simulation->looks = must_calloc(simulation->num_looks + 1, sizeof *simulation->looks);
     simulation->scans = must_calloc(plan->num_scans, sizeof *simulation->scans);
     simulation->truth = must_calloc(simulation->num_truth + 1, sizeof *simulation->truth);
     memcpy(simulation->truth, plan->truth, simulation->num_truth * sizeof *simulation->truth);
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
-        if (plan->radar.is_used) {
+        if (plan->passive.is_used) {
+            size_t first = scan * plan->passive.num_sensors;
+            simulation->scans[scan].t_s = (double)scan * plan->interval_s;
+            plan_look_of_sensors(plan, scan, &simulation->looks[first], random);
+        } else if (plan->radar.is_used) {
             plan_turn_of_radar(plan, scan, &simulation->scans[scan], random);
         } else {
             simulate_scan(plan, scan, &simulation->scans[scan], random);
@@ -218,6 +225,10 @@ void simulation_free(struct simulation *simulation)
     for (size_t scan = 0; scan < simulation->num_scans; scan++) {
         free(simulation->scans[scan].plots);
     }
+    for (size_t look = 0; look < simulation->num_looks; look++) {
+        free(simulation->looks[look].bearings);
+    }
+    free(simulation->looks);
     free(simulation->scans);
     free(simulation->truth);
     free(simulation);

@@ -26,12 +26,13 @@ struct scenario_plan {
     double sigma_m; /* as the tracker is told */
     double noise_m; /* that is added to the positions, each axis */
     double pd;
-    struct scenario_box box;     /* of the clutter */
-    double clutter_mean;         /* plots a scan */
-    struct scenario_box spot;    /* more clutter there */
-    double spot_mean;            /* plots a scan; 0: none */
-    struct scenario_radar radar; /* where it is used: its noise, its clutter */
-    struct truth_point *truth;   /* num_scans x num_targets, by time, then target */
+    struct scenario_box box;         /* of the clutter */
+    double clutter_mean;             /* plots a scan */
+    struct scenario_box spot;        /* more clutter there */
+    double spot_mean;                /* plots a scan; 0: none */
+    struct scenario_radar radar;     /* where it is used: its noise, its clutter */
+    struct scenario_passive passive; /* the same */
+    struct truth_point *truth;       /* num_scans x num_targets, by time, then target */
 };
 
 /* A state at the first scan. */
@@ -69,5 +70,12 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
 /* One turn of the plan's radar, from scan `index` on: in the order of time. scenario_radar.c */
 void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
                         struct random *random);
+
+/* Targets, drawn anew until they fit, and sensors of the passive scenarios. scenario_bearings.c */
+struct scenario_plan plan_passive(const struct parameters *parameters, struct random *random);
+
+/* What the plan's passive sensors see at scan `index`: a look a sensor. scenario_bearings.c */
+void plan_look_of_sensors(const struct scenario_plan *plan, size_t index,
+                          struct simulated_look *looks, struct random *random);
 
 #endif

@@ -18,7 +18,7 @@
  */
 struct reading {
     struct table *table;
-    bool keep_going;
+    bool keep_going, header_only;
     struct csv_parser parser;
     char *content; /* the whole file */
     size_t bytes, position;
@@ -242,9 +242,14 @@ static void parse_line(struct reading *reading, size_t length)
     }
 }
 
+static bool is_wanted(const struct reading *reading)
+{
+    return reading->position < reading->bytes && !(reading->header_only && reading->table->names);
+}
+
 static void parse_lines(struct reading *reading)
 {
-    while (reading->position < reading->bytes) {
+    while (is_wanted(reading)) {
         size_t length = line_length(reading);
 
         check_binary(reading, length);
@@ -286,10 +291,11 @@ void table_need_rows(const struct table *table)
     }
 }
 
-struct table *table_read(const char *path, bool keep_going)
+static struct table *read_table(const char *path, bool keep_going, bool header_only)
 {
     struct table *table = must_calloc(1, sizeof *table);
-    struct reading reading = {.table = table, .keep_going = keep_going, .line = 1};
+    struct reading reading = {
+        .table = table, .keep_going = keep_going, .header_only = header_only, .line = 1};
 
     table->path = must_copy(path);
     read_file(&reading);
@@ -298,12 +304,22 @@ struct table *table_read(const char *path, bool keep_going)
     do {
         parse_lines(&reading);
         finish_rows(&reading);
-    } while (reading.position < reading.bytes);
+    } while (is_wanted(&reading));
     csv_free(&reading.parser);
     check_content(&reading);
     free(reading.row);
     free(reading.content);
     return table;
+}
+
+struct table *table_read(const char *path, bool keep_going)
+{
+    return read_table(path, keep_going, false);
+}
+
+struct table *table_read_header(const char *path)
+{
+    return read_table(path, false, true);
 }
 
 void table_free(struct table *table)

@@ -32,6 +32,9 @@ struct table {
  * cells than the header, bad quotes (bad rows are skipped and counted with keep_going).
  */
 struct table *table_read(const char *path, bool keep_going);
+
+/* The columns alone, without rows. */
+struct table *table_read_header(const char *path);
 void table_free(struct table *table);
 
 /* A header without rows is refused here: exit 2. */

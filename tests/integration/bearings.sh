@@ -1,0 +1,167 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Bearings: simulate passive-..., the bearings files that `plot scans` takes and refuses, and its pictures.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+
+# ---- simulate ----
+for scenario in passive-two passive-three passive-clutter; do
+    run simulate "$scenario" --seed 3 -o "$scenario"
+    check "simulate $scenario" exits 0
+    check "$scenario: the header" matches "$(head -n 1 "$scenario/bearings.csv")" \
+        't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad'
+    check "$scenario: no plots" test ! -e "$scenario/plots.csv"
+    check "$scenario: scenario.ini has the noise" grep -qx 'sigma_rad = 0.00174532925' "$scenario/scenario.ini"
+    run config --config "$scenario/scenario.ini"
+    check "$scenario: which is a parameter" exits 0
+    run simulate "$scenario" --seed 3 -o again
+    check "$scenario: the same seed, the same bytes" diff -r "$scenario" again
+    run simulate "$scenario" --seed 4 -o again
+    check "$scenario: another seed, others" bash -c "! cmp -s $scenario/bearings.csv again/bearings.csv"
+done
+# rows of a sensor: 8 scans of 2 targets, all seen
+per_sensor() { awk -F, 'NR > 1 { n[$2 " at " $3 " " $4]++ } END { for (s in n) print s ": " n[s] }' "$1" | sort | tr '\n' ';'; }
+check 'passive-two: two sensors, no miss' matches "$(per_sensor passive-two/bearings.csv)" \
+    '1 at 0 -10000: 16;2 at 0 10000: 16;'
+check 'passive-three: a third' matches "$(per_sensor passive-three/bearings.csv)" \
+    '1 at 0 -10000: 16;2 at 0 10000: 16;3 at 10000 0: 16;'
+run simulate passive-three --set sensors=4 --set targets=5 --set num_scans=3 --set interval_s=4 -o more
+check 'parameters: sensors, targets, num_scans' matches "$(per_sensor more/bearings.csv)" \
+    '1 at 0 -10000: 15;2 at 0 10000: 15;3 at 10000 0: 15;4 at -10000 0: 15;'
+check 'parameters: interval_s' matches "$(cut -d, -f1 more/truth.csv | uniq | tr '\n' ' ')" 't_s 0.000000 4.000000 8.000000 '
+run simulate passive-two --set sigma_rad=0.01 --set true_pd=0 -o blind
+check 'parameters: sigma_rad is passed on' grep -qx 'sigma_rad = 0.01' blind/scenario.ini
+check 'sensors that see nothing say so' matches "$(per_sensor blind/bearings.csv)$(grep -c ',$' blind/bearings.csv)" \
+    '1 at 0 -10000: 8;2 at 0 10000: 8;16'
+run simulate passive-two --set true_pd=0 --set false_alarms=20 -o alarms
+check 'parameters: false_alarms' test "$(wc -l <alarms/bearings.csv)" -gt 200
+run simulate passive-two --set sensors=5 -o none
+check 'not more than four sensors' says 2 '*sensors 5 is outside 2 .. 4'
+check 'which writes nothing' test ! -e none
+run simulate passive-clutter --seed 3 --runs 2 -o runs
+check 'runs' cmp -s passive-clutter/bearings.csv runs/run-0000/bearings.csv
+check 'runs differ' bash -c '! cmp -s runs/run-0000/bearings.csv runs/run-0001/bearings.csv'
+
+# ---- good files ----
+takes() { # name, text as for printf, options...
+    # shellcheck disable=SC2059
+    printf "$2" >good.csv
+    run plot scans good.csv -o good.svg "${@:3}"
+    check "$1" exits 0
+}
+
+header='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n'
+takes 'two sensors' "${header}0,1,0,0,0.5\n0,2,100,0,1\n"
+takes 'pi and -pi' "${header}0,1,0,0,3.14159265\n0,2,100,0,-3.14159265\n"
+takes 'scans that saw nothing' "${header}0,1,0,0,\n0,2,100,0,\n"
+takes 'other columns, another order' \
+    'bearing_rad,note,sensor_y_m,sensor_x_m,sensor_id,t_s\n1,a,0,0,1,0\n1,b,9,0,2,0\n'
+takes 'all columns' \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,sector_from_rad,sector_to_rad,snr_db\n0,1,0,0,1,0.01,-1,2,9\n0,2,9,0,1,,,,\n'
+takes 'a place that is written in another way' "${header}0,1,0.10,0,1\n0,2,9,0,1\n1,1,0.1,-0,1\n"
+takes 'sensors a metre apart' "${header}0,1,0,0,1\n0,2,1,0,1\n"
+printf "${header}0,1,0,0,1\n1,1,0,0,1\n" >one.csv
+printf "${header}0,2,0,9,1\n1,2,0,9,1\n" >two.csv
+run plot scans one.csv two.csv -o good.svg
+check 'a file a sensor' exits 0
+
+# ---- bad files ----
+refused() { # pattern
+    says 2 "rhotrack: $1" && [ ! -e out.svg ]
+}
+
+refuse() { # name, LINE: what (a pattern), text as for printf, options...
+    # shellcheck disable=SC2059
+    printf "$3" >bad.csv
+    run plot scans bad.csv -o out.svg "${@:4}"
+    check "$1" refused "bad.csv:$2"
+}
+
+good="${header}0,1,0,0,1\n0,2,100,0,1\n"
+refuse 'a bearing beyond pi' '4: bearing_rad 3.1417 is outside -3.14159274 .. 3.14159274' "${good}1,1,0,0,3.1417\n"
+refuse 'a bearing below -pi' '4: bearing_rad -3.1417 is outside *' "${good}1,1,0,0,-3.1417\n"
+refuse 'a bearing that is no number' "2: bearing_rad 'north' is not a number" "${header}0,1,0,0,north\n"
+refuse 'a bearing NaN' "2: bearing_rad 'nan' is not finite" "${header}0,1,0,0,nan\n"
+refuse 'no time' '2: t_s is empty' "${header},1,0,0,1\n"
+refuse 'a time that is no number' "2: t_s 'noon' is not a number" "${header}noon,1,0,0,1\n"
+refuse 'a sensor that is no number' "2: sensor_id 'A' is not an integer" "${header}0,A,0,0,1\n"
+refuse 'no sensor' '2: sensor_id is empty' "${header}0,,0,0,1\n"
+refuse 'no place' '2: sensor_x_m is empty' "${header}0,1,,0,1\n"
+refuse 'half a place' '2: sensor_y_m is empty' "${header}0,1,0,,1\n"
+refuse 'a place beyond the limit' '2: sensor_x_m 3000000 is outside -2000000 .. 2000000' "${header}0,1,3000000,0,1\n"
+refuse 'a place NaN' "2: sensor_y_m 'nan' is not finite" "${header}0,1,0,nan,1\n"
+refuse 'time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' "${good}-1,1,0,0,1\n"
+refuse 'time that goes back, in a row without bearing' '4: time goes back *' "${good}-1,1,0,0,\n"
+refuse 'a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' "${good}1,1,0,0.5,1\n"
+refuse 'a sensor that moves within a scan' '4: sensor 2 has moved: it was at 100, 0, line 3' "${good}0,2,101,0,1\n"
+refuse 'a sensor that moves where it saw nothing' '4: sensor 1 has moved: *' "${good}1,1,7,0,\n"
+refuse 'two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' "${header}0,1,0,0,1\n0,2,0,0,1\n"
+refuse 'two sensors nearer than a metre' '3: sensor 2 is where sensor 1 is: *' "${header}0,1,0,0,1\n0,2,0.7,0.7,1\n"
+refuse 'one sensor alone' '2: sensor 1 is the only one: positions need bearings of two sensors or more' \
+    "${header}0,1,0,0,1\n1,1,0,0,1\n"
+for number in $(seq 1 65); do echo "0,$number,0,${number}00,1"; done >many
+refuse 'more sensors than 64' '66: sensor 65 is one more than 64 sensors' "$header$(cat many)\n"
+for sigma in 0 -1 0.6 1e-7; do
+    refuse "sigma_rad $sigma" "2: sigma_rad $sigma is outside 9.99999997e-07 .. 0.5" \
+        "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n0,1,0,0,1,$sigma\n"
+done
+refuse 'a sector that is not that of the scan' "3: the sector is not that of the scan's first row" \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n0,1,0,0,1,-1,1\n0,1,0,0,1,-1,2\n'
+refuse 'half a sector, in a row' '2: sector_to_rad is empty' \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n0,1,0,0,1,-1,\n'
+refuse 'half a sector, in the header' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad\n0,1,0,0,1,0\n'
+refuse 'snr_db that is no number' "2: snr_db 'loud' is not a number" \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,snr_db\n0,1,0,0,1,loud\n'
+refuse 'a short row' '4: short row: 4 cells, the header has 5' "${good}1,1,0,0\n"
+for column in t_s sensor_id sensor_x_m sensor_y_m; do
+    refuse "no column $column" "1: no column '$column'" \
+        "$(printf '%s' "$header" | sed "s/\(^\|,\)$column/\1other/")0,1,0,0,1\n"
+done
+refuse 'header alone' '1: no rows after the header' "$header"
+refuse 'comments are lines too' '5: bearing_rad 4 is outside *' "# one\n\n${header}# four\n0,1,0,0,4\n"
+printf "${header}0,2,9,9,1\n1,1,0,3,1\n" >second.csv
+run plot scans one.csv second.csv -o out.svg
+check 'a sensor that another file has elsewhere' refused \
+    'second.csv:3: sensor 1 has moved: it was at 0, 0, line 2 of one.csv'
+
+# ---- parameters ----
+run config --set sigma_rad=0.6
+check 'sigma_rad beyond its range' says 2 '*sigma_rad 0.6 is outside 1e-06 .. 0.5 rad'
+run config --set sensor.2.sigma_rad=0
+check "a sensor's sigma_rad beyond its range" says 2 '*sigma_rad 0 is outside 1e-06 .. 0.5 rad'
+run config
+check 'sigma_rad and frame_tolerance_s have defaults' bash -c "
+    grep -Eq '^sigma_rad +rad +0.00175 +1e-06 .. 0.5 +0.00175 +default' stdout &&
+    grep -Eq '^frame_tolerance_s +s +0.05 ' stdout"
+
+# ---- who takes no bearings ----
+for command in track initiate; do
+    run "$command" passive-two/bearings.csv
+    check "$command refuses bearings by name" says 2 "rhotrack: passive-two/bearings.csv:1: bearings (column 'bearing_rad'): *"
+done
+for kind in tracks parameter-space errors; do
+    run plot "$kind" passive-two/bearings.csv passive-two/truth.csv -o out.svg
+    check "plot $kind refuses bearings by name" refused "plot $kind: bearings (column 'bearing_rad') are shown by plot scans alone"
+done
+
+# ---- plot ----
+picture() { # what it is, FILES and options...
+    run plot scans "${@:2}" -o picture.svg
+    check "plot scans: $1" exits 0
+    check "plot scans: $1: well-formed" python3 -c 'import xml.dom.minidom as m; m.parse("picture.svg")'
+}
+picture 'bearings and truth' passive-three/bearings.csv passive-three/truth.csv
+for number in 1 2 3; do
+    check "plot scans names sensor $number" grep -q "sensor $number" picture.svg
+done
+check 'and the truth' grep -q truth picture.svg
+picture 'bearings alone' passive-two/bearings.csv
+cp picture.svg far.svg
+picture 'bearings alone, as far as the sensors see' passive-two/bearings.csv --set range_max_m=30000
+check 'which is another picture' bash -c '! cmp -s far.svg picture.svg'
+picture "one sensor's own range" passive-two/bearings.csv --set sensor.1.range_max_m=30000
+check 'which is another picture' bash -c '! cmp -s far.svg picture.svg'
+picture 'sensors that saw nothing' blind/bearings.csv blind/truth.csv
+
+finish

@@ -1,0 +1,445 @@
+/* SPDX-License-Identifier: MIT */
+#include "frame_reader.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include "bearing_row.h"
+#include "common.h"
+#include "table.h"
+
+#define SAME_PLACE_M 1.0
+#define NO_ENTRY SIZE_MAX
+
+/* A scan while its rows are collected. */
+struct entry {
+    struct rho_bearing_scan scan;
+    size_t order; /* of its first row, over all files */
+    size_t first_bearing;
+};
+
+/* A bearing and the scan that it belongs to. */
+struct member {
+    size_t entry;
+    struct rho_bearing bearing;
+};
+
+/* A sensor, where it was first named, and its scan in this file that further rows may join. */
+struct known_sensor {
+    struct frame_sensor sensor;
+    const char *path;
+    uint32_t line;
+    size_t open; /* or NO_ENTRY */
+};
+
+struct frame_reader {
+    const struct parameters *parameters;
+    bool keep_going;
+    int64_t interval_us, tolerance_us;
+    struct known_sensor known[RHO_MAX_SENSORS];
+    struct frame_sensor sensors[RHO_MAX_SENSORS]; /* the same, sorted */
+    size_t num_sensors;
+    struct entry *entries;
+    size_t num_entries, entries_capacity;
+    struct member *members;
+    size_t num_members, members_capacity;
+    struct rho_bearing *bearings;   /* all, scan by scan */
+    struct rho_bearing_scan *scans; /* all, frame by frame */
+    struct rho_frame *frames;
+    size_t num_frames, next;
+    uint64_t frames_incomplete, rows_skipped;
+};
+
+bool frame_reader_is_bearings(const char *path)
+{
+    struct stat status;
+    struct table *table;
+    bool is_bearings;
+
+    if (stat(path, &status) || !S_ISREG(status.st_mode)) {
+        return false; /* a pipe could not be read again */
+    }
+    table = table_read_header(path);
+    is_bearings = bearing_columns_are_there(table);
+    table_free(table);
+    return is_bearings;
+}
+
+/* ---- Sensors ---- */
+
+static struct known_sensor *find_sensor(struct frame_reader *reader, int32_t sensor_id)
+{
+    for (size_t i = 0; i < reader->num_sensors; i++) {
+        if (reader->known[i].sensor.sensor_id == sensor_id) {
+            return &reader->known[i];
+        }
+    }
+    return NULL;
+}
+
+/* Where a sensor was named, as seen from a row of the table: the file only where it is another. */
+#define WHERE_BYTES 120
+static const char *where(const struct known_sensor *known, const char *path, char text[WHERE_BYTES])
+{
+    int length = snprintf(text, WHERE_BYTES, "%.9g, %.9g, line %u", (double)known->sensor.x_m,
+                          (double)known->sensor.y_m, (unsigned)known->line);
+
+    if (known->path != path) {
+        snprintf(text + length, WHERE_BYTES - (size_t)length, " of %.60s", known->path);
+    }
+    return text;
+}
+
+static bool check_new_sensor(struct frame_reader *reader, const char *path,
+                             const struct bearing_row *row, const struct row_check *check)
+{
+    char text[WHERE_BYTES];
+
+    for (size_t i = 0; i < reader->num_sensors; i++) {
+        const struct frame_sensor *other = &reader->known[i].sensor;
+
+        if (hypot((double)row->x_m - (double)other->x_m, (double)row->y_m - (double)other->y_m) <
+            SAME_PLACE_M) {
+            return row_refuse(check, "sensor %d is where sensor %d is: %s", (int)row->sensor_id,
+                              (int)other->sensor_id, where(&reader->known[i], path, text));
+        }
+    }
+    return reader->num_sensors < RHO_MAX_SENSORS ||
+           row_refuse(check, "sensor %d is one more than %d sensors", (int)row->sensor_id,
+                      RHO_MAX_SENSORS);
+}
+
+static bool check_sensor(struct frame_reader *reader, const char *path,
+                         const struct bearing_row *row, const struct row_check *check)
+{
+    const struct known_sensor *known = find_sensor(reader, row->sensor_id);
+    char text[WHERE_BYTES];
+
+    if (!known) {
+        return check_new_sensor(reader, path, row, check);
+    }
+    if (row->x_m < known->sensor.x_m || row->x_m > known->sensor.x_m ||
+        row->y_m < known->sensor.y_m || row->y_m > known->sensor.y_m) {
+        return row_refuse(check, "sensor %d has moved: it was at %s", (int)row->sensor_id,
+                          where(known, path, text));
+    }
+    return true;
+}
+
+/* ---- Rows to scans ---- */
+
+/* time_us is not before the scan's. */
+static bool joins(const struct frame_reader *reader, const struct known_sensor *known,
+                  int64_t time_us)
+{
+    int64_t start_us;
+
+    if (!known || known->open == NO_ENTRY) {
+        return false;
+    }
+    start_us = reader->entries[known->open].scan.time_us;
+    return time_us == start_us || time_us - reader->interval_us < start_us;
+}
+
+static struct known_sensor *have_sensor(struct frame_reader *reader, const char *path,
+                                        uint32_t line, const struct bearing_row *row)
+{
+    struct known_sensor *known = find_sensor(reader, row->sensor_id);
+
+    if (!known) {
+        known = &reader->known[reader->num_sensors++];
+        *known = (struct known_sensor){.sensor = {row->sensor_id, row->x_m, row->y_m},
+                                       .path = path,
+                                       .line = line,
+                                       .open = NO_ENTRY};
+    }
+    return known;
+}
+
+static size_t add_entry(struct frame_reader *reader, const struct bearing_row *row)
+{
+    reader->entries = must_grow(reader->entries, reader->num_entries, &reader->entries_capacity,
+                                sizeof *reader->entries);
+    reader->entries[reader->num_entries] = (struct entry){
+        .scan = {.time_us = row->time_us,
+                 .sensor_id = row->sensor_id,
+                 .x_m = row->x_m,
+                 .y_m = row->y_m,
+                 .sector_from_rad = row->sector_from_rad,
+                 .sector_to_rad = row->sector_to_rad},
+        .order = reader->num_entries,
+    };
+    return reader->num_entries++;
+}
+
+static void add_row(struct frame_reader *reader, struct known_sensor *known,
+                    const struct bearing_row *row)
+{
+    struct member *member;
+
+    if (!joins(reader, known, row->time_us)) {
+        known->open = add_entry(reader, row);
+    }
+    if (!row->has_bearing) {
+        return;
+    }
+    reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
+                                sizeof *reader->members);
+    member = &reader->members[reader->num_members++];
+    *member = (struct member){known->open, row->bearing};
+    member->bearing.offset_us = (int32_t)(row->time_us - reader->entries[known->open].scan.time_us);
+    reader->entries[known->open].scan.num_bearings++;
+}
+
+static bool check_order(struct frame_reader *reader, const struct bearing_row *row,
+                        const int64_t *last_us, const struct row_check *check)
+{
+    const struct known_sensor *known = find_sensor(reader, row->sensor_id);
+    const struct rho_bearing_scan *scan;
+
+    if (last_us && row->time_us < *last_us) {
+        return row_refuse(check, "time goes back from %.6f s to %.6f s", (double)*last_us * 1e-6,
+                          (double)row->time_us * 1e-6);
+    }
+    if (!joins(reader, known, row->time_us)) {
+        return true;
+    }
+    scan = &reader->entries[known->open].scan;
+    return (row->sector_from_rad == scan->sector_from_rad &&
+            row->sector_to_rad == scan->sector_to_rad) ||
+           row_refuse(check, "the sector is not that of the scan's first row");
+}
+
+static void read_table(struct frame_reader *reader, const struct table *table, const char *path)
+{
+    struct bearing_columns columns = bearing_columns_find(table);
+    char reason[ROW_REASON_BYTES];
+    struct bearing_row row;
+    int64_t last_us = 0;
+    bool has_last = false;
+
+    for (size_t i = 0; i < table->num_rows; i++) {
+        const struct row_check check = {.table = table, .row = i, .reason = reason};
+
+        if (!bearing_row_read(table, &columns, i, reader->parameters, &row, reason) ||
+            !check_order(reader, &row, has_last ? &last_us : NULL, &check) ||
+            !check_sensor(reader, path, &row, &check)) {
+            if (!reader->keep_going) {
+                table_fail(table, i, "%s", reason);
+            }
+            reader->rows_skipped++;
+            continue;
+        }
+        last_us = row.time_us;
+        has_last = true;
+        add_row(reader, have_sensor(reader, path, table->lines[i], &row), &row);
+    }
+    if (!has_last) {
+        table_fail(table, TABLE_HEADER, "not one good row after the header");
+    }
+}
+
+static void read_path(struct frame_reader *reader, const char *path)
+{
+    struct table *table = table_read(path, reader->keep_going);
+
+    table_need_rows(table);
+    reader->rows_skipped += table->rows_skipped;
+    for (size_t i = 0; i < reader->num_sensors; i++) {
+        reader->known[i].open = NO_ENTRY;
+    }
+    read_table(reader, table, path);
+    table_free(table);
+}
+
+/* ---- Scans to frames ---- */
+
+/* Places the bearings scan by scan, in the order of their rows. */
+static void place_bearings(struct frame_reader *reader)
+{
+    size_t start = 0;
+
+    reader->bearings = must_alloc((reader->num_members + 1) * sizeof *reader->bearings);
+    for (size_t i = 0; i < reader->num_entries; i++) {
+        reader->entries[i].first_bearing = start;
+        reader->entries[i].scan.bearings = reader->bearings + start;
+        start += reader->entries[i].scan.num_bearings;
+    }
+    for (size_t i = 0; i < reader->num_members; i++) {
+        struct entry *entry = &reader->entries[reader->members[i].entry];
+
+        reader->bearings[entry->first_bearing++] = reader->members[i].bearing;
+    }
+    free(reader->members);
+    reader->members = NULL;
+}
+
+static int compare_entries(const void *a, const void *b)
+{
+    const struct entry *first = a, *second = b;
+
+    if (first->scan.time_us != second->scan.time_us) {
+        return first->scan.time_us < second->scan.time_us ? -1 : 1;
+    }
+    return first->order < second->order ? -1 : 1;
+}
+
+static int compare_scans(const void *a, const void *b)
+{
+    const struct rho_bearing_scan *first = a, *second = b;
+
+    return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
+}
+
+static int compare_sensors(const void *a, const void *b)
+{
+    const struct frame_sensor *first = a, *second = b;
+
+    return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
+}
+
+/* True where the scan is a further one of the frame that is open; it is not before it. */
+static bool belongs(const struct frame_reader *reader, const struct rho_frame *frame,
+                    const struct rho_bearing_scan *scan)
+{
+    if (scan->time_us - reader->tolerance_us > frame->time_us) {
+        return false;
+    }
+    for (size_t i = 0; i < frame->num_scans; i++) {
+        if (frame->scans[i].sensor_id == scan->sensor_id) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The scan goes behind those of the open frame, or into one of its own. */
+static void add_to_frame(struct frame_reader *reader, size_t index)
+{
+    struct rho_bearing_scan *scan = &reader->scans[index];
+    struct rho_frame *frame = &reader->frames[reader->num_frames];
+
+    if (reader->num_frames > 0 && belongs(reader, frame - 1, scan)) {
+        frame[-1].num_scans++;
+        return;
+    }
+    *frame = (struct rho_frame){.time_us = scan->time_us, .num_scans = 1, .scans = scan};
+    reader->num_frames++;
+}
+
+static void make_frames(struct frame_reader *reader)
+{
+    reader->scans = must_alloc(reader->num_entries * sizeof *reader->scans);
+    reader->frames = must_alloc(reader->num_entries * sizeof *reader->frames);
+    for (size_t i = 0; i < reader->num_entries; i++) {
+        reader->scans[i] = reader->entries[i].scan;
+        add_to_frame(reader, i);
+    }
+    for (size_t i = 0, first = 0; i < reader->num_frames; i++) {
+        size_t num_scans = reader->frames[i].num_scans;
+
+        qsort(reader->scans + first, num_scans, sizeof *reader->scans, compare_scans);
+        reader->frames_incomplete += num_scans < reader->num_sensors;
+        first += num_scans;
+    }
+}
+
+static void check_sensors(const struct frame_reader *reader)
+{
+    if (reader->num_sensors < 2) {
+        fail(EXIT_USAGE,
+             "%s:%u: sensor %d is the only one: positions need bearings of two sensors or more",
+             reader->known[0].path, (unsigned)reader->known[0].line,
+             (int)reader->known[0].sensor.sensor_id);
+    }
+}
+
+static void sort_sensors(struct frame_reader *reader)
+{
+    for (size_t i = 0; i < reader->num_sensors; i++) {
+        reader->sensors[i] = reader->known[i].sensor;
+    }
+    qsort(reader->sensors, reader->num_sensors, sizeof *reader->sensors, compare_sensors);
+}
+
+struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
+                                       const struct parameters *parameters, bool keep_going)
+{
+    struct frame_reader *reader = must_calloc(1, sizeof *reader);
+
+    reader->parameters = parameters;
+    reader->keep_going = keep_going;
+    reader->interval_us = llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6);
+    reader->tolerance_us = llround(parameters->value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
+    for (int i = 0; i < num_paths; i++) {
+        read_path(reader, paths[i]);
+    }
+    check_sensors(reader);
+    sort_sensors(reader);
+    place_bearings(reader);
+    qsort(reader->entries, reader->num_entries, sizeof *reader->entries, compare_entries);
+    make_frames(reader);
+    return reader;
+}
+
+/* ---- What was read ---- */
+
+const struct rho_frame *frame_reader_next(struct frame_reader *reader)
+{
+    return reader->next < reader->num_frames ? &reader->frames[reader->next++] : NULL;
+}
+
+void frame_reader_skip(struct frame_reader *reader, uint64_t frames)
+{
+    if (reader->num_frames > frames) {
+        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " frames are taken\n", frames,
+                (uint64_t)reader->num_frames);
+        reader->next = reader->num_frames - frames;
+    }
+}
+
+uint64_t frame_reader_total(const struct frame_reader *reader)
+{
+    return reader->num_frames;
+}
+
+const struct frame_sensor *frame_reader_sensors(const struct frame_reader *reader, size_t *count)
+{
+    *count = reader->num_sensors;
+    return reader->sensors;
+}
+
+struct frame_reader_counts frame_reader_counts(const struct frame_reader *reader)
+{
+    return (struct frame_reader_counts){.frames = reader->num_frames,
+                                        .scans = reader->num_entries,
+                                        .bearings = reader->num_members,
+                                        .frames_incomplete = reader->frames_incomplete,
+                                        .rows_skipped = reader->rows_skipped};
+}
+
+void frame_reader_report(const struct frame_reader *reader)
+{
+    if (reader->rows_skipped) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", reader->rows_skipped);
+    }
+    if (reader->frames_incomplete) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " of %" PRIu64 " frames miss a sensor\n",
+                reader->frames_incomplete, (uint64_t)reader->num_frames);
+    }
+}
+
+void frame_reader_close(struct frame_reader *reader)
+{
+    if (!reader) {
+        return;
+    }
+    free(reader->entries);
+    free(reader->bearings);
+    free(reader->scans);
+    free(reader->frames);
+    free(reader);
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+#include "map.h"
+
+#include <math.h>
+
+static double extent_m(const struct plot_points *points)
+{
+    double largest = 0.0;
+    for (size_t i = 1; i < points->count; i++) {
+        largest = fmax(largest, fabs(points->list[i].x_m - points->list[0].x_m));
+        largest = fmax(largest, fabs(points->list[i].y_m - points->list[0].y_m));
+    }
+    return largest;
+}
+
+static double length_m(const struct plot_rays *rays)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < rays->count; i++) {
+        const struct plot_ray *ray = &rays->list[i];
+        largest = fmax(largest, hypot(ray->end_x_m - ray->x_m, ray->end_y_m - ray->y_m));
+    }
+    return largest;
+}
+
+struct map map_start(FILE *script, const struct plot_data *data)
+{
+    double largest = fmax(fmax(extent_m(&data->plots), length_m(&data->bearings)),
+                          fmax(extent_m(&data->tracks), extent_m(&data->truth)));
+    struct map map = {script, largest > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0};
+    const char *unit = map.unit_m > 1.0 ? "km" : "m";
+    fprintf(map.script,
+            "set size ratio -1\nset key outside top center horizontal\nset xlabel 'x east "
+            "(%s)'\nset ylabel 'y north (%s)'\n",
+            unit, unit);
+    return map;
+}
+
+void map_put_point(const struct map *map, const struct plot_point *point)
+{
+    fprintf(map->script, "%.6g %.6g %.6g %d\n", point->x_m / map->unit_m, point->y_m / map->unit_m,
+            (double)point->time_us * 1e-6, point->id);
+}
+
+void map_put_points(const struct map *map, const char *name, const struct plot_points *points)
+{
+    fprintf(map->script, "$%s << EOD\n", name);
+    for (size_t i = 0; i < points->count; i++) {
+        if (i > 0 && points->list[i].id != points->list[i - 1].id) {
+            fprintf(map->script, "\n\n");
+        }
+        map_put_point(map, &points->list[i]);
+    }
+    fprintf(map->script, "EOD\n");
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* map: places in a picture, in metres or kilometres, one scale for both axes. */
+#ifndef RHOTRACK_TOOL_MAP_H
+#define RHOTRACK_TOOL_MAP_H
+
+#include <stdio.h>
+
+#include "plot_data.h"
+
+#define MAP_KILOMETRES_FROM_M 4000.0
+
+struct map {
+    FILE *script;  /* gnuplot commands */
+    double unit_m; /* 1 or 1000 */
+};
+
+/* Axes and legend, in kilometres where anything of the data lies further apart than MAP_KILOMETRES_FROM_M. */
+struct map map_start(FILE *script, const struct plot_data *data);
+
+/* A row of a data block: x, y, time, identity. */
+void map_put_point(const struct map *map, const struct plot_point *point);
+
+/* One data block; identities are apart by two blank lines. */
+void map_put_points(const struct map *map, const char *name, const struct plot_points *points);
+
+#endif

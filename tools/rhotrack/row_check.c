@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+#include "row_check.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "rhotrack/types.h"
+
+bool row_refuse(const struct row_check *check, const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(check->reason, ROW_REASON_BYTES, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+bool row_refuse_cell(const struct row_check *check, int column, const char *why)
+{
+    const char *cell = table_cell(check->table, check->row, column);
+    const char *name = check->table->names[column];
+
+    if (!*cell) {
+        return row_refuse(check, "%s is empty", name);
+    }
+    return row_refuse(check, "%s '%.40s' %s", name, cell, why);
+}
+
+bool row_has(const struct row_check *check, int column)
+{
+    return column >= 0 && *table_cell(check->table, check->row, column);
+}
+
+bool row_float(const struct row_check *check, int column, float min, float max, float *value)
+{
+    const char *cell = table_cell(check->table, check->row, column);
+    double number;
+    const char *why = table_number(cell, &number);
+
+    if (why) {
+        return row_refuse_cell(check, column, why);
+    }
+    if (number < (double)min || number > (double)max) {
+        return row_refuse(check, "%s %.40s is outside %.9g .. %.9g", check->table->names[column],
+                          cell, (double)min, (double)max);
+    }
+    *value = (float)number;
+    return true;
+}
+
+bool row_position(const struct row_check *check, int column, float *value)
+{
+    return row_float(check, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, value);
+}
+
+bool row_sigma_rad(const struct row_check *check, int column, double otherwise, float *value)
+{
+    if (row_has(check, column)) {
+        return row_float(check, column, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX, value);
+    }
+    *value = (float)otherwise;
+    return true;
+}
+
+bool row_sector(const struct row_check *check, int from, int to, float *from_rad, float *to_rad)
+{
+    static const float turn = 6.2831855f;
+
+    if (!row_has(check, from) && !row_has(check, to)) {
+        return true;
+    }
+    return row_float(check, from, -turn, turn, from_rad) &&
+           row_float(check, to, -turn, turn, to_rad);
+}
+
+bool row_snr(const struct row_check *check, int column, float *snr_db)
+{
+    return !row_has(check, column) || row_float(check, column, -1000.0f, 1000.0f, snr_db);
+}
+
+bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
+             int32_t *sensor)
+{
+    const char *why = table_time_us(table_cell(check->table, check->row, t_s), time_us);
+
+    if (why) {
+        return row_refuse_cell(check, t_s, why);
+    }
+    why = table_int32(table_cell(check->table, check->row, sensor_id), sensor);
+    return why ? row_refuse_cell(check, sensor_id, why) : true;
+}
+
+void row_need_both(const struct table *table, const char *first, const char *second)
+{
+    bool has_first = table_find(table, first) >= 0, has_second = table_find(table, second) >= 0;
+
+    if (has_first != has_second) {
+        table_fail(table, TABLE_HEADER, "no column '%s' beside '%s'", has_first ? second : first,
+                   has_first ? first : second);
+    }
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * row_check: cells of one row of a plot or bearing file, checked, and the reason where one is bad.
+ *
+ * All that return bool return false where the row is bad; the reason is then set.
+ */
+#ifndef RHOTRACK_TOOL_ROW_CHECK_H
+#define RHOTRACK_TOOL_ROW_CHECK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "table.h"
+
+#define ROW_REASON_BYTES 200
+
+/* The row under check; columns below are indices into its table, -1 where the file has none. */
+struct row_check {
+    const struct table *table;
+    size_t row;
+    char *reason; /* ROW_REASON_BYTES */
+};
+
+/* Sets the reason; always false. Of a cell: its name, its text, and why; "is empty" where it is. */
+bool row_refuse(const struct row_check *check, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+bool row_refuse_cell(const struct row_check *check, int column, const char *why);
+
+/* There is such a column, and the row's cell in it is not empty. */
+bool row_has(const struct row_check *check, int column);
+
+/* A number within min .. max; one of the library's positions; a sigma of an angle. */
+bool row_float(const struct row_check *check, int column, float min, float max, float *value);
+bool row_position(const struct row_check *check, int column, float *value);
+bool row_sigma_rad(const struct row_check *check, int column, double otherwise, float *value);
+
+/* What may be missing: then unchanged. */
+bool row_sector(const struct row_check *check, int from, int to, float *from_rad, float *to_rad);
+bool row_snr(const struct row_check *check, int column, float *snr_db);
+
+/* Time and sensor. */
+bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
+             int32_t *sensor);
+
+/* Columns that mean something only together: exit 2 where one is there without the other. */
+void row_need_both(const struct table *table, const char *first, const char *second);
+
+#endif
