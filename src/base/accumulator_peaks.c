@@ -42,12 +42,13 @@ static void rise(struct rho_accumulator_peak *heap, uint32_t place)
     heap[place] = peak;
 }
 
-/* Whole votes, not fewer than min_share of the most. */
+/* Whole votes, not fewer than min_share of the most; never more than these, which a float may round up. */
 static uint32_t least_share(const struct rho_peak_list *list)
 {
     float share = list->min_share * (float)list->votes_max;
-    uint32_t least = share < 4.0e9f ? (uint32_t)share : UINT32_MAX;
-    return (float)least < share && least < UINT32_MAX ? least + 1u : least;
+    uint32_t least = share < 4.0e9f ? (uint32_t)share : list->votes_max;
+    least += (float)least < share;
+    return least < list->votes_max ? least : list->votes_max;
 }
 
 static void note_most(struct rho_peak_list *list, uint32_t votes)

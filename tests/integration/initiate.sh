@@ -96,6 +96,8 @@ refused 'too fine cells' 'plots 34397 m from the origin take 68796 cells of rho 
     initiate "$table3" --method ht --set d_rho_m=1
 refused 'too wide tolerances' '2 eps_rho_m is more than 255 cells of d_rho_m 5' \
     initiate table1.csv --method nht --set eps_rho_m=700
+printf 't_s,sensor_id,x_m,y_m\n0,1,1,1\n2000000000,1,5,5\n' >long.csv
+refused 'scans of sixty years' 'the scans taken span 2e+09 s; at most 9e+08 s make a batch' initiate long.csv --method iht
 refused 'speeds' 'v_min_mps 500 is not below v_max_mps 400' initiate table1.csv --method iht --set v_min_mps=500
 
 finish

@@ -179,6 +179,22 @@ static void a_share_of_the_most_votes_is_a_threshold(void **state)
     }
 }
 
+/* Beyond 2^24 a float32 has fewer digits than a number of votes. */
+static void the_most_votes_are_their_own_share(void **state)
+{
+    (void)state;
+    const uint32_t votes[] = {16777219u, 33554435u, 4294967295u, 4000000001u, 1u};
+    for (size_t i = 0; i < sizeof votes / sizeof votes[0]; i++) {
+        struct rho_accumulator_peak room[2];
+        struct rho_peak_list list = {.peaks = room, .max_peaks = 2, .min_share = 1.0f};
+        rho_peak_list_add(&list, (struct rho_accumulator_peak){.votes = votes[i]});
+        rho_peak_list_add(&list, (struct rho_accumulator_peak){.votes = votes[i] / 2u});
+        rho_peak_list_finish(&list);
+        assert_int_equal(list.num_peaks, 1);
+        assert_int_equal(room[0].votes, votes[i]);
+    }
+}
+
 static void points_beyond_the_largest_rho_do_not_vote(void **state)
 {
     (void)state;
@@ -348,6 +364,7 @@ int main(void)
         cmocka_unit_test(a_scan_votes_once_in_a_cell),
         cmocka_unit_test(the_best_are_kept_and_the_others_counted),
         cmocka_unit_test(a_share_of_the_most_votes_is_a_threshold),
+        cmocka_unit_test(the_most_votes_are_their_own_share),
         cmocka_unit_test(points_beyond_the_largest_rho_do_not_vote),
         cmocka_unit_test(what_was_in_it_before_does_not_matter),
         cmocka_unit_test(nothing_gives_nothing),

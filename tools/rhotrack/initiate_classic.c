@@ -12,6 +12,7 @@
 #include "tracks_writer.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)
+#define SPAN_MAX_US INT64_C(900000000000000)
 
 /* The last scans of a file, in the library's arrays. */
 struct batch {
@@ -53,6 +54,10 @@ static bool is_usable(const struct rho_plot *plot)
 /* Times count from the first scan, until all are there. */
 static void add_scan(struct batch *batch, const struct rho_scan *scan, int64_t first_us)
 {
+    if (scan->time_us - first_us > SPAN_MAX_US) {
+        fail(EXIT_USAGE, "the scans taken span %.3g s; at most %.0g s make a batch",
+             1e-6 * (double)(scan->time_us - first_us), 1e-6 * (double)SPAN_MAX_US);
+    }
     make_room(batch, scan->num_plots);
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
