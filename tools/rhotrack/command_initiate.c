@@ -7,7 +7,9 @@
 
 #include "commands.h"
 #include "common.h"
+#include "frame_reader.h"
 #include "initiate_classic.h"
+#include "initiate_passive.h"
 #include "scan_reader.h"
 #include "tracks_writer.h"
 
@@ -161,13 +163,31 @@ static void initiate_kernel(const struct command_line *line)
     free(batch.initiator);
 }
 
+/* What was asked for, or the default for what the file holds. */
+static enum method choose_method(const struct command_line *line)
+{
+    bool has_bearings = frame_reader_is_bearings(line->arguments[0]);
+
+    if (!line->method) {
+        return has_bearings ? METHOD_PASSIVE : METHOD_KERNEL;
+    }
+    enum method method = method_find(line->method);
+    if (has_bearings && method != METHOD_PASSIVE) {
+        fail(EXIT_USAGE, "%s: holds bearings, and method %s takes plots; try --method passive",
+             line->arguments[0], line->method);
+    }
+    return method;
+}
+
 int command_initiate(struct command_line *line)
 {
-    enum method method = method_find(line->method);
+    enum method method = choose_method(line);
 
     method_suggest(method, &line->parameters);
     if (method == METHOD_KERNEL) {
         initiate_kernel(line);
+    } else if (method == METHOD_PASSIVE) {
+        initiate_passive(line);
     } else {
         initiate_classic(line, method);
     }

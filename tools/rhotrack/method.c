@@ -6,7 +6,7 @@
 
 #include "common.h"
 
-static const char *const names[NUM_METHODS] = {"kernel", "ht", "mht", "iht", "nht"};
+static const char *const names[NUM_METHODS] = {"kernel", "ht", "mht", "iht", "nht", "passive"};
 
 const char *method_name(enum method method)
 {
@@ -15,15 +15,12 @@ const char *method_name(enum method method)
 
 enum method method_find(const char *name)
 {
-    if (!name) {
-        return METHOD_KERNEL;
-    }
     for (int i = 0; i < NUM_METHODS; i++) {
         if (!strcmp(names[i], name)) {
             return (enum method)i;
         }
     }
-    if (!strcmp(name, "passive") || !strcmp(name, "passive-paper")) {
+    if (!strcmp(name, "passive-paper")) {
         fail(EXIT_USAGE, "method '%s' is not in this version; there are: " METHOD_NAMES, name);
     }
     fail(EXIT_USAGE, "no method '%s'; there are: " METHOD_NAMES, name);
@@ -31,12 +28,16 @@ enum method method_find(const char *name)
 
 void method_suggest(enum method method, struct parameters *parameters)
 {
-    if (method == METHOD_KERNEL) {
-        return;
+    if (method == METHOD_PASSIVE) {
+        parameters_suggest(parameters, PARAMETER_SCANS, 8);
+        parameters_suggest(parameters, PARAMETER_D_RHO_M, 2000);
+        parameters_suggest(parameters, PARAMETER_D_THETA_RAD, M_PI / 36);
+        parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 450);
+    } else if (method != METHOD_KERNEL) { /* the paper's */
+        parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
+        parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
+        parameters_suggest(parameters, PARAMETER_VOTE, 1); /* counts */
     }
-    parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
-    parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
-    parameters_suggest(parameters, PARAMETER_VOTE, 1); /* counts */
 }
 
 static enum rho_classic_method classic_of(enum method method, const struct parameters *parameters)
@@ -101,5 +102,32 @@ struct rho_classic_config method_classic(enum method method, const struct parame
     config.votes = value[PARAMETER_VOTE] > 0 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
     config.tau = (float)value[PARAMETER_TAU];
     config.votes_min = (float)value[PARAMETER_VOTES_MIN];
+    return config;
+}
+
+struct rho_passive_config method_passive(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+    double cells = 2.0 * value[PARAMETER_RANGE_MAX_M] / value[PARAMETER_D_RHO_M];
+    struct rho_passive_config config;
+
+    parameters_check(parameters);
+    if (cells > RHO_PASSIVE_RHO_CELLS) {
+        fail(EXIT_USAGE, "range_max_m %.9g takes %.0f cells of d_rho_m %.9g; there are %d",
+             value[PARAMETER_RANGE_MAX_M], ceil(cells), value[PARAMETER_D_RHO_M],
+             RHO_PASSIVE_RHO_CELLS);
+    }
+    if (M_PI / value[PARAMETER_D_THETA_RAD] > RHO_PASSIVE_THETA_CELLS + 0.5) {
+        fail(EXIT_USAGE, "d_theta_rad %.9g takes %.0f cells over half a turn; there are %d",
+             value[PARAMETER_D_THETA_RAD], ceil(M_PI / value[PARAMETER_D_THETA_RAD]),
+             RHO_PASSIVE_THETA_CELLS);
+    }
+    rho_passive_config_default(&config);
+    config.scans = (uint16_t)value[PARAMETER_SCANS];
+    config.range_max_m = (float)value[PARAMETER_RANGE_MAX_M];
+    config.v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    config.pd = (float)value[PARAMETER_PD];
+    config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
+    config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
     return config;
 }

@@ -7,22 +7,34 @@
 
 #include "parameters.h"
 #include "rhotrack/classic.h"
+#include "rhotrack/passive.h"
 
-enum method { METHOD_KERNEL, METHOD_HT, METHOD_MHT, METHOD_IHT, METHOD_NHT, NUM_METHODS };
+enum method {
+    METHOD_KERNEL,
+    METHOD_HT,
+    METHOD_MHT,
+    METHOD_IHT,
+    METHOD_NHT,
+    METHOD_PASSIVE,
+    NUM_METHODS
+};
 
-#define METHOD_NAMES "kernel, ht, mht, iht, nht"
+#define METHOD_NAMES "kernel, ht, mht, iht, nht, passive"
 
 const char *method_name(enum method method);
 
-/* NULL: kernel. Unknown: exit 2 with the list. */
+/* Unknown: exit 2 with the list. */
 enum method method_find(const char *name);
 
-/* The method's own customary values (parameters_suggest): the paper's speeds, and that plots count, for the paper's. */
+/* The method's own customary values (parameters_suggest). */
 void method_suggest(enum method method, struct parameters *parameters);
 
-/* The config of any method but kernel, for plots at most so far from the origin. Exit 2 where that takes more cells of
+/* The config of ht, mht, iht and nht, for plots at most so far from the origin. Exit 2 where that takes more cells of
  * rho than there are. */
 struct rho_classic_config method_classic(enum method method, const struct parameters *parameters,
                                          double range_m);
+
+/* The config of passive. Exit 2 where its cells do not hold range_max_m. */
+struct rho_passive_config method_passive(const struct parameters *parameters);
 
 #endif
