@@ -11,7 +11,7 @@
 
 #define PI 3.14159265358979323846
 #define DEG_RAD (PI / 180.0)
-#define SCENE_SCANS 9
+#define SCENE_SCANS 16
 #define SCENE_SENSORS 4
 #define SCENE_TARGETS 4
 #define LOOK_MAX 64u
@@ -113,9 +113,8 @@ static inline void add_bearing(struct look *look, double bearing_rad, double sig
 {
     if (look->count < LOOK_MAX) {
         look->target[look->count] = target;
-        look->bearings[look->count++] =
-            (struct rho_bearing){.bearing_rad = (float)remainder(bearing_rad, 2.0 * PI),
-                                 .sigma_rad = (float)sigma_rad};
+        look->bearings[look->count++] = (struct rho_bearing){
+            .bearing_rad = (float)remainder(bearing_rad, 2.0 * PI), .sigma_rad = (float)sigma_rad};
     }
 }
 
@@ -173,8 +172,7 @@ static inline void see_all(struct scene *scene)
 static inline void set_scan_times(struct scene *scene)
 {
     for (unsigned k = 1; k < scene->scans; k++) {
-        scene->time_s[k] =
-            scene->time_s[k - 1] + 10.0 + uniform(-scene->jitter_s, scene->jitter_s);
+        scene->time_s[k] = scene->time_s[k - 1] + 10.0 + uniform(-scene->jitter_s, scene->jitter_s);
         scene->time_s[k] = floor(scene->time_s[k] * 1e6) / 1e6;
     }
 }
@@ -284,9 +282,9 @@ static inline int is_track_finite(const struct rho_passive_track *track)
 }
 
 /* Claims of held bearings, none claimed before; hits and scans say the same. */
-static inline int
-are_claims_right(const struct rho_passive *passive, const struct rho_passive_track *track,
-                 uint64_t claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
+static inline int are_claims_right(const struct rho_passive *passive,
+                                   const struct rho_passive_track *track,
+                                   uint64_t claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
 {
     unsigned hits = 0, scans = 0;
     for (unsigned k = 0; k < RHO_MAX_PASSIVE_SCANS; k++) {
