@@ -31,7 +31,8 @@ static inline double uniform(double from, double to)
 
 static inline double normal(void)
 {
-    return sqrt(-2.0 * log(uniform(1e-12, 1.0))) * cos(uniform(0.0, 2.0 * PI));
+    double size = sqrt(-2.0 * log(uniform(1e-12, 1.0)));
+    return size * cos(uniform(0.0, 2.0 * PI));
 }
 
 /* What one sensor saw in one scan. */
@@ -154,8 +155,8 @@ static inline void see(struct scene *scene, unsigned k, unsigned s)
         }
     }
     for (unsigned left = poisson(scene->false_bearings); left > 0; left--) {
-        add_bearing(look, uniform(-0.5 * PI, 0.5 * PI),
-                    uniform(scene->sigma_from_rad, scene->sigma_to_rad), -1);
+        double sigma_rad = uniform(scene->sigma_from_rad, scene->sigma_to_rad);
+        add_bearing(look, uniform(-0.5 * PI, 0.5 * PI), sigma_rad, -1);
     }
     shuffle(look);
 }
