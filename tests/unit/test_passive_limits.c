@@ -612,7 +612,7 @@ static struct rho_passive_config some_config(void)
     config.v_max_mps = some_float(1.0, 2e3);
     config.pd = some_float(0.01, 0.999);
     config.field_of_view_rad = some_float(0.01, 6.28);
-    config.hits_min = some_float(0.1, 1.0);
+    config.hits_min = (float)uniform(0.55, 1.0); /* of two sensors: bearings of both */
     config.rho_cell_m = some_float(1e3, 1e4);
     config.theta_cell_rad = some_float(0.08, 0.5);
     config.rule = (enum rho_ghost_rule)(random_bits() % 3);
