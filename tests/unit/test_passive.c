@@ -540,6 +540,98 @@ static void the_work_is_counted(void **state)
     assert_true(passive.work.peaks > 0 && passive.work.hypotheses > 0 && passive.work.fits > 0);
 }
 
+/* ---- figures that must hold together ---------------------------------------------------------- */
+
+static void the_best_score_comes_first(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(3, 4, 0.1, 0.9, 1.0);
+    for (unsigned run = 0; run < 60; run++) {
+        draw(&from, 1 + run);
+        search_into(&passive);
+        for (unsigned i = 1; i < passive.num_tracks; i++) {
+            assert_true(passive.tracks[i - 1].score_mnat >= passive.tracks[i].score_mnat);
+        }
+    }
+}
+
+/* One target of two sensors of such sigmas. Returns how often it was found. */
+static unsigned find_with(double sigma_a_rad, double sigma_b_rad, unsigned runs)
+{
+    unsigned found = 0;
+    random_state = 5;
+    for (unsigned run = 0; run < runs; run++) {
+        scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+        set_scan_times(&scene);
+        scene.target[0] = random_target(scene_span_s(&scene));
+        for (unsigned k = 0; k < scene.scans; k++) {
+            for (unsigned s = 0; s < 2; s++) {
+                scene.sigma_from_rad = scene.sigma_to_rad = s ? sigma_b_rad : sigma_a_rad;
+                see(&scene, k, s);
+            }
+        }
+        search_into(&passive); /* its tracks have a covariance */
+        found += passive.num_tracks == 1;
+    }
+    return found;
+}
+
+static void a_coarse_sensor_helps_a_precise_one(void **state)
+{
+    (void)state;
+    assert_true(find_with(1e-4, 0.01, 30) >= 29);
+    assert_true(find_with(1e-5, 0.01, 30) >= 29);
+}
+
+static void targets_beyond_200_km_are_found(void **state)
+{
+    (void)state;
+    unsigned found = 0;
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.range_max_m = 400e3f;
+    config.rho_cell_m = 8000.0f;
+    for (unsigned run = 0; run < 10; run++) {
+        random_state = 300 + run;
+        scene = scene_of(2, 1, 0.05, 1.0, 0.0);
+        scene.sensor_y_m[0] = -40e3;
+        scene.sensor_y_m[1] = 40e3;
+        set_scan_times(&scene);
+        scene.target[0] =
+            (struct target){.x_m = 250e3, .y_m = 5e3, .vx_mps = -250.0, .vy_mps = 40.0};
+        see_all(&scene);
+        assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+        assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+        assert_int_equal(rho_passive_search(&passive), RHO_OK);
+        found += passive.num_tracks == 1 && miss_m(&passive.tracks[0], &scene.target[0]) < 15e3;
+    }
+    assert_int_equal(found, 10);
+}
+
+/* They say nothing of range and speed, whatever share of the bearings is asked for. */
+static void bearings_of_one_sensor_alone_are_no_track(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 0.9, 1.0);
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.hits_min = 0.4f;
+    for (unsigned run = 0; run < 60; run++) {
+        draw(&from, 200 + run);
+        assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+        assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+        assert_int_equal(rho_passive_search(&passive), RHO_OK);
+        for (unsigned i = 0; i < passive.num_tracks; i++) {
+            unsigned hits[2] = {0, 0};
+            for (unsigned k = 0; k < scene.scans; k++) {
+                hits[0] += passive.tracks[i].claim[k][0] > 0;
+                hits[1] += passive.tracks[i].claim[k][1] > 0;
+            }
+            assert_true(hits[0] >= 2 && hits[1] >= 2);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -560,6 +652,10 @@ int main(void)
         cmocka_unit_test(a_miss_costs_the_logarithm_of_its_probability),
         cmocka_unit_test(one_sensor_makes_no_track),
         cmocka_unit_test(the_work_is_counted),
+        cmocka_unit_test(the_best_score_comes_first),
+        cmocka_unit_test(a_coarse_sensor_helps_a_precise_one),
+        cmocka_unit_test(targets_beyond_200_km_are_found),
+        cmocka_unit_test(bearings_of_one_sensor_alone_are_no_track),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -279,6 +279,16 @@ static void too_many_sensors_are_refused(void **state)
     assert_memory_equal(&passive, &before, sizeof passive);
 }
 
+/* The first of the frame's scans is good, the second is refused. */
+static void a_refused_frame_teaches_no_sensor(void **state)
+{
+    (void)state;
+    start_batch();
+    full.scans[0].sensor_id = full.scans[1].sensor_id = 99;
+    full.scans[0].x_m = 5.0e3f;
+    expect_refused(RHO_ERROR_VALUE);
+}
+
 /* ---- fates ------------------------------------------------------------------------------------ */
 
 /* One sensor's bearings as the first frame; the fates come in `full`. */
@@ -667,6 +677,7 @@ int main(void)
         cmocka_unit_test(a_sensor_twice_in_a_frame_is_refused),
         cmocka_unit_test(a_new_sensor_must_have_its_own_place),
         cmocka_unit_test(too_many_sensors_are_refused),
+        cmocka_unit_test(a_refused_frame_teaches_no_sensor),
         cmocka_unit_test(bad_bearings_are_invalid),
         cmocka_unit_test(bad_sigmas_are_invalid),
         cmocka_unit_test(bearings_beyond_the_capacity_find_no_room),
