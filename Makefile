@@ -90,7 +90,7 @@ $(BUILD)/workstation/%.o: %.c Makefile
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)
 vote_objects := $(foreach part,accumulator accumulator_rows accumulator_prune,%/src/base/$(part).o)
-$(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): OPT := -O3
+$(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): override OPT := -O3
 endif
 
 $(BUILD)/program/%.o: %.c Makefile

@@ -36,7 +36,7 @@ enum rho_accumulator_votes {
 struct rho_accumulator_config {
     float rho_max_m;  /* cells of rho from -rho_max_m to rho_max_m; points outside do not vote */
     float rho_cell_m; /* 2 rho_max_m / rho_cell_m, rounded, is 1 .. RHO_MAX_RHO_CELLS */
-    /* 1e-4 .. pi; cell i is at (i + 1/2) theta_cell_rad; the last one may reach beyond pi */
+    /* 1e-4 .. pi, below pi with neighbours; cell i is at (i + 1/2) theta_cell_rad; the last one may reach beyond pi */
     float theta_cell_rad;
     enum rho_accumulator_votes votes;
     uint16_t min_votes; /* of a peak; at least 1 */

@@ -100,7 +100,7 @@ struct rho_classic_track {
 };
 
 struct rho_classic_cell {
-    uint32_t key; /* theta_cell rho_cells + rho_cell */
+    uint32_t key; /* theta_cell << 16 | rho_cell */
     uint32_t votes;
 };
 
@@ -153,7 +153,7 @@ RHO_MUST_CHECK enum rho_status rho_classic_init(struct rho_classic *classic, siz
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a scan, a place not
  * finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s); nothing but *classic's scratch is changed.
  * Cost: HT as rho_accumulator_find. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2 additions a vote. Then the
- * cells above the thresholds, n log n. Stack: 700 bytes, HT 1.9 KB, NHT_C 2.8 KB.
+ * cells above the thresholds, n log n. Stack: 1 KB, HT 1.9 KB, NHT_C 2.8 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
                                                 const struct rho_classic_points *points,
@@ -164,8 +164,9 @@ RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
 /*
  * The votes of any cell of the plane, and whose they are.
  *   at_s   the time that the place is for
- * Errors: as above, and VALUE for a cell outside the plane. Cost: the plots, and the pairs (NHT: pairs of pairs) of those
- * near the line. Stack: 2.6 KB.
+ * Errors: as above, and VALUE for a cell outside the plane. Cost: the plots, which are also
+ * checked anew, and the pairs (NHT: pairs of pairs) of those
+ * near the line. Stack: 2.8 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_classic_track(struct rho_classic *classic,
                                                  const struct rho_classic_points *points,

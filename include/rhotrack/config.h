@@ -57,7 +57,7 @@
 #endif
 
 /* Bins of rho in which the accumulator counts whether points can reach min_votes at all. About 4 a point that counts as
- * few; less of them leave out less. RAM: 4 bytes a bin. A power of two, 64 .. 16384. */
+ * few; fewer of them leave out less. RAM: 4 bytes a bin. A power of two, 64 .. 16384. */
 #ifndef RHO_ACCUMULATOR_BINS
 #define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
 #endif
@@ -75,7 +75,7 @@
 #define RHO_MAX_CLASSIC_KERNELS RHO_CONFIG_PICK(256, 16384)
 #endif
 
-/* Chains in which these pairs are found by their line. RAM: 2 bytes each. A power of two. */
+/* Chains in which these pairs are found by their line. RAM: 2 bytes each. */
 #define RHO_CLASSIC_CHAINS RHO_CONFIG_PICK(256, 16384)
 
 /* Bearings of one scan of a passive sensor; the rest get the fate NO_ROOM. 1 .. 64. */

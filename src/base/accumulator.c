@@ -65,6 +65,8 @@ static int is_usable(const struct rho_accumulator_config *config)
            rho_is_within(config->rho_max_m, 0.5f * config->rho_cell_m,
                          config->rho_cell_m * 0.5f * (float)RHO_MAX_RHO_CELLS) &&
            rho_is_within(config->theta_cell_rad, THETA_CELL_MIN_RAD, RHO_PI) &&
+           /* the neighbours of a single row would be itself */
+           (config->neighbours == 0 || config->theta_cell_rad < RHO_PI) &&
            (config->votes == RHO_VOTES_SCANS || config->votes == RHO_VOTES_POINTS) &&
            config->min_votes >= 1 && rho_is_within(config->min_share, 0.0f, 1.0f) &&
            config->no_pruning <= 1 &&

@@ -46,7 +46,7 @@ static void rise(struct rho_accumulator_peak *heap, uint32_t place)
 static uint32_t least_share(const struct rho_peak_list *list)
 {
     float share = list->min_share * (float)list->votes_max;
-    uint32_t least = share < 4.0e9f ? (uint32_t)share : list->votes_max;
+    uint32_t least = share < 4294967296.0f ? (uint32_t)share : list->votes_max;
     least += (float)least < share;
     return least < list->votes_max ? least : list->votes_max;
 }

@@ -49,7 +49,7 @@ struct interval {
 
 struct prune {
     struct rho_accumulator_pass *pass;
-    float center_x_m, center_y_m, radius_cells; /* a circle around all points */
+    float centre_x_m, centre_y_m, radius_cells; /* a circle around all points */
     unsigned next_row;                          /* not yet in an interval */
     unsigned last_filled;                       /* row that was not looked through; NONE */
     unsigned num_rows;                          /* of the next interval; 1: they are not worth it */
@@ -93,10 +93,10 @@ static void enclose_points(struct prune *prune)
     const struct rho_accumulator_points *points = prune->pass->points;
     unsigned n = prune->pass->num_points;
     float half_x_m, half_y_m, farthest2 = 0.0f;
-    range_of(points->x_m, n, &prune->center_x_m, &half_x_m);
-    range_of(points->y_m, n, &prune->center_y_m, &half_y_m);
+    range_of(points->x_m, n, &prune->centre_x_m, &half_x_m);
+    range_of(points->y_m, n, &prune->centre_y_m, &half_y_m);
     for (unsigned i = 0; i < n; i++) {
-        float x_m = points->x_m[i] - prune->center_x_m, y_m = points->y_m[i] - prune->center_y_m;
+        float x_m = points->x_m[i] - prune->centre_x_m, y_m = points->y_m[i] - prune->centre_y_m;
         float range2 = x_m * x_m + y_m * y_m;
         farthest2 = range2 > farthest2 ? range2 : farthest2;
     }
@@ -154,7 +154,7 @@ static struct rho_accumulator_place place_of_bins(const struct prune *prune, str
     float by_x = rho_cos(theta_rad) * per_m, by_y = rho_sin(theta_rad) * per_m;
     return (struct rho_accumulator_place){by_x, by_y,
                                           prune->radius_cells / width_cells + 1.0f -
-                                              prune->center_x_m * by_x - prune->center_y_m * by_y};
+                                              prune->centre_x_m * by_x - prune->centre_y_m * by_y};
 }
 
 /* Drops the interval's points that cannot reach min_votes. */

@@ -54,6 +54,16 @@ static float line_distance2(const struct rho_classic *classic, struct rho_line a
     return rho * rho <= 4.0f && theta * theta <= 4.0f ? rho * rho + theta * theta : -1.0f;
 }
 
+/* Nearer, or as near and earlier: by the first plot, then the second. */
+static int comes_before(float distance2, struct rho_classic_pair pair, float other_distance2,
+                        struct rho_classic_pair other)
+{
+    if (distance2 < other_distance2 || distance2 > other_distance2) {
+        return distance2 < other_distance2;
+    }
+    return pair.first != other.first ? pair.first < other.first : pair.second < other.second;
+}
+
 void rho_classic_compare(const struct rho_classic *classic, struct rho_line line,
                          struct rho_line kernel, struct rho_classic_pair pair,
                          struct rho_classic_nearest *nearest)
@@ -63,7 +73,8 @@ void rho_classic_compare(const struct rho_classic *classic, struct rho_line line
         return;
     }
     uint32_t rank = nearest->count;
-    while (rank > 0 && distance2 < nearest->distance2[rank - 1u]) {
+    while (rank > 0 &&
+           comes_before(distance2, pair, nearest->distance2[rank - 1u], nearest->pair[rank - 1u])) {
         rank--;
     }
     if (rank == 0) {

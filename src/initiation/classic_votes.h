@@ -67,7 +67,7 @@ struct rho_classic_nearest {
     struct rho_classic_pair pair[2];
 };
 
-/* Takes a kernel into account, where it is within 2 eps of the line. Of equally near ones the first counts. */
+/* Takes a kernel into account, where it is within 2 eps of the line. Of equally near ones that of the first plots counts. */
 void rho_classic_compare(const struct rho_classic *classic, struct rho_line line,
                          struct rho_line kernel, struct rho_classic_pair pair,
                          struct rho_classic_nearest *nearest);

@@ -94,6 +94,14 @@ refused 'unknown reading' "--set nht_reading=b: nht_reading 'b' is not one of a|
 refused 'unknown vote' "--set vote=1: vote '1' is not one of scans|counts" initiate table1.csv --set vote=1
 refused 'too fine cells' 'plots 34397 m from the origin take 68796 cells of rho at d_rho_m 1; there are 16384: d_rho_m 4.2 would do' \
     initiate "$table3" --method ht --set d_rho_m=1
+# What is suggested does.
+for range in 99999 100000 123456 250000 1999999; do
+    printf 't_s,sensor_id,x_m,y_m\n0,1,%s,0\n2,1,500,0\n' $range >far.csv
+    run initiate far.csv --method mht
+    cell=$(sed 's/.*d_rho_m \([0-9.e+]*\) would do/\1/' stderr)
+    run initiate far.csv --method mht --set "d_rho_m=$cell" --set eps_rho_m=1000
+    check "plots as far as $range m: d_rho_m $cell" exits 0
+done
 refused 'too wide tolerances' '2 eps_rho_m is more than 255 cells of d_rho_m 5' \
     initiate table1.csv --method nht --set eps_rho_m=700
 printf 't_s,sensor_id,x_m,y_m\n0,1,1,1\n2000000000,1,5,5\n' >long.csv

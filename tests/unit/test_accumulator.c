@@ -313,6 +313,7 @@ static void bad_configs_are_refused(void **state)
     REFUSED(rho_cell_m, INFINITY);
     REFUSED(theta_cell_rad, 9e-5f);
     REFUSED(theta_cell_rad, 3.2f);
+    REFUSED(theta_cell_rad, 3.14159274f); /* with neighbours */
     REFUSED(theta_cell_rad, NAN);
     REFUSED(votes, (enum rho_accumulator_votes)2);
     REFUSED(min_votes, 0);

@@ -47,10 +47,13 @@ static const struct job jobs[] = {{FINE, 30, 0},    {FINE, 30, 3},   {FINE, 300,
 
 #define NUM_JOBS (sizeof jobs / sizeof jobs[0])
 
+#define COUNTERS_BYTES_MOST 65536.0
+
 struct figures {
     double votes; /* points times cells of theta */
     double us, plain_us, dense_us;
     double bytes, dense_bytes;
+    double counters_bytes; /* in use: three rows, and one for a scan's own votes */
     struct hough_cost opencv;
 };
 
@@ -141,6 +144,7 @@ static struct figures measure(struct rho_accumulator *accumulator, const struct 
     figures.opencv = hough_opencv(accumulator, &cloud, kinds[job->kind].opencv_rounds);
     double points_bytes = 2.0 * sizeof(float) * job->points;
     figures.bytes = sizeof *accumulator + points_bytes;
+    figures.counters_bytes = 4.0 * (accumulator->rho_cells + RHO_ACCUMULATOR_PADDING);
     figures.dense_bytes = (double)hough_dense_bytes(accumulator) + points_bytes;
     return figures;
 }
@@ -219,6 +223,8 @@ static void judge(struct verdicts *verdicts, const struct job *job, const struct
                          kinds[FINE].name, job->points, job->targets > 0 ? " with targets" : "");
     }
     if (job->kind == FINE && job->points == 3000) {
+        verdicts_at_most(verdicts, figures->counters_bytes, COUNTERS_BYTES_MOST,
+                         "%s, %u points: bytes of counters", kinds[FINE].name, job->points);
         verdicts_at_most(verdicts, 1e3 * figures->us / figures->votes, NS_A_VOTE_MOST,
                          "%s, %u points: ns a vote", kinds[FINE].name, job->points);
     }

@@ -180,8 +180,8 @@ static void put_last_situations(const struct classic_report *report, struct page
         page,
         "Situation III, Fig. 9: clutter harms HT, not the others. This holds: HT's highest "
         "false peak is above the targets' (discrimination %.2f, %.0f false peaks); MHT is at "
-        "the edge (%.2f, %.0f); IHT (%.2f) and NHT (%.2f and %.2f) tell them apart. IHT does "
-        "it best, with %.0f votes where MHT casts %.0f, NHT C %.0f and HT %.0f.",
+        "the edge (%.2f, %.0f); IHT (%.2f) and NHT (%.2f and %.2f) tell them apart. IHT "
+        "needs %.0f votes for it; MHT casts %.0f, NHT C %.0f and HT %.0f.",
         DISCRIMINATION(SITUATION_III, RHO_CLASSIC_HT), FALSE_PEAKS(SITUATION_III, RHO_CLASSIC_HT),
         DISCRIMINATION(SITUATION_III, RHO_CLASSIC_MHT), FALSE_PEAKS(SITUATION_III, RHO_CLASSIC_MHT),
         DISCRIMINATION(SITUATION_III, RHO_CLASSIC_IHT),
@@ -269,7 +269,7 @@ static void put_head(const struct classic_report *report, struct page *page)
 {
     page_text(page,
               "The experiments of Fan et al., \"Neutrosophic Hough Transform-Based Track "
-              "Initiation Method for Multiple Target Tracking\", section V, %zu runs each, seed "
+              "Initiation Method for Multiple Target Tracking\", section V, runs a case %zu, seed "
               "%llu: Table 1's three targets, and Table 3's real plots, 7 scans, P_D 0.99; cells "
               "of 5 m and 1 mrad, eps 20 m and 4 mrad, 100 to 400 m/s, P_F 0.01, tau 0.5 (the "
               "paper gives none), rho signed. Where NHT's votes go, the paper leaves open: reading "
@@ -332,13 +332,14 @@ static void put_sweep_part(const struct classic_report *report, struct page *pag
     struct grid sweep = classic_sweep_grid(report);
     draw_sweep(report, path);
     page_heading(page, "At which noise Table 2 holds");
-    page_text(page,
-              "Situation IV with other noises, %zu runs each. Up to about 0.6 m the paper's order "
-              "holds: NHT C detects most, with far fewer false peaks than IHT (without noise IHT "
-              "does as well). Beyond, two plots 400 to 570 m apart no longer give an angle to 8 "
-              "mrad: 2 eps are three standard deviations at 0.43 to 0.62 m, and the paper's own "
-              "noise is 16 to 23 times as much.",
-              report->num_sweep_runs);
+    page_text(
+        page,
+        "Situation IV with other noises, runs a noise %zu. Up to about 0.6 m the paper's order "
+        "holds: NHT C detects most, with far fewer false peaks than IHT (without noise IHT "
+        "does as well). Beyond, two plots 400 to 570 m apart no longer give an angle to 8 "
+        "mrad: 2 eps are three standard deviations at 0.43 to 0.62 m, and the paper's own "
+        "noise is 16 to 23 times as much.",
+        report->num_sweep_runs);
     page_figure(page, "noise.svg", "Targets detected, and false peaks, against the noise.");
     page_table(page, &sweep);
     grid_free(&sweep);

@@ -59,8 +59,10 @@ static const char *with_reference(char text[TEXT], size_t situation,
     bool has_reference = classic_expected(situation, summary->method, figure).is_given;
     const char *reference =
         has_reference ? classic_references[situation][summary->method].figures[figure] : "";
-    snprintf(text, TEXT, "%.20s%s%.20s", number(measured, summary, figure),
-             has_reference ? "/" : "", reference);
+    const char *dots = strstr(reference, "..");
+    int length = dots ? (int)(dots - reference) : (int)strlen(reference);
+    snprintf(text, TEXT, "%.20s%s%.*s%s%.10s", number(measured, summary, figure),
+             has_reference ? "/" : "", length, reference, dots ? "-" : "", dots ? dots + 2 : "");
     return text;
 }
 

@@ -12,6 +12,7 @@
 #include "tracks_writer.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)
+#define PAIRS_MANY 1e7
 #define SPAN_MAX_US INT64_C(900000000000000)
 
 /* The last scans of a file, in the library's arrays. */
@@ -122,6 +123,25 @@ static void warn_of_lost(const struct rho_classic_result *result)
     }
 }
 
+/* Where every pair votes, so many passes are needed that seconds become minutes. */
+static void warn_of_time(const struct rho_classic *classic, const struct rho_classic_points *points)
+{
+    double pairs = 0;
+
+    for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
+        uint32_t before = scan > 1 ? points->at.scan_end[scan - 2] : 0;
+
+        pairs += (double)(points->at.scan_end[scan - 1] - before) *
+                 (points->at.scan_end[scan] - points->at.scan_end[scan - 1]);
+    }
+    if (classic->config.method == RHO_CLASSIC_MHT && pairs > PAIRS_MANY) {
+        fprintf(stderr,
+                "rhotrack: %.3g pairs vote, which takes some %.0f passes over all of them; iht "
+                "leaves out those that no target can fly\n",
+                pairs, ceil(2.0 * pairs / RHO_MAX_CLASSIC_CELLS));
+    }
+}
+
 static void find(struct search *search, const struct command_line *line, enum method method)
 {
     struct rho_classic_config config =
@@ -129,6 +149,7 @@ static void find(struct search *search, const struct command_line *line, enum me
     struct rho_classic_points points = points_of(&search->batch);
 
     must_succeed(rho_classic_init(search->classic, sizeof *search->classic, &config), "classic");
+    warn_of_time(search->classic, &points);
     int64_t start_us = clock_us();
     must_succeed(
         rho_classic_find(search->classic, &points, search->peaks, CELLS_MAX, &search->result),

@@ -43,7 +43,7 @@ static const struct command commands[] = {
      "tracks\n"
      "file against a truth file. Times must agree to 1 ms; confirmed and coasting tracks count.\n"},
     {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
-     "orSmjsC", "a Monte Carlo experiment with tables and figures",
+     "orSmj", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
      "build/experiment/NAME). Experiments: initiation, polar, false-alarms; initiation takes\n"

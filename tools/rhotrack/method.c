@@ -55,16 +55,33 @@ static enum rho_classic_method classic_of(enum method method, const struct param
 }
 
 /* Cells of rho to either side that hold every line through such plots. */
+static double count_cells(double range_m, double cell_m)
+{
+    return floor(range_m / cell_m) + 1.0;
+}
+
+/* The least cell of three digits that leaves few enough. */
+static double cell_for(double range_m)
+{
+    double cell_m = 2.0 * range_m / (RHO_MAX_RHO_CELLS - 2);
+    double digit_m = pow(10.0, floor(log10(cell_m)) - 2.0);
+
+    cell_m = ceil(cell_m / digit_m) * digit_m;
+    while (2.0 * count_cells(range_m, cell_m) > RHO_MAX_RHO_CELLS) {
+        cell_m += digit_m;
+    }
+    return cell_m;
+}
+
 static double cells_for(double range_m, double cell_m)
 {
-    double cells = floor(range_m / cell_m) + 1.0;
+    double cells = count_cells(range_m, cell_m);
 
     if (2.0 * cells > RHO_MAX_RHO_CELLS) {
         fail(EXIT_USAGE,
              "plots %.0f m from the origin take %.0f cells of rho at d_rho_m %.9g; there are %d: "
              "d_rho_m %.3g would do",
-             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS,
-             ceil(100.0 * 2.0 * range_m / (RHO_MAX_RHO_CELLS - 2)) / 100.0);
+             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS, cell_for(range_m));
     }
     return cells;
 }
