@@ -70,8 +70,9 @@ struct rho_passive_work {
     uint32_t crossings,
         ghosts;              /* of the first pass: all pairs of bearings; removed before voting */
     uint32_t points_dropped; /* crossings beyond RHO_MAX_PASSIVE_POINTS: the least certain */
-    uint32_t peaks;          /* lines looked at */
-    uint32_t hypotheses;     /* pairs of crossings scored */
+    uint32_t line_points_dropped; /* of a line beyond 160: the last pairs of sensors' */
+    uint32_t peaks;               /* lines looked at */
+    uint32_t hypotheses;          /* pairs of crossings scored */
     uint32_t fits;
     uint32_t candidates_dropped; /* beyond RHO_MAX_PASSIVE_CANDIDATES */
 };
@@ -130,6 +131,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, siz
 
 /*
  * Takes a frame; the oldest leaves when the batch is full. A sensor is known from its first scan on.
+ *   frame  its time counts for all its bearings, offsets do not
  *   fates  one a bearing, in the order of the frame's scans; HELD ones are taken, and become INVALID (not finite, beyond
  *          +-pi, sigma outside its limits) or NO_ROOM (beyond RHO_MAX_BEARINGS) where they cannot be
  * Errors: NULL, STATE (not initialised, or the frame is not newer than the newest), CAPACITY (more sensors than

@@ -12,6 +12,7 @@
 #define SCANS_MIN 4u
 #define LINES_MAX 96u
 #define DENSITY_MIN_PER_RAD 0.3f
+#define SIGMA_RATIO_MAX 200.0f
 #define SQRT_TWO_PI 2.50662827f
 
 /* ---- setting up ------------------------------------------------------------------------------- */
@@ -122,8 +123,10 @@ static int is_twice(const struct rho_frame *frame, uint32_t number)
 /* Learns the frame's new sensors; nothing is learnt where one of them is refused. */
 static enum rho_status meet_sensors(struct rho_passive *passive, const struct rho_frame *frame)
 {
+    struct rho_passive_sensor before[RHO_MAX_PASSIVE_SENSORS];
     uint16_t known = passive->num_sensors;
     enum rho_status status = RHO_OK;
+    memcpy(before, passive->sensors, sizeof before);
     for (uint32_t i = 0; i < frame->num_scans && status == RHO_OK; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
         if (scan->num_bearings > 0 && !scan->bearings) {
@@ -136,7 +139,10 @@ static enum rho_status meet_sensors(struct rho_passive *passive, const struct rh
             add_sensor(passive, scan);
         }
     }
-    passive->num_sensors = status == RHO_OK ? passive->num_sensors : known;
+    if (status != RHO_OK) {
+        memcpy(passive->sensors, before, sizeof before);
+        passive->num_sensors = known;
+    }
     return status;
 }
 
@@ -239,6 +245,21 @@ static void set_times(struct rho_passive_search *search)
     }
 }
 
+/* Beside the least certain bearing the others count as if they were not much better: float32 has no more digits. */
+static void set_sigma(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    for (unsigned k = 0; k < passive->num_scans; k++) {
+        for (unsigned s = 0; s < passive->num_sensors; s++) {
+            for (unsigned i = 0; i < passive->num_bearings[k][s]; i++) {
+                float sigma_rad = passive->bearings[k][s][i].sigma_rad / SIGMA_RATIO_MAX;
+                search->sigma_min_rad =
+                    sigma_rad > search->sigma_min_rad ? sigma_rad : search->sigma_min_rad;
+            }
+        }
+    }
+}
+
 /* The density of bearings is that of the batch: a false one is as likely anywhere in the field of view. */
 static void set_odds(struct rho_passive_search *search)
 {
@@ -308,6 +329,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     set_places(&search);
     set_times(&search);
     set_odds(&search);
+    set_sigma(&search);
     set_cells(&search);
     pass(&search, 0.6f);
     rho_passive_select(&search);

@@ -9,10 +9,10 @@
 #define N RHO_PASSIVE_STATES
 #define GATE_SIGMAS 3.5f
 #define AGREEMENT_SIGMAS 9.0f
-/* Weak beliefs that keep a fit from running away: within 100 km, and 500 m/s. */
-#define PLACE_PRIOR_M 100000.0f
+/* Weak beliefs that keep a fit from running away: a place within the range, and 500 m/s. */
 #define SPEED_PRIOR_MPS 500.0f
-#define STEP_MAX_M 10000.0f
+#define STEP_SHARE 0.1f   /* of the range, in one step */
+#define PLACE_SHARE 2.0f  /* of the range, at most */
 #define CHI2_SIGMAS 3.09f /* 99.9 % */
 
 /* ---- the nearest bearing ---------------------------------------------------------------------- */
@@ -43,13 +43,14 @@ static struct nearest nearest_bearing(const struct rho_passive_search *search, u
     float range_m = rho_sqrt(range2), least = 1.0e9f;
     for (unsigned i = 0; i < passive->num_bearings[scan][sensor]; i++) {
         const struct rho_passive_bearing *seen = &passive->bearings[scan][sensor][i];
-        float off = (seen->sine * dx_m - seen->cosine * dy_m) / (range_m * seen->sigma_rad);
+        float sigma_rad =
+            seen->sigma_rad > search->sigma_min_rad ? seen->sigma_rad : search->sigma_min_rad;
+        float off = (seen->sine * dx_m - seen->cosine * dy_m) / (range_m * sigma_rad);
         float size = off < 0.0f ? -off : off;
         if (size < least && seen->cosine * dx_m + seen->sine * dy_m > 0.0f &&
             (claimed_too || !passive->is_claimed[scan][sensor][i])) {
             least = size;
-            nearest =
-                (struct nearest){.which = (int)i, .sigmas = off, .sigma_rad = seen->sigma_rad};
+            nearest = (struct nearest){.which = (int)i, .sigmas = off, .sigma_rad = sigma_rad};
         }
     }
     nearest.row_x = -dy_m / range2;
@@ -96,9 +97,9 @@ static void add_row(struct equations *equations, const float row[N], float weigh
 static void add_beliefs(const struct rho_passive_search *search, const float state_m[N],
                         struct equations *equations)
 {
-    float way_m = SPEED_PRIOR_MPS * search->half_s;
+    float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
     for (int i = 0; i < N; i++) {
-        float weight = i < 2 ? 1.0f / square(PLACE_PRIOR_M) : 1.0f / square(way_m);
+        float weight = i < 2 ? 1.0f / square(range_m) : 1.0f / square(way_m);
         equations->a[RHO_AT(i, i)] += weight;
         equations->b[i] -= i < 2 ? 0.0f : weight * state_m[i];
     }
@@ -133,6 +134,7 @@ static float clipped(float v, float most)
 void rho_passive_fit(const struct rho_passive_search *search, float state_m[N], const float *gates,
                      unsigned num_steps, int claimed_too)
 {
+    float range_m = search->passive->config.range_max_m;
     for (unsigned step = 0; step < num_steps; step++) {
         struct equations equations = equations_of(search, state_m, gates[step], claimed_too);
         float factor[RHO_TRIANGLE(N)];
@@ -142,8 +144,8 @@ void rho_passive_fit(const struct rho_passive_search *search, float state_m[N], 
         rho_linalg_forward(N, factor, equations.b);
         rho_linalg_backward(N, factor, equations.b);
         for (int i = 0; i < N; i++) {
-            state_m[i] =
-                clipped(state_m[i] + clipped(equations.b[i], STEP_MAX_M), 2.0f * PLACE_PRIOR_M);
+            state_m[i] = clipped(state_m[i] + clipped(equations.b[i], STEP_SHARE * range_m),
+                                 PLACE_SHARE * range_m);
         }
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
@@ -157,6 +159,21 @@ static float chi2_limit(unsigned freedom)
     float n = freedom > 0 ? (float)freedom : 1.0f, part = 2.0f / (9.0f * n);
     float root = 1.0f - part + CHI2_SIGMAS * rho_sqrt(part);
     return n * root * root * root;
+}
+
+/* Two sensors with two bearings each: one alone tells neither range nor speed. */
+static int is_observable(const struct rho_passive_search *search,
+                         uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
+{
+    unsigned sensors = 0;
+    for (unsigned s = 0; s < search->passive->num_sensors; s++) {
+        unsigned hits = 0;
+        for (unsigned k = 0; k < search->passive->num_scans; k++) {
+            hits += claim[k][s] > 0;
+        }
+        sensors += hits >= 2;
+    }
+    return sensors >= 2;
 }
 
 static int is_fast(const struct rho_passive_search *search, const float state_m[N])
@@ -188,7 +205,8 @@ rho_passive_judge(const struct rho_passive_search *search, const float state_m[N
     judgement.score_nat -= 0.5f * judgement.chi2;
     unsigned freedom = judgement.hits > N ? judgement.hits - (unsigned)N : 1u;
     judgement.is_track = judgement.hits >= search->hits_min && judgement.score_nat > 0.0f &&
-                         judgement.chi2 < chi2_limit(freedom) && !is_fast(search, state_m);
+                         judgement.chi2 < chi2_limit(freedom) && !is_fast(search, state_m) &&
+                         is_observable(search, claim);
     return judgement;
 }
 
@@ -222,19 +240,21 @@ static void carry(float half_s, const float from[N][N], float covariance[RHO_TRI
     }
 }
 
-void rho_passive_report(const struct rho_passive_search *search, const float state_m[N],
-                        struct rho_passive_track *track)
+int rho_passive_report(const struct rho_passive_search *search, const float state_m[N],
+                       struct rho_passive_track *track)
 {
     struct equations equations = equations_of(search, state_m, GATE_SIGMAS, 0);
     float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
-    if (rho_linalg_cholesky(N, equations.a, factor) == RHO_OK) {
-        for (int i = 0; i < N; i++) {
-            inverse_column(factor, i, columns[i]);
-        }
+    if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
+        return 0;
+    }
+    for (int i = 0; i < N; i++) {
+        inverse_column(factor, i, columns[i]);
     }
     carry(search->half_s, (const float(*)[N])columns, track->covariance);
     track->x_m = search->middle_x_m + state_m[0] + state_m[2];
     track->y_m = search->middle_y_m + state_m[1] + state_m[3];
     track->vx_mps = state_m[2] / search->half_s;
     track->vy_mps = state_m[3] / search->half_s;
+    return 1;
 }

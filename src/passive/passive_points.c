@@ -345,13 +345,19 @@ static unsigned gather_points(const struct rho_passive_search *search,
     const struct rho_passive *passive = search->passive;
     float least_m = LINE_CELLS * passive->config.rho_cell_m;
     unsigned count = 0;
-    for (uint32_t i = 0; i < passive->num_points && count < LINE_POINTS_MAX; i++) {
+    for (uint32_t i = 0; i < passive->num_points; i++) {
         const struct rho_passive_point *point = &passive->points[i];
         float off_m = point->x_m * line->cosine + point->y_m * line->sine - line->rho_m;
         float reach_m = SPREAD_SIGMAS * spread_m(point, line->cosine, line->sine);
         reach_m = reach_m > least_m ? reach_m : least_m;
-        if (off_m < reach_m && -off_m < reach_m) {
+        if (!(off_m < reach_m && -off_m < reach_m)) {
+            continue;
+        }
+        if (count < LINE_POINTS_MAX) {
             which[count++] = (uint16_t)i;
+        } else {
+            search->passive->work.line_points_dropped =
+                rho_count(search->passive->work.line_points_dropped, 1);
         }
     }
     return count;

@@ -26,6 +26,7 @@ struct rho_passive_search {
     float step[RHO_MAX_PASSIVE_SCANS]; /* -1 .. 1 */
     float hit_nat, miss_nat; /* a bearing that agrees exactly, times its sigma in rad; none */
     float share_nat;         /* what a bearing that two tracks claim costs one of them */
+    float sigma_min_rad;     /* bearings count as no better */
     unsigned looks;          /* scans times sensors that reported */
     unsigned hits_min;
     int is_second; /* pass: claimed bearings are not there, and no third sensor is asked */
@@ -73,9 +74,9 @@ struct rho_passive_judgement
 rho_passive_judge(const struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES],
                   int claimed_too, uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
 
-/* Place and velocity at the newest scan, with their covariance. */
-void rho_passive_report(const struct rho_passive_search *search,
-                        const float state_m[RHO_PASSIVE_STATES], struct rho_passive_track *track);
+/* Place and velocity at the newest scan, with their covariance. 0 where there is none. */
+int rho_passive_report(const struct rho_passive_search *search,
+                       const float state_m[RHO_PASSIVE_STATES], struct rho_passive_track *track);
 
 /* ---- selection ---- */
 

@@ -260,16 +260,28 @@ static void add_track(struct rho_passive_search *search, const float from_m[RHO_
     memcpy(state_m, from_m, sizeof state_m);
     rho_passive_fit(search, state_m, gates, 2, 0);
     struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, 0, track->claim);
-    if (!judgement.is_track) {
+    if (!judgement.is_track || !rho_passive_report(search, state_m, track)) {
         return;
     }
-    rho_passive_report(search, state_m, track);
     track->score_mnat = (int32_t)(1000.0f * judgement.score_nat);
     track->chi2 = judgement.chi2;
     track->hits = judgement.hits;
     set_scans(passive, track);
     claim(passive, track);
     passive->num_tracks++;
+}
+
+/* A track's score is that of the bearings that were left to it: the order may have changed. */
+static void sort_tracks(struct rho_passive *passive)
+{
+    for (unsigned i = 1; i < passive->num_tracks; i++) {
+        struct rho_passive_track track = passive->tracks[i];
+        unsigned place = i;
+        for (; place > 0 && track.score_mnat > passive->tracks[place - 1u].score_mnat; place--) {
+            passive->tracks[place] = passive->tracks[place - 1u];
+        }
+        passive->tracks[place] = track;
+    }
 }
 
 void rho_passive_select(struct rho_passive_search *search)
@@ -285,4 +297,5 @@ void rho_passive_select(struct rho_passive_search *search)
             add_track(search, passive->candidates[order[i]].state_m);
         }
     }
+    sort_tracks(passive);
 }
