@@ -136,10 +136,36 @@ check 'sigma_rad and frame_tolerance_s have defaults' bash -c "
     grep -Eq '^frame_tolerance_s +s +0.05 ' stdout"
 
 # ---- who takes no bearings ----
-for command in track initiate; do
-    run "$command" passive-two/bearings.csv
-    check "$command refuses bearings by name" says 2 "rhotrack: passive-two/bearings.csv:1: bearings (column 'bearing_rad'): *"
+run track passive-two/bearings.csv
+check "track refuses bearings by name" says 2 "rhotrack: passive-two/bearings.csv:1: bearings (column 'bearing_rad'): *"
+run initiate passive-two/bearings.csv --method iht
+check 'a method of plots refuses them too' says 2 'rhotrack: passive-two/bearings.csv: holds bearings, and method iht takes plots; *'
+
+# ---- initiation ----
+# Each target has a track within a kilometre at the last scan, and there are no others.
+are_found() { # tracks, truth
+    awk -F, 'NR == FNR { if (FNR > 1) { x[$2] = $3; y[$2] = $4 } next }
+        FNR > 1 {
+            tracks++
+            for (i in x) if (($3 - x[i])^2 + ($4 - y[i])^2 < 1e6) { found[i] = 1; $0 = "" }
+        }
+        END { for (i in x) { n++; m += found[i] } exit !(n > 0 && tracks == n && m == n) }' "$2" "$1"
+}
+for scenario in passive-two passive-three; do
+    run initiate $scenario/bearings.csv --config $scenario/scenario.ini
+    cp stdout found.csv
+    check "$scenario: every target is found, and nothing else" are_found found.csv $scenario/truth.csv
 done
+check 'columns' matches "$(head -n 1 found.csv)" 'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+run initiate passive-three/bearings.csv --method passive --json
+check 'JSON' json stdout '((o["method"], o["scans"], o["sensors"], o["tracks"]) == ("passive", 8, 3, 2) and
+    o["pairs"] - o["candidates"] == o["ghosts"] and o["peak_votes"] == sorted(o["peak_votes"], reverse=True))'
+run initiate passive-two/bearings.csv --set scans=5
+check 'the last scans' matches "$(cat stderr)" 'rhotrack: the last 5 of 8 *'
+run initiate passive-two/bearings.csv --set range_max_m=200000
+check 'cells for the range' says 2 'rhotrack: range_max_m 200000 takes 200 cells of d_rho_m 2000; there are 128'
+run initiate passive-two/bearings.csv --set d_theta_rad=0.01
+check 'cells for half a turn' says 2 'rhotrack: d_theta_rad 0.01 takes 315 cells over half a turn; there are 36'
 for kind in tracks parameter-space errors; do
     run plot "$kind" passive-two/bearings.csv passive-two/truth.csv -o out.svg
     check "plot $kind refuses bearings by name" refused "plot $kind: bearings (column 'bearing_rad') are shown by plot scans alone"

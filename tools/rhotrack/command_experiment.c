@@ -25,7 +25,7 @@ static void check_method(const struct command_line *line, bool has_papers)
                     (has_papers && classic_methods_named(line->method) != 0);
     if (!is_known) {
         fail(EXIT_USAGE, "experiment %s knows the method%s, not `%s`", line->arguments[0],
-             has_papers ? "s " METHOD_NAMES : " kernel", line->method);
+             has_papers ? "s " METHOD_PLOT_NAMES : " kernel", line->method);
     }
 }
 

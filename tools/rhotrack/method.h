@@ -19,7 +19,8 @@ enum method {
     NUM_METHODS
 };
 
-#define METHOD_NAMES "kernel, ht, mht, iht, nht, passive"
+#define METHOD_PLOT_NAMES "kernel, ht, mht, iht, nht"
+#define METHOD_NAMES METHOD_PLOT_NAMES ", passive"
 
 const char *method_name(enum method method);
 
