@@ -90,7 +90,7 @@ refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" 't_s,sens
 refuse 'no header' '1: no header row: the first row begins with a number' '1,1,2,3\n2,1,3,4\n'
 printf 't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n1,1,2,3,1\n' >bad.csv
 run track bad.csv
-check 'track: bearings' says 2 "rhotrack: bad.csv:1: bearings (column 'bearing_rad'): *'x_m' and 'y_m' are missing*
+check 'track: bearings' says 2 "rhotrack: bad.csv:1: bearings (column 'bearing_rad'): *'x_m' and 'y_m' are missing*"
 
 # ---- polar plots ----
 polar='t_s,sensor_id,range_m,azimuth_rad\n'
