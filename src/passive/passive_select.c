@@ -287,7 +287,7 @@ static void sort_tracks(struct rho_passive *passive)
 void rho_passive_select(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES];
+    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
     struct choice choice;
     rank(passive, order);
     choose(search, order, &choice);
