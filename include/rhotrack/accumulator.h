@@ -40,12 +40,12 @@ struct rho_accumulator_config {
     float theta_cell_rad;
     enum rho_accumulator_votes votes;
     uint16_t min_votes; /* of a peak; at least 1 */
-    float
-        min_share; /* 0 .. 1: a peak has at least this share of the most votes of any; 0: no matter */
+    /* 0 .. 1: a peak has at least this share of the most votes of any; 0: no matter */
+    float min_share;
     /* that a peak is compared with: 0 (every cell with min_votes is one), 4 or 8 */
     uint8_t neighbours;
-    uint8_t
-        no_pruning; /* 1: every point votes in every row; the result is the same, only later. 0 or 1 */
+    /* 0 or 1; 1: every point votes in every row; the result is the same, only later */
+    uint8_t no_pruning;
 };
 
 /* Points in the order of their scans. The arrays stay the caller's. */

@@ -147,4 +147,7 @@ float rho_seconds_between(int64_t from_us, int64_t to_us);
 /* True where v is finite and lo <= v <= hi; false for NaN. */
 int rho_is_within(float v, float lo, float hi);
 
+/* True where a coordinate is finite and within RHO_LIMIT_POSITION_M either way. */
+int rho_is_coordinate(float v_m);
+
 #endif

@@ -108,8 +108,7 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
 static int are_believed(const struct rho_accumulator_points *points, unsigned num_points)
 {
     for (unsigned i = 0; i < num_points; i++) {
-        if (!rho_is_within(points->x_m[i], -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) ||
-            !rho_is_within(points->y_m[i], -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M)) {
+        if (!rho_is_coordinate(points->x_m[i]) || !rho_is_coordinate(points->y_m[i])) {
             return 0;
         }
     }

@@ -13,11 +13,6 @@
 
 /* ---- what can be believed --------------------------------------------------------------------- */
 
-static int is_position(float v_m)
-{
-    return rho_is_within(v_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M);
-}
-
 static int is_speed(float v_mps)
 {
     return rho_is_within(v_mps, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS);
@@ -46,11 +41,13 @@ static int is_valid_velocity(const struct rho_plot *plot, uint32_t measures)
 
 int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
 {
-    if (!is_offset(plot->offset_us) || !is_position(plot->x_m) || !is_position(plot->y_m) ||
-        !is_sigma(plot->sigma_range_m) || !is_sigma(plot->sigma_cross_m)) {
+    if (!is_offset(plot->offset_us) || !rho_is_coordinate(plot->x_m) ||
+        !rho_is_coordinate(plot->y_m) || !is_sigma(plot->sigma_range_m) ||
+        !is_sigma(plot->sigma_cross_m)) {
         return 0;
     }
-    if ((measures & RHO_MEASURES_Z) && !(is_position(plot->z_m) && is_sigma(plot->sigma_up_m))) {
+    if ((measures & RHO_MEASURES_Z) &&
+        !(rho_is_coordinate(plot->z_m) && is_sigma(plot->sigma_up_m))) {
         return 0;
     }
     if ((measures & RHO_MEASURES_RANGE_RATE) &&
@@ -62,7 +59,8 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
 
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return is_position(sensor->x_m) && is_position(sensor->y_m) && is_position(sensor->z_m) &&
+    return rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
+           rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
            rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);

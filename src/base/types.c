@@ -47,3 +47,8 @@ float rho_plot_sigma_m(const struct rho_plot *plot)
 {
     return plot->sigma_range_m > plot->sigma_cross_m ? plot->sigma_range_m : plot->sigma_cross_m;
 }
+
+int rho_is_coordinate(float v_m)
+{
+    return rho_is_within(v_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M);
+}

@@ -58,10 +58,8 @@ void rho_extent_add(struct rho_extent *extent, float x_m, float y_m)
 
 static int is_usable_area(const struct rho_extent *area)
 {
-    return rho_is_within(area->x_min_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(area->x_max_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(area->y_min_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(area->y_max_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
+    return rho_is_coordinate(area->x_min_m) && rho_is_coordinate(area->x_max_m) &&
+           rho_is_coordinate(area->y_min_m) && rho_is_coordinate(area->y_max_m) &&
            area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
 }
 

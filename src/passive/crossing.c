@@ -9,8 +9,7 @@
 
 static int is_place(float x_m, float y_m)
 {
-    return rho_is_within(x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M);
+    return rho_is_coordinate(x_m) && rho_is_coordinate(y_m);
 }
 
 enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_m, float y_a_m,

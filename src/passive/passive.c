@@ -87,8 +87,7 @@ static int is_place(const struct rho_passive *passive, const struct rho_bearing_
     const struct rho_passive_config *config = &passive->config;
     float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
     unsigned known = find_sensor(passive, scan->sensor_id);
-    if (!rho_is_within(scan->x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) ||
-        !rho_is_within(scan->y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M)) {
+    if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return 0;
     }
     for (unsigned i = 0; i < passive->num_sensors; i++) {

@@ -3,6 +3,7 @@
 
 #include <cjson/cJSON.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -282,6 +283,21 @@ void json_print(struct cJSON *object)
 }
 
 /* ---- Time and progress ---- */
+
+void say_last_taken(uint64_t taken, uint64_t total, const char *what)
+{
+    if (total > taken) {
+        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are taken\n", taken,
+                total, what);
+    }
+}
+
+void say_rows_skipped(uint64_t rows)
+{
+    if (rows > 0) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", rows);
+    }
+}
 
 int64_t clock_us(void)
 {

@@ -59,6 +59,10 @@ const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);
 /* "folder/name" in new memory. */
 char *path_join(const char *folder, const char *name);
 
+/* On standard error: that only the last so many are taken, that bad rows were skipped; nothing where all are. */
+void say_last_taken(uint64_t taken, uint64_t total, const char *what);
+void say_rows_skipped(uint64_t rows);
+
 /* Monotonic clock, microseconds. */
 int64_t clock_us(void);
 

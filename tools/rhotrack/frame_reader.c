@@ -394,9 +394,8 @@ const struct rho_frame *frame_reader_next(struct frame_reader *reader)
 
 void frame_reader_skip(struct frame_reader *reader, uint64_t frames)
 {
+    say_last_taken(frames, reader->num_frames, "frames");
     if (reader->num_frames > frames) {
-        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " frames are taken\n", frames,
-                (uint64_t)reader->num_frames);
         reader->next = reader->num_frames - frames;
     }
 }
@@ -423,9 +422,7 @@ struct frame_reader_counts frame_reader_counts(const struct frame_reader *reader
 
 void frame_reader_report(const struct frame_reader *reader)
 {
-    if (reader->rows_skipped) {
-        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", reader->rows_skipped);
-    }
+    say_rows_skipped(reader->rows_skipped);
     if (reader->frames_incomplete) {
         fprintf(stderr, "rhotrack: %" PRIu64 " of %" PRIu64 " frames miss a sensor\n",
                 reader->frames_incomplete, (uint64_t)reader->num_frames);

@@ -48,8 +48,7 @@ static void make_room(struct batch *batch, uint32_t plots)
 
 static bool is_usable(const struct rho_plot *plot)
 {
-    return rho_is_within(plot->x_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(plot->y_m, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M);
+    return rho_is_coordinate(plot->x_m) && rho_is_coordinate(plot->y_m);
 }
 
 /* Times count from the first scan, until all are there. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "scan_reader.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -261,9 +260,8 @@ const struct rho_scan *scan_reader_next(struct scan_reader *reader)
 
 void scan_reader_skip(struct scan_reader *reader, uint64_t scans)
 {
+    say_last_taken(scans, reader->num_entries, "scans");
     if (reader->num_entries > scans) {
-        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " scans are taken\n", scans,
-                (uint64_t)reader->num_entries);
         reader->next = reader->num_entries - scans;
     }
 }
@@ -288,9 +286,7 @@ struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader)
 
 void scan_reader_report(const struct scan_reader *reader)
 {
-    if (reader->rows_skipped) {
-        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", reader->rows_skipped);
-    }
+    say_rows_skipped(reader->rows_skipped);
 }
 
 void scan_reader_close(struct scan_reader *reader)
