@@ -61,6 +61,9 @@ RHO_MUST_CHECK enum rho_status rho_measurement_from_polar(const struct rho_polar
 /* True where everything that the scan measures of the plot is finite and within the limits of types.h. Constant cost. */
 int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures);
 
+/* True where a bearing is within +-pi and its sigma within the limits of types.h. Constant cost. */
+int rho_measurement_is_bearing(const struct rho_bearing *bearing);
+
 /*
  * Opens up a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from the origin). A plot in the
  * sensor's own place has no line of sight: its noise is taken as isotropic, the largest of its sigmas.

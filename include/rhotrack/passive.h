@@ -24,6 +24,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "rhotrack/batch.h"
 #include "rhotrack/config.h"
 #include "rhotrack/ghost.h"
 #include "rhotrack/status.h"
@@ -40,17 +41,6 @@ struct rho_passive_config {
         rho_cell_m; /* 2 (range_max_m + the farthest sensor) over it: at most RHO_PASSIVE_RHO_CELLS */
     float theta_cell_rad;     /* pi over it: at most RHO_PASSIVE_THETA_CELLS */
     enum rho_ghost_rule rule; /* of step 1 */
-};
-
-struct rho_passive_sensor {
-    int32_t sensor_id;
-    float x_m, y_m;
-};
-
-/* One held bearing. */
-struct rho_passive_bearing {
-    float cosine, sine, bearing_rad;
-    float sigma_rad;
 };
 
 /* A track found: constant velocity, at the newest scan's time. */
@@ -96,20 +86,13 @@ struct rho_passive_candidate {
 struct rho_passive {
     uint32_t magic;
     struct rho_passive_config config;
-    uint16_t num_sensors, num_scans;
     uint16_t num_tracks; /* found by the last search, the best score first */
     uint16_t num_candidates;
     uint32_t num_points;
-    struct rho_passive_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
     struct rho_passive_work work;
     struct rho_passive_track tracks[RHO_MAX_PASSIVE_TRACKS];
-    /* the last scans, oldest first */
-    int64_t time_us[RHO_MAX_PASSIVE_SCANS];
-    uint8_t num_bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
-    uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]; /* the sensor reported */
+    struct rho_batch batch;
     uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
-    struct rho_passive_bearing bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]
-                                       [RHO_MAX_BEARINGS];
     /* scratch of a search */
     uint16_t cells[RHO_PASSIVE_THETA_CELLS][RHO_PASSIVE_RHO_CELLS]; /* a bit a scan */
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
@@ -130,17 +113,16 @@ RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, siz
                                                 const struct rho_passive_config *config);
 
 /*
- * Takes a frame; the oldest leaves when the batch is full. A sensor is known from its first scan on.
- *   frame  its time counts for all its bearings, offsets do not
- *   fates  one a bearing, in the order of the frame's scans; HELD ones are taken, and become INVALID (not finite, beyond
- *          +-pi, sigma outside its limits) or NO_ROOM (beyond RHO_MAX_BEARINGS) where they cannot be
- * Errors: NULL, STATE (not initialised, or the frame is not newer than the newest), CAPACITY (more sensors than
- * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, in another place than before, nearer than
- * RHO_CROSSING_BASE_MIN_M to another, or beyond what the cells of rho hold); nothing is changed. Cost: the bearings, and
- * the batch moved by a frame. Stack: 100 bytes.
+ * Takes a frame: rho_batch_push of the batch, and its errors. The tracks of the last search are gone.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
                                                 const struct rho_frame *frame, uint8_t *fates);
+
+/*
+ * Takes a found track's bearings out of the batch: a later search starts no other track from them. Once a track of the
+ * last search. Returns how many these were.
+ */
+uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track);
 
 /*
  * Searches the batch. Results: passive->tracks[0 .. num_tracks - 1].

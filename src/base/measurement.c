@@ -219,6 +219,12 @@ static int are_equal(const struct rho_plot *plot, int has_z)
     return !(spread_m < 0.0f || spread_m > 0.0f || spread_up_m < 0.0f || spread_up_m > 0.0f);
 }
 
+int rho_measurement_is_bearing(const struct rho_bearing *bearing)
+{
+    return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
+           rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
+}
+
 void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out)
 {

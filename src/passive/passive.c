@@ -45,6 +45,15 @@ static int is_usable(const struct rho_passive_config *config)
            (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
+/* Lines through anything that a sensor sees stay within the cells of rho. */
+static float apart_max_m(const struct rho_passive_config *config)
+{
+    float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
+    float apart_m =
+        2.0f * reach_m < 4.0f * RHO_LIMIT_POSITION_M ? 2.0f * reach_m : 4.0f * RHO_LIMIT_POSITION_M;
+    return apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
+}
+
 enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
                                  const struct rho_passive_config *config)
 {
@@ -61,160 +70,32 @@ enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
     memset(passive, 0, sizeof *passive);
     passive->config = kept;
     passive->magic = PASSIVE_MAGIC;
-    return RHO_OK;
+    return rho_batch_init(&passive->batch, kept.scans, apart_max_m(&kept));
 }
 
 /* ---- frames ----------------------------------------------------------------------------------- */
 
-static float distance_m(float dx_m, float dy_m)
+enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_frame *frame,
+                                 uint8_t *fates)
 {
-    return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-}
-
-/* The known sensor of this identity, or num_sensors. */
-static unsigned find_sensor(const struct rho_passive *passive, int32_t sensor_id)
-{
-    unsigned i = 0;
-    while (i < passive->num_sensors && passive->sensors[i].sensor_id != sensor_id) {
-        i++;
+    if (!passive) {
+        return RHO_ERROR_NULL;
     }
-    return i;
-}
-
-/* Where it was before, or apart from the other sensors, and not so far from them that lines leave the cells. */
-static int is_place(const struct rho_passive *passive, const struct rho_bearing_scan *scan)
-{
-    const struct rho_passive_config *config = &passive->config;
-    float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
-    unsigned known = find_sensor(passive, scan->sensor_id);
-    if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
-        return 0;
+    if (passive->magic != PASSIVE_MAGIC) {
+        return RHO_ERROR_STATE;
     }
-    for (unsigned i = 0; i < passive->num_sensors; i++) {
-        const struct rho_passive_sensor *sensor = &passive->sensors[i];
-        float apart_m = distance_m(scan->x_m - sensor->x_m, scan->y_m - sensor->y_m);
-        if (i == known ? apart_m > 0.0f
-                       : apart_m < RHO_CROSSING_BASE_MIN_M || apart_m > 2.0f * reach_m) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-static void add_sensor(struct rho_passive *passive, const struct rho_bearing_scan *scan)
-{
-    if (find_sensor(passive, scan->sensor_id) == passive->num_sensors) {
-        passive->sensors[passive->num_sensors++] = (struct rho_passive_sensor){
-            .sensor_id = scan->sensor_id, .x_m = scan->x_m, .y_m = scan->y_m};
-    }
-}
-
-static int is_twice(const struct rho_frame *frame, uint32_t number)
-{
-    for (uint32_t i = 0; i < number; i++) {
-        if (frame->scans[i].sensor_id == frame->scans[number].sensor_id) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Learns the frame's new sensors; nothing is learnt where one of them is refused. */
-static enum rho_status meet_sensors(struct rho_passive *passive, const struct rho_frame *frame)
-{
-    struct rho_passive_sensor before[RHO_MAX_PASSIVE_SENSORS];
-    uint16_t known = passive->num_sensors;
-    enum rho_status status = RHO_OK;
-    memcpy(before, passive->sensors, sizeof before);
-    for (uint32_t i = 0; i < frame->num_scans && status == RHO_OK; i++) {
-        const struct rho_bearing_scan *scan = &frame->scans[i];
-        if (scan->num_bearings > 0 && !scan->bearings) {
-            status = RHO_ERROR_NULL;
-        } else if (is_twice(frame, i) || !is_place(passive, scan)) {
-            status = RHO_ERROR_VALUE;
-        } else if (find_sensor(passive, scan->sensor_id) == RHO_MAX_PASSIVE_SENSORS) {
-            status = RHO_ERROR_CAPACITY;
-        } else {
-            add_sensor(passive, scan);
-        }
-    }
-    if (status != RHO_OK) {
-        memcpy(passive->sensors, before, sizeof before);
-        passive->num_sensors = known;
+    enum rho_status status = rho_batch_push(&passive->batch, frame, fates);
+    if (status == RHO_OK) {
+        passive->num_tracks = 0;
     }
     return status;
 }
 
-static void drop_oldest(struct rho_passive *passive)
+uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
 {
-    size_t left = (size_t)passive->num_scans - 1u;
-    memmove(passive->time_us, passive->time_us + 1, left * sizeof passive->time_us[0]);
-    memmove(passive->num_bearings, passive->num_bearings + 1,
-            left * sizeof passive->num_bearings[0]);
-    memmove(passive->was_seen, passive->was_seen + 1, left * sizeof passive->was_seen[0]);
-    memmove(passive->bearings, passive->bearings + 1, left * sizeof passive->bearings[0]);
-    passive->num_scans--;
-}
-
-static int is_valid(const struct rho_bearing *bearing)
-{
-    return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
-           rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
-}
-
-static void take_scan(struct rho_passive *passive, const struct rho_bearing_scan *scan,
-                      uint8_t *fates)
-{
-    unsigned k = passive->num_scans, s = find_sensor(passive, scan->sensor_id);
-    passive->was_seen[k][s] = 1;
-    for (uint32_t i = 0; i < scan->num_bearings; i++) {
-        const struct rho_bearing *from = &scan->bearings[i];
-        uint8_t *count = &passive->num_bearings[k][s];
-        if (fates[i] != RHO_FATE_HELD) {
-            continue;
-        }
-        if (!is_valid(from)) {
-            fates[i] = RHO_FATE_INVALID;
-        } else if (*count == RHO_MAX_BEARINGS) {
-            fates[i] = RHO_FATE_NO_ROOM;
-        } else {
-            passive->bearings[k][s][(*count)++] =
-                (struct rho_passive_bearing){.cosine = rho_cos(from->bearing_rad),
-                                             .sine = rho_sin(from->bearing_rad),
-                                             .bearing_rad = from->bearing_rad,
-                                             .sigma_rad = from->sigma_rad};
-        }
-    }
-}
-
-enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_frame *frame,
-                                 uint8_t *fates)
-{
-    if (!passive || !frame || (frame->num_scans > 0 && (!frame->scans || !fates))) {
-        return RHO_ERROR_NULL;
-    }
-    if (passive->magic != PASSIVE_MAGIC ||
-        (passive->num_scans > 0 && frame->time_us <= passive->time_us[passive->num_scans - 1])) {
-        return RHO_ERROR_STATE;
-    }
-    enum rho_status status = meet_sensors(passive, frame);
-    if (status != RHO_OK) {
-        return status;
-    }
-    if (passive->num_scans == passive->config.scans) {
-        drop_oldest(passive);
-    }
-    unsigned k = passive->num_scans;
-    passive->time_us[k] = frame->time_us;
-    memset(passive->num_bearings[k], 0, sizeof passive->num_bearings[k]);
-    memset(passive->was_seen[k], 0, sizeof passive->was_seen[k]);
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        take_scan(passive, &frame->scans[i], fates);
-        fates += frame->scans[i].num_bearings;
-    }
-    passive->num_scans++;
-    passive->num_tracks = 0;
-    return RHO_OK;
+    return passive && track && passive->magic == PASSIVE_MAGIC
+               ? rho_batch_remove(&passive->batch, track->claim)
+               : 0;
 }
 
 /* ---- a search --------------------------------------------------------------------------------- */
@@ -222,25 +103,26 @@ enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_f
 static void set_places(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
-    float n = (float)passive->num_sensors;
-    for (unsigned s = 0; s < passive->num_sensors; s++) {
-        search->middle_x_m += passive->sensors[s].x_m / n;
-        search->middle_y_m += passive->sensors[s].y_m / n;
+    float n = (float)passive->batch.num_sensors;
+    for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+        search->middle_x_m += passive->batch.sensors[s].x_m / n;
+        search->middle_y_m += passive->batch.sensors[s].y_m / n;
     }
-    for (unsigned s = 0; s < passive->num_sensors; s++) {
-        search->x_m[s] = passive->sensors[s].x_m - search->middle_x_m;
-        search->y_m[s] = passive->sensors[s].y_m - search->middle_y_m;
+    for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+        search->x_m[s] = passive->batch.sensors[s].x_m - search->middle_x_m;
+        search->y_m[s] = passive->batch.sensors[s].y_m - search->middle_y_m;
     }
 }
 
 static void set_times(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
-    int64_t first_us = passive->time_us[0], last_us = passive->time_us[passive->num_scans - 1];
+    int64_t first_us = passive->batch.time_us[0],
+            last_us = passive->batch.time_us[passive->batch.num_scans - 1];
     search->half_s = 0.5f * rho_seconds_between(first_us, last_us);
-    for (unsigned k = 0; k < passive->num_scans; k++) {
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
         search->step[k] =
-            rho_seconds_between(first_us, passive->time_us[k]) / search->half_s - 1.0f;
+            rho_seconds_between(first_us, passive->batch.time_us[k]) / search->half_s - 1.0f;
     }
 }
 
@@ -248,10 +130,10 @@ static void set_times(struct rho_passive_search *search)
 static void set_sigma(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
-    for (unsigned k = 0; k < passive->num_scans; k++) {
-        for (unsigned s = 0; s < passive->num_sensors; s++) {
-            for (unsigned i = 0; i < passive->num_bearings[k][s]; i++) {
-                float sigma_rad = passive->bearings[k][s][i].sigma_rad / SIGMA_RATIO_MAX;
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
+                float sigma_rad = passive->batch.bearings[k][s][i].sigma_rad / SIGMA_RATIO_MAX;
                 search->sigma_min_rad =
                     sigma_rad > search->sigma_min_rad ? sigma_rad : search->sigma_min_rad;
             }
@@ -265,12 +147,12 @@ static void set_odds(struct rho_passive_search *search)
     const struct rho_passive *passive = search->passive;
     const struct rho_passive_config *config = &passive->config;
     float total = 0.0f, log_sigmas = 0.0f;
-    for (unsigned k = 0; k < passive->num_scans; k++) {
-        for (unsigned s = 0; s < passive->num_sensors; s++) {
-            search->looks += passive->was_seen[k][s];
-            total += (float)passive->num_bearings[k][s];
-            for (unsigned i = 0; i < passive->num_bearings[k][s]; i++) {
-                log_sigmas += rho_log(passive->bearings[k][s][i].sigma_rad);
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            search->looks += passive->batch.was_seen[k][s];
+            total += (float)passive->batch.num_bearings[k][s];
+            for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
+                log_sigmas += rho_log(passive->batch.bearings[k][s][i].sigma_rad);
             }
         }
     }
@@ -300,7 +182,7 @@ static void set_cells(struct rho_passive_search *search)
 static void pass(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;
-    float votes = votes_share * (float)search->passive->num_scans;
+    float votes = votes_share * (float)search->passive->batch.num_scans;
     unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
     rho_passive_cross(search);
     rho_passive_vote(search);
@@ -322,7 +204,8 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     memset(&passive->work, 0, sizeof passive->work);
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);
     passive->num_tracks = passive->num_candidates = 0;
-    if (passive->num_scans < SCANS_MIN || passive->num_sensors < 2) {
+    rho_batch_close_ranks(&passive->batch);
+    if (passive->batch.num_scans < SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
     }
     set_places(&search);

@@ -41,8 +41,8 @@ static struct nearest nearest_bearing(const struct rho_passive_search *search, u
         return nearest;
     }
     float range_m = rho_sqrt(range2), least = 1.0e9f;
-    for (unsigned i = 0; i < passive->num_bearings[scan][sensor]; i++) {
-        const struct rho_passive_bearing *seen = &passive->bearings[scan][sensor][i];
+    for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
+        const struct rho_batch_bearing *seen = &passive->batch.bearings[scan][sensor][i];
         float sigma_rad =
             seen->sigma_rad > search->sigma_min_rad ? seen->sigma_rad : search->sigma_min_rad;
         float off = (seen->sine * dx_m - seen->cosine * dy_m) / (range_m * sigma_rad);
@@ -67,8 +67,8 @@ float rho_passive_agreement(const struct rho_passive_search *search, const float
 {
     const struct rho_passive *passive = search->passive;
     float sum = 0.0f;
-    for (unsigned k = 0; k < passive->num_scans; k++) {
-        for (unsigned s = 0; s < passive->num_sensors; s++) {
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             struct nearest nearest = nearest_bearing(search, k, s, state_m, !search->is_second);
             float part = square(nearest.sigmas / AGREEMENT_SIGMAS);
             sum += nearest.which >= 0 && part < 1.0f ? 1.0f - part : 0.0f;
@@ -110,8 +110,8 @@ static struct equations equations_of(const struct rho_passive_search *search,
 {
     const struct rho_passive *passive = search->passive;
     struct equations equations = {.b = {0}};
-    for (unsigned k = 0; k < passive->num_scans; k++) {
-        for (unsigned s = 0; s < passive->num_sensors; s++) {
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             struct nearest nearest = nearest_bearing(search, k, s, state_m, claimed_too);
             if (nearest.which >= 0 && square(nearest.sigmas) < square(gate)) {
                 float step = search->step[k];
@@ -166,9 +166,9 @@ static int is_observable(const struct rho_passive_search *search,
                          uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
 {
     unsigned sensors = 0;
-    for (unsigned s = 0; s < search->passive->num_sensors; s++) {
+    for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
         unsigned hits = 0;
-        for (unsigned k = 0; k < search->passive->num_scans; k++) {
+        for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
             hits += claim[k][s] > 0;
         }
         sensors += hits >= 2;
@@ -189,15 +189,15 @@ rho_passive_judge(const struct rho_passive_search *search, const float state_m[N
     const struct rho_passive *passive = search->passive;
     struct rho_passive_judgement judgement = {.hits = 0};
     memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));
-    for (unsigned k = 0; k < passive->num_scans; k++) {
-        for (unsigned s = 0; s < passive->num_sensors; s++) {
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             struct nearest nearest = nearest_bearing(search, k, s, state_m, claimed_too);
             if (nearest.which >= 0 && square(nearest.sigmas) < square(GATE_SIGMAS)) {
                 claim[k][s] = (uint8_t)(nearest.which + 1);
                 judgement.hits++;
                 judgement.chi2 += square(nearest.sigmas);
                 judgement.score_nat += search->hit_nat - rho_log(nearest.sigma_rad);
-            } else if (passive->was_seen[k][s]) {
+            } else if (passive->batch.was_seen[k][s]) {
                 judgement.score_nat += search->miss_nat;
             }
         }

@@ -30,10 +30,10 @@ static unsigned gather(const struct rho_passive_search *search, unsigned scan, u
 {
     const struct rho_passive *passive = search->passive;
     unsigned count = 0;
-    for (unsigned i = 0; i < passive->num_bearings[scan][sensor]; i++) {
+    for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
         if (!search->is_second || !passive->is_claimed[scan][sensor][i]) {
             which[count] = (uint8_t)i;
-            bearings_rad[count++] = passive->bearings[scan][sensor][i].bearing_rad;
+            bearings_rad[count++] = passive->batch.bearings[scan][sensor][i].bearing_rad;
         }
     }
     return count;
@@ -52,8 +52,8 @@ static int is_seen_by(const struct rho_passive_search *search, unsigned sensor,
     /* of the place across the line of sight, times range^2 */
     float across =
         point->xx_m2 * dy_m * dy_m - 2.0f * point->xy_m2 * dx_m * dy_m + point->yy_m2 * dx_m * dx_m;
-    for (unsigned i = 0; i < passive->num_bearings[point->scan][sensor]; i++) {
-        const struct rho_passive_bearing *seen = &passive->bearings[point->scan][sensor][i];
+    for (unsigned i = 0; i < passive->batch.num_bearings[point->scan][sensor]; i++) {
+        const struct rho_batch_bearing *seen = &passive->batch.bearings[point->scan][sensor][i];
         float off_m = seen->cosine * dy_m - seen->sine * dx_m;
         float variance_m2 = across / range2 + seen->sigma_rad * seen->sigma_rad * range2;
         if (seen->cosine * dx_m + seen->sine * dy_m > 0.0f &&
@@ -68,7 +68,7 @@ static int is_seen_by(const struct rho_passive_search *search, unsigned sensor,
 static int is_supported(const struct rho_passive_search *search, const struct looks *looks,
                         const struct rho_passive_point *point)
 {
-    unsigned num_sensors = search->passive->num_sensors, support = 0;
+    unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
     if (num_sensors < 3 || search->is_second) {
         return 1;
     }
@@ -106,10 +106,10 @@ static void add_crossing(struct rho_passive_search *search, const struct looks *
                          const struct rho_crossing_base *base, unsigned i, unsigned j)
 {
     struct rho_passive *passive = search->passive;
-    const struct rho_passive_bearing *a =
-        &passive->bearings[looks->scan][looks->a][looks->which_a[i]];
-    const struct rho_passive_bearing *b =
-        &passive->bearings[looks->scan][looks->b][looks->which_b[j]];
+    const struct rho_batch_bearing *a =
+        &passive->batch.bearings[looks->scan][looks->a][looks->which_a[i]];
+    const struct rho_batch_bearing *b =
+        &passive->batch.bearings[looks->scan][looks->b][looks->which_b[j]];
     struct rho_crossing crossing;
     float covariance_m2[3];
     if (rho_crossing_find(base, a->bearing_rad, b->bearing_rad, passive->config.range_max_m,
@@ -160,7 +160,7 @@ static void cross_sensors(struct rho_passive_search *search, unsigned a, unsigne
                               search->y_m[b]) != RHO_OK) {
         return; /* places were checked when they came */
     }
-    for (unsigned scan = 0; scan < search->passive->num_scans; scan++) {
+    for (unsigned scan = 0; scan < search->passive->batch.num_scans; scan++) {
         struct looks looks = {.scan = scan, .a = a, .b = b};
         looks.num_a = gather(search, scan, a, looks.bearings_a_rad, looks.which_a);
         looks.num_b = gather(search, scan, b, looks.bearings_b_rad, looks.which_b);
@@ -171,8 +171,8 @@ static void cross_sensors(struct rho_passive_search *search, unsigned a, unsigne
 void rho_passive_cross(struct rho_passive_search *search)
 {
     search->passive->num_points = 0;
-    for (unsigned a = 0; a + 1u < search->passive->num_sensors; a++) {
-        for (unsigned b = a + 1u; b < search->passive->num_sensors; b++) {
+    for (unsigned a = 0; a + 1u < search->passive->batch.num_sensors; a++) {
+        for (unsigned b = a + 1u; b < search->passive->batch.num_sensors; b++) {
             cross_sensors(search, a, b);
         }
     }

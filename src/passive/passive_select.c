@@ -15,8 +15,8 @@ static unsigned count_shared(const struct rho_passive_search *search,
                              const struct rho_passive_candidate *b)
 {
     unsigned shared = 0;
-    for (unsigned k = 0; k < search->passive->num_scans; k++) {
-        for (unsigned s = 0; s < search->passive->num_sensors; s++) {
+    for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
             shared += a->claim[k][s] != 0 && a->claim[k][s] == b->claim[k][s];
         }
     }
@@ -225,8 +225,8 @@ static void choose(const struct rho_passive_search *search, const uint8_t *order
 
 static void claim(struct rho_passive *passive, const struct rho_passive_track *track)
 {
-    for (unsigned k = 0; k < passive->num_scans; k++) {
-        for (unsigned s = 0; s < passive->num_sensors; s++) {
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             if (track->claim[k][s] > 0) {
                 passive->is_claimed[k][s][track->claim[k][s] - 1u] = 1;
             }
@@ -237,8 +237,8 @@ static void claim(struct rho_passive *passive, const struct rho_passive_track *t
 static void set_scans(const struct rho_passive *passive, struct rho_passive_track *track)
 {
     track->scans = 0;
-    for (unsigned k = 0; k < passive->num_scans; k++) {
-        for (unsigned s = 0; s < passive->num_sensors; s++) {
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             if (track->claim[k][s] > 0) {
                 track->scans = (uint16_t)(track->scans | 1u << k);
             }

@@ -294,8 +294,8 @@ static inline int are_claims_right(const struct rho_passive *passive,
             if (claim == 0) {
                 continue;
             }
-            if (k >= passive->num_scans || s >= passive->num_sensors ||
-                claim > passive->num_bearings[k][s] || (claimed[k][s] >> (claim - 1u) & 1u)) {
+            if (k >= passive->batch.num_scans || s >= passive->batch.num_sensors ||
+                claim > passive->batch.num_bearings[k][s] || (claimed[k][s] >> (claim - 1u) & 1u)) {
                 return 0;
             }
             claimed[k][s] |= UINT64_C(1) << (claim - 1u);

@@ -426,8 +426,8 @@ static void a_ninth_frame_lets_the_oldest_leave(void **state)
     from.scans = 9;
     draw(&from, 10);
     search_into(&passive);
-    assert_int_equal(passive.num_scans, 8);
-    assert_true(passive.time_us[0] == 10000000 && passive.time_us[7] == 80000000);
+    assert_int_equal(passive.batch.num_scans, 8);
+    assert_true(passive.batch.time_us[0] == 10000000 && passive.batch.time_us[7] == 80000000);
     assert_int_equal(start_passive(&other), RHO_OK);
     assert_int_equal(push_from(&other, &scene, 1), RHO_OK);
     assert_int_equal(rho_passive_search(&other), RHO_OK);
@@ -524,7 +524,7 @@ static void one_sensor_makes_no_track(void **state)
     struct scene from = scene_of(1, 2, 0.1, 1.0, 1.0);
     draw(&from, 15);
     search_into(&passive);
-    assert_int_equal(passive.num_sensors, 1);
+    assert_int_equal(passive.batch.num_sensors, 1);
     assert_int_equal(passive.num_tracks, 0);
 }
 

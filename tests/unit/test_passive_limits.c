@@ -160,7 +160,7 @@ static void a_configuration_may_be_the_objects_own(void **state)
     start_batch();
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &passive.config), RHO_OK);
     assert_int_equal(passive.config.scans, 8);
-    assert_int_equal(passive.num_scans + passive.num_sensors, 0);
+    assert_int_equal(passive.batch.num_scans + passive.batch.num_sensors, 0);
 }
 
 /* ---- refusals --------------------------------------------------------------------------------- */
@@ -206,13 +206,13 @@ static void a_frame_must_be_newer_than_the_newest(void **state)
 {
     (void)state;
     start_batch();
-    full.frame.time_us = passive.time_us[4];
+    full.frame.time_us = passive.batch.time_us[4];
     expect_refused(RHO_ERROR_STATE);
-    full.frame.time_us = passive.time_us[0];
+    full.frame.time_us = passive.batch.time_us[0];
     expect_refused(RHO_ERROR_STATE);
     full.frame.time_us = INT64_MIN;
     expect_refused(RHO_ERROR_STATE);
-    full.frame.time_us = passive.time_us[4] + 1;
+    full.frame.time_us = passive.batch.time_us[4] + 1;
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
 }
 
@@ -252,7 +252,7 @@ static void a_new_sensor_must_have_its_own_place(void **state)
     expect_refused(RHO_ERROR_VALUE);
     full.scans[1].y_m = 9.0e3f;
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
-    assert_int_equal(passive.num_sensors, 3);
+    assert_int_equal(passive.batch.num_sensors, 3);
 }
 
 /* Sensors 0 .. count - 1 a kilometre apart, one to a frame; returns the last outcome. */
@@ -305,7 +305,7 @@ static uint8_t fate_of(float bearing_rad, float sigma_rad)
     struct rho_bearing bearing = {.bearing_rad = bearing_rad, .sigma_rad = sigma_rad};
     full.fates[0] = RHO_FATE_HELD;
     push_bearings(&bearing, 1);
-    assert_int_equal(passive.num_bearings[0][0], full.fates[0] == RHO_FATE_HELD);
+    assert_int_equal(passive.batch.num_bearings[0][0], full.fates[0] == RHO_FATE_HELD);
     return full.fates[0];
 }
 
@@ -352,7 +352,7 @@ static void bearings_beyond_the_capacity_find_no_room(void **state)
                                         : i > RHO_MAX_BEARINGS ? RHO_FATE_NO_ROOM
                                                                : RHO_FATE_HELD);
     }
-    assert_int_equal(passive.num_bearings[0][0], RHO_MAX_BEARINGS);
+    assert_int_equal(passive.batch.num_bearings[0][0], RHO_MAX_BEARINGS);
 }
 
 static void bearings_that_are_not_held_are_left_alone(void **state)
@@ -366,8 +366,8 @@ static void bearings_that_are_not_held_are_left_alone(void **state)
     memcpy(full.fates, fates, sizeof fates);
     push_bearings(bearings, 4);
     assert_memory_equal(full.fates, fates, sizeof fates);
-    assert_int_equal(passive.num_bearings[0][0], 1);
-    assert_float_equal(passive.bearings[0][0][0].bearing_rad, 0.3, 1e-6);
+    assert_int_equal(passive.batch.num_bearings[0][0], 1);
+    assert_float_equal(passive.batch.bearings[0][0][0].bearing_rad, 0.3, 1e-6);
 }
 
 /* The second scan's fates follow the first one's. */
@@ -520,7 +520,7 @@ static void frames_without_scans_or_bearings_are_frames(void **state)
         struct rho_frame frame = {.time_us = (int64_t)k};
         assert_int_equal(rho_passive_push(&passive, &frame, NULL), RHO_OK);
     }
-    assert_int_equal(passive.num_scans, 8);
+    assert_int_equal(passive.batch.num_scans, 8);
     expect_sound_search();
     push_same(2, NULL, 0, 0.001);
     assert_int_equal(passive.num_tracks, 0);
@@ -656,7 +656,7 @@ static void small_places_hold_a_batch(void **state)
     start_batch();
     start_with(&config);
     push_all();
-    assert_int_equal(passive.num_scans, 4);
+    assert_int_equal(passive.batch.num_scans, 4);
     expect_sound_search();
 }
 

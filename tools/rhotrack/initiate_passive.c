@@ -150,7 +150,7 @@ static void print_json(const struct batch *batch)
     cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
-    cJSON_AddNumberToObject(object, "sensors", passive->num_sensors);
+    cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);
     cJSON_AddNumberToObject(object, "ghosts", work->ghosts);
     cJSON_AddNumberToObject(object, "lines", work->peaks);
     cJSON_AddNumberToObject(object, "hypotheses", work->hypotheses);

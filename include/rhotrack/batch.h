@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * batch: the bearings of the last N frames, by scan and sensor.
+ *
+ * What the passive initiators search. A frame is what several sensors see at one time; a sensor is known from its first
+ * scan on, stands still, and keeps its number. Embedded in the initiators; usable alone.
+ */
+#ifndef RHOTRACK_BATCH_H
+#define RHOTRACK_BATCH_H
+
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/crossing.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+struct rho_batch_sensor {
+    int32_t sensor_id;
+    float x_m, y_m;
+};
+
+/* One held bearing. */
+struct rho_batch_bearing {
+    float cosine, sine, bearing_rad;
+    float sigma_rad;
+};
+
+struct rho_batch {
+    uint16_t scans_max; /* N */
+    uint16_t num_sensors, num_scans;
+    float apart_max_m; /* of two sensors */
+    uint32_t num_left; /* bearings that the last push dropped with the oldest frame */
+    struct rho_batch_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
+    /* the last scans, oldest first */
+    int64_t time_us[RHO_MAX_PASSIVE_SCANS];
+    uint8_t num_bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]; /* the sensor reported */
+    struct rho_batch_bearing bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]
+                                     [RHO_MAX_BEARINGS];
+};
+
+/*
+ * Prepares an empty batch of scans_max scans; sensors farther apart than apart_max_m are refused.
+ * Errors: NULL, CONFIG (scans_max not 1 .. RHO_MAX_PASSIVE_SCANS, apart_max_m not RHO_CROSSING_BASE_MIN_M ..
+ * 4 RHO_LIMIT_POSITION_M). Cost: sizeof(batch) bytes cleared.
+ */
+RHO_MUST_CHECK enum rho_status rho_batch_init(struct rho_batch *batch, unsigned scans_max,
+                                              float apart_max_m);
+
+/* Whether rho_batch_push takes the frame: its errors, but for fates. Cost: sensors squared. Stack: 100 bytes. */
+RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
+                                                 const struct rho_frame *frame);
+
+/*
+ * Takes a frame; the oldest leaves when the batch is full.
+ *   frame  its time counts for all its bearings, offsets do not
+ *   fates  one a bearing, in the order of the frame's scans; HELD ones are taken, and become INVALID
+ *          (rho_measurement_is_bearing) or NO_ROOM (beyond RHO_MAX_BEARINGS) where they cannot be
+ * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than RHO_MAX_PASSIVE_SENSORS), VALUE
+ * (a sensor twice in the frame, in another place than before, nearer than RHO_CROSSING_BASE_MIN_M or farther than apart_max_m
+ * from another, its place not a coordinate); nothing is changed. Cost: the bearings, and the batch moved by a frame.
+ * Stack: 100 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
+                                              const struct rho_frame *frame, uint8_t *fates);
+
+/*
+ * Takes bearings out.
+ *   claim  by scan and sensor: the bearing's place among those held, from 1; 0: none
+ * Their places stay until rho_batch_close_ranks, so that several claims can be taken out; until then a bearing
+ * taken out has a sigma_rad of 0. Returns how many these were. Cost: scans times sensors.
+ */
+uint32_t rho_batch_remove(struct rho_batch *batch,
+                          const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
+
+/* The others move up. Cost: the bearings. */
+void rho_batch_close_ranks(struct rho_batch *batch);
+
+#endif
