@@ -19,6 +19,29 @@
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
 typedef char rho_assert_tracker_ram[sizeof(struct rho_tracker) <= RHO_RAM_TRACKER_BYTES ? 1 : -1];
 
+/* ---- what a step is asked ---------------------------------------------------------------------- */
+
+int rho_tracker_is_ready(const struct rho_tracker *tracker)
+{
+    return tracker->magic == TRACKER_MAGIC;
+}
+
+int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us)
+{
+    return tracker->has_time && time_us < tracker->time_us;
+}
+
+int rho_tracker_is_time(int64_t time_us)
+{
+    return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
+}
+
+int rho_tracker_is_sector(float from_rad, float to_rad)
+{
+    return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
+           rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
+}
+
 /* ---- sensors ---------------------------------------------------------------------------------- */
 
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
@@ -130,7 +153,7 @@ static void note_unclaimed(struct step *step)
         CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_plots);
 }
 
-static void report_all(struct step *step)
+void rho_tracker_close(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     count_fates(step);
@@ -187,7 +210,7 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
     if (!tracker || !sensor) {
         return RHO_ERROR_NULL;
     }
-    if (tracker->magic != TRACKER_MAGIC) {
+    if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
     if (!is_usable_sensor(sensor)) {
@@ -206,22 +229,6 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
     return RHO_OK;
 }
 
-static int is_late(const struct rho_tracker *tracker, int64_t time_us)
-{
-    return tracker->has_time && time_us < tracker->time_us;
-}
-
-static int is_time(int64_t time_us)
-{
-    return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
-}
-
-static int is_sector(float from_rad, float to_rad)
-{
-    return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
-           rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
-}
-
 static enum rho_status check_step(const struct rho_tracker *tracker,
                                   const struct rho_initiator *initiator,
                                   const struct rho_scan *scan, const struct rho_report *report)
@@ -229,13 +236,14 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
     if (!tracker || !scan || !report || (scan->num_plots && !scan->plots)) {
         return RHO_ERROR_NULL;
     }
-    if (tracker->magic != TRACKER_MAGIC) {
+    if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!is_sector(scan->sector_from_rad, scan->sector_to_rad) || !is_time(scan->time_us)) {
+    if (!rho_tracker_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+        !rho_tracker_is_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
-    return !initiator || is_late(tracker, scan->time_us) ||
+    return !initiator || rho_tracker_is_late(tracker, scan->time_us) ||
                    rho_initiator_accepts(initiator, scan->time_us)
                ? RHO_OK
                : RHO_ERROR_STATE;
@@ -261,24 +269,19 @@ static void take_in(struct step *step)
     note_unclaimed(step);
 }
 
-static void run(struct step *step)
+int rho_tracker_open(struct step *step)
 {
     struct rho_report *report = step->report;
     step->num_gated = step->num_inputs < RHO_MAX_PLOTS ? step->num_inputs : RHO_MAX_PLOTS;
     memset(report, 0, sizeof *report);
     report->time_us = step->time_us;
     report->num_plots = step->num_inputs;
-    if (is_late(step->tracker, step->time_us)) {
+    if (rho_tracker_is_late(step->tracker, step->time_us)) {
         refuse_late(step);
-    } else {
-        begin(step);
-        if (step->frame) {
-            rho_tracker_take_frame(step);
-        } else {
-            take_in(step);
-        }
+        return 0;
     }
-    report_all(step);
+    begin(step);
+    return 1;
 }
 
 enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiator *initiator,
@@ -296,72 +299,9 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         .time_us = scan->time_us,
         .num_inputs = scan->num_plots,
     };
-    run(&step);
-    return RHO_OK;
-}
-
-/* ---- frames ----------------------------------------------------------------------------------- */
-
-static int is_look(const struct rho_frame *frame, const struct rho_bearing_scan *scan)
-{
-    return rho_is_coordinate(scan->x_m) && rho_is_coordinate(scan->y_m) &&
-           is_sector(scan->sector_from_rad, scan->sector_to_rad) && is_time(scan->time_us) &&
-           scan->time_us - frame->time_us <= RHO_LIMIT_OFFSET_US &&
-           scan->time_us - frame->time_us >= -RHO_LIMIT_OFFSET_US;
-}
-
-static enum rho_status check_frame(const struct rho_frame *frame)
-{
-    if (frame->num_scans > 0 && !frame->scans) {
-        return RHO_ERROR_NULL;
+    if (rho_tracker_open(&step)) {
+        take_in(&step);
     }
-    if (!is_time(frame->time_us)) {
-        return RHO_ERROR_VALUE;
-    }
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        if (frame->scans[i].num_bearings > 0 && !frame->scans[i].bearings) {
-            return RHO_ERROR_NULL;
-        }
-        if (!is_look(frame, &frame->scans[i])) {
-            return RHO_ERROR_VALUE;
-        }
-    }
-    return RHO_OK;
-}
-
-static uint32_t count_bearings(const struct rho_frame *frame)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        count = rho_count(count, frame->scans[i].num_bearings);
-    }
-    return count;
-}
-
-enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_passive *passive,
-                                       const struct rho_frame *frame, struct rho_report *report)
-{
-    if (!tracker || !frame || !report) {
-        return RHO_ERROR_NULL;
-    }
-    if (tracker->magic != TRACKER_MAGIC) {
-        return RHO_ERROR_STATE;
-    }
-    enum rho_status status = check_frame(frame);
-    if (status == RHO_OK && passive && !is_late(tracker, frame->time_us)) {
-        status = rho_passive_accepts(passive, frame);
-    }
-    if (status != RHO_OK) {
-        return status;
-    }
-    struct step step = {
-        .tracker = tracker,
-        .passive = passive,
-        .frame = frame,
-        .report = report,
-        .time_us = frame->time_us,
-        .num_inputs = count_bearings(frame),
-    };
-    run(&step);
+    rho_tracker_close(&step);
     return RHO_OK;
 }

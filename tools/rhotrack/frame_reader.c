@@ -190,7 +190,8 @@ static void add_row(struct frame_reader *reader, struct known_sensor *known,
                                 sizeof *reader->members);
     member = &reader->members[reader->num_members++];
     *member = (struct member){known->open, row->bearing};
-    member->bearing.offset_us = (int32_t)(row->time_us - reader->entries[known->open].scan.time_us);
+    member->bearing.offset_us +=
+        (int32_t)(row->time_us - reader->entries[known->open].scan.time_us);
     reader->entries[known->open].scan.num_bearings++;
 }
 
