@@ -46,6 +46,7 @@ static int is_ghost(const struct step *step, const struct rho_bearing_scan *scan
     return num > 0;
 }
 
+/* They stay in the batch: one may be a target's that the other sensors missed, and counts among its bearings. */
 static void tell_ghosts(struct step *step)
 {
     uint32_t first = 0;
@@ -179,8 +180,8 @@ void rho_tracker_initiate_passive(struct step *step)
         refuse_unclaimed(step);
         return;
     }
-    tell_ghosts(step);
     push(step);
+    tell_ghosts(step);
     step->tracker->counters.plots_clutter =
         rho_count(step->tracker->counters.plots_clutter, passive->batch.num_left);
     if (passive->batch.num_scans < passive->batch.scans_max) {
