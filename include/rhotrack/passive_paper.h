@@ -9,10 +9,10 @@
  *                   rho = rho^K + rho_cor^K = D_ij^K cos(z_i^K - theta) + D_K cos(alpha_K - theta)               eq. (3)
  *
  *               D_ij^K, z_i^K: range and bearing of the crossing from sensor K, which is at D_K, alpha_K
- *   3 accept    cells with T votes or more, distinct scans or crossings; a place is confirmed where, with three sensors
- *               or more, every pair has them there or one cell beside it: ghosts of different pairs are elsewhere
- *   4 choose    the cell with the most votes, in the middle of those around it with as many; then not within 4 cells of
- *               theta and 3 of rho of it; and so on
+ *   3 accept    cells with T votes or more, distinct scans or crossings; with three sensors or more a place is confirmed
+ *               where every pair has them, there or one cell beside it: ghosts of different pairs are elsewhere
+ *   4 choose    the cell with the most votes of all pairs together, in the middle of those around it with as many; then
+ *               not within 4 cells of theta and 3 of rho of it; and so on
  *
  * A line knows no time. What it says of a target's place and velocity is a least-squares fit through the crossings that
  * voted for it, ghosts among them.
@@ -45,11 +45,13 @@ struct rho_passive_paper_config {
 
 /* A line found: the middle of its cell. */
 struct rho_passive_paper_line {
-    float rho_m, theta_rad;         /* x cos(theta) + y sin(theta) = rho; 0 <= theta < pi */
-    uint16_t votes;                 /* the least of any pair of sensors */
-    uint16_t scans;                 /* bit k: a crossing of scan k voted for it, 0 the oldest */
-    uint16_t crossings;             /* that did, of all pairs */
-    uint16_t has_state;             /* 1: they are of two scans or more, and gave the state */
+    float rho_m, theta_rad; /* x cos(theta) + y sin(theta) = rho; 0 <= theta < pi */
+    uint16_t votes;         /* the least of any pair of sensors, each where it confirms the line */
+    uint16_t votes_sum;     /* of all pairs in the line's own cell; the most first; stops at 254 */
+    uint16_t scans;         /* bit k: a crossing of scan k voted for it, 0 the oldest */
+    uint16_t crossings;     /* that did, of all pairs */
+    uint16_t has_state;     /* 1: they are of two scans or more, and gave the state */
+    uint16_t reserved;      /* 0 */
     float x_m, y_m, vx_mps, vy_mps; /* at the newest scan; 0 without has_state */
 };
 
@@ -59,8 +61,8 @@ struct rho_passive_paper_work {
     uint32_t
         points_dropped; /* crossings of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS: the newest scans' */
     uint32_t votes;         /* crossings times rows */
-    uint32_t cells;         /* with T votes or more, of every pair */
-    uint32_t lines_dropped; /* beyond RHO_MAX_PASSIVE_LINES: those with the fewest votes */
+    uint32_t cells;         /* accepted, and confirmed by every pair */
+    uint32_t lines_dropped; /* beyond RHO_MAX_PASSIVE_LINES: those of the lowest votes_sum */
 };
 
 /* A crossing that was not pruned; from the sensors' middle. */
@@ -68,15 +70,24 @@ struct rho_passive_paper_point {
     float x_m, y_m;
 };
 
+/* Sums of the crossings that voted for a line: n, and of u, x, y from the first one. */
+struct rho_passive_paper_fit {
+    int16_t row, column; /* the line's cell */
+    uint32_t count;
+    float first_x_m, first_y_m;
+    float u, uu, x_m, y_m, ux_m, uy_m; /* u: the scan's time, -1 .. 1 over the batch */
+};
+
 struct rho_passive_paper {
     uint32_t magic;
     struct rho_passive_paper_config config;
     uint16_t votes_min; /* T of the last search */
-    uint16_t num_lines; /* found by the last search, the most votes first */
+    uint16_t num_lines; /* found by the last search, the highest votes_sum first */
     struct rho_passive_paper_line lines[RHO_MAX_PASSIVE_LINES];
     struct rho_passive_paper_work work;
     struct rho_batch batch;
-    /* scratch of a search: the votes of all pairs, three rows and the crossings of one */
+    /* scratch of a search: the votes of all pairs and 1 where they confirm, else 0; three rows and the crossings of one */
+    struct rho_passive_paper_fit fits[RHO_MAX_PASSIVE_LINES];
     uint8_t cells[RHO_PAPER_THETA_CELLS][RHO_PAPER_RHO_CELLS];
     uint8_t rows[3][RHO_PAPER_RHO_CELLS];
     uint16_t scan_end
