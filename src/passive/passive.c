@@ -27,7 +27,8 @@ void rho_passive_config_default(struct rho_passive_config *config)
                                           .hits_min = 0.65f,
                                           .rho_cell_m = 2000.0f,
                                           .theta_cell_rad = RHO_PI / 36.0f,
-                                          .rule = RHO_GHOST_SAFE};
+                                          .rule = RHO_GHOST_SAFE,
+                                          .false_tracks_per_hour = 1.0f};
 }
 
 static int is_usable(const struct rho_passive_config *config)
@@ -42,6 +43,7 @@ static int is_usable(const struct rho_passive_config *config)
            2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS &&
            rho_is_within(config->theta_cell_rad, 0.99f * RHO_PI / (float)RHO_PASSIVE_THETA_CELLS,
                          0.5f) &&
+           rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f) &&
            (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
@@ -89,6 +91,16 @@ enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_f
         passive->num_tracks = 0;
     }
     return status;
+}
+
+enum rho_status rho_passive_accepts(const struct rho_passive *passive,
+                                    const struct rho_frame *frame)
+{
+    if (!passive) {
+        return RHO_ERROR_NULL;
+    }
+    return passive->magic == PASSIVE_MAGIC ? rho_batch_accepts(&passive->batch, frame)
+                                           : RHO_ERROR_STATE;
 }
 
 uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
@@ -192,6 +204,22 @@ static void pass(struct rho_passive_search *search, float votes_share)
     }
 }
 
+/*
+ * Evidence beyond the four bearings of two crossings: its likelihood ratio has the mean 1 where all is chance, so that it
+ * reaches e^s once in e^s pairs of crossings, at most. Pairs with the newest frame's are new at each search.
+ */
+static void set_start(const struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    float points = (float)(passive->work.crossings - passive->work.ghosts);
+    float pairs = 0.5f * points * points + 1.0f;
+    float interval_h = 2.0f * search->half_s / (float)(passive->batch.num_scans - 1) / 3600.0f;
+    float allowed = passive->config.false_tracks_per_hour * interval_h;
+    float start_nat =
+        4.0f * (search->share_nat + search->miss_nat) + rho_log(pairs) - rho_log(allowed);
+    passive->start_mnat = (int32_t)(1000.0f * start_nat);
+}
+
 enum rho_status rho_passive_search(struct rho_passive *passive)
 {
     if (!passive) {
@@ -204,6 +232,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     memset(&passive->work, 0, sizeof passive->work);
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);
     passive->num_tracks = passive->num_candidates = 0;
+    passive->start_mnat = 0;
     rho_batch_close_ranks(&passive->batch);
     if (passive->batch.num_scans < SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
@@ -215,6 +244,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     set_cells(&search);
     pass(&search, 0.6f);
     rho_passive_select(&search);
+    set_start(&search);
     search.is_second = 1;
     pass(&search, 0.5f);
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);

@@ -30,6 +30,7 @@ static void check_sensors(const struct frame_reader *reader, const struct rho_ba
     size_t count;
     const struct frame_sensor *sensors = frame_reader_sensors(reader, &count);
 
+    frame_reader_need_pair(reader);
     if (count > RHO_MAX_PASSIVE_SENSORS) {
         fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,
              RHO_MAX_PASSIVE_SENSORS);

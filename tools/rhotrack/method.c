@@ -43,6 +43,7 @@ void method_suggest(enum method method, struct parameters *parameters)
 {
     if (method == METHOD_PASSIVE) {
         suggest_bearings(parameters, 2000, M_PI / 36, 0); /* safe */
+        parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, 5);
     } else if (method == METHOD_PASSIVE_PAPER) {
         suggest_bearings(parameters, 1000, M_PI / 90, 1);  /* literal */
         parameters_suggest(parameters, PARAMETER_VOTE, 0); /* scans */
@@ -181,6 +182,7 @@ struct rho_passive_config method_passive(const struct parameters *parameters)
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
     config.rule = rule_of(parameters);
+    config.false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
     return config;
 }
 
