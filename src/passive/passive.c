@@ -11,6 +11,7 @@
 
 #define SCANS_MIN 4u
 #define LINES_MAX 96u
+#define VOTES_MIN 2u /* of a line */
 #define DENSITY_MIN_PER_RAD 0.3f
 #define SIGMA_RATIO_MAX 200.0f
 #define SQRT_TWO_PI 2.50662827f
@@ -190,12 +191,27 @@ static void set_cells(struct rho_passive_search *search)
     }
 }
 
+/* Scans that two sensors or more reported in: only these have crossings, and votes. */
+static unsigned count_crossed(const struct rho_batch *batch)
+{
+    unsigned count = 0;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        unsigned seen = 0;
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            seen += batch->was_seen[k][s];
+        }
+        count += seen >= 2;
+    }
+    return count;
+}
+
 /* One pass over the lines of the bearings that are there. */
 static void pass(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;
-    float votes = votes_share * (float)search->passive->batch.num_scans;
+    float votes = votes_share * (float)count_crossed(&search->passive->batch);
     unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
+    votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_cross(search);
     rho_passive_vote(search);
     for (unsigned i = 0; i < LINES_MAX && rho_passive_next_line(search, votes_min, &line); i++) {
