@@ -48,6 +48,7 @@ static void check_sensors(const struct frame_reader *reader)
 {
     size_t count;
 
+    frame_reader_need_pair(reader);
     frame_reader_sensors(reader, &count);
     if (count > RHO_MAX_PASSIVE_SENSORS) {
         fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,

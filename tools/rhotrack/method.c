@@ -33,6 +33,7 @@ void method_suggest(enum method method, struct parameters *parameters)
         parameters_suggest(parameters, PARAMETER_D_RHO_M, 2000);
         parameters_suggest(parameters, PARAMETER_D_THETA_RAD, M_PI / 36);
         parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 450);
+        parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, 5);
     } else if (method != METHOD_KERNEL) { /* the paper's */
         parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
         parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
@@ -146,5 +147,6 @@ struct rho_passive_config method_passive(const struct parameters *parameters)
     config.pd = (float)value[PARAMETER_PD];
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
     return config;
 }
