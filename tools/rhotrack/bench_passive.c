@@ -32,7 +32,7 @@ struct job {
 static const struct job jobs[] = {
     {"2 sensors, 2 targets", "2s2t", 2, 2, 20}, {"2 sensors, 4 targets", "2s4t", 2, 4, 20},
     {"2 sensors, 6 targets", "2s6t", 2, 6, 20}, {"3 sensors, 4 targets", "3s4t", 3, 4, 20},
-    {"4 sensors, 6 targets", "4s6t", 4, 6, 5}, {"full, by chance", "full", 0, 0, 1}};
+    {"4 sensors, 6 targets", "4s6t", 4, 6, 5},  {"full, by chance", "full", 0, 0, 1}};
 
 #define NUM_JOBS (sizeof jobs / sizeof jobs[0])
 #define JOB_WITH_A_BAR 3
