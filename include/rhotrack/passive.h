@@ -78,6 +78,12 @@ struct rho_passive_point {
     uint16_t reserved; /* 0 */
 };
 
+/* A pair of crossings that was fitted: their places in points. */
+struct rho_passive_fitted {
+    uint16_t a, b; /* the same: none */
+    uint16_t when; /* candidates taken away by then; UINT16_MAX: it was no track */
+};
+
 /* A fitted hypothesis: place at mid-batch, and half the way flown in the batch. */
 struct rho_passive_candidate {
     float state_m[4];
@@ -102,8 +108,11 @@ struct rho_passive {
     struct rho_batch batch;
     uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
     /* scratch of a search */
+    /* by direction, round |x| + |y| = 1 from south: a bit where a bearing is within nine sigmas */
+    uint32_t directions[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS / 32];
     uint16_t cells[RHO_PASSIVE_THETA_CELLS][RHO_PASSIVE_RHO_CELLS]; /* a bit a scan */
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
+    struct rho_passive_fitted fitted[RHO_PASSIVE_PAIRS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
     uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES]; /* bearings */
 };

@@ -258,6 +258,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     set_odds(&search);
     set_sigma(&search);
     set_cells(&search);
+    rho_passive_mark_bearings(&search);
     pass(&search, 0.6f);
     rho_passive_select(&search);
     set_start(&search);

@@ -51,14 +51,16 @@ static void remove_worse_twins(struct rho_passive_search *search,
     for (unsigned i = passive->num_candidates; i > 0; i--) {
         if (is_twin(search, &passive->candidates[i - 1u], candidate)) {
             passive->candidates[i - 1u] = passive->candidates[--passive->num_candidates];
+            search->candidates_taken++; /* less often than there are fits: 2 passes, 96 lines, 20 */
         }
     }
 }
 
 /* Where there is no room the lowest score gives way. */
-static void add_candidate(struct rho_passive *passive,
+static void add_candidate(struct rho_passive_search *search,
                           const struct rho_passive_candidate *candidate)
 {
+    struct rho_passive *passive = search->passive;
     if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
         passive->candidates[passive->num_candidates++] = *candidate;
         return;
@@ -70,12 +72,13 @@ static void add_candidate(struct rho_passive *passive,
         }
     }
     passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
+    search->candidates_taken++;
     if (candidate->score_nat > passive->candidates[lowest].score_nat) {
         passive->candidates[lowest] = *candidate;
     }
 }
 
-void rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES])
+int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES])
 {
     struct rho_passive_candidate candidate;
     struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, 1, candidate.claim);
@@ -84,8 +87,9 @@ void rho_passive_offer(struct rho_passive_search *search, const float state_m[RH
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
     if (judgement.is_track && !has_better_twin(search, &candidate)) {
         remove_worse_twins(search, &candidate);
-        add_candidate(search->passive, &candidate);
+        add_candidate(search, &candidate);
     }
+    return judgement.is_track;
 }
 
 /* ---- joint selection -------------------------------------------------------------------------- */
