@@ -265,6 +265,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     search.is_second = 1;
     pass(&search, 0.5f);
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);
+    rho_passive_mix(&search);
     rho_passive_select(&search);
     return RHO_OK;
 }

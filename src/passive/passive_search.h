@@ -85,7 +85,16 @@ rho_passive_judge(const struct rho_passive_search *search, const float state_m[R
 int rho_passive_report(const struct rho_passive_search *search,
                        const float state_m[RHO_PASSIVE_STATES], struct rho_passive_track *track);
 
+/* ---- mixing ---- */
+
+/* Fits what one candidate's bearings of a sensor and another's of another sensor make, and offers it. */
+void rho_passive_mix(struct rho_passive_search *search);
+
 /* ---- selection ---- */
+
+/* Candidates by score, best first. */
+void rho_passive_rank(const struct rho_passive *passive,
+                      uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
 
 /* A fitted state becomes a candidate, unless it is no track or another one's twin. Returns whether it is a track. */
 int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES]);

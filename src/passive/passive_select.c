@@ -186,8 +186,8 @@ static void improve(struct choice *choice)
     } while (is_better);
 }
 
-/* Candidates by score, best first. */
-static void rank(const struct rho_passive *passive, uint8_t order[RHO_MAX_PASSIVE_CANDIDATES])
+void rho_passive_rank(const struct rho_passive *passive,
+                      uint8_t order[RHO_MAX_PASSIVE_CANDIDATES])
 {
     for (unsigned i = 0; i < passive->num_candidates; i++) {
         unsigned place = i;
@@ -344,7 +344,7 @@ void rho_passive_select(struct rho_passive_search *search)
     struct rho_passive *passive = search->passive;
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
     struct choice choice;
-    rank(passive, order);
+    rho_passive_rank(passive, order);
     choose(search, order, &choice);
     passive->num_tracks = 0;
     for (unsigned i = 0; i < passive->num_candidates; i++) {
