@@ -92,6 +92,16 @@ struct rho_passive_candidate {
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 
+/* Tracks that are fitted together, no bearing in two of them. */
+struct rho_passive_set {
+    uint16_t num;
+    float total_nat; /* of the scores */
+    struct rho_passive_candidate tracks[RHO_MAX_PASSIVE_TRACKS];
+    float chi2[RHO_MAX_PASSIVE_TRACKS];
+    uint8_t candidate[RHO_MAX_PASSIVE_TRACKS]; /* that each was */
+    uint8_t is_track[RHO_MAX_PASSIVE_TRACKS];
+};
+
 struct rho_passive {
     uint32_t magic;
     struct rho_passive_config config;
@@ -115,6 +125,7 @@ struct rho_passive {
     struct rho_passive_fitted fitted[RHO_PASSIVE_PAIRS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
     uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES]; /* bearings */
+    struct rho_passive_set best, other;
 };
 
 /* scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, cells of 2 km and 5 degrees, the safe

@@ -260,7 +260,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     set_cells(&search);
     rho_passive_mark_bearings(&search);
     pass(&search, 0.6f);
-    rho_passive_select(&search);
+    rho_passive_claim_best(&search);
     set_start(&search);
     search.is_second = 1;
     pass(&search, 0.5f);

@@ -140,6 +140,21 @@ static struct nearest nearest_bearing(const struct rho_passive_search *search, u
     return compare_bearings(search, scan, sensor, way, claimed_too);
 }
 
+/* The claimed bearing, however far off; without a claim, none. */
+static struct nearest claimed_bearing(const struct rho_passive_search *search, unsigned scan,
+                                      unsigned sensor, const float state_m[N], unsigned claim)
+{
+    struct way way = way_to(search, scan, sensor, state_m);
+    if (claim == 0 || !(length2_m2(way) > 1.0f)) {
+        return (struct nearest){.which = -1};
+    }
+    const struct rho_batch_bearing *bearing =
+        &search->passive->batch.bearings[scan][sensor][claim - 1u];
+    return (struct nearest){(int)claim - 1, way,
+                            bearing->sine * way.x_m - bearing->cosine * way.y_m,
+                            sigma_of(search, bearing)};
+}
+
 /* Of the nearest one's error: measured less expected. */
 static float sigmas_off(const struct nearest *nearest)
 {
@@ -226,22 +241,45 @@ static void add_beliefs(const struct rho_passive_search *search, const float sta
     }
 }
 
-static struct equations equations_of(const struct rho_passive_search *search,
-                                     const float state_m[N], float gate, int claimed_too)
+static void add_bearing(const struct rho_passive_search *search, unsigned scan,
+                        const struct nearest *nearest, struct equations *equations)
 {
-    const struct rho_passive *passive = search->passive;
+    /* the derivative of the bearing by the place, rad a metre */
+    float range2_m2 = length2_m2(nearest->way), step = search->step[scan];
+    float row_x = -nearest->way.y_m / range2_m2, row_y = nearest->way.x_m / range2_m2;
+    const float row[N] = {row_x, row_y, step * row_x, step * row_y};
+    add_row(equations, row, 1.0f / square(nearest->sigma_rad),
+            sigmas_off(nearest) * nearest->sigma_rad);
+}
+
+/* Of the nearest bearings within the gate. */
+static struct equations equations_near(const struct rho_passive_search *search,
+                                       const float state_m[N], float gate, int claimed_too)
+{
+    const struct rho_batch *batch = &search->passive->batch;
     struct equations equations = {.b = {0}};
-    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
-        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct nearest nearest = nearest_bearing(search, k, s, state_m, claimed_too);
-            float sigmas = nearest.which >= 0 ? sigmas_off(&nearest) : gate;
-            if (square(sigmas) < square(gate)) {
-                /* the derivative of the bearing by the place, rad a metre */
-                float range2_m2 = length2_m2(nearest.way), step = search->step[k];
-                float row_x = -nearest.way.y_m / range2_m2, row_y = nearest.way.x_m / range2_m2;
-                const float row[N] = {row_x, row_y, step * row_x, step * row_y};
-                add_row(&equations, row, 1.0f / square(nearest.sigma_rad),
-                        sigmas * nearest.sigma_rad);
+            if (nearest.which >= 0 && square(sigmas_off(&nearest)) < square(gate)) {
+                add_bearing(search, k, &nearest, &equations);
+            }
+        }
+    }
+    add_beliefs(search, state_m, &equations);
+    return equations;
+}
+
+static struct equations equations_claimed(const struct rho_passive_search *search,
+                                          const float state_m[N], rho_passive_const_claim *claim)
+{
+    const struct rho_batch *batch = &search->passive->batch;
+    struct equations equations = {.b = {0}};
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            struct nearest nearest = claimed_bearing(search, k, s, state_m, claim[k][s]);
+            if (nearest.which >= 0) {
+                add_bearing(search, k, &nearest, &equations);
             }
         }
     }
@@ -254,24 +292,39 @@ static float clipped(float v, float most)
     return v < most ? (v > -most ? v : -most) : most;
 }
 
-void rho_passive_fit(const struct rho_passive_search *search, float state_m[N], const float *gates,
-                     unsigned num_steps, int claimed_too)
+/* A Gauss-Newton step. 0: it stays as it is, and will be judged by its bearings. */
+static int take_step(const struct rho_passive_search *search, struct equations *equations,
+                     float state_m[N])
 {
-    float range_m = search->passive->config.range_max_m;
-    for (unsigned step = 0; step < num_steps; step++) {
-        struct equations equations = equations_of(search, state_m, gates[step], claimed_too);
-        float factor[RHO_TRIANGLE(N)];
-        if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
-            return; /* as it is, it will be judged by its bearings */
-        }
-        rho_linalg_forward(N, factor, equations.b);
-        rho_linalg_backward(N, factor, equations.b);
-        for (int i = 0; i < N; i++) {
-            state_m[i] = clipped(state_m[i] + clipped(equations.b[i], STEP_SHARE * range_m),
-                                 PLACE_SHARE * range_m);
-        }
+    float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
+    if (rho_linalg_cholesky(N, equations->a, factor) != RHO_OK) {
+        return 0;
+    }
+    rho_linalg_forward(N, factor, equations->b);
+    rho_linalg_backward(N, factor, equations->b);
+    for (int i = 0; i < N; i++) {
+        state_m[i] = clipped(state_m[i] + clipped(equations->b[i], STEP_SHARE * range_m),
+                             PLACE_SHARE * range_m);
+    }
+    return 1;
+}
+
+void rho_passive_fit(const struct rho_passive_search *search, float state_m[N], int claimed_too)
+{
+    static const float gates[4] = {8.0f, 5.0f, GATE_SIGMAS, GATE_SIGMAS};
+    int goes_on = 1;
+    for (unsigned step = 0; step < 4 && goes_on; step++) {
+        struct equations equations = equations_near(search, state_m, gates[step], claimed_too);
+        goes_on = take_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
+}
+
+void rho_passive_fit_claimed(const struct rho_passive_search *search, float state_m[N],
+                             rho_passive_const_claim *claim)
+{
+    struct equations equations = equations_claimed(search, state_m, claim);
+    (void)take_step(search, &equations, state_m);
 }
 
 /* ---- judgement -------------------------------------------------------------------------------- */
@@ -285,8 +338,7 @@ static float chi2_limit(unsigned freedom)
 }
 
 /* Two sensors with two bearings each: one alone tells neither range nor speed. */
-static int is_observable(const struct rho_passive_search *search,
-                         uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
+static int is_observable(const struct rho_passive_search *search, rho_passive_const_claim *claim)
 {
     unsigned sensors = 0;
     for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
@@ -305,33 +357,80 @@ static int is_fast(const struct rho_passive_search *search, const float state_m[
     return square(state_m[2]) + square(state_m[3]) >= square(most_m);
 }
 
-struct rho_passive_judgement
-rho_passive_judge(const struct rho_passive_search *search, const float state_m[N], int claimed_too,
-                  uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
+static int is_track(const struct rho_passive_search *search, const float state_m[N],
+                    const struct rho_passive_judgement *judgement, rho_passive_const_claim *claim)
 {
-    const struct rho_passive *passive = search->passive;
+    unsigned freedom = judgement->hits > N ? judgement->hits - (unsigned)N : 1u;
+    return judgement->hits >= search->hits_min && judgement->score_nat > 0.0f &&
+           judgement->chi2 < chi2_limit(freedom) && !is_fast(search, state_m) &&
+           is_observable(search, claim);
+}
+
+static void count_bearing(const struct rho_passive_search *search, const struct nearest *nearest,
+                          struct rho_passive_judgement *judgement)
+{
+    float chi2 = square(sigmas_off(nearest));
+    judgement->hits++;
+    judgement->chi2 += chi2;
+    judgement->score_nat += search->hit_nat - rho_log(nearest->sigma_rad) - 0.5f * chi2;
+}
+
+struct rho_passive_judgement rho_passive_judge(const struct rho_passive_search *search,
+                                               const float state_m[N], rho_passive_claim *claim)
+{
+    const struct rho_batch *batch = &search->passive->batch;
     struct rho_passive_judgement judgement = {.hits = 0};
-    memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));
-    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
-        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            struct nearest nearest = nearest_bearing(search, k, s, state_m, claimed_too);
-            float sigmas = nearest.which >= 0 ? sigmas_off(&nearest) : GATE_SIGMAS;
-            if (square(sigmas) < square(GATE_SIGMAS)) {
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            struct nearest nearest = nearest_bearing(search, k, s, state_m, 1);
+            claim[k][s] = 0;
+            if (nearest.which >= 0 && square(sigmas_off(&nearest)) < square(GATE_SIGMAS)) {
                 claim[k][s] = (uint8_t)(nearest.which + 1);
-                judgement.hits++;
-                judgement.chi2 += square(sigmas);
-                judgement.score_nat += search->hit_nat - rho_log(nearest.sigma_rad);
-            } else if (passive->batch.was_seen[k][s]) {
+                count_bearing(search, &nearest, &judgement);
+            } else if (batch->was_seen[k][s]) {
                 judgement.score_nat += search->miss_nat;
             }
         }
     }
-    judgement.score_nat -= 0.5f * judgement.chi2;
-    unsigned freedom = judgement.hits > N ? judgement.hits - (unsigned)N : 1u;
-    judgement.is_track = judgement.hits >= search->hits_min && judgement.score_nat > 0.0f &&
-                         judgement.chi2 < chi2_limit(freedom) && !is_fast(search, state_m) &&
-                         is_observable(search, claim);
+    judgement.is_track = is_track(search, state_m, &judgement, (rho_passive_const_claim *)claim);
     return judgement;
+}
+
+struct rho_passive_judgement rho_passive_judge_claimed(const struct rho_passive_search *search,
+                                                       const float state_m[N],
+                                                       rho_passive_const_claim *claim)
+{
+    const struct rho_batch *batch = &search->passive->batch;
+    struct rho_passive_judgement judgement = {.hits = 0};
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            struct nearest nearest = claimed_bearing(search, k, s, state_m, claim[k][s]);
+            if (nearest.which >= 0) {
+                count_bearing(search, &nearest, &judgement);
+            } else if (batch->was_seen[k][s]) {
+                judgement.score_nat += search->miss_nat;
+            }
+        }
+    }
+    judgement.is_track = is_track(search, state_m, &judgement, claim);
+    return judgement;
+}
+
+float rho_passive_gain(const struct rho_passive_search *search, const float state_m[N],
+                       unsigned scan, unsigned sensor, unsigned claim)
+{
+    struct nearest nearest = claimed_bearing(search, scan, sensor, state_m, claim);
+    if (nearest.which < 0) {
+        return 0.0f;
+    }
+    const struct rho_batch_bearing *bearing =
+        &search->passive->batch.bearings[scan][sensor][claim - 1u];
+    float chi2 = square(sigmas_off(&nearest));
+    if (bearing->cosine * nearest.way.x_m + bearing->sine * nearest.way.y_m <= 0.0f ||
+        chi2 >= square(GATE_SIGMAS)) {
+        return 0.0f;
+    }
+    return search->hit_nat - rho_log(nearest.sigma_rad) - 0.5f * chi2 - search->miss_nat;
 }
 
 /* ---- report ----------------------------------------------------------------------------------- */
@@ -367,7 +466,8 @@ static void carry(float half_s, const float from[N][N], float covariance[RHO_TRI
 int rho_passive_report(const struct rho_passive_search *search, const float state_m[N],
                        struct rho_passive_track *track)
 {
-    struct equations equations = equations_of(search, state_m, GATE_SIGMAS, 0);
+    struct equations equations =
+        equations_claimed(search, state_m, (rho_passive_const_claim *)track->claim);
     float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return 0;

@@ -73,14 +73,13 @@ static int mix(const struct rho_passive_search *search, const struct claims *cla
 static void mix_pair(struct rho_passive_search *search, const struct claims *claims, unsigned i,
                      unsigned j)
 {
-    static const float gates[4] = {8.0f, 5.0f, 3.5f, 3.5f};
     unsigned num_sensors = search->passive->batch.num_sensors;
     float state_m[RHO_PASSIVE_STATES];
     for (unsigned a = 0; a + 1u < num_sensors; a++) {
         for (unsigned b = a + 1u; b < num_sensors; b++) {
             const unsigned sensors[2] = {a, b};
             if (mix(search, claims, i, j, sensors, state_m)) {
-                rho_passive_fit(search, state_m, gates, 4, 1);
+                rho_passive_fit(search, state_m, 1);
                 (void)rho_passive_offer(search, state_m);
             }
         }

@@ -461,12 +461,11 @@ static int is_known(const struct rho_passive_search *search, struct pair pair)
 
 static void fit_pair(struct rho_passive_search *search, struct pair pair)
 {
-    static const float gates[4] = {8.0f, 5.0f, 3.5f, 3.5f};
     float state_m[RHO_PASSIVE_STATES];
     if (is_known(search, pair) || !join(search, pair, state_m)) {
         return;
     }
-    rho_passive_fit(search, state_m, gates, 4, 0);
+    rho_passive_fit(search, state_m, 0);
     int is_track = rho_passive_offer(search, state_m);
     *fitted_place(search->passive, pair) = (struct rho_passive_fitted){
         .a = pair.a, .b = pair.b, .when = is_track ? search->candidates_taken : UINT16_MAX};

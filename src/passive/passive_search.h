@@ -66,9 +66,18 @@ void rho_passive_mark_bearings(struct rho_passive_search *search);
 float rho_passive_agreement(const struct rho_passive_search *search,
                             const float state_m[RHO_PASSIVE_STATES], float least);
 
-/* Gauss-Newton steps; the gates are in sigmas. claimed_too 0: bearings that are claimed are not there. */
+/* Bearings by scan and sensor, their places counted from 1; 0: none. A row of such an array. */
+typedef uint8_t rho_passive_claim[RHO_MAX_PASSIVE_SENSORS];
+typedef const uint8_t rho_passive_const_claim[RHO_MAX_PASSIVE_SENSORS];
+
+/* Four Gauss-Newton steps to the nearest bearings, within 8, 5, 3.5 and 3.5 sigmas. claimed_too 0: bearings that are
+ * claimed are not there. */
 void rho_passive_fit(const struct rho_passive_search *search, float state_m[RHO_PASSIVE_STATES],
-                     const float *gates, unsigned num_steps, int claimed_too);
+                     int claimed_too);
+
+/* One step to the bearings that it claims. */
+void rho_passive_fit_claimed(const struct rho_passive_search *search,
+                             float state_m[RHO_PASSIVE_STATES], rho_passive_const_claim *claim);
 
 struct rho_passive_judgement {
     float score_nat, chi2;
@@ -76,12 +85,22 @@ struct rho_passive_judgement {
     int is_track; /* hits, chi2, speed and score are a track's */
 };
 
-/* Score and claims of a state. */
-struct rho_passive_judgement
-rho_passive_judge(const struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES],
-                  int claimed_too, uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
+/* Score and claims of a state: the nearest bearings within 3.5 sigmas. */
+struct rho_passive_judgement rho_passive_judge(const struct rho_passive_search *search,
+                                               const float state_m[RHO_PASSIVE_STATES],
+                                               rho_passive_claim *claim);
 
-/* Place and velocity at the newest scan, with their covariance. 0 where there is none. */
+/* The score with given claims. */
+struct rho_passive_judgement rho_passive_judge_claimed(const struct rho_passive_search *search,
+                                                       const float state_m[RHO_PASSIVE_STATES],
+                                                       rho_passive_const_claim *claim);
+
+/* What a bearing of a look (claim, from 1) adds to the score, compared with none; 0 where it is not within 3.5 sigmas. */
+float rho_passive_gain(const struct rho_passive_search *search,
+                       const float state_m[RHO_PASSIVE_STATES], unsigned scan, unsigned sensor,
+                       unsigned claim);
+
+/* Place and velocity at the newest scan, with their covariance, of a track's claims. 0 where there is none. */
 int rho_passive_report(const struct rho_passive_search *search,
                        const float state_m[RHO_PASSIVE_STATES], struct rho_passive_track *track);
 
@@ -93,14 +112,52 @@ void rho_passive_mix(struct rho_passive_search *search);
 /* ---- selection ---- */
 
 /* Candidates by score, best first. */
-void rho_passive_rank(const struct rho_passive *passive,
-                      uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
+void rho_passive_rank(const struct rho_passive *passive, uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
 
 /* A fitted state becomes a candidate, unless it is no track or another one's twin. Returns whether it is a track. */
 int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES]);
 
-/* The candidates that are tracks together: fitted again each on what the better ones leave, into passive->tracks; their
- * bearings are claimed. */
+unsigned rho_passive_count_shared(const struct rho_passive_search *search,
+                                  const struct rho_passive_candidate *a,
+                                  const struct rho_passive_candidate *b);
+
+/* Candidates in and out of what is chosen together. */
+struct rho_passive_choice {
+    const struct rho_passive_search *search;
+    unsigned count;
+    uint8_t is_in[RHO_MAX_PASSIVE_CANDIDATES];
+    uint8_t is_out[RHO_MAX_PASSIVE_CANDIDATES]; /* may not come in */
+    /* of each, with those chosen: its score less what it shares */
+    float gain_nat[RHO_MAX_PASSIVE_CANDIDATES];
+    float total_nat;
+};
+
+/* The best choice that is found. */
+void rho_passive_choose(const struct rho_passive_search *search, struct rho_passive_choice *best);
+
+/* Takes a candidate and its kin out for good. */
+void rho_passive_bar(struct rho_passive_choice *choice, unsigned which);
+
+/* Takes one in (count: none), and fills up with what gains. */
+void rho_passive_force(struct rho_passive_choice *choice, unsigned which);
+
+/* Leaves one out and fills up again, as long as that gains. */
+void rho_passive_improve(struct rho_passive_choice *choice);
+
+/* The chosen ones as a set: bearings are given out anew, one to one, and each is fitted to its own; those that are no
+ * tracks then drop out. */
+void rho_passive_gather(const struct rho_passive_search *search,
+                        const struct rho_passive_choice *choice, struct rho_passive_set *set);
+
+/* What passive->best is worth more than the best others without each of its tracks. Where others are worth more, they
+ * become the best. */
+void rho_passive_weigh(const struct rho_passive_search *search, struct rho_passive_choice *choice,
+                       float margins_nat[RHO_MAX_PASSIVE_TRACKS]);
+
+/* Claims the bearings of the best set of candidates. */
+void rho_passive_claim_best(struct rho_passive_search *search);
+
+/* The best set of candidates becomes passive->tracks. */
 void rho_passive_select(struct rho_passive_search *search);
 
 #endif

@@ -5,15 +5,12 @@
 #include "rhotrack/types.h"
 
 #define TWIN_SHARE 0.8f
-#define KIN_SHARE 0.7f
-#define STARTS 12u
-#define GAIN_MIN_NAT 1.0e-3f /* what rounding cannot make */
 
 /* ---- candidates ------------------------------------------------------------------------------- */
 
-static unsigned count_shared(const struct rho_passive_search *search,
-                             const struct rho_passive_candidate *a,
-                             const struct rho_passive_candidate *b)
+unsigned rho_passive_count_shared(const struct rho_passive_search *search,
+                                  const struct rho_passive_candidate *a,
+                                  const struct rho_passive_candidate *b)
 {
     unsigned shared = 0;
     for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
@@ -28,7 +25,7 @@ static unsigned count_shared(const struct rho_passive_search *search,
 static int is_twin(const struct rho_passive_search *search, const struct rho_passive_candidate *of,
                    const struct rho_passive_candidate *other)
 {
-    return (float)count_shared(search, of, other) >= TWIN_SHARE * (float)of->hits;
+    return (float)rho_passive_count_shared(search, of, other) >= TWIN_SHARE * (float)of->hits;
 }
 
 static int has_better_twin(const struct rho_passive_search *search,
@@ -81,7 +78,7 @@ static void add_candidate(struct rho_passive_search *search,
 int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES])
 {
     struct rho_passive_candidate candidate;
-    struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, 1, candidate.claim);
+    struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, candidate.claim);
     candidate.score_nat = judgement.score_nat;
     candidate.hits = judgement.hits;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
@@ -92,196 +89,14 @@ int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO
     return judgement.is_track;
 }
 
-/* ---- joint selection -------------------------------------------------------------------------- */
-
-/*
- * Maximises the sum of the chosen ones' scores, less share_nat for every bearing that two of them claim. The best subset is
- * sought by adding the candidate that gains most, from several starts, and by leaving one out and filling up again.
- */
-struct choice {
-    const struct rho_passive_search *search;
-    unsigned count;
-    uint8_t is_in[RHO_MAX_PASSIVE_CANDIDATES];
-    uint8_t is_out[RHO_MAX_PASSIVE_CANDIDATES]; /* may not come in */
-    float gain_nat
-        [RHO_MAX_PASSIVE_CANDIDATES]; /* of each, with those chosen: its score less what it shares */
-    float total_nat;
-};
-
-static void start_choice(struct choice *choice, const struct rho_passive_search *search)
-{
-    choice->search = search;
-    choice->count = search->passive->num_candidates;
-    choice->total_nat = 0.0f;
-    memset(choice->is_in, 0, sizeof choice->is_in);
-    memset(choice->is_out, 0, sizeof choice->is_out);
-    for (unsigned i = 0; i < choice->count; i++) {
-        choice->gain_nat[i] = search->passive->candidates[i].score_nat;
-    }
-}
-
-/* Puts one in or takes it out. */
-static void flip(struct choice *choice, unsigned which)
-{
-    const struct rho_passive *passive = choice->search->passive;
-    float sign = choice->is_in[which] ? -1.0f : 1.0f;
-    choice->total_nat += sign * choice->gain_nat[which];
-    choice->is_in[which] = !choice->is_in[which];
-    for (unsigned i = 0; i < choice->count; i++) {
-        if (i != which) {
-            unsigned shared = passive->shared[which][i];
-            choice->gain_nat[i] -= sign * choice->search->share_nat * (float)shared;
-        }
-    }
-}
-
-/* The one that gains most, or count where none gains. */
-static unsigned find_gain(const struct choice *choice, unsigned but)
-{
-    unsigned best = choice->count;
-    float most = GAIN_MIN_NAT;
-    for (unsigned i = 0; i < choice->count; i++) {
-        if (!choice->is_in[i] && !choice->is_out[i] && i != but && choice->gain_nat[i] > most) {
-            most = choice->gain_nat[i];
-            best = i;
-        }
-    }
-    return best;
-}
-
-/* Adds while that gains; those that lose by it leave. */
-static void fill_up(struct choice *choice, unsigned but)
-{
-    for (unsigned added; (added = find_gain(choice, but)) < choice->count;) {
-        flip(choice, added);
-        for (unsigned i = 0; i < choice->count; i++) {
-            if (choice->is_in[i] && i != added && choice->gain_nat[i] < -GAIN_MIN_NAT) {
-                flip(choice, i);
-            }
-        }
-    }
-}
-
-/* Leaves one out and fills up again. Returns whether that is more. */
-static int leave_out(struct choice *choice, unsigned which)
-{
-    struct choice tried = *choice;
-    flip(&tried, which);
-    fill_up(&tried, which);
-    if (!(tried.total_nat > choice->total_nat + GAIN_MIN_NAT)) {
-        return 0;
-    }
-    *choice = tried;
-    return 1;
-}
-
-static void improve(struct choice *choice)
-{
-    int is_better;
-    do {
-        is_better = 0;
-        for (unsigned i = 0; i < choice->count; i++) {
-            is_better |= choice->is_in[i] && leave_out(choice, i);
-        }
-    } while (is_better);
-}
-
-void rho_passive_rank(const struct rho_passive *passive,
-                      uint8_t order[RHO_MAX_PASSIVE_CANDIDATES])
-{
-    for (unsigned i = 0; i < passive->num_candidates; i++) {
-        unsigned place = i;
-        for (; place > 0 &&
-               passive->candidates[i].score_nat > passive->candidates[order[place - 1u]].score_nat;
-             place--) {
-            order[place] = order[place - 1u];
-        }
-        order[place] = (uint8_t)i;
-    }
-}
-
-static void set_shared(const struct rho_passive_search *search)
-{
-    struct rho_passive *passive = search->passive;
-    for (unsigned i = 0; i < passive->num_candidates; i++) {
-        for (unsigned j = 0; j < passive->num_candidates; j++) {
-            passive->shared[i][j] =
-                (uint8_t)count_shared(search, &passive->candidates[i], &passive->candidates[j]);
-        }
-    }
-}
-
-static void choose(const struct rho_passive_search *search, const uint8_t *order,
-                   struct choice *best)
-{
-    set_shared(search);
-    start_choice(best, search);
-    for (unsigned i = 0; i < STARTS && i < best->count; i++) {
-        struct choice choice;
-        start_choice(&choice, search);
-        flip(&choice, order[i]);
-        fill_up(&choice, choice.count);
-        improve(&choice);
-        if (choice.total_nat > best->total_nat) {
-            *best = choice;
-        }
-    }
-}
-
-/* ---- margins ---------------------------------------------------------------------------------- */
-
-/* The same target with a few other bearings, rather than something else. */
-static int is_kin(const struct rho_passive *passive, unsigned of, unsigned other)
-{
-    return (float)passive->shared[of][other] >= KIN_SHARE * (float)passive->candidates[of].hits;
-}
-
-/* The best that is found with `which` in place of what is against it. */
-static float total_with(const struct choice *without, unsigned which)
-{
-    struct choice choice = *without;
-    if (!choice.is_in[which]) {
-        flip(&choice, which);
-    }
-    fill_up(&choice, choice.count);
-    improve(&choice);
-    return choice.total_nat;
-}
-
-/*
- * What the choice is worth more than the best one without this candidate and its kin: each that shares a bearing with it
- * is tried in its place.
- */
-static float margin_of(const struct choice *best, unsigned which)
-{
-    const struct rho_passive *passive = best->search->passive;
-    struct choice without = *best;
-    for (unsigned i = 0; i < without.count; i++) {
-        if (i == which || is_kin(passive, which, i)) {
-            without.is_out[i] = 1;
-            if (without.is_in[i]) {
-                flip(&without, i);
-            }
-        }
-    }
-    float most_nat = without.total_nat;
-    for (unsigned i = 0; i < without.count; i++) {
-        if (!without.is_out[i] && passive->shared[which][i] > 0) {
-            float total_nat = total_with(&without, i);
-            most_nat = total_nat > most_nat ? total_nat : most_nat;
-        }
-    }
-    return best->total_nat - most_nat;
-}
-
 /* ---- tracks ----------------------------------------------------------------------------------- */
 
-static void claim(struct rho_passive *passive, const struct rho_passive_track *track)
+static void claim(struct rho_passive *passive, rho_passive_const_claim *claims)
 {
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            if (track->claim[k][s] > 0) {
-                passive->is_claimed[k][s][track->claim[k][s] - 1u] = 1;
+            if (claims[k][s] > 0) {
+                passive->is_claimed[k][s][claims[k][s] - 1u] = 1;
             }
         }
     }
@@ -299,30 +114,25 @@ static void set_scans(const struct rho_passive *passive, struct rho_passive_trac
     }
 }
 
-/* Fitted and judged again on the bearings that better tracks have left. */
-static void add_track(struct rho_passive_search *search, const float from_m[RHO_PASSIVE_STATES],
-                      float margin_nat)
+static int32_t mnat_of(float nat)
 {
-    static const float gates[2] = {3.5f, 3.5f};
+    return (int32_t)(1000.0f * nat);
+}
+
+static void add_track(struct rho_passive_search *search, unsigned number, float margin_nat)
+{
     struct rho_passive *passive = search->passive;
-    if (passive->num_tracks == RHO_MAX_PASSIVE_TRACKS) {
-        passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
-        return;
-    }
+    const struct rho_passive_candidate *from = &passive->best.tracks[number];
     struct rho_passive_track *track = &passive->tracks[passive->num_tracks];
-    float state_m[RHO_PASSIVE_STATES];
-    memcpy(state_m, from_m, sizeof state_m);
-    rho_passive_fit(search, state_m, gates, 2, 0);
-    struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, 0, track->claim);
-    if (!judgement.is_track || !rho_passive_report(search, state_m, track)) {
+    memcpy(track->claim, from->claim, sizeof track->claim);
+    if (!rho_passive_report(search, from->state_m, track)) {
         return;
     }
-    track->score_mnat = (int32_t)(1000.0f * judgement.score_nat);
-    track->margin_mnat = (int32_t)(1000.0f * margin_nat);
-    track->chi2 = judgement.chi2;
-    track->hits = judgement.hits;
+    track->score_mnat = mnat_of(from->score_nat);
+    track->margin_mnat = mnat_of(margin_nat);
+    track->chi2 = passive->best.chi2[number];
+    track->hits = from->hits;
     set_scans(passive, track);
-    claim(passive, track);
     passive->num_tracks++;
 }
 
@@ -339,18 +149,28 @@ static void sort_tracks(struct rho_passive *passive)
     }
 }
 
+void rho_passive_claim_best(struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    struct rho_passive_choice choice;
+    rho_passive_choose(search, &choice);
+    rho_passive_gather(search, &choice, &passive->best);
+    for (unsigned i = 0; i < passive->best.num; i++) {
+        claim(passive, (rho_passive_const_claim *)passive->best.tracks[i].claim);
+    }
+}
+
 void rho_passive_select(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
-    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
-    struct choice choice;
-    rho_passive_rank(passive, order);
-    choose(search, order, &choice);
+    float margins_nat[RHO_MAX_PASSIVE_TRACKS] = {0};
+    struct rho_passive_choice choice;
+    rho_passive_choose(search, &choice);
+    rho_passive_gather(search, &choice, &passive->best);
+    rho_passive_weigh(search, &choice, margins_nat);
     passive->num_tracks = 0;
-    for (unsigned i = 0; i < passive->num_candidates; i++) {
-        if (choice.is_in[order[i]]) {
-            add_track(search, passive->candidates[order[i]].state_m, margin_of(&choice, order[i]));
-        }
+    for (unsigned i = 0; i < passive->best.num; i++) {
+        add_track(search, i, margins_nat[i]);
     }
     sort_tracks(passive);
 }
