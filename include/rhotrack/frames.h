@@ -8,8 +8,8 @@
  *         }
  *     }
  *
- * Scans of different sensors are one frame where they lie within tolerance_us of the earliest of them, in whatever order
- * they arrive. A frame closes
+ * Scans of different sensors are one frame where they lie within tolerance_us of the earliest of them, in whatever
+ * order they arrive. A frame closes
  *   - with the scan of the last sensor that is waited for, or
  *   - when a scan comes that cannot be one of its: beyond the tolerance, or of a sensor that is in it, or
  *   - when the caller says so (rho_frames_close): the end, or time has moved on and nothing came.
@@ -22,11 +22,11 @@
  * Late: a scan not later than the frame that was closed last, or too old for the open one. It is counted and left out;
  * its sensor is waited for again, so that a sensor that comes last is not late for ever.
  *
- * The clock is that of the last scan taken. A scan more than jump_max_us off it, ahead or back, is left out and counted,
- * so that one sensor with a wrong clock does not make all others late; once such scans have outnumbered the others by
- * follow_scans, the next one is followed and the frames start anew at its time (is_restart). Most sensors decide; with
- * two of them, the one that came first. A clock that is ahead by more than the scan interval but less than jump_max_us
- * makes the other sensors late for as long as it goes on: scans_late tells.
+ * The clock is that of the last scan taken. A scan more than jump_max_us off it, ahead or back, is left out and
+ * counted, so that one sensor with a wrong clock does not make all others late; once such scans have outnumbered the
+ * others by follow_scans, the next one is followed and the frames start anew at its time (is_restart). Most sensors
+ * decide; with two of them, the one that came first. A clock that is ahead by more than the scan interval but less than
+ * jump_max_us makes the other sensors late for as long as it goes on: scans_late tells.
  *
  * The object holds no pointers: a memcpy is a snapshot.
  */
@@ -120,9 +120,9 @@ RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t
  * Takes a scan; its bearings are copied. The frame that was closed before is gone.
  *   scan  not of this object's own frames; its bearings are not looked into: whoever takes the frame checks them
  * Errors: NULL, STATE (not initialised), VALUE (a time beyond RHO_LIMIT_TIME_US, a sector beyond one turn either way, a
- * place that is no coordinate, another one than before, or nearer than 1 m to another sensor's), CAPACITY (more sensors than
- * RHO_MAX_PASSIVE_SENSORS); nothing is changed, and what was closed before stays. Late scans and those off the clock are
- * RHO_OK. Cost: the bearings copied, a slot cleared. Stack: 150 bytes.
+ * place that is no coordinate, another one than before, or nearer than 1 m to another sensor's), CAPACITY (more sensors
+ * than RHO_MAX_PASSIVE_SENSORS); nothing is changed, and what was closed before stays. Late scans and those off the
+ * clock are RHO_OK. Cost: the bearings copied, a slot cleared. Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_frames_push(struct rho_frames *frames,
                                                const struct rho_bearing_scan *scan);

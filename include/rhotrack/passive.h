@@ -66,8 +66,8 @@ struct rho_passive_work {
     uint32_t line_points_dropped; /* of a line beyond 160: the last pairs of sensors' */
     uint32_t peaks;               /* lines looked at */
     uint32_t hypotheses;          /* pairs of crossings scored */
-    uint32_t fits;
-    uint32_t candidates_dropped; /* beyond RHO_MAX_PASSIVE_CANDIDATES */
+    uint32_t fits;                /* a pair's once, as long as that is known */
+    uint32_t candidates_dropped;  /* beyond RHO_MAX_PASSIVE_CANDIDATES */
 };
 
 /* A crossing that was not pruned; places from the sensors' middle. */

@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include "frame_reader.h"
+#include "random.h"
+#include "rhotrack/frames.h"
 
 #define HEADER "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n"
 #define MAX_FILES 2
@@ -308,6 +310,94 @@ static void a_header_tells_bearings_from_other_files(void **state)
     end(&both);
 }
 
+/* ---- the library's frames --------------------------------------------------------------------- */
+
+#define LOOKS 300
+
+/* Looks of three sensors every 0.1 s, up to 90 ms late and no two at one time; a few are missing. */
+static struct given random_looks(void)
+{
+    static char text[LOOKS * 40];
+    struct random random = random_start(1, 5, 0);
+    int length = snprintf(text, sizeof text, HEADER);
+
+    for (int round = 0; round < LOOKS / 3; round++) {
+        unsigned late_ms[3];
+
+        for (int i = 0; i < 3; i++) {
+            late_ms[i] = (unsigned)(random_below(&random, 30) * 3) + (unsigned)i;
+        }
+        for (unsigned ms = 0; ms < 100; ms++) {
+            for (int i = 0; i < 3; i++) {
+                if (late_ms[i] == ms && random_below(&random, 8) > 0) {
+                    length += snprintf(text + length, sizeof text - (size_t)length,
+                                       "%d.%u%02u,%d,%d,0,0.5\n", round / 10, (unsigned)round % 10,
+                                       ms, i + 1, 1000 * i);
+                }
+            }
+        }
+    }
+    return read_text(text);
+}
+
+static int compare_times(const void *a, const void *b)
+{
+    const struct rho_bearing_scan *first = a, *second = b;
+
+    return (first->time_us > second->time_us) - (first->time_us < second->time_us);
+}
+
+/* The frame that was closed is the reader's next one. */
+static void assert_next(const struct rho_frames *frames, const struct rho_frame *expected)
+{
+    struct rho_frame_view view;
+
+    assert_int_equal(rho_frames_closed(frames, &view), 1);
+    assert_int_equal(view.frame.time_us, expected->time_us);
+    assert_int_equal(view.frame.num_scans, expected->num_scans);
+    for (uint32_t i = 0; i < expected->num_scans; i++) {
+        assert_int_equal(view.frame.scans[i].sensor_id, expected->scans[i].sensor_id);
+        assert_int_equal(view.frame.scans[i].time_us, expected->scans[i].time_us);
+    }
+}
+
+static void scans_as_they_come_make_the_same_frames(void **state)
+{
+    static struct rho_bearing_scan scans[LOOKS];
+    static struct rho_frame expected[LOOKS];
+    static struct rho_frames frames;
+    struct given given = random_looks();
+    struct rho_frames_config config;
+    struct rho_frame_view view;
+    const struct rho_frame *frame;
+    size_t num_scans = 0, num_frames = 0, closed = 0;
+    (void)state;
+
+    while ((frame = frame_reader_next(given.reader))) {
+        expected[num_frames++] = *frame;
+        memcpy(scans + num_scans, frame->scans, frame->num_scans * sizeof *scans);
+        num_scans += frame->num_scans;
+    }
+    qsort(scans, num_scans, sizeof *scans, compare_times);
+    rho_frames_config_default(&config);
+    config.sensors_min = 3;
+    config.silent_frames = 255;
+    assert_int_equal(rho_frames_init(&frames, sizeof frames, &config), RHO_OK);
+    for (size_t i = 0; i < num_scans; i++) {
+        assert_int_equal(rho_frames_push(&frames, &scans[i]), RHO_OK);
+        if (rho_frames_closed(&frames, &view)) {
+            assert_next(&frames, &expected[closed++]);
+        }
+    }
+    assert_int_equal(rho_frames_close(&frames), RHO_OK);
+    if (rho_frames_closed(&frames, &view)) {
+        assert_next(&frames, &expected[closed++]);
+    }
+    assert_int_equal(closed, num_frames);
+    assert_true(num_frames > 110 && frames.counters.frames_incomplete > 20);
+    end(&given);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -325,6 +415,7 @@ int main(void)
         cmocka_unit_test(the_last_frames_may_be_taken_alone),
         cmocka_unit_test(bad_rows_are_skipped_and_counted),
         cmocka_unit_test(a_header_tells_bearings_from_other_files),
+        cmocka_unit_test(scans_as_they_come_make_the_same_frames),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
