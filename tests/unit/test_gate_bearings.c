@@ -7,9 +7,9 @@
 #define NUM_CASES 6000
 #define NOISE 2.0f /* white acceleration, m^2/s^3 */
 
-/* Shares of 1 + the distance, and of the logarithm. Worst of the cases below: 1e-3, 1e-5. */
-#define DISTANCE_ERROR 3e-3
-#define LOG_ERROR 4e-5
+/* Shares of 1 + the distance, and of the logarithm. Worst of the cases below: 7e-4, 2e-6. */
+#define DISTANCE_ERROR 2e-3
+#define LOG_ERROR 1e-5
 
 /* What the gate should say, at the bearing's own time. */
 struct expected {
