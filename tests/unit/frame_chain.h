@@ -193,23 +193,59 @@ static inline void ekf_predict(struct ekf *ekf, double dt_s, double density)
     }
 }
 
-static inline void ekf_update(struct ekf *ekf, double x_m, double y_m,
-                              const struct rho_bearing *bearing)
+/* A scalar: row of x and y, its measured minus predicted value, the noise's variance. */
+static inline void ekf_take_row(struct ekf *ekf, const double row[2], double off, double variance)
 {
-    double dx_m = ekf->x[0] - x_m, dy_m = ekf->x[1] - y_m, range2 = dx_m * dx_m + dy_m * dy_m;
-    double row[2] = {-dy_m / range2, dx_m / range2}, ph[4];
-    double s = (double)bearing->sigma_rad * (double)bearing->sigma_rad;
-    double off_rad = remainder((double)bearing->bearing_rad - atan2(dy_m, dx_m), 2.0 * PI);
+    double ph[4], s = variance;
     for (int i = 0; i < 4; i++) {
         ph[i] = ekf->p[i][0] * row[0] + ekf->p[i][1] * row[1];
     }
     s += row[0] * ph[0] + row[1] * ph[1];
     for (int i = 0; i < 4; i++) {
-        ekf->x[i] += ph[i] / s * off_rad;
+        ekf->x[i] += ph[i] / s * off;
         for (int j = 0; j < 4; j++) {
             ekf->p[i][j] -= ph[i] * ph[j] / s;
         }
     }
+}
+
+static inline void ekf_update(struct ekf *ekf, double x_m, double y_m,
+                              const struct rho_bearing *bearing)
+{
+    double dx_m = ekf->x[0] - x_m, dy_m = ekf->x[1] - y_m, range2 = dx_m * dx_m + dy_m * dy_m;
+    const double row[2] = {-dy_m / range2, dx_m / range2};
+    double off_rad = remainder((double)bearing->bearing_rad - atan2(dy_m, dx_m), 2.0 * PI);
+    ekf_take_row(ekf, row, off_rad, (double)bearing->sigma_rad * (double)bearing->sigma_rad);
+}
+
+/* A plot as seen from a place: its two axes along and across the line of sight, one after the other. */
+static inline void ekf_take_plot(struct ekf *ekf, double x_m, double y_m,
+                                 const struct rho_plot *plot)
+{
+    double azimuth_rad = atan2((double)plot->y_m - y_m, (double)plot->x_m - x_m);
+    const double along[2] = {cos(azimuth_rad), sin(azimuth_rad)};
+    const double across[2] = {-along[1], along[0]};
+    for (int axis = 0; axis < 2; axis++) {
+        const double *row = axis ? across : along;
+        double sigma_m = (double)(axis ? plot->sigma_cross_m : plot->sigma_range_m);
+        double off_m =
+            row[0] * ((double)plot->x_m - ekf->x[0]) + row[1] * ((double)plot->y_m - ekf->x[1]);
+        ekf_take_row(ekf, row, off_m, sigma_m * sigma_m);
+    }
+}
+
+/* It goes on from a track. */
+static inline struct ekf ekf_from(const struct rho_track_report *track)
+{
+    static const int at[4] = {0, 1, 3, 4};
+    struct ekf ekf;
+    for (int i = 0; i < 4; i++) {
+        ekf.x[i] = (double)track->state[at[i]];
+        for (int j = 0; j <= i; j++) {
+            ekf.p[i][j] = ekf.p[j][i] = (double)track->covariance[RHO_AT(at[i], at[j])];
+        }
+    }
+    return ekf;
 }
 
 /* All bearings of a target that the frame in slot k has, in the order of sensors; own times from the scan's. */

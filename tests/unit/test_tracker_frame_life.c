@@ -345,15 +345,8 @@ struct bias {
 static void follow_late(const double scan_s[2], const double offset_s[2], struct bias *bias)
 {
     const struct target *target = &scene.target[0];
-    struct ekf ekf = {.x = {0.0}};
     fly_one(1 + bias->rows);
-    for (int i = 0; i < 4; i++) { /* the filter goes on from the track */
-        static const int at[4] = {0, 1, 3, 4};
-        ekf.x[i] = (double)report.tracks[0].state[at[i]];
-        for (int j = 0; j <= i; j++) {
-            ekf.p[i][j] = ekf.p[j][i] = (double)report.tracks[0].covariance[RHO_AT(at[i], at[j])];
-        }
-    }
+    struct ekf ekf = ekf_from(&report.tracks[0]);
     for (unsigned k = 12; k < 24; k++) {
         fly_late_bearings(k, scan_s, offset_s, &ekf);
         assert_int_equal(report.num_tracks, 1);
