@@ -50,6 +50,34 @@ static void a_target_is_found_when_the_batch_is_full(void **state)
     expect_found_with(3);
 }
 
+/* Seen in all frames but `missing` ones: a bit a frame. Found by the search, of the full batch, and a track or not. */
+static void expect_start_without(unsigned missing, int starts)
+{
+    random_state = 2;
+    scene = scene_of(3, 1, 0.1, 1.0, 0.0);
+    scene.target[0] = random_target(120.0);
+    start_chain(5.0f);
+    for (unsigned k = 0; k < BATCH; k++) {
+        scene.targets = missing >> k & 1u ? 0 : 1;
+        fly_frame(k, 10.0);
+    }
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].scans, 0xff & ~missing);
+    assert_true(passive.tracks[0].score_mnat >= passive.start_mnat);
+    assert_int_equal(report.num_tracks, starts);
+    assert_int_equal(tracker.counters.tracks_started, starts);
+}
+
+/* What the last two frames do not have is gone, or is a track's that claims its bearings. */
+static void a_track_starts_from_what_was_just_seen(void **state)
+{
+    (void)state;
+    expect_start_without(0x00, 1);
+    expect_start_without(0x80, 1);
+    expect_start_without(0x60, 1);
+    expect_start_without(0xc0, 0);
+}
+
 /* Two are followed from the start; the third comes at frame 14. */
 static void a_later_target_is_found_while_others_are_followed(void **state)
 {
@@ -206,6 +234,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_target_is_found_when_the_batch_is_full),
+        cmocka_unit_test(a_track_starts_from_what_was_just_seen),
         cmocka_unit_test(a_later_target_is_found_while_others_are_followed),
         cmocka_unit_test(false_bearings_alone_make_no_track),
         cmocka_unit_test(a_straight_target_is_followed_as_well_as_by_the_filter),
