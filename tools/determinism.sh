@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: MIT
 #
 # The same input gives the same bytes, whatever the compiler and its optimisation: builds the program with gcc and clang
-# at -O0 and -O3, lets each simulate, track and initiate by every method with a fixed seed, and compares all files.
+# at -O0 and -O3, lets each simulate, track and initiate by every method with a fixed seed, plots and bearings, and compares
+# all files.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}/determinism
-scenarios='crossing radar traffic'
+scenarios='crossing radar traffic passive-clutter'
 variants='gcc-O0 gcc-O3 clang-O0 clang-O3'
 
 unset MAKEFLAGS MAKELEVEL MFLAGS
@@ -22,10 +23,15 @@ export build
 printf '%s\n' $variants | xargs -P "$(nproc)" -I{} bash -euc 'make_variant {}'
 
 run() { # variant, scenario: its files in output/SCENARIO
-    local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2 method files='tracks.csv kernel.csv'
-    "$rhotrack" simulate "$2" --seed 3 -o "$data" &&
-        "$rhotrack" track "$data/plots.csv" --covariance -o "$data/tracks.csv" &&
-        "$rhotrack" initiate "$data/plots.csv" -o "$data/kernel.csv" || return 1
+    local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2 method files='tracks.csv found.csv' input=plots.csv
+    local more=()
+    if [ "${2%%-*}" = passive ]; then
+        input=bearings.csv
+        more=(--set num_scans=20)
+    fi
+    "$rhotrack" simulate "$2" --seed 3 "${more[@]}" -o "$data" &&
+        "$rhotrack" track "$data/$input" --covariance -o "$data/tracks.csv" &&
+        "$rhotrack" initiate "$data/$input" -o "$data/found.csv" || return 1
     if [ "$2" = crossing ]; then # traffic's area has too many cells of 5 m
         for method in ht mht iht nht; do
             "$rhotrack" initiate "$data/plots.csv" --method "$method" -o "$data/$method.csv" || return 1

@@ -193,8 +193,9 @@ uint32_t rho_batch_remove(struct rho_batch *batch,
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             unsigned place = claim[k][s];
             if (place > 0 && place <= batch->num_bearings[k][s]) {
-                batch->bearings[k][s][place - 1].sigma_rad = 0.0f;
-                count++;
+                struct rho_batch_bearing *bearing = &batch->bearings[k][s][place - 1];
+                count += bearing->sigma_rad > 0.0f; /* out before: not again */
+                bearing->sigma_rad = 0.0f;
             }
         }
     }

@@ -82,7 +82,7 @@ static void move_fates(const struct step *step, struct held *held, int is_back)
         uint8_t *fates = step->report->fates + (num > 0 ? first : 0);
         memcpy(is_back ? fates : packed, is_back ? packed : fates, num);
         packed += num;
-        first += step->frame->scans[i].num_bearings;
+        first = rho_count(first, step->frame->scans[i].num_bearings);
     }
 }
 
@@ -95,7 +95,7 @@ static void push(struct step *step)
     for (uint32_t i = 0; i < held.frame.num_scans; i++) {
         held.scans[i] = step->frame->scans[i];
         held.scans[i].num_bearings = rho_tracker_num_held(step, &held.scans[i], first);
-        first += step->frame->scans[i].num_bearings;
+        first = rho_count(first, step->frame->scans[i].num_bearings);
     }
     move_fates(step, &held, 0);
     /* the frame was accepted before the step began */

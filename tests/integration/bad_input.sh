@@ -88,9 +88,39 @@ refuse 'no column sensor_id' "1: no column 'sensor_id'" 't_s,x_m,y_m\n1,1,2\n'
 refuse 'a column twice' "1: column 'x_m' is there twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
 refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" 't_s,sensor_id,x_m,y_m,vx_mps\n1,1,2,3,4\n'
 refuse 'no header' '1: no header row: the first row begins with a number' '1,1,2,3\n2,1,3,4\n'
-printf 't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n1,1,2,3,1\n' >bad.csv
-run track bad.csv
-check 'track: bearings' says 2 "rhotrack: bad.csv:1: bearings (column 'bearing_rad'): *'x_m' and 'y_m' are missing*"
+
+# ---- bearings ----
+bearings='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n'
+two="${bearings}0,1,0,0,1\n0,2,100,0,1\n"
+refuse 'bearings: no column sensor_x_m' "1: no column 'sensor_x_m'" 't_s,sensor_id,sensor_y_m,bearing_rad\n1,1,2,1\n'
+refuse 'bearings: no column sensor_id' "2: no column 'sensor_id'" \
+    '# comment\nt_s,sensor_x_m,sensor_y_m,bearing_rad\n1,1,2,1\n'
+refuse 'bearings: half a sector' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad\n0,1,0,0,1,0\n'
+refuse 'bearings: beyond pi' '4: bearing_rad 3.1417 is outside -3.14159274 .. 3.14159274' "${two}1,1,0,0,3.1417\n"
+refuse 'bearings: NaN' "4: bearing_rad 'nan' is not finite" "${two}1,1,0,0,nan\n"
+refuse 'bearings: no number' "4: bearing_rad 'x' is not a number" "${two}1,1,0,0,x\n"
+refuse 'bearings: no place' '4: sensor_x_m is empty' "${two}1,1,,0,1\n"
+refuse 'bearings: time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' "${two}-1,1,0,0,1\n"
+refuse 'bearings: sigma 0' '2: sigma_rad 0 is outside *' \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n0,1,0,0,1,0\n'
+refuse 'bearings: a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' "${two}1,1,0,0.5,1\n"
+refuse 'bearings: two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' \
+    "${bearings}0,1,0,0,1\n0,2,0,0,1\n"
+refuse 'bearings: one sensor alone' '2: sensor 1 is the only one: positions need bearings of two sensors or more' \
+    "${bearings}0,1,0,0,1\n1,1,0,0,1\n"
+{ printf "$bearings"; for number in 1 2 3 4 5; do echo "0,$number,${number}000,0,1"; done; } >five.csv
+refuse_file 'bearings: more sensors than are searched together' \
+    '5 passive sensors; at most 4 are searched together' five.csv
+printf "${header}0,9,2,3\n" >plots.csv
+echo before >out.csv
+run track plots.csv five.csv -o out.csv
+check 'bearings: more sensors than that, beside plots' refused '5 passive sensors; at most 4 *'
+printf "${two}1,1,0,0,4\n" >bad.csv
+run track plots.csv bad.csv -o out.csv
+check 'bearings: the second of two inputs' refused 'bad.csv:4: bearing_rad 4 is outside *'
+run track bad.csv plots.csv -o out.csv
+check 'bearings: the first of two inputs' refused 'bad.csv:4: bearing_rad 4 is outside *'
 
 # ---- polar plots ----
 polar='t_s,sensor_id,range_m,azimuth_rad\n'
@@ -185,13 +215,13 @@ status=$?
 check 'standard output on a full disk' exits 1
 
 # ---- noise: whatever the bytes, no crash ----
-survives() {
+survives() { # a header, pieces of rows
     local seed
     for seed in $(seq 1 60); do
-        awk -v seed="$seed" 'BEGIN {
-            srand(seed); split("0 1 9 . - , , , \" # e \n \r x nan 1e9 inf", part, " ")
+        awk -v seed="$seed" -v header="$1" -v pieces="$2" 'BEGIN {
+            srand(seed); split(pieces, part, " ")
             part[length(part) + 1] = "\n"; part[length(part) + 1] = "\r"
-            printf "t_s,sensor_id,x_m,y_m\n"
+            printf "%s", header
             for (i = 0; i < 300; i++) printf "%s", part[int(rand() * length(part)) + 1] }' >fuzz.csv
         run track fuzz.csv --keep-going
         exits 0 || exits 2 || return 1
@@ -199,6 +229,7 @@ survives() {
         exits 0 || exits 2 || return 1
     done
 }
-check 'rows of random pieces' survives
+check 'rows of random pieces' survives "$header" '0 1 9 . - , , , " # e \n \r x nan 1e9 inf'
+check 'bearings of random pieces' survives "$bearings" '0 1 2 . - , , , " # 0,1,0,0,1\n 1,2,9,0,0.5\n \n \r nan 1e9'
 
 finish

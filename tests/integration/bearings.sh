@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Bearings: simulate passive-..., the bearings files that `plot scans` takes and refuses, and its pictures.
+# Bearings: simulate passive-..., the bearings files that `plot scans` takes and refuses, what `initiate` and `track` make
+# of them, alone and beside a radar's plots, and pictures.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -51,6 +52,7 @@ takes() { # name, text as for printf, options...
 }
 
 header='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n'
+takes 'one sensor alone, which track and initiate refuse' "${header}0,1,0,0,0.5\n1,1,0,0,1\n"
 takes 'two sensors' "${header}0,1,0,0,0.5\n0,2,100,0,1\n"
 takes 'pi and -pi' "${header}0,1,0,0,3.14159265\n0,2,100,0,-3.14159265\n"
 takes 'scans that saw nothing' "${header}0,1,0,0,\n0,2,100,0,\n"
@@ -97,8 +99,6 @@ refuse 'a sensor that moves within a scan' '4: sensor 2 has moved: it was at 100
 refuse 'a sensor that moves where it saw nothing' '4: sensor 1 has moved: *' "${good}1,1,7,0,\n"
 refuse 'two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' "${header}0,1,0,0,1\n0,2,0,0,1\n"
 refuse 'two sensors nearer than a metre' '3: sensor 2 is where sensor 1 is: *' "${header}0,1,0,0,1\n0,2,0.7,0.7,1\n"
-refuse 'one sensor alone' '2: sensor 1 is the only one: positions need bearings of two sensors or more' \
-    "${header}0,1,0,0,1\n1,1,0,0,1\n"
 for number in $(seq 1 65); do echo "0,$number,0,${number}00,1"; done >many
 refuse 'more sensors than 64' '66: sensor 65 is one more than 64 sensors' "$header$(cat many)\n"
 for sigma in 0 -1 0.6 1e-7; do
@@ -136,10 +136,8 @@ check 'sigma_rad and frame_tolerance_s have defaults' bash -c "
     grep -Eq '^frame_tolerance_s +s +0.05 ' stdout"
 
 # ---- who takes no bearings ----
-run track passive-two/bearings.csv
-check "track refuses bearings by name" says 2 "rhotrack: passive-two/bearings.csv:1: bearings (column 'bearing_rad'): *"
 run initiate passive-two/bearings.csv --method iht
-check 'a method of plots refuses them too' says 2 'rhotrack: passive-two/bearings.csv: holds bearings, and method iht takes plots; *'
+check 'a method of plots refuses them by name' says 2 'rhotrack: passive-two/bearings.csv: holds bearings, and method iht takes plots; *'
 
 # ---- initiation ----
 # Each target has a track within a kilometre at the last scan, and there are no others.
@@ -170,6 +168,111 @@ for kind in tracks parameter-space errors; do
     run plot "$kind" passive-two/bearings.csv passive-two/truth.csv -o out.svg
     check "plot $kind refuses bearings by name" refused "plot $kind: bearings (column 'bearing_rad') are shown by plot scans alone"
 done
+
+# ---- track ----
+# evaluate says: every target is found, by a track of its own that never changes, and there is no other one.
+are_tracked() { # truth, tracks
+    run evaluate "$1" "$2" --json
+    exits 0 && json stdout '(o["targets_found"], o["tracks"], o["switches"], o["false_per_scan"]) == (o["targets"], o["targets"], 0, 0)'
+}
+for scenario in passive-two passive-three passive-clutter; do
+    for seed in 3 4 5; do
+        run simulate "$scenario" --set num_scans=20 --seed $seed -o long
+        run track long/bearings.csv --config long/scenario.ini -o tracks.csv
+        check "track $scenario, seed $seed: exit 0" exits 0
+        check "track $scenario, seed $seed: all targets, nothing else" are_tracked long/truth.csv tracks.csv
+    done
+done
+check 'one line of summary' matches "$(run track long/bearings.csv -o tracks.csv; cat stderr)" \
+    'rhotrack: 20 scans, * plots, 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; * us a scan, * at most'
+check 'no tracks before the batch is full' matches "$(sed -n 2p tracks.csv | cut -d, -f1,3)" '70.000000,confirmed'
+run track long/bearings.csv --config long/scenario.ini --covariance -o tracks.csv
+run evaluate long/truth.csv tracks.csv --json
+check 'the covariance is plausible' json stdout '0.5 < o["nees"] < 4'
+run track long/bearings.csv --config long/scenario.ini --json
+check 'JSON: one object' is_json stdout
+check 'JSON: frames, none misses a sensor' json stdout '(o["scans"], o["frames"], o["frames_incomplete"]) == (20, 20, 0)'
+check 'JSON: fates add up' json stdout 'o["fates"]["claimed"] > 60 and sum(o["fates"].values()) == o["plots"]'
+check 'JSON: what was held' json stdout '4 <= o["counters"]["plots_initiated"] <= o["fates"]["held"]'
+check 'JSON: the objects in use' json stdout '0 < o["state_bytes"] < 1000000'
+awk -F, '!($1 == "150.000000" && $2 == 2)' long/bearings.csv >incomplete.csv
+run track incomplete.csv --config long/scenario.ini -o tracks.csv
+check 'a frame that misses a sensor is counted' matches "$(cat stderr)" '* 0 no room, 1 frames miss a sensor; *'
+check 'and harms no track' are_tracked long/truth.csv tracks.csv
+awk -F, 'NR == 1 || $2 == 1' long/bearings.csv >one.csv
+awk -F, 'NR == 1 || $2 == 2' long/bearings.csv >two.csv
+run track long/bearings.csv -o tracks.csv
+run track two.csv one.csv -o tracks2.csv
+check 'a file a sensor gives the same' cmp tracks.csv tracks2.csv
+{ cat long/bearings.csv; echo '200,1,0,-10000,4'; } >skip.csv
+run track skip.csv --keep-going -o tracks2.csv
+check 'keep-going skips a bad row' matches "$(cat stderr)" '*, 1 bad rows skipped; *'
+check 'and counts the others' cmp tracks.csv tracks2.csv
+
+# ---- track: a radar's plots and bearings ----
+# Two targets for 20 scans, 10 s apart, of a radar with 300 m of noise, and 5 s later of two passive sensors with 1.75 mrad.
+awk 'function noise(  i, sum) { for (i = 0; i < 12; i++) sum += rand(); return sum - 6 }
+    BEGIN {
+        srand(11); pi = atan2(0, -1)
+        x[1] = 60000; y[1] = 15000; vx[1] = -200; vy[1] = -60
+        x[2] = 50000; y[2] = -25000; vx[2] = -120; vy[2] = 150
+        print "t_s,target_id,x_m,y_m" >"truth.csv"
+        print "t_s,sensor_id,x_m,y_m" >"plots.csv"
+        print "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad" >"bearings.csv"
+        for (k = 0; k < 40; k++)
+            for (i = 1; i <= 2; i++) {
+                t = 5 * k; px = x[i] + vx[i] * t; py = y[i] + vy[i] * t
+                printf "%d,%d,%.2f,%.2f\n", t, i, px, py >"truth.csv"
+                if (k % 2 == 0)
+                    printf "%d,9,%.2f,%.2f\n", t, px + 300 * noise(), py + 300 * noise() >"plots.csv"
+                else for (s = 1; s <= 2; s++)
+                    printf "%d,%d,0,%d,%.7f\n", t, s, 20000 * s - 30000,
+                        atan2(py - 20000 * s + 30000, px) + 0.00175 * noise() >"bearings.csv"
+            }
+    }'
+given='--set sigma_m=300 --set v_max_mps=450 --set accel_max_mps2=5 --set min_scans=5'
+# shellcheck disable=SC2086 # words on purpose
+for files in 'plots.csv' 'bearings.csv' 'plots.csv bearings.csv'; do
+    run track $files $given -o tracks.csv
+    check "$files: exit 0" exits 0
+    check "$files: one track a target" are_tracked truth.csv tracks.csv
+done
+# shellcheck disable=SC2086
+run track plots.csv bearings.csv $given --json -o both.csv
+check 'both: scans and frames' json stdout '(o["scans"], o["frames"], o["plots"]) == (40, 20, 120)'
+check 'both: two tracks in all' json stdout '(o["tracks_confirmed"], o["counters"]["tracks_started"]) == (2, 2)'
+check 'both: most plots and bearings are claimed' json stdout 'o["fates"]["claimed"] > 90'
+check 'both: the radar and the passive sensors' matches \
+    "$(cut -d, -f17 both.csv | tail -n 8 | sort -u | tr '\n' ' ')" '2 9 '
+# shellcheck disable=SC2086
+run track bearings.csv plots.csv $given
+check 'both: the order of the files does not matter' writes_same_as both.csv
+is_better() { # the last 50 s are nearer to the truth than with the radar alone, by a third
+    error() {
+        awk -F, 'NR == FNR { x[$1 + 0, $2] = $3; y[$1 + 0, $2] = $4; next }
+            FNR > 1 && $1 >= 150 {
+                least = 1e18
+                for (i = 1; i <= 2; i++) {
+                    d = ($4 - x[$1 + 0, i])^2 + ($5 - y[$1 + 0, i])^2
+                    if (d < least) least = d
+                }
+                sum += least; n++
+            }
+            END { printf "%d\n", sqrt(sum / n) }' truth.csv "$1"
+    }
+    echo "with both $(error both.csv) m, with the radar $(error radar.csv) m"
+    [ "$(error both.csv)" -lt $(($(error radar.csv) * 7 / 10)) ]
+}
+# shellcheck disable=SC2086
+run track plots.csv $given -o radar.csv
+check 'both: better than the radar alone' is_better
+awk -F, 'NR == 1 || $2 == 1' bearings.csv >one.csv
+# shellcheck disable=SC2086
+run track plots.csv one.csv $given -o tracks.csv
+check 'one passive sensor may be alone beside a radar' exits 0
+check 'and its bearings find no tracks of their own' are_tracked truth.csv tracks.csv
+run track one.csv
+check 'but not alone' says 2 'rhotrack: one.csv:2: sensor 1 is the only one: positions need *'
 
 # ---- plot ----
 picture() { # what it is, FILES and options...

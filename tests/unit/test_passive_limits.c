@@ -107,6 +107,11 @@ static void what_targets_and_sensors_are_has_limits(void **state)
     EXPECT_FIELD(hits_min, 0.1f, RHO_OK);
     EXPECT_FIELD(hits_min, 1.0f, RHO_OK);
     EXPECT_FIELD(hits_min, 1.01f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(false_tracks_per_hour, 0.0f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(false_tracks_per_hour, 0.9e-6f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(false_tracks_per_hour, 1.0e-6f, RHO_OK);
+    EXPECT_FIELD(false_tracks_per_hour, 1.0e6f, RHO_OK);
+    EXPECT_FIELD(false_tracks_per_hour, 1.1e6f, RHO_ERROR_CONFIG);
 }
 
 static void cells_must_hold_what_is_in_range(void **state)
@@ -133,6 +138,7 @@ static void parameters_that_are_not_finite_are_refused(void **state)
         EXPECT_FIELD(pd, bad[i], RHO_ERROR_CONFIG);
         EXPECT_FIELD(field_of_view_rad, bad[i], RHO_ERROR_CONFIG);
         EXPECT_FIELD(hits_min, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(false_tracks_per_hour, bad[i], RHO_ERROR_CONFIG);
         EXPECT_FIELD(rho_cell_m, bad[i], RHO_ERROR_CONFIG);
         EXPECT_FIELD(theta_cell_rad, bad[i], RHO_ERROR_CONFIG);
     }
@@ -150,6 +156,7 @@ static void the_default_is_what_the_header_says(void **state)
     assert_float_equal(config.pd, 0.9, 1e-6);
     assert_float_equal(config.field_of_view_rad, PI, 1e-6);
     assert_float_equal(config.hits_min, 0.65, 1e-6);
+    assert_float_equal(config.false_tracks_per_hour, 1.0, 0.0);
     assert_float_equal(config.rho_cell_m, 2000.0, 0.0);
     assert_float_equal(config.theta_cell_rad, 5.0 * DEG_RAD, 1e-6);
     expect_config(&config, RHO_OK);

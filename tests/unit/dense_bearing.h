@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* A bearing from a place as a measurement of the filter of textbooks (dense.h), in metres across the line of sight. */
+#ifndef RHOTRACK_TESTS_DENSE_BEARING_H
+#define RHOTRACK_TESTS_DENSE_BEARING_H
+
+#include "dense.h"
+
+#define DENSE_PI 3.14159265358979323846
+
+/* The bearing of a state, and its derivative by x and y from central differences, two metres apart. */
+static inline double dense_bearing_of(const double x[DENSE], const double place[2])
+{
+    return atan2(x[1] - place[1], x[0] - place[0]);
+}
+
+static inline double dense_slope(const struct dense *d, const double place[2], int axis)
+{
+    struct dense up = *d, down = *d;
+
+    up.x[axis] += 1.0;
+    down.x[axis] -= 1.0;
+    return remainder(dense_bearing_of(up.x, place) - dense_bearing_of(down.x, place),
+                     2.0 * DENSE_PI) /
+           2.0;
+}
+
+/*
+ * What the line leaves out of range times the bearing is -a c / range, for errors a along and c across: of variance
+ * (var a var c + cov^2) / range^2.
+ */
+static inline double dense_bow(const struct dense *d, double bearing, double range)
+{
+    const double along[2] = {cos(bearing), sin(bearing)}, across[2] = {-along[1], along[0]};
+    double aa = 0.0, cc = 0.0, ac = 0.0;
+
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            aa += along[i] * along[j] * d->p[i][j];
+            cc += across[i] * across[j] * d->p[i][j];
+            ac += along[i] * across[j] * d->p[i][j];
+        }
+    }
+    return (aa * cc + ac * ac) / (range * range);
+}
+
+static inline struct dense_measurement dense_bearing(const struct dense *d, const double place[2],
+                                                     double bearing, double sigma)
+{
+    const double range = hypot(d->x[0] - place[0], d->x[1] - place[1]);
+    const double predicted = dense_bearing_of(d->x, place);
+    struct dense_measurement m = {.num_rows = 1};
+
+    for (int axis = 0; axis < 2; ++axis) {
+        m.h[0][axis] = range * dense_slope(d, place, axis);
+    }
+    m.y[0] = range * remainder(bearing - predicted, 2.0 * DENSE_PI);
+    m.r[0][0] = range * range * sigma * sigma + dense_bow(d, predicted, range);
+    return m;
+}
+
+#endif
