@@ -49,9 +49,11 @@ struct rho_passive_track {
     float x_m, y_m, vx_mps, vy_mps;
     float covariance[10]; /* of these four, lower triangle */
     int32_t score_mnat;   /* log-odds that its bearings are one target's */
-    float chi2;           /* of the bearings, hits - 4 degrees of freedom */
-    uint16_t hits;        /* bearings */
-    uint16_t scans;       /* bit k: a bearing of scan k, 0 the oldest */
+    int32_t
+        margin_mnat; /* what the tracks together are worth more than the best others without this one */
+    float chi2;      /* of the bearings, hits - 4 degrees of freedom */
+    uint16_t hits;  /* bearings */
+    uint16_t scans; /* bit k: a bearing of scan k, 0 the oldest */
     /* by scan and sensor: the bearing's place among those held of that scan and sensor, from 1; 0: none */
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };

@@ -7,6 +7,9 @@
 #include "rhotrack/crossing.h"
 #include "tracker_step.h"
 
+/* A hundred to one against any other explanation of its bearings. */
+#define MARGIN_MIN_MNAT 4605
+
 /* ---- ghosts ----------------------------------------------------------------------------------- */
 
 /* Can this bearing and one of the other scan's be a target? *num counts the crossings asked for. */
@@ -190,7 +193,8 @@ void rho_tracker_initiate_passive(struct step *step)
     limits.confirm_mnat = passive->start_mnat;
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];
-        if (found->score_mnat >= passive->start_mnat && is_fresh(passive, found)) {
+        if (found->score_mnat >= passive->start_mnat && found->margin_mnat >= MARGIN_MIN_MNAT &&
+            is_fresh(passive, found)) {
             start_track(step, found, &limits);
         }
     }
