@@ -121,3 +121,13 @@ struct double_filter double_filter_open(const struct scenario_radar *radar, doub
     update_range_rate(&filter, radar, plot);
     return filter;
 }
+
+void double_filter_update_bearing(struct double_filter *filter, double x_m, double y_m,
+                                  double bearing_rad, double sigma_rad)
+{
+    double dx_m = filter->state[0] - x_m, dy_m = filter->state[1] - y_m;
+    double range2_m2 = dx_m * dx_m + dy_m * dy_m;
+    const double row[4] = {-dy_m / range2_m2, dx_m / range2_m2, 0.0, 0.0};
+    update(filter, row, remainder(bearing_rad - atan2(dy_m, dx_m), 2.0 * PI),
+           sigma_rad * sigma_rad);
+}

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * double_filter: an extended Kalman filter of a radar in the origin, in double precision with full matrices and polar
- * rows: what the library's own filter is measured against. Written from the textbook, and shares no code with it.
+ * double_filter: an extended Kalman filter of a radar in the origin, or of bearings, in double precision with full matrices
+ * and polar rows: what the library's own filter is measured against. Written from the textbook, and shares no code with it.
  */
 #ifndef RHOTRACK_TOOL_DOUBLE_FILTER_H
 #define RHOTRACK_TOOL_DOUBLE_FILTER_H
@@ -24,5 +24,9 @@ void double_filter_predict(struct double_filter *filter, double t_s, double nois
 /* Range, azimuth and, where the radar has it, range rate. */
 void double_filter_update(struct double_filter *filter, const struct scenario_radar *radar,
                           const struct simulated_plot *plot);
+
+/* A bearing from a place. */
+void double_filter_update_bearing(struct double_filter *filter, double x_m, double y_m,
+                                  double bearing_rad, double sigma_rad);
 
 #endif

@@ -304,6 +304,8 @@ struct passive_report *passive_report_make(const char *method, uint64_t seed, si
     if (has_default) {
         report->default_runs = num_runs > 0 ? num_runs : DEFAULT_RUNS;
         make_default(report);
+        report->chain_runs = num_runs > 0 ? num_runs : PASSIVE_CHAIN_RUNS;
+        report->chain = passive_chain_make(seed, report->chain_runs);
     }
     passive_judge(report);
     return report;
@@ -315,6 +317,7 @@ void passive_report_free(struct passive_report *report)
     free(report->pruning);
     free(report->paper);
     free(report->defaults);
+    free(report->chain);
     free(report);
 }
 

@@ -6,6 +6,7 @@
 #include <cjson/cJSON.h>
 
 #include "experiment_passive.h"
+#include "experiment_passive_chain.h"
 #include "grid.h"
 #include "verdicts.h"
 
@@ -47,10 +48,12 @@ struct passive_figure {
 struct passive_report {
     const char *method; /* "passive", "passive-paper", NULL: both */
     uint64_t seed;
-    size_t pruning_runs, paper_runs, default_runs; /* of a case; 0: the table is left out */
+    size_t pruning_runs, paper_runs, default_runs,
+        chain_runs; /* of a case; 0: the table is left out */
     struct passive_pruning_summary *pruning;
     struct passive_paper_summary *paper;
     struct passive_default_summary *defaults;
+    struct passive_chain_summary *chain;            /* of chain_runs a case */
     struct passive_figure figures[PASSIVE_FIGURES]; /* with the paper's method */
     /* of found targets that do not start on the base's extension */
     struct passive_nees nees;       /* all */

@@ -149,6 +149,8 @@ void passive_report_print(const struct passive_report *report)
         print_grid(passive_default_grid(report));
         char text[PASSIVE_NOTE];
         printf("%s\n\n", passive_nees_note(report, text));
+        printf("%zu runs a case\n\n", report->chain_runs);
+        print_grid(passive_chain_grid(report->chain));
     }
     verdicts_print(&report->verdicts, stdout);
 }
@@ -291,6 +293,8 @@ cJSON *passive_report_json(struct passive_report *report)
     }
     if (report->defaults != NULL) {
         add_default(root, report);
+        cJSON_AddItemToObject(root, "chain", passive_chain_json(report->chain));
+        add_number(root, "chain_runs", (double)report->chain_runs);
     }
     verdicts_to_json(&report->verdicts, root);
     return root;

@@ -108,5 +108,6 @@ void passive_judge(struct passive_report *report)
     }
     if (report->defaults != NULL) {
         judge_default(report);
+        passive_chain_judge(report->chain, &report->verdicts);
     }
 }
