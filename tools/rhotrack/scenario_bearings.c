@@ -6,22 +6,26 @@
 #include "scenario_plan.h"
 
 #define PI 3.141592653589793
-#define START_X_MIN_M 20000.0
-#define START_X_MAX_M 75000.0
-#define START_Y_MAX_M 50000.0
 #define START_FAR_M 78000.0
-#define END_X_MIN_M 2000.0
+
+const struct scenario_region scenario_ahead = {.x_min_m = 20000.0,
+                                               .x_max_m = 75000.0,
+                                               .y_min_m = -50000.0,
+                                               .y_max_m = 50000.0,
+                                               .end_x_min_m = 2000.0};
 
 static const double places_m[SCENARIO_SENSORS_MAX][2] = {
     {0, -10000}, {0, 10000}, {10000, 0}, {-10000, 0}};
 
 /* ---- targets ---------------------------------------------------------------------------------- */
 
-/* Anywhere ahead, within 45 degrees of the way to the origin. */
-static struct scenario_state draw_state(const struct parameters *parameters, struct random *random)
+/* Within 45 degrees of the way to the origin. */
+static struct scenario_state draw_state(const struct parameters *parameters,
+                                        const struct scenario_region *region, struct random *random)
 {
-    double x_m = random_between(random, START_X_MIN_M, START_X_MAX_M);
-    double y_m = random_between(random, -START_Y_MAX_M, START_Y_MAX_M);
+    double x_m = random_between(random, region->x_min_m, region->x_max_m);
+    double y_m = random_between(random, region->y_min_m, region->y_max_m);
+    y_m = region->is_on_both_sides && random_bits(random) >> 63 ? -y_m : y_m;
     double heading_rad = atan2(-y_m, -x_m) + random_between(random, -PI / 4.0, PI / 4.0);
     double speed_mps = random_between(random, parameters->value[PARAMETER_V_MIN_MPS],
                                       parameters->value[PARAMETER_V_MAX_MPS]);
@@ -32,13 +36,14 @@ static struct scenario_state draw_state(const struct parameters *parameters, str
 }
 
 /* Drawn again until it starts near enough and does not reach the sensors. */
-static struct scenario_state approach(const struct parameters *parameters, double duration_s,
+static struct scenario_state approach(const struct parameters *parameters,
+                                      const struct scenario_region *region, double duration_s,
                                       struct random *random)
 {
     for (int i = 0; i < 10000; i++) {
-        struct scenario_state state = draw_state(parameters, random);
+        struct scenario_state state = draw_state(parameters, region, random);
         if (hypot(state.x_m, state.y_m) <= START_FAR_M &&
-            state.x_m + state.vx_mps * duration_s >= END_X_MIN_M) {
+            state.x_m + state.vx_mps * duration_s >= region->end_x_min_m) {
             return state;
         }
     }
@@ -48,13 +53,19 @@ static struct scenario_state approach(const struct parameters *parameters, doubl
 
 struct scenario_plan plan_passive(const struct parameters *parameters, struct random *random)
 {
+    return plan_passive_in(&scenario_ahead, parameters, random);
+}
+
+struct scenario_plan plan_passive_in(const struct scenario_region *region,
+                                     const struct parameters *parameters, struct random *random)
+{
     const double *value = parameters->value;
     struct scenario_plan plan =
         plan_start((size_t)(value[PARAMETER_TARGETS] + 0.5),
                    (size_t)(value[PARAMETER_NUM_SCANS] + 0.5), value[PARAMETER_INTERVAL_S]);
     double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t target = 0; target < plan.num_targets; target++) {
-        plan_straight(&plan, target, approach(parameters, duration_s, random));
+        plan_straight(&plan, target, approach(parameters, region, duration_s, random));
     }
     plan.passive = (struct scenario_passive){
         .is_used = true,

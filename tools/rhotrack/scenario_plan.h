@@ -71,8 +71,18 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
 void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
                         struct random *random);
 
-/* Targets, drawn anew until they fit, and sensors of the passive scenarios. scenario_bearings.c */
+/* Where the targets of passive sensors start; they are drawn anew where they end at a lower x. */
+struct scenario_region {
+    double x_min_m, x_max_m, y_min_m, y_max_m;
+    bool is_on_both_sides; /* of the x axis, each as often */
+    double end_x_min_m;    /* -INFINITY: anywhere */
+};
+extern const struct scenario_region scenario_ahead; /* of the passive scenarios */
+
+/* Targets that come towards the origin, and sensors, of the passive scenarios; the same elsewhere. scenario_bearings.c */
 struct scenario_plan plan_passive(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_passive_in(const struct scenario_region *region,
+                                     const struct parameters *parameters, struct random *random);
 
 /* What the plan's passive sensors see at scan `index`: a look a sensor. scenario_bearings.c */
 void plan_look_of_sensors(const struct scenario_plan *plan, size_t index,
