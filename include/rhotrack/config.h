@@ -114,6 +114,21 @@
 #define RHO_PASSIVE_RHO_CELLS 128
 #endif
 
+/* The paper's passive method. Lines that it finds: 1 .. 255. Cells of its accumulator, RAM: a byte a cell; of rho also 3
+ * bytes. Crossings of a pair of sensors, RAM: 8 bytes a crossing: 16 .. 65535. */
+#ifndef RHO_MAX_PASSIVE_LINES
+#define RHO_MAX_PASSIVE_LINES 24
+#endif
+#ifndef RHO_PAPER_THETA_CELLS
+#define RHO_PAPER_THETA_CELLS 90
+#endif
+#ifndef RHO_PAPER_RHO_CELLS
+#define RHO_PAPER_RHO_CELLS 256
+#endif
+#ifndef RHO_MAX_PAPER_CROSSINGS
+#define RHO_MAX_PAPER_CROSSINGS RHO_CONFIG_PICK(512, 4096)
+#endif
+
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
@@ -178,6 +193,18 @@
 #endif
 #if RHO_MAX_PASSIVE_TRACKS < 1 || RHO_MAX_PASSIVE_TRACKS > 64
 #error "RHO_MAX_PASSIVE_TRACKS must be 1 .. 64"
+#endif
+#if RHO_MAX_PASSIVE_LINES < 1 || RHO_MAX_PASSIVE_LINES > 255
+#error "RHO_MAX_PASSIVE_LINES must be 1 .. 255"
+#endif
+#if RHO_PAPER_THETA_CELLS < 18 || RHO_PAPER_THETA_CELLS > 1024
+#error "RHO_PAPER_THETA_CELLS must be 18 .. 1024"
+#endif
+#if RHO_PAPER_RHO_CELLS < 16 || RHO_PAPER_RHO_CELLS > 4096
+#error "RHO_PAPER_RHO_CELLS must be 16 .. 4096"
+#endif
+#if RHO_MAX_PAPER_CROSSINGS < 16 || RHO_MAX_PAPER_CROSSINGS > 65535
+#error "RHO_MAX_PAPER_CROSSINGS must be 16 .. 65535"
 #endif
 #if RHO_MAX_TRACKS < 1 || RHO_MAX_TRACKS > 8192
 #error "RHO_MAX_TRACKS must be 1 .. 8192"
