@@ -7,27 +7,34 @@
 #include "experiment_classic.h"
 #include "method.h"
 
+static bool is_plot_method(const char *name)
+{
+    return classic_methods_named(name) != 0;
+}
+
+static bool is_kernel(const char *name)
+{
+    return strcmp(name, "kernel") == 0;
+}
+
+static bool is_passive_method(const char *name)
+{
+    return strcmp(name, "passive") == 0 || strcmp(name, "passive-paper") == 0;
+}
+
 static const struct {
     const char *name;
     int (*run)(const struct command_line *line);
-    bool has_papers; /* and knows the papers' methods, too */
+    bool (*knows)(const char *method);
+    const char *methods;
 } experiments[] = {
-    {"initiation", experiment_initiation, true},
-    {"polar", experiment_polar, false},
-    {"false-alarms", experiment_false_alarms, false},
+    {"initiation", experiment_initiation, is_plot_method, "methods " METHOD_PLOT_NAMES},
+    {"polar", experiment_polar, is_kernel, "method kernel"},
+    {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
+    {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
 };
 
-#define NAMES "initiation, polar, false-alarms"
-
-static void check_method(const struct command_line *line, bool has_papers)
-{
-    bool is_known = line->method == NULL || strcmp(line->method, "kernel") == 0 ||
-                    (has_papers && classic_methods_named(line->method) != 0);
-    if (!is_known) {
-        fail(EXIT_USAGE, "experiment %s knows the method%s, not `%s`", line->arguments[0],
-             has_papers ? "s " METHOD_PLOT_NAMES : " kernel", line->method);
-    }
-}
+#define NAMES "initiation, polar, false-alarms, passive"
 
 int command_experiment(struct command_line *line)
 {
@@ -36,7 +43,10 @@ int command_experiment(struct command_line *line)
     }
     for (size_t i = 0; i < sizeof experiments / sizeof experiments[0]; i++) {
         if (strcmp(experiments[i].name, line->arguments[0]) == 0) {
-            check_method(line, experiments[i].has_papers);
+            if (line->method != NULL && !experiments[i].knows(line->method)) {
+                fail(EXIT_USAGE, "experiment %s knows the %s, not `%s`", experiments[i].name,
+                     experiments[i].methods, line->method);
+            }
             return experiments[i].run(line);
         }
     }

@@ -9,5 +9,6 @@
 int experiment_initiation(const struct command_line *line);
 int experiment_polar(const struct command_line *line);
 int experiment_false_alarms(const struct command_line *line);
+int experiment_passive(const struct command_line *line);
 
 #endif

@@ -100,8 +100,7 @@ static struct passive_pruning_summary summarise_pruning(const struct passive_pru
 static void make_pruning(struct passive_report *report)
 {
     struct batch batch = {.seed = report->seed, .num_runs = report->pruning_runs};
-    batch.pruning =
-        must_calloc(passive_num_pruning_cases * batch.num_runs, sizeof *batch.pruning);
+    batch.pruning = must_calloc(passive_num_pruning_cases * batch.num_runs, sizeof *batch.pruning);
     report->pruning = must_calloc(passive_num_pruning_cases, sizeof *report->pruning);
     workers_run(passive_num_pruning_cases * batch.num_runs, "runs", prune_one, &batch);
     for (size_t i = 0; i < passive_num_pruning_cases; i++) {
@@ -195,18 +194,30 @@ static double median_of(const struct hits *hits, size_t offset)
 
 #define MEDIAN(hits, field) median_of(hits, offsetof(struct passive_hit, field))
 
+static struct passive_nees nees_of(const struct hits *hits, bool only_own)
+{
+    struct passive_nees nees = {0.0, 0};
+    for (size_t i = 0; i < hits->count; i++) {
+        if (hits->list[i].is_own || !only_own) {
+            nees.mean += hits->list[i].nees;
+            nees.count++;
+        }
+    }
+    nees.mean /= (double)nees.count;
+    return nees;
+}
+
 static void summarise_hits(struct passive_default_summary *summary, const struct hits *hits)
 {
-    double off_m2 = 0.0, fit_off_m2 = 0.0, nees = 0.0, count = (double)hits->count;
+    double off_m2 = 0.0, fit_off_m2 = 0.0, count = (double)hits->count;
     for (size_t i = 0; i < hits->count; i++) {
         off_m2 += hits->list[i].off_m * hits->list[i].off_m;
         fit_off_m2 += hits->list[i].fit_off_m * hits->list[i].fit_off_m;
-        nees += hits->list[i].nees;
     }
-    summary->num_hits = hits->count;
+    summary->nees = nees_of(hits, false);
+    summary->own_nees = nees_of(hits, true);
     summary->rms_m = sqrt(off_m2 / count);
     summary->fit_rms_m = sqrt(fit_off_m2 / count);
-    summary->nees = nees / count;
     summary->line_off =
         (struct passive_line){MEDIAN(hits, line_off.rho_m), MEDIAN(hits, line_off.theta_rad)};
     summary->fit_line_off = (struct passive_line){MEDIAN(hits, fit_line_off.rho_m),
@@ -217,7 +228,7 @@ static struct passive_default_summary summarise_default(const struct passive_def
                                                         const struct passive_default_run *runs,
                                                         size_t num_runs)
 {
-    struct passive_default_summary summary = {.num_hits = 0};
+    struct passive_default_summary summary = {.search_ms = 0.0};
     size_t targets = of->setting.targets, found = 0, ghosts = 0, exact = 0;
     double *times_us = must_calloc(num_runs, sizeof *times_us);
     for (size_t i = 0; i < num_runs; i++) {
@@ -235,17 +246,28 @@ static struct passive_default_summary summarise_default(const struct passive_def
     return summary;
 }
 
-static double pool_nees(const struct passive_default_summary *summaries)
+static void add_nees(struct passive_nees *sum, const struct passive_nees *nees)
 {
-    double sum = 0.0, count = 0.0;
+    if (nees->count > 0) {
+        double count = (double)sum->count, more = (double)nees->count;
+        sum->mean = (sum->mean * count + nees->mean * more) / (count + more);
+        sum->count += nees->count;
+    }
+}
+
+static void pool_nees(struct passive_report *report)
+{
     for (size_t i = 0; i < passive_num_default_cases; i++) {
-        if (summaries[i].num_hits > 0 &&
-            passive_default_cases[i].setting.region != PASSIVE_EXTENSION) {
-            sum += summaries[i].nees * (double)summaries[i].num_hits;
-            count += (double)summaries[i].num_hits;
+        const struct passive_setting *setting = &passive_default_cases[i].setting;
+        const struct passive_default_summary *summary = &report->defaults[i];
+        if (setting->region != PASSIVE_EXTENSION) {
+            add_nees(&report->nees, &summary->nees);
+            add_nees(&report->own_nees, &summary->own_nees);
+            if (setting->pd >= 1.0 && setting->false_mean <= 0.0) {
+                add_nees(&report->clean_nees, &summary->nees);
+            }
         }
     }
-    return sum / count;
 }
 
 static void make_default(struct passive_report *report)
@@ -259,7 +281,7 @@ static void make_default(struct passive_report *report)
         report->defaults[i] = summarise_default(
             &passive_default_cases[i], &batch.defaults[i * batch.num_runs], batch.num_runs);
     }
-    report->pooled_nees = pool_nees(report->defaults);
+    pool_nees(report);
     batch_free(&batch);
 }
 
@@ -277,6 +299,7 @@ struct passive_report *passive_report_make(const char *method, uint64_t seed, si
     if (has_paper) {
         report->paper_runs = num_runs > 0 ? num_runs : PAPER_RUNS;
         make_paper(report);
+        passive_figures_make(report->figures);
     }
     if (has_default) {
         report->default_runs = num_runs > 0 ? num_runs : DEFAULT_RUNS;

@@ -90,6 +90,10 @@ struct rho_crossing_base passive_base(const struct passive_scene *scene, size_t 
 struct rho_ghost_matrix passive_matrix(const struct passive_scene *scene, size_t scan, size_t a,
                                        size_t b, enum rho_ghost_rule rule);
 
+/* Bearing i of sensor a and j of b are the same target's. */
+bool passive_is_target(const struct passive_scene *scene, size_t scan, size_t a, size_t i, size_t b,
+                       size_t j);
+
 /* ---- pruning ---------------------------------------------------------------------------------- */
 
 /* Shares of the ghosts and of the targets' crossings. */
@@ -130,11 +134,16 @@ struct passive_paper_case {
 extern const struct passive_paper_case passive_paper_cases[];
 extern const size_t passive_num_paper_cases;
 
+/* Targets with a line within 6 degrees and 3 km of theirs, and lines with no such target. */
+struct passive_matched {
+    size_t found, ghosts;
+};
+struct passive_matched passive_lines_match(const struct rho_passive_paper *paper,
+                                           const struct passive_scene *scene);
+
 struct passive_paper_run {
     size_t targets;
-    struct {
-        size_t found, ghosts;
-    } by_rule[PASSIVE_RULES];
+    struct passive_matched by_rule[PASSIVE_RULES];
 };
 struct passive_paper_run passive_paper_run(const struct passive_paper_case *of,
                                            struct rho_passive_paper *paper, struct random *random);
@@ -161,6 +170,7 @@ struct passive_hit {
     double off_m, fit_off_m;
     struct passive_line line_off, fit_line_off;
     double nees; /* of the state at the newest scan */
+    bool is_own; /* none of its bearings is false or another target's */
 };
 
 struct passive_default_run {

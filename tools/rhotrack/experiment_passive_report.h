@@ -17,15 +17,32 @@ struct passive_paper_summary {
     struct passive_found by_rule[PASSIVE_RULES];
 };
 
+/* Mean over so many tracks. */
+struct passive_nees {
+    double mean;
+    size_t count;
+};
+
 /* Of the found targets: root mean squares of the place, medians of the lines; NAN where there is none. */
 struct passive_default_summary {
     struct passive_found found;
     double rms_m, fit_rms_m;
     struct passive_line line_off, fit_line_off;
-    double nees; /* mean */
-    size_t num_hits;
-    double search_ms; /* median */
+    struct passive_nees nees, own_nees; /* of all, of those with their own bearings alone */
+    double search_ms;                   /* median */
 };
+
+/* A scene of the paper's figures: what is left of its crossings, and which lines are found in them. */
+struct passive_figure {
+    const char *figures; /* their numbers */
+    const char *sensors;
+    unsigned mask; /* of the sensors */
+    enum rho_ghost_rule rule;
+    unsigned votes_min;
+    size_t crossings, ghosts; /* of targets, others */
+    struct passive_matched lines;
+};
+#define PASSIVE_FIGURES 6
 
 struct passive_report {
     const char *method; /* "passive", "passive-paper", NULL: both */
@@ -34,7 +51,11 @@ struct passive_report {
     struct passive_pruning_summary *pruning;
     struct passive_paper_summary *paper;
     struct passive_default_summary *defaults;
-    double pooled_nees; /* of all found targets but those on the base's extension */
+    struct passive_figure figures[PASSIVE_FIGURES]; /* with the paper's method */
+    /* of found targets that do not start on the base's extension */
+    struct passive_nees nees;       /* all */
+    struct passive_nees clean_nees; /* of cases without misses and false bearings */
+    struct passive_nees own_nees;   /* those with their own bearings alone */
     struct verdicts verdicts;
 };
 
@@ -51,7 +72,12 @@ void passive_judge(struct passive_report *report);
 /* Measured figures beside the references: "0.98/0.97". experiment_passive_tables.c */
 struct grid passive_pruning_grid(const struct passive_report *report);
 struct grid passive_paper_grid(const struct passive_report *report);
+struct grid passive_figures_grid(const struct passive_report *report);
 struct grid passive_default_grid(const struct passive_report *report);
+
+/* What was pooled for NEES, as a sentence. */
+#define PASSIVE_NOTE 320
+const char *passive_nees_note(const struct passive_report *report, char text[PASSIVE_NOTE]);
 void passive_report_print(const struct passive_report *report);
 
 /* The verdicts become the object's. experiment_passive_tables.c */
@@ -60,13 +86,18 @@ cJSON *passive_report_json(struct passive_report *report);
 /* FOLDER/index.html and its pictures. experiment_passive_page.c */
 void passive_page(const struct passive_report *report, const char *folder);
 
-/* The paper's figures 2 to 9 into FOLDER. experiment_passive_pictures.c */
-struct passive_picture {
-    const char *name; /* of the file */
-    const char *caption;
-};
-extern const struct passive_picture passive_pictures[];
-extern const size_t passive_num_pictures;
-void passive_draw_pictures(const char *folder);
+/*
+ * The scene of the paper's figures: two targets, eight scans, nothing missed, nothing false. It was sought among many: the
+ * ghosts of sensors 1 and 2 lie in view and on a line, and pruning removes them all. sensors: 2 or 3, the same targets.
+ * experiment_passive_figures.c
+ */
+#define PASSIVE_FIGURES_SEED 1
+#define PASSIVE_FIGURES_RUN 16640
+struct passive_scene passive_figures_scene(size_t sensors);
+void passive_figures_make(struct passive_figure figures[PASSIVE_FIGURES]);
+
+/* FOLDER/figure-2.svg .. figure-9.svg. experiment_passive_pictures.c */
+void passive_draw_pictures(const struct passive_figure figures[PASSIVE_FIGURES],
+                           const char *folder);
 
 #endif

@@ -10,25 +10,18 @@
 
 /* ---- pruning ---------------------------------------------------------------------------------- */
 
-static bool is_target(const struct simulated_look *a, size_t i, const struct simulated_look *b,
-                      size_t j)
-{
-    return a->bearings[i].target_id >= 0 && a->bearings[i].target_id == b->bearings[j].target_id;
-}
-
 static void count_removed(struct passive_pruning_run *run, const struct passive_scene *scene,
                           size_t scan, enum rho_ghost_rule rule)
 {
     struct rho_ghost_matrix matrix = passive_matrix(scene, scan, 0, 1, rule);
-    const struct simulated_look *a = passive_look(scene, scan, 0),
-                                *b = passive_look(scene, scan, 1);
     for (size_t i = 0; i < matrix.rows; i++) {
         for (size_t j = 0; j < matrix.columns; j++) {
-            bool is_true = is_target(a, i, b, j), is_gone = matrix.reason[i][j] != RHO_GHOST_KEPT;
-            run->targets += rule == RHO_GHOST_NO_RULE && is_true;
-            run->ghosts += rule == RHO_GHOST_NO_RULE && !is_true;
-            run->targets_lost[rule] += is_true && is_gone;
-            run->ghosts_removed[rule] += !is_true && is_gone;
+            bool is_target = passive_is_target(scene, scan, 0, i, 1, j);
+            bool is_gone = matrix.reason[i][j] != RHO_GHOST_KEPT;
+            run->targets += rule == RHO_GHOST_NO_RULE && is_target;
+            run->ghosts += rule == RHO_GHOST_NO_RULE && !is_target;
+            run->targets_lost[rule] += is_target && is_gone;
+            run->ghosts_removed[rule] += !is_target && is_gone;
         }
     }
 }
@@ -80,23 +73,23 @@ static bool is_near(const struct rho_passive_paper_line *line, const struct pass
     return off.theta_rad < NEAR_THETA_RAD && off.rho_m < NEAR_RHO_M;
 }
 
-static void match_lines(struct passive_paper_run *run, enum rho_ghost_rule rule,
-                        const struct rho_passive_paper *paper, const struct passive_scene *scene)
+struct passive_matched passive_lines_match(const struct rho_passive_paper *paper,
+                                           const struct passive_scene *scene)
 {
-    unsigned found = 0;
+    struct passive_matched matched = {0, 0};
+    bool is_found[PASSIVE_TARGETS_MAX] = {false};
     for (unsigned i = 0; i < paper->num_lines; i++) {
         bool is_ghost = true;
-        for (size_t target = 0; target < run->targets; target++) {
+        for (size_t target = 0; target < scene->of->targets; target++) {
             if (is_near(&paper->lines[i], scene, target)) {
                 is_ghost = false;
-                found |= 1u << target;
+                matched.found += !is_found[target];
+                is_found[target] = true;
             }
         }
-        run->by_rule[rule].ghosts += is_ghost;
+        matched.ghosts += is_ghost;
     }
-    for (; found != 0; found &= found - 1u) {
-        run->by_rule[rule].found++;
-    }
+    return matched;
 }
 
 struct passive_paper_run passive_paper_run(const struct passive_paper_case *of,
@@ -108,7 +101,7 @@ struct passive_paper_run passive_paper_run(const struct passive_paper_case *of,
         if (of->has_rule[rule]) {
             passive_paper_search(paper, &scene, PASSIVE_ALL_SENSORS, of->votes_min,
                                  (enum rho_ghost_rule)rule);
-            match_lines(&run, (enum rho_ghost_rule)rule, paper, &scene);
+            run.by_rule[rule] = passive_lines_match(paper, &scene);
         }
     }
     passive_scene_free(&scene);
@@ -194,6 +187,21 @@ static double nees_of(const struct passive_scene *scene, const struct rho_passiv
     return clairvoyant_nees(off, (const double(*)[4])covariance);
 }
 
+static bool has_own_alone(const struct passive_scene *scene, const struct rho_passive_track *track,
+                          size_t target)
+{
+    for (size_t scan = 0; scan < PASSIVE_SCANS; scan++) {
+        for (size_t sensor = 0; sensor < scene->of->sensors; sensor++) {
+            unsigned claim = track->claim[scan][sensor];
+            if (claim > 0 &&
+                passive_look(scene, scan, sensor)->bearings[claim - 1].target_id != (int)target) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 static struct passive_line line_off(const double state[4], const struct truth_point *truth)
 {
     struct passive_line line = passive_line_of(state[0], state[1], state[2], state[3]);
@@ -214,24 +222,40 @@ static struct passive_hit hit_of(const struct passive_scene *scene, size_t targe
         .line_off = line_off(state, &truth),
         .fit_line_off = line_off(fit->state, &truth),
         .nees = nees_of(scene, track, target),
+        .is_own = has_own_alone(scene, track, target),
     };
 }
 
-/* The nearest track within max(1 km, 4 standard deviations of the fit) that is no other target's; -1: none. */
+/* Mean distance over the batch. */
+static double apart_m(const struct passive_scene *scene, size_t target, const double state[4])
+{
+    double sum_m = 0.0;
+    for (size_t scan = 0; scan < PASSIVE_SCANS; scan++) {
+        struct truth_point truth = passive_truth(scene, target, scene->times_s[scan]);
+        double t_s = truth.t_s - passive_middle_s(scene);
+        sum_m +=
+            hypot(state[0] + t_s * state[2] - truth.x_m, state[1] + t_s * state[3] - truth.y_m);
+    }
+    return sum_m / PASSIVE_SCANS;
+}
+
+/* Of the tracks that are no other target's, and within max(1 km, 4 standard deviations of the fit) at mid-batch, the
+ * nearest over the whole batch: targets can meet at its middle. -1: none. */
 static int find_track(const struct passive_scene *scene, size_t target,
                       const struct rho_passive *passive, const struct clairvoyant_course *fit,
                       const bool *is_taken)
 {
     struct truth_point truth = passive_truth(scene, target, passive_middle_s(scene));
     double sigma_m = sqrt(fit->covariance[0][0] + fit->covariance[1][1]);
-    double least_m = fmax(FOUND_NEAR_M, FOUND_NEAR_SIGMAS * sigma_m);
+    double near_m = fmax(FOUND_NEAR_M, FOUND_NEAR_SIGMAS * sigma_m), least_m = INFINITY;
     int nearest = -1;
     for (int i = 0; i < (int)passive->num_tracks; i++) {
         double state[4];
         state_at_middle(scene, &passive->tracks[i], state);
         double off_m = hypot(state[0] - truth.x_m, state[1] - truth.y_m);
-        if (!is_taken[i] && off_m < least_m) {
-            least_m = off_m;
+        double mean_m = apart_m(scene, target, state);
+        if (!is_taken[i] && off_m < near_m && mean_m < least_m) {
+            least_m = mean_m;
             nearest = i;
         }
     }

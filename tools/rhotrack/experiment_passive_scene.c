@@ -195,3 +195,10 @@ struct rho_ghost_matrix passive_matrix(const struct passive_scene *scene, size_t
     rho_ghost_prune(&matrix, rule);
     return matrix;
 }
+
+bool passive_is_target(const struct passive_scene *scene, size_t scan, size_t a, size_t i, size_t b,
+                       size_t j)
+{
+    int target = passive_look(scene, scan, a)->bearings[i].target_id;
+    return target >= 0 && target == passive_look(scene, scan, b)->bearings[j].target_id;
+}

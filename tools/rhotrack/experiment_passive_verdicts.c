@@ -82,15 +82,21 @@ static void judge_default_case(struct passive_report *report, size_t number)
     }
 }
 
+static void judge_nees(struct verdicts *verdicts, const struct passive_nees *nees, const char *what)
+{
+    verdicts_at_least(verdicts, nees->mean, NEES_MIN, "default, %s", what);
+    verdicts_at_most(verdicts, nees->mean, NEES_MAX, "default, %s", what);
+}
+
 static void judge_default(struct passive_report *report)
 {
     for (size_t i = 0; i < passive_num_default_cases; i++) {
         judge_default_case(report, i);
     }
-    verdicts_at_least(&report->verdicts, report->pooled_nees, NEES_MIN,
-                      "default, all cases but the base's extension: NEES, 4 dimensions");
-    verdicts_at_most(&report->verdicts, report->pooled_nees, NEES_MAX,
-                     "default, all cases but the base's extension: NEES, 4 dimensions");
+    judge_nees(&report->verdicts, &report->clean_nees, "clean cases ahead: NEES of the found");
+    judge_nees(&report->verdicts, &report->own_nees,
+               "all cases but the base's extension: NEES of the found with their own bearings "
+               "alone");
 }
 
 void passive_judge(struct passive_report *report)
