@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The scene that the paper's figures show, in numbers. */
+/* What the paper's figures show, in numbers. */
 #include <stdlib.h>
 
 #include "common.h"
@@ -25,7 +25,9 @@ static const struct passive_figure rows[PASSIVE_FIGURES] = {
 
 struct passive_scene passive_figures_scene(size_t sensors)
 {
-    struct random random = random_start(PASSIVE_FIGURES_SEED, STREAM, PASSIVE_FIGURES_RUN);
+    struct random random =
+        random_start(PASSIVE_FIGURES_SEED, STREAM,
+                     sensors == SENSORS_MAX ? PASSIVE_FIGURES_THREE_RUN : PASSIVE_FIGURES_TWO_RUN);
     return passive_scene_draw(&settings[sensors - 2], &random);
 }
 

@@ -18,6 +18,7 @@
 static const char *const pair_names[] = {"sensors 1 and 2", "sensors 1 and 3", "sensors 2 and 3"};
 static const size_t pairs[][2] = {{0, 1}, {0, 2}, {1, 2}};
 #define PAIRS 3
+static const double sizes[] = {1.5, 1.0, 0.6}; /* of markers, so that none hides another */
 
 /* ---- crossings -------------------------------------------------------------------------------- */
 
@@ -104,13 +105,13 @@ static void put_map(FILE *file)
     fprintf(file,
             "set size ratio -1\nset xlabel 'x (km)'\nset ylabel 'y (km)'\n"
             "set xrange [-%d:%d]\nset yrange [-%d:%d]\nset key outside top center horizontal\n"
-            "set label 1 '1' at 0,-10 offset -1.4,0\nset label 2 '2' at 0,10 offset -1.4,0\n",
+            "set label 1 '1' at 0,-10 offset -2.2,0\nset label 2 '2' at 0,10 offset -2.2,0\n",
             VIEW_KM, VIEW_KM, VIEW_KM, VIEW_KM);
 }
 
 static const char truth_and_sensors[] =
-    " $truth with points pt 6 ps 1.3 lw 1.5 lc rgb '#000000' title 'true positions', \\\n"
-    " $sensors with points pt 9 ps 1.6 lc rgb '#009e73' title 'sensors'\n";
+    " $truth with points pt 6 ps 1.6 lw 1 lc rgb '#000000' title 'true positions', \\\n"
+    " $sensors with points pt 9 ps 1.2 lc rgb '#009e73' title 'sensors'\n";
 
 static void draw_two(const struct passive_scene *scene, enum rho_ghost_rule rule, const char *path)
 {
@@ -121,9 +122,9 @@ static void draw_two(const struct passive_scene *scene, enum rho_ghost_rule rule
     put_crossings("ghosts", (struct kind){file, false, true}, scene, pairs[0], rule);
     put_map(file);
     fprintf(file,
-            "plot $own with points pt 2 ps 0.7 lw 1.5 lc rgb '#0072b2' title 'crossings, of "
+            "plot $own with points pt 2 ps 1 lw 2 lc rgb '#0072b2' title 'crossings, of "
             "targets', \\\n"
-            " $ghosts with points pt 2 ps 0.7 lw 1.5 lc rgb '#d55e00' title 'ghosts', \\\n%s",
+            " $ghosts with points pt 2 ps 1 lw 2 lc rgb '#d55e00' title 'ghosts', \\\n%s",
             truth_and_sensors);
     picture_close(&picture);
 }
@@ -139,10 +140,10 @@ static void draw_three(const struct passive_scene *scene, const char *path)
         put_crossings(name, (struct kind){file, true, true}, scene, pairs[i], RHO_GHOST_LITERAL);
     }
     put_map(file);
-    fprintf(file, "set label 3 '3' at 10,0 offset 0.7,0\nplot");
+    fprintf(file, "set label 3 '3' at 10,0 offset 1.3,0\nplot");
     for (size_t i = 0; i < PAIRS; i++) {
-        fprintf(file, " $pair%zu with points pt 2 ps 0.7 lw 1.5 lc rgb '%s' title '%s', \\\n", i,
-                picture_colour(i == 2 ? 4 : i), pair_names[i]);
+        fprintf(file, " $pair%zu with points pt 2 ps %g lw 2 lc rgb '%s' title '%s', \\\n", i,
+                sizes[i], picture_colour(i == 2 ? 4 : i), pair_names[i]);
     }
     fprintf(file, "%s", truth_and_sensors);
     picture_close(&picture);
@@ -191,16 +192,18 @@ static int count_votes(unsigned scans)
     return count;
 }
 
-/* Cells below votes_min are 0. */
+/* Cells with so many votes, and one outside the picture: gnuplot has no empty data. */
 static void put_plane(FILE *file, const struct plane *plane, int votes_min)
 {
-    fprintf(file, "$plane << EOD\n");
+    fprintf(file, "$plane << EOD\n1000 1000 0\n");
     for (int row = 0; row < THETA_CELLS; row++) {
         for (int column = 0; column < 2 * RHO_HALF_CELLS; column++) {
             int votes = count_votes(plane->scans[row][column]);
-            fprintf(file, "%d ", votes >= votes_min ? votes : 0);
+            if (votes >= votes_min) {
+                fprintf(file, "%g %g %d\n", column + 0.5 - RHO_HALF_CELLS,
+                        (row + 0.5) * 180.0 / THETA_CELLS, votes);
+            }
         }
-        fprintf(file, "\n");
     }
     fprintf(file, "EOD\n");
 }
@@ -223,13 +226,13 @@ static void draw_plane(const struct passive_scene *scene, enum rho_ghost_rule ru
     put_true_lines(picture.script, scene);
     put_parameter_axes(picture.script);
     fprintf(picture.script,
-            "set palette maxcolors 9\n"
-            "set palette defined (0 '#ffffff', 1 '#dfe7ee', 4 '#8fa5b5', 6 '#f0d000', 7 '#e06000', "
-            "8 '#8b0000')\nset cbrange [-0.5:8.5]\nset cbtics 0,1,8\nset cblabel 'scans that "
-            "voted'\n"
-            "plot $plane matrix using ($1 + 0.5 - %d):(($2 + 0.5) * 2):3 with image notitle, \\\n"
+            "set palette maxcolors 8\n"
+            "set palette defined (1 '#dfe7ee', 4 '#8fa5b5', 6 '#f0d000', 7 '#e06000', 8 "
+            "'#8b0000')\nset cbrange [0.5:8.5]\nset cbtics 1,1,8\nset cblabel 'scans that "
+            "voted'\nset style fill solid noborder\n"
+            "plot $plane using 1:2:(0.5):(%g):3 with boxxyerror lc palette notitle, \\\n"
             " $lines with points pt 6 ps 2.4 lw 2 lc rgb '#0072b2' title 'true lines'\n",
-            RHO_HALF_CELLS);
+            90.0 / THETA_CELLS);
     picture_close(&picture);
     free(plane);
 }
@@ -261,8 +264,8 @@ static void draw_pairs(const struct passive_scene *scene, const struct passive_f
     put_parameter_axes(file);
     fprintf(file, "plot");
     for (size_t i = 0; i < PAIRS; i++) {
-        fprintf(file, " $pair%zu with points pt %d ps 1.4 lw 2 lc rgb '%s' title '%s', \\\n", i,
-                picture_marker(i), picture_colour(i == 2 ? 4 : i), pair_names[i]);
+        fprintf(file, " $pair%zu with points pt %d ps %g lw 2 lc rgb '%s' title '%s', \\\n", i,
+                picture_marker(i), 1.4 * sizes[i], picture_colour(i == 2 ? 4 : i), pair_names[i]);
     }
     fprintf(file,
             " $pair%d with points pt 4 ps 3.2 lw 2 lc rgb '#7f7f7f' title 'confirmed by all', \\\n"
@@ -287,7 +290,7 @@ static void draw_spaces(const char *folder, const struct passive_scene *scene,
     char *places = figure_path(folder, numbers[0]), *votes = figure_path(folder, numbers[1]);
     char *accepted = figure_path(folder, numbers[2]);
     draw_two(scene, rule, places);
-    draw_plane(scene, rule, 0, votes);
+    draw_plane(scene, rule, 1, votes);
     draw_plane(scene, rule, (int)votes_min, accepted);
     free(places);
     free(votes);

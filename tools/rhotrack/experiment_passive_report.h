@@ -32,7 +32,7 @@ struct passive_default_summary {
     double search_ms;                   /* median */
 };
 
-/* A scene of the paper's figures: what is left of its crossings, and which lines are found in them. */
+/* One of the scenes of the paper's figures: what is left of its crossings, and which lines are found in them. */
 struct passive_figure {
     const char *figures; /* their numbers */
     const char *sensors;
@@ -87,12 +87,13 @@ cJSON *passive_report_json(struct passive_report *report);
 void passive_page(const struct passive_report *report, const char *folder);
 
 /*
- * The scene of the paper's figures: two targets, eight scans, nothing missed, nothing false. It was sought among many: the
- * ghosts of sensors 1 and 2 lie in view and on a line, and pruning removes them all. sensors: 2 or 3, the same targets.
- * experiment_passive_figures.c
+ * The scenes of the paper's figures: two targets, eight scans, nothing missed, nothing false. They were sought among many
+ * so that they show what the paper's do. Of 2 sensors: ghosts lie in view and on lines, and pruning removes them all. Of 3:
+ * it does not, and pairs of sensors find ghosts' lines that the others do not confirm. experiment_passive_figures.c
  */
 #define PASSIVE_FIGURES_SEED 1
-#define PASSIVE_FIGURES_RUN 16640
+#define PASSIVE_FIGURES_TWO_RUN 12
+#define PASSIVE_FIGURES_THREE_RUN 1361
 struct passive_scene passive_figures_scene(size_t sensors);
 void passive_figures_make(struct passive_figure figures[PASSIVE_FIGURES]);
 

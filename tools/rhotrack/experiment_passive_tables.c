@@ -138,8 +138,8 @@ void passive_report_print(const struct passive_report *report)
     if (report->paper != NULL) {
         printf("%zu runs a case\n\n", report->paper_runs);
         print_grid(passive_paper_grid(report));
-        printf("The scene of the figures: run %d of seed %d\n\n", PASSIVE_FIGURES_RUN,
-               PASSIVE_FIGURES_SEED);
+        printf("Scenes of the figures: runs %d and %d of seed %d\n\n", PASSIVE_FIGURES_TWO_RUN,
+               PASSIVE_FIGURES_THREE_RUN, PASSIVE_FIGURES_SEED);
         print_grid(passive_figures_grid(report));
     }
     if (report->defaults != NULL) {
