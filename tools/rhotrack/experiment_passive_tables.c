@@ -30,8 +30,8 @@ static const char *beside(char text[TEXT], int digits, double value, double refe
 
 struct grid passive_pruning_grid(const struct passive_report *report)
 {
-    struct grid grid = grid_start(1, "pruning alone|ghosts removed: by side and range|literal|safe|"
-                                     "targets lost: by side and range|literal|safe");
+    struct grid grid = grid_start(1, "pruning alone|ghosts: eliminated|literal|safe|"
+                                     "targets: eliminated|literal|safe");
     for (size_t i = 0; i < passive_num_pruning_cases; i++) {
         const struct passive_pruned *measured = report->pruning[i].by_rule;
         const struct passive_pruned *reference = passive_pruning_cases[i].reference;
@@ -133,7 +133,9 @@ void passive_report_print(const struct passive_report *report)
 {
     printf("Bearings of passive sensors, 8 scans, seed %llu; measured/reference\n\n",
            (unsigned long long)report->seed);
-    printf("%zu runs a case\n\n", report->pruning_runs);
+    printf("%zu runs a case; shares of the ghosts that are removed, of the targets' crossings that "
+           "are lost\n\n",
+           report->pruning_runs);
     print_grid(passive_pruning_grid(report));
     if (report->paper != NULL) {
         printf("%zu runs a case\n\n", report->paper_runs);
