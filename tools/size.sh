@@ -45,7 +45,7 @@ row 'all' $(${prefix}size -t "$folder"/*.o | tail -n 1 | awk '{print $1, $2, $3}
     for header in include/rhotrack/*.h; do
         echo "#include \"rhotrack/$(basename "$header")\""
     done
-    for object in accumulator classic window initiator ghost_matrix passive assignment tracker report; do
+    for object in accumulator classic window initiator ghost_matrix passive passive_paper assignment tracker report; do
         echo "char rho_sizeof_$object[sizeof(struct rho_$object)];"
     done
     # HT on 4 x 2.5 km at 5 m x 1 mrad: the object, a window of plots with their times, and 128 peaks

@@ -84,6 +84,31 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *k
                                                             const struct rho_sensor *sensor,
                                                             float rate_mps, float variance);
 
+/* A bearing from a place as a scalar measurement of an estimate, in metres across the line of sight. */
+struct rho_kalman_bearing {
+    float row[RHO_KALMAN_STATES];
+    float off_m;       /* measured minus predicted */
+    float variance_m2; /* the noise */
+    float range_m;
+};
+
+/*
+ * Fills *seen; to the noise is added what the derivative leaves out where the place is uncertain along and across the line
+ * of sight. Returns 0, and fills nothing, where the estimate is nearer than a metre to the place.
+ * Cost: an arctangent, a square root, two divisions. Stack: 96 bytes.
+ */
+int rho_kalman_see_bearing(const struct rho_kalman *kalman, float x_m, float y_m, float bearing_rad,
+                           float sigma_rad, struct rho_kalman_bearing *seen);
+
+/*
+ * Updates with a bearing from a place, linearised at the estimate. An estimate nearer than a metre to the place has no
+ * bearing: nothing is done, RHO_OK.
+ * Errors: as rho_kalman_update_row. Cost: that and rho_kalman_see_bearing. Stack: 300 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m,
+                                                         float y_m, float bearing_rad,
+                                                         float sigma_rad);
+
 /* True where axis 0 .. 2 was opened. */
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis);
 

@@ -89,6 +89,15 @@ int rho_measurement_range_rate(const float state[6], const struct rho_sensor *se
                                float row[6], float *rate_mps);
 
 /*
+ * A bearing from a place as a scalar measurement of a state [x y z vx vy vz], in metres across the line of sight: the
+ * derivative *row = (-sin, cos) of x and y, *off_m = range times (bearing - the state's own, within +-pi), *range_m.
+ * Returns 0, and fills nothing, where the state is nearer than a metre to the place, or not finite.
+ * Cost: an arctangent, a square root and a division. Stack: 48 bytes.
+ */
+int rho_measurement_bearing(const float state[6], float x_m, float y_m, float bearing_rad,
+                            float row[6], float *off_m, float *range_m);
+
+/*
  * Did this scan of the sensor look where a target is? Within the scan's sector, the sensor's own, and its range limits.
  * NULL: at the origin, looking everywhere that the scan does. Constant cost, an arctangent.
  */

@@ -39,8 +39,9 @@ struct rho_passive_config {
     float hits_min; /* share of the scans and sensors that a track has a bearing of: 0.1 .. 1 */
     float
         rho_cell_m; /* 2 (range_max_m + the farthest sensor) over it: at most RHO_PASSIVE_RHO_CELLS */
-    float theta_cell_rad;     /* pi over it: at most RHO_PASSIVE_THETA_CELLS */
-    enum rho_ghost_rule rule; /* of step 1 */
+    float theta_cell_rad;        /* pi over it: at most RHO_PASSIVE_THETA_CELLS */
+    enum rho_ghost_rule rule;    /* of step 1 */
+    float false_tracks_per_hour; /* that start_mnat allows by chance: 1e-6 .. 1e6 */
 };
 
 /* A track found: constant velocity, at the newest scan's time. */
@@ -88,6 +89,11 @@ struct rho_passive {
     struct rho_passive_config config;
     uint16_t num_tracks; /* found by the last search, the best score first */
     uint16_t num_candidates;
+    /*
+     * A track with less may be chance, more often than false_tracks_per_hour: two crossings make a state that their four
+     * bearings fit, whatever they are, and there are so many pairs of crossings (src/DESIGN.md).
+     */
+    int32_t start_mnat;
     uint32_t num_points;
     struct rho_passive_work work;
     struct rho_passive_track tracks[RHO_MAX_PASSIVE_TRACKS];
@@ -111,6 +117,10 @@ void rho_passive_config_default(struct rho_passive_config *config);
  */
 RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
                                                 const struct rho_passive_config *config);
+
+/* Whether rho_passive_push takes the frame: STATE (not initialised), and the errors of rho_batch_accepts. */
+RHO_MUST_CHECK enum rho_status rho_passive_accepts(const struct rho_passive *passive,
+                                                   const struct rho_frame *frame);
 
 /*
  * Takes a frame: rho_batch_push of the batch, and its errors. The tracks of the last search are gone.

@@ -36,9 +36,9 @@ struct rho_passive_paper_config {
     uint16_t scans;     /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
     uint16_t votes_min; /* T: 1 .. 255; 0: four fifths of the scans that are held, rounded up */
     float range_max_m;  /* no sensor sees farther: 1000 .. 500000 */
-    float
-        rho_cell_m; /* 2 (range_max_m + half the sensors' distance) over it: at most RHO_PAPER_RHO_CELLS */
-    float theta_cell_rad;             /* pi over it: at most RHO_PAPER_THETA_CELLS */
+    /* 2 range_max_m over it: at most RHO_PAPER_RHO_CELLS; what is left holds half the sensors' distance to either side */
+    float rho_cell_m;
+    float theta_cell_rad;             /* pi over it: at most RHO_PAPER_THETA_CELLS; at most 0.5 */
     enum rho_accumulator_votes votes; /* distinct scans, or crossings: their count stops at 255 */
     enum rho_ghost_rule rule;         /* of step 1 */
 };
@@ -58,9 +58,9 @@ struct rho_passive_paper_line {
 /* What a search did, and what its capacities cut. All saturate. */
 struct rho_passive_paper_work {
     uint32_t crossings, ghosts; /* all pairs of bearings; removed before voting */
-    uint32_t
-        points_dropped; /* crossings of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS: the newest scans' */
-    uint32_t votes;         /* crossings times rows */
+    /* of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS: the newest scans'; none in the default profiles */
+    uint32_t points_dropped;
+    uint32_t votes;         /* crossings that are left times rows */
     uint32_t cells;         /* accepted, and confirmed by every pair */
     uint32_t lines_dropped; /* beyond RHO_MAX_PASSIVE_LINES: those of the lowest votes_sum */
 };
@@ -86,12 +86,12 @@ struct rho_passive_paper {
     struct rho_passive_paper_line lines[RHO_MAX_PASSIVE_LINES];
     struct rho_passive_paper_work work;
     struct rho_batch batch;
-    /* scratch of a search: the votes of all pairs and 1 where they confirm, else 0; three rows and the crossings of one */
+    /* scratch of a search: of all pairs of sensors 1 and the votes, or 0 where they do not confirm; of one pair three rows,
+     * and its crossings, those of scan k from scan_end[k - 1] to scan_end[k] - 1 */
     struct rho_passive_paper_fit fits[RHO_MAX_PASSIVE_LINES];
     uint8_t cells[RHO_PAPER_THETA_CELLS][RHO_PAPER_RHO_CELLS];
     uint8_t rows[3][RHO_PAPER_RHO_CELLS];
-    uint16_t scan_end
-        [RHO_MAX_PASSIVE_SCANS]; /* crossings of scan k: scan_end[k - 1] .. scan_end[k] - 1 */
+    uint16_t scan_end[RHO_MAX_PASSIVE_SCANS];
     struct rho_passive_paper_point points[RHO_MAX_PAPER_CROSSINGS];
 };
 
@@ -116,7 +116,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *
  * Searches the batch. Results: paper->lines[0 .. num_lines - 1]. Sensors without a scan in the batch are left out.
  * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no line.
  * Cost: for each pair of sensors its crossings times the rows, and times the lines; cells times lines (also those
- * dropped). Stack: 3 KB.
+ * dropped). Stack: 1.5 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper);
 

@@ -114,6 +114,37 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
                                                 const struct rho_track_model *model,
                                                 int32_t gain_mnat);
 
+/* A bearing, when it was seen, and from where. */
+struct rho_track_bearing {
+    int64_t time_us; /* its own */
+    int32_t sensor_id;
+    float x_m, y_m; /* the sensor's place */
+    float bearing_rad, sigma_rad;
+    int16_t row; /* in its scan */
+};
+
+/*
+ * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans have made; sensor_id
+ * is one of those that saw it. Errors: NULL, VALUE (x or y not open, no hits); *track is unchanged. Constant cost.
+ */
+RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
+                                                        const struct rho_kalman *estimate,
+                                                        int64_t time_us, int32_t sensor_id,
+                                                        uint16_t hits, int32_t score_mnat);
+
+/*
+ * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of several sensors in one
+ * step count as one hit: the first, while plot is -1. gain_mnat is added to the score.
+ * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: two predictions and an update. Stack: 450 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
+                                                        const struct rho_track_bearing *bearing,
+                                                        const struct rho_track_model *model,
+                                                        int32_t gain_mnat);
+
+/* Takes loss_mnat >= 0 from the score, for a sensor that looked and saw nothing. Constant cost. */
+void rho_track_lose(struct rho_track *track, int32_t loss_mnat);
+
 /* Counts a scan that looked and saw nothing; loss_mnat >= 0 is taken from the score. Constant cost. */
 void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
 

@@ -28,6 +28,7 @@
 #include "rhotrack/assignment.h"
 #include "rhotrack/config.h"
 #include "rhotrack/initiator.h"
+#include "rhotrack/passive.h"
 #include "rhotrack/status.h"
 #include "rhotrack/track.h"
 #include "rhotrack/types.h"
@@ -64,9 +65,11 @@ struct rho_tracker {
     /* scores that start and confirm a track: the initiator's, of its last search */
     int32_t start_mnat, confirm_mnat;
     float unclaimed_plots; /* a scan, smoothed: the clutter density where no initiator tells it */
+    float unclaimed_bearings; /* a passive sensor's scan, smoothed */
     struct rho_extent extent; /* of all valid plots so far */
     uint16_t num_sensors;
     uint16_t num_tracks; /* live ones, in the order of their identities */
+    uint16_t looks_max;  /* scans of a frame, the most so far; 1 before */
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
@@ -136,5 +139,27 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
                                                 struct rho_initiator *initiator,
                                                 const struct rho_scan *scan,
                                                 struct rho_report *report);
+
+/*
+ * Takes one frame of bearings through all phases: its scans in their order, each with the bearings' own times.
+ *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held nowhere (fate NO_ROOM);
+ *            else its batch takes what nobody claims, and once it is full it is searched at each step. A found track with
+ *            passive->start_mnat or more is started, and confirmed at once.
+ *   frame    one scan a sensor; bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS of a scan NO_ROOM.
+ *            A frame older than the last accepted scan or frame is late: all its bearings are STALE
+ *   report   filled whole; fates in the order of the frame's scans. A track's plot and sensor_id are those of the last
+ *            bearing that it claimed
+ * A track has one hit or one miss a frame; its score counts every sensor. Frames and scans of plots may be mixed: they
+ * update the same tracks.
+ * Errors: NULL, STATE (tracker or passive not initialised), VALUE (a place that is no coordinate, a sector beyond one turn
+ * either way, a time beyond RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its frame), and those of
+ * rho_passive_accepts; nothing is changed, *report neither.
+ * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one rho_passive_search.
+ * Stack: 3 KB (embedded profile).
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker,
+                                                      struct rho_passive *passive,
+                                                      const struct rho_frame *frame,
+                                                      struct rho_report *report);
 
 #endif

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/gate.h"
 
+#include <float.h>
+
+#include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
 
 #define DIMENSIONS_MAX 4
@@ -131,4 +134,34 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot, uint
     struct rho_kalman at = gate->predicted;
     return rho_kalman_predict(&at, offset_s, gate->noise_density) == RHO_OK &&
            test_closely(gate, &at, plot, measures, result);
+}
+
+static int test_bearing(const struct rho_kalman *at, const struct rho_bearing *bearing, float x_m,
+                        float y_m, struct rho_gate_result *result)
+{
+    struct rho_kalman_bearing seen;
+    float projected[RHO_KALMAN_STATES];
+    if (!rho_kalman_see_bearing(at, x_m, y_m, bearing->bearing_rad, bearing->sigma_rad, &seen)) {
+        return 0;
+    }
+    float variance_m2 = rho_linalg_project6(at->covariance, seen.row, projected) + seen.variance_m2;
+    if (!(seen.off_m * seen.off_m <= RHO_GATE_CHI2_1D * variance_m2) || !(variance_m2 <= FLT_MAX)) {
+        return 0;
+    }
+    *result =
+        (struct rho_gate_result){.distance2 = seen.off_m * seen.off_m / variance_m2,
+                                 .log_det = rho_log(variance_m2) - 2.0f * rho_log(seen.range_m)};
+    return 1;
+}
+
+int rho_gate_test_bearing(const struct rho_gate *gate, const struct rho_bearing *bearing, float x_m,
+                          float y_m, struct rho_gate_result *result)
+{
+    if (bearing->offset_us == 0) {
+        return test_bearing(&gate->predicted, bearing, x_m, y_m, result);
+    }
+    struct rho_kalman at = gate->predicted;
+    return rho_kalman_predict(&at, (float)bearing->offset_us * 1e-6f, gate->noise_density) ==
+               RHO_OK &&
+           test_bearing(&at, bearing, x_m, y_m, result);
 }

@@ -379,6 +379,51 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
     return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps, variance, NULL);
 }
 
+/*
+ * The second derivative is 1 / range^2, along times across the line of sight: for errors a and c of these the term left
+ * out is a c / range, in metres, of variance (var a var c + cov^2) / range^2.
+ */
+static float bow_variance(const float *p, const float row[6], float range_m)
+{
+    const float xx = p[RHO_AT(0, 0)], xy = p[RHO_AT(1, 0)], yy = p[RHO_AT(1, 1)];
+    const float s = row[0], c = row[1]; /* across; along is (c, -s) */
+    const float across = xx * s * s + 2.0f * xy * s * c + yy * c * c;
+    const float along = xx * c * c - 2.0f * xy * s * c + yy * s * s;
+    const float both = (xx - yy) * s * c + xy * (c * c - s * s);
+
+    return (across / range_m) * (along / range_m) + (both / range_m) * (both / range_m);
+}
+
+int rho_kalman_see_bearing(const struct rho_kalman *kalman, float x_m, float y_m, float bearing_rad,
+                           float sigma_rad, struct rho_kalman_bearing *seen)
+{
+    if (!rho_measurement_bearing(kalman->state, x_m, y_m, bearing_rad, seen->row, &seen->off_m,
+                                 &seen->range_m)) {
+        return 0;
+    }
+    const float sigma_m = sigma_rad * seen->range_m;
+    seen->variance_m2 =
+        sigma_m * sigma_m + bow_variance(kalman->covariance, seen->row, seen->range_m);
+    return 1;
+}
+
+enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, float y_m,
+                                          float bearing_rad, float sigma_rad)
+{
+    struct rho_kalman_bearing seen;
+
+    if (kalman == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (!rho_kalman_see_bearing(kalman, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
+        return RHO_OK;
+    }
+    return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2, NULL);
+}
+
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis)
 {
     return kalman != NULL && axis >= 0 && axis < NUM_AXES &&

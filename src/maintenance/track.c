@@ -74,6 +74,11 @@ void rho_track_miss(struct rho_track *track, int32_t loss_mnat)
     apply(track, RHO_TRACK_MISS);
 }
 
+void rho_track_lose(struct rho_track *track, int32_t loss_mnat)
+{
+    add_score(track, -loss_mnat);
+}
+
 static int has_ended(const struct rho_track *track, const struct rho_track_limits *limits)
 {
     if (track->misses_in_row >= limits->misses_in_row_max) {
@@ -176,6 +181,33 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     return status;
 }
 
+enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
+                                         const struct rho_kalman *estimate, int64_t time_us,
+                                         int32_t sensor_id, uint16_t hits, int32_t score_mnat)
+{
+    if (!track || !estimate) {
+        return RHO_ERROR_NULL;
+    }
+    if (hits < 1 || !rho_kalman_is_open(estimate, 0) || !rho_kalman_is_open(estimate, 1)) {
+        return RHO_ERROR_VALUE;
+    }
+    struct rho_track start = {
+        .track_id = track_id,
+        .status = RHO_TRACK_FREE,
+        .hits = hits,
+        .plot = -1,
+        .sensor_id = sensor_id,
+        .score_mnat = score_mnat,
+        .score_max_mnat = score_mnat,
+        .time_us = time_us,
+        .updated_us = time_us,
+        .kalman = *estimate,
+    };
+    apply(&start, RHO_TRACK_START);
+    *track = start;
+    return RHO_OK;
+}
+
 enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                   const struct rho_track_model *model)
 {
@@ -190,6 +222,14 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     return status;
 }
 
+static void take_sighting(struct rho_track *track, int64_t time_us, int32_t sensor_id, int16_t row)
+{
+    track->time_us = time_us;
+    track->updated_us = time_us;
+    track->sensor_id = sensor_id;
+    track->plot = row;
+}
+
 enum rho_status rho_track_update(struct rho_track *track, const struct rho_track_plot *plot,
                                  const struct rho_track_model *model, int32_t gain_mnat)
 {
@@ -202,11 +242,35 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
         return status;
     }
     track->kalman = kalman;
-    track->time_us = plot->time_us;
-    track->plot = plot->row;
-    track->sensor_id = plot->sensor_id;
-    track->updated_us = plot->time_us;
+    take_sighting(track, plot->time_us, plot->sensor_id, plot->row);
     count_hit(track);
+    add_score(track, gain_mnat);
+    apply(track, RHO_TRACK_UPDATE);
+    return RHO_OK;
+}
+
+enum rho_status rho_track_update_bearing(struct rho_track *track,
+                                         const struct rho_track_bearing *bearing,
+                                         const struct rho_track_model *model, int32_t gain_mnat)
+{
+    if (!track || !bearing || !model) {
+        return RHO_ERROR_NULL;
+    }
+    struct rho_kalman kalman = track->kalman;
+    float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
+    enum rho_status status = rho_kalman_predict(&kalman, dt_s, model->noise_density);
+    if (status == RHO_OK) {
+        status = rho_kalman_update_bearing(&kalman, bearing->x_m, bearing->y_m,
+                                           bearing->bearing_rad, bearing->sigma_rad);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (track->plot < 0) {
+        count_hit(track);
+    }
+    track->kalman = kalman;
+    take_sighting(track, bearing->time_us, bearing->sensor_id, bearing->row);
     add_score(track, gain_mnat);
     apply(track, RHO_TRACK_UPDATE);
     return RHO_OK;

@@ -11,6 +11,7 @@
 
 #define SCANS_MIN 4u
 #define LINES_MAX 96u
+#define VOTES_MIN 2u /* of a line */
 #define DENSITY_MIN_PER_RAD 0.3f
 #define SIGMA_RATIO_MAX 200.0f
 #define SQRT_TWO_PI 2.50662827f
@@ -27,7 +28,8 @@ void rho_passive_config_default(struct rho_passive_config *config)
                                           .hits_min = 0.65f,
                                           .rho_cell_m = 2000.0f,
                                           .theta_cell_rad = RHO_PI / 36.0f,
-                                          .rule = RHO_GHOST_SAFE};
+                                          .rule = RHO_GHOST_SAFE,
+                                          .false_tracks_per_hour = 1.0f};
 }
 
 static int is_usable(const struct rho_passive_config *config)
@@ -42,6 +44,7 @@ static int is_usable(const struct rho_passive_config *config)
            2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS &&
            rho_is_within(config->theta_cell_rad, 0.99f * RHO_PI / (float)RHO_PASSIVE_THETA_CELLS,
                          0.5f) &&
+           rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f) &&
            (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
@@ -89,6 +92,16 @@ enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_f
         passive->num_tracks = 0;
     }
     return status;
+}
+
+enum rho_status rho_passive_accepts(const struct rho_passive *passive,
+                                    const struct rho_frame *frame)
+{
+    if (!passive) {
+        return RHO_ERROR_NULL;
+    }
+    return passive->magic == PASSIVE_MAGIC ? rho_batch_accepts(&passive->batch, frame)
+                                           : RHO_ERROR_STATE;
 }
 
 uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
@@ -178,18 +191,49 @@ static void set_cells(struct rho_passive_search *search)
     }
 }
 
+/* Scans that two sensors or more reported in: only these have crossings, and votes. */
+static unsigned count_crossed(const struct rho_batch *batch)
+{
+    unsigned count = 0;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        unsigned seen = 0;
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            seen += batch->was_seen[k][s];
+        }
+        count += seen >= 2;
+    }
+    return count;
+}
+
 /* One pass over the lines of the bearings that are there. */
 static void pass(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;
-    float votes = votes_share * (float)search->passive->batch.num_scans;
+    float votes = votes_share * (float)count_crossed(&search->passive->batch);
     unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
+    votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_cross(search);
     rho_passive_vote(search);
     for (unsigned i = 0; i < LINES_MAX && rho_passive_next_line(search, votes_min, &line); i++) {
         search->passive->work.peaks = rho_count(search->passive->work.peaks, 1);
         rho_passive_propose(search, &line);
     }
+}
+
+/*
+ * Evidence beyond the four bearings of two crossings: its likelihood ratio has the mean 1 where all is chance, so that it
+ * reaches e^s once in e^s pairs of crossings, at most. Pairs with the newest frame's are new at each search.
+ */
+static void set_start(const struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    float points = (float)(passive->work.crossings - passive->work.ghosts);
+    float pairs = 0.5f * points * points + 1.0f;
+    float interval_h = 2.0f * search->half_s / (float)(passive->batch.num_scans - 1) / 3600.0f;
+    float allowed = passive->config.false_tracks_per_hour * interval_h;
+    float start_nat =
+        4.0f * (search->share_nat + search->miss_nat) + rho_log(pairs) - rho_log(allowed);
+    passive->start_mnat = (int32_t)(1000.0f * start_nat);
 }
 
 enum rho_status rho_passive_search(struct rho_passive *passive)
@@ -204,6 +248,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     memset(&passive->work, 0, sizeof passive->work);
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);
     passive->num_tracks = passive->num_candidates = 0;
+    passive->start_mnat = 0;
     rho_batch_close_ranks(&passive->batch);
     if (passive->batch.num_scans < SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
@@ -215,6 +260,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     set_cells(&search);
     pass(&search, 0.6f);
     rho_passive_select(&search);
+    set_start(&search);
     search.is_second = 1;
     pass(&search, 0.5f);
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);

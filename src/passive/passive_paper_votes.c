@@ -34,7 +34,7 @@ static void cross_scan(struct rho_passive_paper_search *search,
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_ghost_matrix matrix;
-    float bearings_a_rad[RHO_MAX_BEARINGS], bearings_b_rad[RHO_MAX_BEARINGS];
+    float bearings_a_rad[RHO_MAX_BEARINGS] = {0}, bearings_b_rad[RHO_MAX_BEARINGS] = {0};
     unsigned num_a = gather(&paper->batch, scan, a, bearings_a_rad);
     unsigned num_b = gather(&paper->batch, scan, b, bearings_b_rad);
     if (rho_ghost_fill(&matrix, base, bearings_a_rad, num_a, bearings_b_rad, num_b,

@@ -19,9 +19,33 @@
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
 typedef char rho_assert_tracker_ram[sizeof(struct rho_tracker) <= RHO_RAM_TRACKER_BYTES ? 1 : -1];
 
+/* ---- what a step is asked ---------------------------------------------------------------------- */
+
+int rho_tracker_is_ready(const struct rho_tracker *tracker)
+{
+    return tracker->magic == TRACKER_MAGIC;
+}
+
+int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us)
+{
+    return tracker->has_time && time_us < tracker->time_us;
+}
+
+int rho_tracker_is_time(int64_t time_us)
+{
+    return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
+}
+
+int rho_tracker_is_sector(float from_rad, float to_rad)
+{
+    return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
+           rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
+}
+
 /* ---- sensors ---------------------------------------------------------------------------------- */
 
-static const struct rho_sensor *find_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
+const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
+                                                 int32_t sensor_id)
 {
     for (unsigned i = 0; i < tracker->num_sensors; i++) {
         if (tracker->sensors[i].sensor_id == sensor_id) {
@@ -56,20 +80,22 @@ static void judge_plots(struct step *step)
     }
 }
 
+void rho_tracker_set_pd(struct step *step)
+{
+    float pd = step->sensor ? step->sensor->pd : step->tracker->config.pd;
+    step->log_pd = rho_log(pd);
+    step->log_miss = rho_log(1.0f - pd);
+}
+
 static void begin(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
-    step->sensor = find_sensor(tracker, step->scan->sensor_id);
-    float pd = step->sensor ? step->sensor->pd : tracker->config.pd;
-    step->log_pd = rho_log(pd);
-    step->log_miss = rho_log(1.0f - pd);
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
-    tracker->time_us = step->scan->time_us;
+    tracker->time_us = step->time_us;
     tracker->has_time = 1;
-    judge_plots(step);
 }
 
 /* ---- report ----------------------------------------------------------------------------------- */
@@ -77,10 +103,10 @@ static void begin(struct step *step)
 static void report_track(const struct step *step, const struct rho_track *track,
                          struct rho_track_report *out)
 {
-    int64_t age_us = step->scan->time_us - track->updated_us;
+    int64_t age_us = step->time_us - track->updated_us;
     struct rho_track at = *track;
     /* back from the plot's own time to the scan's, without noise: nothing to refuse */
-    (void)!rho_track_predict(&at, step->scan->time_us, &step->model);
+    (void)!rho_track_predict(&at, step->time_us, &step->model);
     *out = (struct rho_track_report){
         .track_id = track->track_id,
         .status = (enum rho_track_status)track->status,
@@ -109,11 +135,11 @@ static void count_fates(const struct step *step)
     }
     int late = step->num_gated > 0 && report->fates[0] == RHO_FATE_STALE;
     report->fates_total[late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] +=
-        step->scan->num_plots - step->num_gated;
+        step->num_inputs - step->num_gated;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
     }
-    counters->plots_in = rho_count(counters->plots_in, step->scan->num_plots);
+    counters->plots_in = rho_count(counters->plots_in, step->num_inputs);
 }
 
 static void note_unclaimed(struct step *step)
@@ -127,7 +153,7 @@ static void note_unclaimed(struct step *step)
         CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_plots);
 }
 
-static void report_all(struct step *step)
+void rho_tracker_close(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     count_fates(step);
@@ -173,6 +199,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     memset(tracker, 0, sizeof *tracker);
     tracker->config = copy;
     tracker->next_track_id = 1;
+    tracker->looks_max = 1;
     tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
     tracker->magic = TRACKER_MAGIC;
     return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
@@ -183,7 +210,7 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
     if (!tracker || !sensor) {
         return RHO_ERROR_NULL;
     }
-    if (tracker->magic != TRACKER_MAGIC) {
+    if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
     if (!is_usable_sensor(sensor)) {
@@ -209,19 +236,17 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
     if (!tracker || !scan || !report || (scan->num_plots && !scan->plots)) {
         return RHO_ERROR_NULL;
     }
-    if (tracker->magic != TRACKER_MAGIC) {
+    if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
-        !rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI)) {
+    if (!rho_tracker_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+        !rho_tracker_is_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
-    if (scan->time_us > RHO_LIMIT_TIME_US || scan->time_us < -RHO_LIMIT_TIME_US) {
-        return RHO_ERROR_VALUE;
-    }
-    int late = tracker->has_time && scan->time_us < tracker->time_us;
-    return !initiator || late || rho_initiator_accepts(initiator, scan->time_us) ? RHO_OK
-                                                                                 : RHO_ERROR_STATE;
+    return !initiator || rho_tracker_is_late(tracker, scan->time_us) ||
+                   rho_initiator_accepts(initiator, scan->time_us)
+               ? RHO_OK
+               : RHO_ERROR_STATE;
 }
 
 /* A scan older than what was stepped: counted, and nothing else. */
@@ -233,13 +258,30 @@ static void refuse_late(struct step *step)
 
 static void take_in(struct step *step)
 {
-    begin(step);
+    step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
+    rho_tracker_set_pd(step);
+    judge_plots(step);
     rho_tracker_predict(step);
     rho_tracker_claim(step);
     rho_tracker_update(step);
     rho_tracker_age(step);
     rho_tracker_initiate(step);
     note_unclaimed(step);
+}
+
+int rho_tracker_open(struct step *step)
+{
+    struct rho_report *report = step->report;
+    step->num_gated = step->num_inputs < RHO_MAX_PLOTS ? step->num_inputs : RHO_MAX_PLOTS;
+    memset(report, 0, sizeof *report);
+    report->time_us = step->time_us;
+    report->num_plots = step->num_inputs;
+    if (rho_tracker_is_late(step->tracker, step->time_us)) {
+        refuse_late(step);
+        return 0;
+    }
+    begin(step);
+    return 1;
 }
 
 enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiator *initiator,
@@ -254,16 +296,12 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         .initiator = initiator,
         .scan = scan,
         .report = report,
-        .num_gated = scan->num_plots < RHO_MAX_PLOTS ? scan->num_plots : RHO_MAX_PLOTS,
+        .time_us = scan->time_us,
+        .num_inputs = scan->num_plots,
     };
-    memset(report, 0, sizeof *report);
-    report->time_us = scan->time_us;
-    report->num_plots = scan->num_plots;
-    if (tracker->has_time && scan->time_us < tracker->time_us) {
-        refuse_late(&step);
-    } else {
+    if (rho_tracker_open(&step)) {
         take_in(&step);
     }
-    report_all(&step);
+    rho_tracker_close(&step);
     return RHO_OK;
 }

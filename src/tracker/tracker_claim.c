@@ -28,7 +28,7 @@ void rho_tracker_predict(struct step *step)
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
         /* an estimate that time has made worthless cannot be carried on */
-        if (rho_track_predict(track, step->scan->time_us, &step->model) != RHO_OK) {
+        if (rho_track_predict(track, step->time_us, &step->model) != RHO_OK) {
             rho_tracker_end_track(step, track, (enum rho_track_status)track->status);
         }
     }

@@ -23,11 +23,11 @@ void rho_tracker_end_track(struct step *step, struct rho_track *track, enum rho_
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
 
-static int looked_at(const struct step *step, const struct rho_track *track)
+int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
+                          const struct rho_track *track)
 {
-    return rho_measurement_looks_at(step->sensor, step->scan->sector_from_rad,
-                                    step->scan->sector_to_rad, track->kalman.state[0],
-                                    track->kalman.state[1]);
+    return rho_measurement_looks_at(step->sensor, sector_from_rad, sector_to_rad,
+                                    track->kalman.state[0], track->kalman.state[1]);
 }
 
 /* What a miss of the best sensor costs: a weak sensor's scan must not make earlier misses of a better one weigh more. */
@@ -41,13 +41,14 @@ static float largest_loss(const struct step *step)
     return loss;
 }
 
-static struct rho_track_limits limits_of(const struct step *step)
+struct rho_track_limits rho_tracker_limits(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     struct rho_track_limits limits = {
         .confirm_mnat = tracker->confirm_mnat,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat = rho_tracker_mnat(largest_loss(step) * (float)tracker->config.coast_scans_max),
+        .fall_mnat = rho_tracker_mnat(largest_loss(step) * (float)tracker->config.coast_scans_max *
+                                      (float)tracker->looks_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
     return limits;
@@ -68,14 +69,16 @@ static void judge(struct step *step, struct rho_track *track, const struct rho_t
 void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_track_limits limits = limits_of(step);
+    struct rho_track_limits limits = rho_tracker_limits(step);
     unsigned live = 0;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         if (track->status == RHO_TRACK_FREE) {
             continue;
         }
-        if (track->plot < 0 && looked_at(step, track)) {
+        if (step->scan && track->plot < 0 &&
+            rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
+                                  track)) {
             rho_track_miss(track, rho_tracker_mnat(-step->log_miss));
         }
         judge(step, track, &limits);
@@ -135,6 +138,20 @@ static unsigned gather_plots(struct rho_initiator *initiator, const struct rho_c
     return n;
 }
 
+int rho_tracker_admit(struct step *step, struct rho_track *track,
+                      const struct rho_track_limits *limits)
+{
+    struct rho_tracker *tracker = step->tracker;
+    if (!make_room(tracker, track->score_mnat)) {
+        return 0;
+    }
+    judge(step, track, limits);
+    tracker->tracks[tracker->num_tracks++] = *track;
+    tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
+    tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);
+    return 1;
+}
+
 static void start_track(struct step *step, const struct rho_candidate *candidate,
                         const struct rho_track_limits *limits)
 {
@@ -147,15 +164,10 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         return;
     }
-    if (!make_room(tracker, candidate->score_mnat)) {
-        return;
+    if (rho_tracker_admit(step, &track, limits)) {
+        tracker->counters.plots_initiated = rho_count(
+            tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
     }
-    judge(step, &track, limits);
-    tracker->tracks[tracker->num_tracks++] = track;
-    tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
-    tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);
-    tracker->counters.plots_initiated = rho_count(
-        tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
 }
 
 static void refuse_unclaimed(struct step *step)
@@ -185,7 +197,7 @@ void rho_tracker_initiate(struct step *step)
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
     tracker->start_mnat = initiator->start_mnat;
     tracker->confirm_mnat = initiator->confirm_mnat;
-    struct rho_track_limits limits = limits_of(step);
+    struct rho_track_limits limits = rho_tracker_limits(step);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         start_track(step, &initiator->candidates[i], &limits);
     }

@@ -9,15 +9,38 @@
 
 struct step {
     struct rho_tracker *tracker;
-    struct rho_initiator *initiator; /* or NULL */
+    int64_t time_us;
+    /* a scan of plots, and who starts tracks of them, or NULL */
     const struct rho_scan *scan;
+    struct rho_initiator *initiator;
+    /* or a frame of bearings, and who starts tracks of these, or NULL */
+    const struct rho_frame *frame;
+    struct rho_passive *passive;
     struct rho_report *report;
-    const struct rho_sensor *sensor; /* NULL: not in the table */
-    uint32_t num_gated;              /* plots with a place in report->fates */
+    const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
+    uint32_t num_inputs;             /* plots or bearings */
+    uint32_t num_gated;              /* of them: have a place in report->fates */
     struct rho_track_model model;
     float log_pd;
     float log_miss; /* ln(1 - pd) */
 };
+
+/* tracker.c: what a step may be asked */
+int rho_tracker_is_ready(const struct rho_tracker *tracker);
+int rho_tracker_is_time(int64_t time_us);
+int rho_tracker_is_sector(float from_rad, float to_rad);
+int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
+
+/* NULL: not in the table */
+const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
+                                                 int32_t sensor_id);
+
+/* The pd of the sensor that looks. */
+void rho_tracker_set_pd(struct step *step);
+
+/* A report begins; 0 where the inputs are late, and have their fates. It ends with rho_tracker_close in any case. */
+int rho_tracker_open(struct step *step);
+void rho_tracker_close(struct step *step);
 
 /* tracker_claim.c: existing tracks take their plots */
 void rho_tracker_predict(struct step *step);
@@ -28,6 +51,22 @@ void rho_tracker_update(struct step *step);
 void rho_tracker_end_track(struct step *step, struct rho_track *track, enum rho_track_status was);
 void rho_tracker_age(struct step *step);
 void rho_tracker_initiate(struct step *step);
+
+/* A candidate that became a track has its place; 0 where there is none. The limits confirm it, or not. */
+int rho_tracker_admit(struct step *step, struct rho_track *track,
+                      const struct rho_track_limits *limits);
+struct rho_track_limits rho_tracker_limits(const struct step *step);
+int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
+                          const struct rho_track *track);
+
+/* tracker_passive.c: tracks start from the bearings that nobody claimed. This file and tracker_frame.c are not needed by
+ * who steps plots alone: a linker leaves them and all of passive out. */
+void rho_tracker_initiate_passive(struct step *step);
+
+/* How many bearings of a scan, the first of which is the frame's bearing `first`, have a fate of their own and are held. */
+uint32_t rho_tracker_num_held(const struct step *step, const struct rho_bearing_scan *scan,
+                              uint32_t first);
+int rho_tracker_is_bearing(const struct rho_bearing *bearing);
 
 /* Thousandths of a nat, within the assignment's range. */
 int32_t rho_tracker_mnat(float nat);

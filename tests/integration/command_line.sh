@@ -51,8 +51,8 @@ refuse 'gate of a later version' '--gate best is not in this version*' track plo
 refuse 'hough gate of a later version' '--gate hough is not in this version*' track plots.csv --gate hough
 refuse 'unknown gate' "unknown gate 'x'*" track plots.csv --gate x
 refuse 'follow of a later version' '--follow is not in this version' track plots.csv --follow
-refuse 'method of a later version' "method 'passive-paper' is not in this version; there are: kernel, *" \
-    initiate plots.csv --method passive-paper
+refuse 'unknown method' "no method 'passive-papers'; there are: kernel, ht, mht, iht, nht, passive, passive-paper" \
+    initiate plots.csv --method passive-papers
 refuse 'runs not a number' "--runs 'many' is not a whole number" experiment initiation --runs many
 refuse 'no runs' '--runs 0 is outside 1 .. *' experiment initiation --runs 0
 refuse 'negative seed' "--seed '-1' is not a whole number" experiment initiation --seed -1

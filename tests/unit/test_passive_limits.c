@@ -626,6 +626,7 @@ static struct rho_passive_config some_config(void)
     config.rho_cell_m = some_float(1e3, 1e4);
     config.theta_cell_rad = some_float(0.08, 0.5);
     config.rule = (enum rho_ghost_rule)(random_bits() % 3);
+    config.false_tracks_per_hour = some_float(1e-6, 1e6);
     return config;
 }
 

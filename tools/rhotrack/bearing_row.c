@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "bearing_row.h"
 
+#include <math.h>
+
+#include "rhotrack/angle.h"
+
 #define PI 3.1415927f /* the nearest float, a little more: -pi .. pi as numbers of a file */
 
 /* ---- Columns ---- */
@@ -48,6 +52,19 @@ struct bearing_columns bearing_columns_find(const struct table *table)
 
 /* ---- Rows ---- */
 
+/* What the sensor is said to measure too much of. */
+static void take_off_biases(const struct parameters *parameters, struct bearing_row *row)
+{
+    double bias_rad =
+        parameters_of_sensor(parameters, row->sensor_id, SENSOR_AZIMUTH_BIAS_RAD, 0.0);
+    double bias_s = parameters_of_sensor(parameters, row->sensor_id, SENSOR_TIME_BIAS_S, 0.0);
+
+    if (bias_rad < 0.0 || bias_rad > 0.0) {
+        row->bearing.bearing_rad = rho_angle_difference(row->bearing.bearing_rad, (float)bias_rad);
+    }
+    row->bearing.offset_us = (int32_t)-lround(bias_s * 1e6);
+}
+
 static bool read_bearing(const struct row_check *check, const struct bearing_columns *columns,
                          const struct parameters *parameters, struct bearing_row *row)
 {
@@ -55,8 +72,11 @@ static bool read_bearing(const struct row_check *check, const struct bearing_col
                                             parameters->value[PARAMETER_SIGMA_RAD]);
 
     row->has_bearing = true;
-    return row_float(check, columns->bearing_rad, -PI, PI, &row->bearing.bearing_rad) &&
-           row_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
+    if (!row_float(check, columns->bearing_rad, -PI, PI, &row->bearing.bearing_rad)) {
+        return false;
+    }
+    take_off_biases(parameters, row);
+    return row_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
            row_snr(check, columns->snr_db, &row->bearing.snr_db);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "common.h"
+#include "method.h"
 
 void must_succeed(enum rho_status status, const char *what)
 {
@@ -23,6 +24,7 @@ struct chain chain_start(void)
 void chain_free(struct chain *chain)
 {
     free(chain->initiator);
+    free(chain->passive);
     free(chain->tracker);
     free(chain->report);
     free(chain->plots);
@@ -39,7 +41,25 @@ void chain_open(struct chain *chain, const struct parameters *parameters)
     must_succeed(rho_tracker_init(chain->tracker, sizeof *chain->tracker, &maintain), "tracker");
 }
 
+void chain_open_passive(struct chain *chain, const struct parameters *parameters)
+{
+    struct parameters customary = *parameters;
+
+    method_suggest(METHOD_PASSIVE, &customary);
+    struct rho_passive_config config = method_passive(&customary);
+    if (!chain->passive) {
+        chain->passive = must_alloc(sizeof *chain->passive);
+    }
+    must_succeed(rho_passive_init(chain->passive, sizeof *chain->passive, &config), "passive");
+}
+
 void chain_step(struct chain *chain, const struct rho_scan *scan)
 {
     must_succeed(rho_tracker_step(chain->tracker, chain->initiator, scan, chain->report), "step");
+}
+
+void chain_step_frame(struct chain *chain, const struct rho_frame *frame)
+{
+    must_succeed(rho_tracker_step_frame(chain->tracker, chain->passive, frame, chain->report),
+                 "step");
 }

@@ -7,6 +7,7 @@
 
 struct chain {
     struct rho_initiator *initiator;
+    struct rho_passive *passive; /* NULL before chain_open_passive */
     struct rho_tracker *tracker;
     struct rho_report *report;
     struct rho_plot *plots; /* RHO_MAX_PLOTS, for the caller's scans */
@@ -18,8 +19,12 @@ void chain_free(struct chain *chain);
 /* Ready for a first scan. */
 void chain_open(struct chain *chain, const struct parameters *parameters);
 
+/* The same with bearings: the tracks that these start. After chain_open. */
+void chain_open_passive(struct chain *chain, const struct parameters *parameters);
+
 /* One step; the report is the chain's. */
 void chain_step(struct chain *chain, const struct rho_scan *scan);
+void chain_step_frame(struct chain *chain, const struct rho_frame *frame);
 
 /* Exit 1 naming what the library refused, and why. */
 void must_succeed(enum rho_status status, const char *what);

@@ -47,6 +47,7 @@ struct life {
     int32_t id, partner; /* partner: the track that a target had last */
     size_t rows, paired;
     size_t first_pair; /* rows until the first pair */
+    size_t last_time;  /* of a track, the last that it has a row at, from 1 */
 };
 
 struct lives {
@@ -246,6 +247,23 @@ static void check_time(const struct evaluation *e, const struct table *table, si
     }
 }
 
+/* Scans of several sensors at one time give a track a row each: the last one is what is known at that time. The rows that
+ * count go to the end of the range; where they begin. */
+static size_t keep_last(struct evaluation *e, size_t begin, size_t end)
+{
+    size_t kept = end;
+
+    for (size_t i = end; i-- > begin;) {
+        struct life *life = life_of(&e->track_lives, e->tracks.list[i].id);
+
+        if (life->last_time != e->times + 1) {
+            life->last_time = e->times + 1;
+            e->tracks.list[--kept] = e->tracks.list[i];
+        }
+    }
+    return kept;
+}
+
 static void evaluate_all(struct evaluation *e, const struct table *tracks_table)
 {
     size_t target = 0, track = 0;
@@ -254,6 +272,7 @@ static void evaluate_all(struct evaluation *e, const struct table *tracks_table)
         check_time(e, tracks_table, track, time_us);
         size_t target_end = end_of_time(&e->truth, target, time_us);
         size_t track_end = end_of_time(&e->tracks, track, time_us);
+        track = keep_last(e, track, track_end);
         evaluate_time(e, &e->truth.list[target], target_end - target, &e->tracks.list[track],
                       track_end - track);
         target = target_end;

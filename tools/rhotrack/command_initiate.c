@@ -10,6 +10,7 @@
 #include "frame_reader.h"
 #include "initiate_classic.h"
 #include "initiate_passive.h"
+#include "initiate_passive_paper.h"
 #include "scan_reader.h"
 #include "tracks_writer.h"
 
@@ -172,7 +173,7 @@ static enum method choose_method(const struct command_line *line)
         return has_bearings ? METHOD_PASSIVE : METHOD_KERNEL;
     }
     enum method method = method_find(line->method);
-    if (has_bearings && method != METHOD_PASSIVE) {
+    if (has_bearings && !method_takes_bearings(method)) {
         fail(EXIT_USAGE, "%s: holds bearings, and method %s takes plots; try --method passive",
              line->arguments[0], line->method);
     }
@@ -188,6 +189,8 @@ int command_initiate(struct command_line *line)
         initiate_kernel(line);
     } else if (method == METHOD_PASSIVE) {
         initiate_passive(line);
+    } else if (method == METHOD_PASSIVE_PAPER) {
+        initiate_passive_paper(line);
     } else {
         initiate_classic(line, method);
     }

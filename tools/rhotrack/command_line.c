@@ -8,6 +8,7 @@
 
 #include "common.h"
 #include "hint.h"
+#include "method.h"
 
 enum { NUM_OPTIONS = 12, RUNS_MAX = 1000000 };
 
@@ -17,7 +18,7 @@ static const struct {
     const char *name, *argument, *text; /* no text: not in this version */
 } options[NUM_OPTIONS] = {
     {'o', "output", "OUTPUT", "where to write; it appears there only when it is complete"},
-    {'m', "method", "METHOD", "how tracks are initiated: kernel (the default), ht, mht, iht, nht"},
+    {'m', "method", "METHOD", "how tracks are initiated: " METHOD_NAMES},
     {'g', "gate", "GATE", "how tracks choose their plots: nearest (the default)"},
     {'f', "follow", NULL, NULL},
     {'c', "covariance", NULL, "tracks with 21 columns more: the covariance's lower triangle"},

@@ -8,7 +8,9 @@
 #include "chain.h"
 #include "commands.h"
 #include "common.h"
-#include "scan_reader.h"
+#include "frame_reader.h"
+#include "inputs.h"
+#include "method.h"
 #include "tracks_writer.h"
 
 struct tracking {
@@ -41,16 +43,44 @@ static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
     must_succeed(status, "sensor");
 }
 
-static void step(struct tracking *tracking, const struct rho_scan *scan,
-                 const struct rho_sensor *sensor)
+/* Passive sensors stand still and are known from the start. */
+static void describe_passive(struct tracking *tracking, const struct inputs *inputs,
+                             const struct parameters *parameters)
+{
+    size_t count;
+    const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
+
+    if (count > RHO_MAX_PASSIVE_SENSORS) {
+        fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,
+             RHO_MAX_PASSIVE_SENSORS);
+    }
+    for (size_t i = 0; i < count; i++) {
+        struct rho_sensor sensor;
+
+        if (parameters_to_sensor(parameters, sensors[i].sensor_id, &sensor)) {
+            sensor.x_m = sensors[i].x_m;
+            sensor.y_m = sensors[i].y_m;
+            sensor.range_max_m =
+                (float)parameters_of_sensor(parameters, sensors[i].sensor_id, SENSOR_RANGE_MAX_M,
+                                            parameters->value[PARAMETER_RANGE_MAX_M]);
+            describe(tracking, &sensor);
+        }
+    }
+}
+
+static void step(struct tracking *tracking, const struct input *input)
 {
     int64_t start_us, took_us;
 
-    if (sensor) {
-        describe(tracking, sensor);
+    if (input->sensor) {
+        describe(tracking, input->sensor);
     }
     start_us = clock_us();
-    chain_step(&tracking->chain, scan);
+    if (input->scan) {
+        chain_step(&tracking->chain, input->scan);
+    } else {
+        chain_step_frame(&tracking->chain, input->frame);
+    }
     took_us = clock_us() - start_us;
     tracking->sum_us += took_us;
     if (took_us > tracking->max_us) {
@@ -58,18 +88,18 @@ static void step(struct tracking *tracking, const struct rho_scan *scan,
     }
 }
 
-static void step_all(struct tracking *tracking, struct scan_reader *reader, FILE *file,
+static void step_all(struct tracking *tracking, struct inputs *inputs, uint64_t total, FILE *file,
                      bool with_covariance)
 {
-    struct progress progress = progress_start("scans", scan_reader_total(reader));
-    const struct rho_scan *scan;
+    struct progress progress = progress_start("scans", total);
     uint64_t done = 0;
 
     if (file) {
         tracks_write_header(file, with_covariance);
     }
-    while ((scan = scan_reader_next(reader))) {
-        step(tracking, scan, scan_reader_sensor(reader));
+    for (struct input input = inputs_next(inputs); input.scan || input.frame;
+         input = inputs_next(inputs)) {
+        step(tracking, &input);
         if (file) {
             tracks_write_report(file, tracking->chain.report, with_covariance);
         }
@@ -80,21 +110,24 @@ static void step_all(struct tracking *tracking, struct scan_reader *reader, FILE
 
 /* ---- What it comes to ---- */
 
-static double mean_us(const struct tracking *tracking, const struct scan_reader_counts *counts)
+static double mean_us(const struct tracking *tracking, const struct inputs_counts *counts)
 {
-    return (double)tracking->sum_us / (double)counts->scans;
+    return (double)tracking->sum_us / (double)counts->steps;
 }
 
-static void print_summary(const struct tracking *tracking, const struct scan_reader_counts *counts)
+static void print_summary(const struct tracking *tracking, const struct inputs_counts *counts)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots, %" PRIu32 " tracks confirmed; lost: "
             "%" PRIu32 " invalid, %" PRIu32 " stale, %" PRIu32 " no room",
-            counts->scans, counts->plots, counters->tracks_confirmed,
+            counts->steps, counts->plots, counters->tracks_confirmed,
             counters->fates[RHO_FATE_INVALID], counters->fates[RHO_FATE_STALE],
             counters->fates[RHO_FATE_NO_ROOM]);
+    if (counts->frames_incomplete) {
+        fprintf(stderr, ", %" PRIu64 " frames miss a sensor", counts->frames_incomplete);
+    }
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
@@ -129,50 +162,71 @@ static cJSON *counters_json(const struct rho_tracker_counters *counters)
     return object;
 }
 
-static void print_json(const struct tracking *tracking, const struct scan_reader_counts *counts)
+static size_t count_bytes(const struct tracking *tracking, const struct inputs *inputs)
+{
+    return sizeof *tracking->chain.tracker +
+           (inputs_have_plots(inputs) ? sizeof *tracking->chain.initiator : 0) +
+           (inputs_have_bearings(inputs) ? sizeof *tracking->chain.passive : 0);
+}
+
+static void print_json(const struct tracking *tracking, const struct inputs *inputs,
+                       const struct inputs_counts *counts)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
     cJSON *object = cJSON_CreateObject();
 
-    cJSON_AddNumberToObject(object, "scans", (double)counts->scans);
+    cJSON_AddNumberToObject(object, "scans", (double)counts->steps);
     cJSON_AddNumberToObject(object, "plots", (double)counts->plots);
+    cJSON_AddNumberToObject(object, "frames", (double)counts->frames);
+    cJSON_AddNumberToObject(object, "frames_incomplete", (double)counts->frames_incomplete);
     cJSON_AddNumberToObject(object, "rows_skipped", (double)counts->rows_skipped);
     cJSON_AddNumberToObject(object, "tracks_confirmed", counters->tracks_confirmed);
     cJSON_AddItemToObject(object, "fates", fates_json(counters));
     cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
-    cJSON_AddNumberToObject(
-        object, "state_bytes",
-        (double)(sizeof *tracking->chain.tracker + sizeof *tracking->chain.initiator));
+    cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
     cJSON_AddItemToObject(object, "counters", counters_json(counters));
     json_print(object);
+}
+
+/* Where there are bearings alone, what is customary with them holds for the tracks as well. */
+static void open_chain(struct tracking *tracking, const struct inputs *inputs,
+                       struct parameters *parameters)
+{
+    if (!inputs_have_plots(inputs)) {
+        method_suggest(METHOD_PASSIVE, parameters);
+    }
+    chain_open(&tracking->chain, parameters);
+    if (inputs_have_bearings(inputs)) {
+        chain_open_passive(&tracking->chain, parameters);
+    }
+    describe_passive(tracking, inputs, parameters);
 }
 
 int command_track(struct command_line *line)
 {
     bool has_file = line->output || !line->json;
-    struct scan_reader *reader;
-    struct scan_reader_counts counts;
+    struct inputs *inputs;
+    struct inputs_counts counts;
     struct output output;
     struct tracking tracking = {.chain = chain_start()};
 
     check_gate(line->gate);
-    chain_open(&tracking.chain, &line->parameters);
-    reader =
-        scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
-    counts = scan_reader_counts(reader);
+    inputs = inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    open_chain(&tracking, inputs, &line->parameters);
+    counts = inputs_counts(inputs);
     if (has_file) {
         output = output_open(line->output);
     }
-    step_all(&tracking, reader, has_file ? output.file : NULL, line->covariance);
+    step_all(&tracking, inputs, counts.steps, has_file ? output.file : NULL, line->covariance);
     if (has_file) {
         output_close(&output);
     }
     print_summary(&tracking, &counts);
     if (line->json) {
-        print_json(&tracking, &counts);
+        print_json(&tracking, inputs, &counts);
     }
-    scan_reader_close(reader);
+    inputs_close(inputs);
     chain_free(&tracking.chain);
     return 0;
 }

@@ -190,7 +190,8 @@ static void add_row(struct frame_reader *reader, struct known_sensor *known,
                                 sizeof *reader->members);
     member = &reader->members[reader->num_members++];
     *member = (struct member){known->open, row->bearing};
-    member->bearing.offset_us = (int32_t)(row->time_us - reader->entries[known->open].scan.time_us);
+    member->bearing.offset_us +=
+        (int32_t)(row->time_us - reader->entries[known->open].scan.time_us);
     reader->entries[known->open].scan.num_bearings++;
 }
 
@@ -347,7 +348,7 @@ static void make_frames(struct frame_reader *reader)
     }
 }
 
-static void check_sensors(const struct frame_reader *reader)
+void frame_reader_need_pair(const struct frame_reader *reader)
 {
     if (reader->num_sensors < 2) {
         fail(EXIT_USAGE,
@@ -377,7 +378,6 @@ struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
     for (int i = 0; i < num_paths; i++) {
         read_path(reader, paths[i]);
     }
-    check_sensors(reader);
     sort_sensors(reader);
     place_bearings(reader);
     qsort(reader->entries, reader->num_entries, sizeof *reader->entries, compare_entries);

@@ -36,10 +36,13 @@ bool frame_reader_is_bearings(const char *path);
 /*
  * Opens and checks the files. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2; with keep_going bad rows are
  * skipped and counted instead. A sensor that moves, two in one place and more than RHO_MAX_SENSORS are errors of their
- * rows; fewer than two sensors are an error in any case.
+ * rows.
  */
 struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
                                        const struct parameters *parameters, bool keep_going);
+
+/* Fewer than two sensors: exit 2. Positions come from two or more. */
+void frame_reader_need_pair(const struct frame_reader *reader);
 
 /*
  * The next frame, or NULL after the last; valid until the close. Frames come in the order of time, which is their first

@@ -2,105 +2,37 @@
 #include "initiate_passive.h"
 
 #include <cjson/cJSON.h>
-#include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "bearings_batch.h"
 #include "chain.h"
 #include "common.h"
-#include "frame_reader.h"
 #include "method.h"
 #include "rhotrack/angle.h"
 #include "tracks_writer.h"
 
-struct batch {
-    struct rho_passive *passive;
-    uint64_t frames, bearings, num_lost; /* lost: the library had no room for them */
-    int64_t time_us;                     /* of the last frame */
-    int64_t wall_us;
-};
-
-/* ---- The batch ---- */
-
-static void push(struct batch *batch, const struct rho_frame *frame)
+static enum rho_status push(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
-    size_t count = 0;
-    uint8_t *fates;
-
-    for (uint32_t i = 0; i < frame->num_scans; i++) {
-        count += frame->scans[i].num_bearings;
-    }
-    fates = must_alloc(count + 1);
-    memset(fates, RHO_FATE_HELD, count + 1);
-    int64_t start_us = clock_us();
-    must_succeed(rho_passive_push(batch->passive, frame, fates), "passive");
-    batch->wall_us += clock_us() - start_us;
-    for (size_t i = 0; i < count; i++) {
-        batch->num_lost += fates[i] != RHO_FATE_HELD;
-    }
-    free(fates);
-    batch->frames++;
-    batch->bearings += count;
-    batch->time_us = frame->time_us;
+    return rho_passive_push(object, frame, fates);
 }
 
-static void check_sensors(const struct frame_reader *reader)
+static enum rho_status search(void *object)
 {
-    size_t count;
-
-    frame_reader_sensors(reader, &count);
-    if (count > RHO_MAX_PASSIVE_SENSORS) {
-        fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,
-             RHO_MAX_PASSIVE_SENSORS);
-    }
-}
-
-static void search(struct batch *batch, const struct command_line *line)
-{
-    struct rho_passive_config config = method_passive(&line->parameters);
-    struct frame_reader *reader = frame_reader_open(line->arguments, line->num_arguments,
-                                                    &line->parameters, line->keep_going);
-    const struct rho_frame *frame;
-
-    check_sensors(reader);
-    must_succeed(rho_passive_init(batch->passive, sizeof *batch->passive, &config), "passive");
-    frame_reader_skip(reader, config.scans);
-    while ((frame = frame_reader_next(reader))) {
-        push(batch, frame);
-    }
-    int64_t start_us = clock_us();
-    must_succeed(rho_passive_search(batch->passive), "passive");
-    batch->wall_us += clock_us() - start_us;
-    frame_reader_report(reader);
-    if (batch->num_lost) {
-        fprintf(stderr, "rhotrack: %" PRIu64 " bearings beyond %d a scan are left out\n",
-                batch->num_lost, RHO_MAX_BEARINGS);
-    }
-    frame_reader_close(reader);
+    return rho_passive_search(object);
 }
 
 /* ---- What it found ---- */
 
-static unsigned count_scans(const struct rho_passive_track *track)
-{
-    unsigned count = 0;
-
-    for (unsigned mask = track->scans; mask; mask &= mask - 1) {
-        count++;
-    }
-    return count;
-}
-
-static void write_found(const struct batch *batch, const char *path)
+static void write_found(const struct rho_passive *passive, int64_t time_us, const char *path)
 {
     struct output output = output_open(path);
 
     initiated_write_header(output.file);
-    for (unsigned i = 0; i < batch->passive->num_tracks; i++) {
-        const struct rho_passive_track *track = &batch->passive->tracks[i];
+    for (unsigned i = 0; i < passive->num_tracks; i++) {
+        const struct rho_passive_track *track = &passive->tracks[i];
         struct rho_line line = rho_angle_line(track->x_m, track->y_m, track->vx_mps, track->vy_mps);
         struct initiated row = {.track_id = i + 1,
-                                .time_us = batch->time_us,
+                                .time_us = time_us,
                                 .has_state = true,
                                 .x_m = track->x_m,
                                 .y_m = track->y_m,
@@ -108,7 +40,7 @@ static void write_found(const struct batch *batch, const char *path)
                                 .vy_mps = track->vy_mps,
                                 .rho_m = line.rho_m,
                                 .theta_rad = line.theta_rad,
-                                .scans = count_scans(track),
+                                .scans = bearings_count_scans(track->scans),
                                 .score = (double)((float)track->score_mnat / 1000.0f)};
 
         initiated_write_row(output.file, &row);
@@ -135,9 +67,8 @@ static void add_votes(cJSON *object, const struct rho_passive *passive)
     cJSON_AddItemToObject(object, "peak_votes", cJSON_CreateIntArray(hits, passive->num_tracks));
 }
 
-static void print_json(const struct batch *batch)
+static void print_json(const struct rho_passive *passive, const struct bearings_batch *batch)
 {
-    const struct rho_passive *passive = batch->passive;
     const struct rho_passive_work *work = &passive->work;
     cJSON *object = cJSON_CreateObject();
 
@@ -163,14 +94,17 @@ static void print_json(const struct batch *batch)
 
 void initiate_passive(const struct command_line *line)
 {
-    struct batch batch = {.passive = must_alloc(sizeof *batch.passive)};
+    struct rho_passive *passive = must_alloc(sizeof *passive);
+    struct rho_passive_config config = method_passive(&line->parameters);
+    struct bearings_search with = {passive, &passive->batch, push, search};
 
-    search(&batch, line);
+    must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
+    struct bearings_batch batch = bearings_batch_search(&with, line);
     if (line->output || !line->json) {
-        write_found(&batch, line->output);
+        write_found(passive, batch.time_us, line->output);
     }
     if (line->json) {
-        print_json(&batch);
+        print_json(passive, &batch);
     }
-    free(batch.passive);
+    free(passive);
 }

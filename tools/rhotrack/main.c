@@ -25,10 +25,9 @@ static const struct command commands[] = {
      "initiation alone, on the last scans as one batch",
      "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks "
      "found\n"
-     "in it (CSV), best first, at the time of the last scan. Methods: kernel (the default), and\n"
-     "those of the literature, for comparison: ht, mht, iht, nht (score: votes; place and "
-     "velocity\n"
-     "are fitted through the plots that voted).\n"},
+     "in it (CSV), best first, at the time of the last scan. Methods: kernel and, for bearings,\n"
+     "passive (the defaults), and those of the literature, for comparison: ht, mht, iht, nht, for\n"
+     "bearings passive-paper (score: votes; place and velocity are fitted through what voted).\n"},
     {"simulate", command_simulate, "SCENARIO -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
      "made-up targets, noise, misses and clutter",
      "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and "

@@ -6,11 +6,17 @@
 
 #include "common.h"
 
-static const char *const names[NUM_METHODS] = {"kernel", "ht", "mht", "iht", "nht", "passive"};
+static const char *const names[NUM_METHODS] = {"kernel", "ht",      "mht",          "iht",
+                                               "nht",    "passive", "passive-paper"};
 
 const char *method_name(enum method method)
 {
     return names[method];
+}
+
+bool method_takes_bearings(enum method method)
+{
+    return method == METHOD_PASSIVE || method == METHOD_PASSIVE_PAPER;
 }
 
 enum method method_find(const char *name)
@@ -20,20 +26,28 @@ enum method method_find(const char *name)
             return (enum method)i;
         }
     }
-    if (!strcmp(name, "passive-paper")) {
-        fail(EXIT_USAGE, "method '%s' is not in this version; there are: " METHOD_NAMES, name);
-    }
     fail(EXIT_USAGE, "no method '%s'; there are: " METHOD_NAMES, name);
+}
+
+static void suggest_bearings(struct parameters *parameters, double rho_cell_m,
+                             double theta_cell_rad, int prune)
+{
+    parameters_suggest(parameters, PARAMETER_SCANS, 8);
+    parameters_suggest(parameters, PARAMETER_D_RHO_M, rho_cell_m);
+    parameters_suggest(parameters, PARAMETER_D_THETA_RAD, theta_cell_rad);
+    parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 450);
+    parameters_suggest(parameters, PARAMETER_PRUNE, prune);
 }
 
 void method_suggest(enum method method, struct parameters *parameters)
 {
     if (method == METHOD_PASSIVE) {
-        parameters_suggest(parameters, PARAMETER_SCANS, 8);
-        parameters_suggest(parameters, PARAMETER_D_RHO_M, 2000);
-        parameters_suggest(parameters, PARAMETER_D_THETA_RAD, M_PI / 36);
-        parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 450);
-    } else if (method != METHOD_KERNEL) { /* the paper's */
+        suggest_bearings(parameters, 2000, M_PI / 36, 0); /* safe */
+        parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, 5);
+    } else if (method == METHOD_PASSIVE_PAPER) {
+        suggest_bearings(parameters, 1000, M_PI / 90, 1);  /* literal */
+        parameters_suggest(parameters, PARAMETER_VOTE, 0); /* scans */
+    } else if (method != METHOD_KERNEL) {                  /* the paper's */
         parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
         parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
         parameters_suggest(parameters, PARAMETER_VOTE, 1); /* counts */
@@ -122,23 +136,44 @@ struct rho_classic_config method_classic(enum method method, const struct parame
     return config;
 }
 
-struct rho_passive_config method_passive(const struct parameters *parameters)
+/* What both methods of bearings take. */
+static void check_bearings(const struct parameters *parameters, int rho_cells, int theta_cells)
 {
     const double *value = parameters->value;
     double cells = 2.0 * value[PARAMETER_RANGE_MAX_M] / value[PARAMETER_D_RHO_M];
-    struct rho_passive_config config;
 
     parameters_check(parameters);
-    if (cells > RHO_PASSIVE_RHO_CELLS) {
+    if (value[PARAMETER_SCANS] < 4) {
+        fail(EXIT_USAGE, "scans %.9g are too few for bearings: 4 or more", value[PARAMETER_SCANS]);
+    }
+    if (value[PARAMETER_RANGE_MAX_M] < 1000 || value[PARAMETER_RANGE_MAX_M] > 500000) {
+        fail(EXIT_USAGE, "range_max_m %.9g is outside 1000 .. 500000 m for bearings",
+             value[PARAMETER_RANGE_MAX_M]);
+    }
+    if (cells > rho_cells) {
         fail(EXIT_USAGE, "range_max_m %.9g takes %.0f cells of d_rho_m %.9g; there are %d",
-             value[PARAMETER_RANGE_MAX_M], ceil(cells), value[PARAMETER_D_RHO_M],
-             RHO_PASSIVE_RHO_CELLS);
+             value[PARAMETER_RANGE_MAX_M], ceil(cells), value[PARAMETER_D_RHO_M], rho_cells);
     }
-    if (M_PI / value[PARAMETER_D_THETA_RAD] > RHO_PASSIVE_THETA_CELLS + 0.5) {
+    if (M_PI / value[PARAMETER_D_THETA_RAD] > theta_cells + 0.5) {
         fail(EXIT_USAGE, "d_theta_rad %.9g takes %.0f cells over half a turn; there are %d",
-             value[PARAMETER_D_THETA_RAD], ceil(M_PI / value[PARAMETER_D_THETA_RAD]),
-             RHO_PASSIVE_THETA_CELLS);
+             value[PARAMETER_D_THETA_RAD], ceil(M_PI / value[PARAMETER_D_THETA_RAD]), theta_cells);
     }
+}
+
+static enum rho_ghost_rule rule_of(const struct parameters *parameters)
+{
+    static const enum rho_ghost_rule rules[3] = {RHO_GHOST_SAFE, RHO_GHOST_LITERAL,
+                                                 RHO_GHOST_NO_RULE};
+
+    return rules[(int)parameters->value[PARAMETER_PRUNE]];
+}
+
+struct rho_passive_config method_passive(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+    struct rho_passive_config config;
+
+    check_bearings(parameters, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
     rho_passive_config_default(&config);
     config.scans = (uint16_t)value[PARAMETER_SCANS];
     config.range_max_m = (float)value[PARAMETER_RANGE_MAX_M];
@@ -146,5 +181,28 @@ struct rho_passive_config method_passive(const struct parameters *parameters)
     config.pd = (float)value[PARAMETER_PD];
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.rule = rule_of(parameters);
+    config.false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
+    return config;
+}
+
+struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+    struct rho_passive_paper_config config;
+
+    check_bearings(parameters, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
+    if (value[PARAMETER_VOTES_MIN] > 255) {
+        fail(EXIT_USAGE, "votes_min %.9g is more than 255, what passive-paper counts to",
+             value[PARAMETER_VOTES_MIN]);
+    }
+    rho_passive_paper_config_default(&config);
+    config.scans = (uint16_t)value[PARAMETER_SCANS];
+    config.votes_min = (uint16_t)ceil(value[PARAMETER_VOTES_MIN]);
+    config.range_max_m = (float)value[PARAMETER_RANGE_MAX_M];
+    config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
+    config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.votes = value[PARAMETER_VOTE] > 0 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
+    config.rule = rule_of(parameters);
     return config;
 }

@@ -8,6 +8,7 @@
 #include "parameters.h"
 #include "rhotrack/classic.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/passive_paper.h"
 
 enum method {
     METHOD_KERNEL,
@@ -16,13 +17,17 @@ enum method {
     METHOD_IHT,
     METHOD_NHT,
     METHOD_PASSIVE,
+    METHOD_PASSIVE_PAPER,
     NUM_METHODS
 };
 
 #define METHOD_PLOT_NAMES "kernel, ht, mht, iht, nht"
-#define METHOD_NAMES METHOD_PLOT_NAMES ", passive"
+#define METHOD_NAMES METHOD_PLOT_NAMES ", passive, passive-paper"
 
 const char *method_name(enum method method);
+
+/* It takes bearings, not plots. */
+bool method_takes_bearings(enum method method);
 
 /* Unknown: exit 2 with the list. */
 enum method method_find(const char *name);
@@ -35,7 +40,9 @@ void method_suggest(enum method method, struct parameters *parameters);
 struct rho_classic_config method_classic(enum method method, const struct parameters *parameters,
                                          double range_m);
 
-/* The config of passive. Exit 2 where its cells do not hold range_max_m. */
+/* The config of passive, and of passive-paper. Exit 2 where their cells do not hold range_max_m or half a turn, or they
+ * take no such scans, range or votes. */
 struct rho_passive_config method_passive(const struct parameters *parameters);
+struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters);
 
 #endif

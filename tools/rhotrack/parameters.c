@@ -25,7 +25,16 @@ static const struct parameter_text sensor_texts[NUM_SENSOR_PARAMETERS] = {
 /* Parameters that are words. */
 static const char *choices_of(enum parameter_id id)
 {
-    return id == PARAMETER_NHT_READING ? "a|c" : id == PARAMETER_VOTE ? "scans|counts" : NULL;
+    switch (id) {
+    case PARAMETER_NHT_READING:
+        return "a|c";
+    case PARAMETER_VOTE:
+        return "scans|counts";
+    case PARAMETER_PRUNE:
+        return "safe|literal|none";
+    default:
+        return NULL;
+    }
 }
 
 struct parameter_text parameters_text(enum parameter_id id)

@@ -60,9 +60,9 @@
     X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MIN_M, "area_y_min_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MAX_M, "area_y_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
-    X(D_RHO_M, "d_rho_m", "m", 5, 0.001, 1e5, 0, 1, "ht, mht, iht, nht: cell of rho")              \
+    X(D_RHO_M, "d_rho_m", "m", 5, 0.001, 1e5, 0, 1, "all methods but kernel: cell of rho")         \
     X(D_THETA_RAD, "d_theta_rad", "rad", 0.001, 1e-4, 0.5, 0, 1,                                   \
-      "ht, mht, iht, nht: cell of theta")                                                          \
+      "all methods but kernel: cell of theta")                                                     \
     X(EPS_RHO_M, "eps_rho_m", "m", 20, 0.001, 1e5, 0, 1,                                           \
       "ht, mht, iht, nht: within 2 of it lines are neighbours, and peaks are one")                 \
     X(EPS_THETA_RAD, "eps_theta_rad", "rad", 0.004, 1e-4, 0.5, 0, 1, "the same in theta")          \
@@ -71,12 +71,17 @@
       "nht: adjustment factor of the falsity lambda_k P_F^2")                                      \
     X(TAU, "tau", "-", 0.5, 0, 1, 0, 1,                                                            \
       "ht, mht, iht, nht: votes of a peak, as a share of the most")                                \
-    X(VOTES_MIN, "votes_min", "-", 0, 0, 65535, 0, 1, "ht, mht, iht, nht: votes of a peak")        \
+    X(VOTES_MIN, "votes_min", "-", 0, 0, 65535, 0, 1,                                              \
+      "ht, mht, iht, nht, passive-paper: votes of a peak; 0: passive-paper takes 4/5 of the "      \
+      "scans")                                                                                     \
     X(NHT_READING, "nht_reading", "-", 1, 0, 1, 1, 1,                                              \
       "nht: votes go to the pair's own cell (a) or all cells around it (c)")                       \
     X(NHT_INDETERMINACY, "nht_indeterminacy", "-", 0, 0, 1, 1, 1,                                  \
       "nht: 1: the line between the two best kernels counts too")                                  \
-    X(VOTE, "vote", "-", 0, 0, 1, 1, 1, "ht: a cell's votes are distinct scans, or plots")         \
+    X(VOTE, "vote", "-", 0, 0, 1, 1, 1,                                                            \
+      "ht, passive-paper: a cell's votes are distinct scans, or plots")                            \
+    X(PRUNE, "prune", "-", 0, 0, 2, 1, 1,                                                          \
+      "passive, passive-paper: which crossings of bearings are left out as ghosts")                \
     X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
       "distance beyond which a track and a target are not paired")                                 \
     X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0,                               \

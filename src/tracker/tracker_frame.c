@@ -1,0 +1,323 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_frame: a frame of bearings. Its scans are taken one after the other: tracks gate and claim the bearings of a
+ * sensor, and are updated before the next sensor's are looked at, which then meet a narrower gate. What nobody claimed
+ * goes to the passive initiation.
+ */
+#include <string.h>
+
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
+#include "tracker_step.h"
+
+#define LOG_TWO_PI 1.83787707f
+#define CLUTTER_SMOOTHING 0.1f
+
+/* One sensor's scan in its frame. */
+struct look {
+    const struct rho_bearing_scan *scan;
+    struct rho_sensor sensor; /* where the scan says */
+    uint8_t *fates;
+    uint32_t num; /* bearings that have a fate of their own, and may be claimed */
+    float log_density;
+};
+
+/* ---- looks ------------------------------------------------------------------------------------ */
+
+static struct rho_sensor sensor_of(const struct step *step, const struct rho_bearing_scan *scan)
+{
+    const struct rho_sensor *known = rho_tracker_find_sensor(step->tracker, scan->sensor_id);
+    struct rho_sensor sensor = {.sensor_id = scan->sensor_id,
+                                .pd = step->tracker->config.pd,
+                                .range_max_m = 2.0f * RHO_LIMIT_POSITION_M};
+    if (known) {
+        sensor = *known;
+    } else if (step->passive) {
+        sensor.range_max_m = step->passive->config.range_max_m;
+    }
+    sensor.x_m = scan->x_m;
+    sensor.y_m = scan->y_m;
+    return sensor;
+}
+
+/* Of false bearings, by radian: what nobody claims of a scan, over the sector or the field of view. */
+static float log_density(const struct step *step, const struct rho_bearing_scan *scan)
+{
+    float unclaimed = step->tracker->unclaimed_bearings;
+    float view_rad = scan->sector_to_rad - scan->sector_from_rad;
+    view_rad = view_rad < 0.0f ? view_rad + RHO_TWO_PI : view_rad;
+    if (!(view_rad > 0.0f)) {
+        view_rad = step->passive ? step->passive->config.field_of_view_rad : RHO_TWO_PI;
+    }
+    return rho_log((unclaimed > 1.0f ? unclaimed : 1.0f) / view_rad);
+}
+
+int rho_tracker_is_bearing(const struct rho_bearing *bearing)
+{
+    return rho_measurement_is_bearing(bearing) && bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
+           bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
+}
+
+/* How many bearings of a scan have a fate of their own and room to be held. */
+uint32_t rho_tracker_num_held(const struct step *step, const struct rho_bearing_scan *scan,
+                              uint32_t first)
+{
+    uint32_t room = first < step->num_gated ? step->num_gated - first : 0;
+    uint32_t num = scan->num_bearings < room ? scan->num_bearings : room;
+    return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
+}
+
+static void judge_bearings(const struct step *step, uint32_t first, struct look *look)
+{
+    look->fates = step->report->fates + (first < RHO_MAX_PLOTS ? first : 0);
+    look->num = rho_tracker_num_held(step, look->scan, first);
+    for (uint32_t i = 0; i < look->num; i++) {
+        look->fates[i] =
+            (uint8_t)(rho_tracker_is_bearing(&look->scan->bearings[i]) ? RHO_FATE_HELD
+                                                                       : RHO_FATE_INVALID);
+    }
+}
+
+static struct look open_look(struct step *step, const struct rho_bearing_scan *scan, uint32_t first)
+{
+    struct look look = {.scan = scan, .sensor = sensor_of(step, scan)};
+    look.log_density = log_density(step, scan);
+    judge_bearings(step, first, &look);
+    return look;
+}
+
+/* ---- claim and update ------------------------------------------------------------------------- */
+
+static int64_t time_of(const struct look *look, uint32_t i)
+{
+    return look->scan->time_us + look->scan->bearings[i].offset_us;
+}
+
+/* ln of pd times the bearing's density as the track's, over its density as a false one. 0: not in the gate. */
+static int gain_of(const struct step *step, const struct look *look, const struct rho_track *track,
+                   uint32_t i, float *gain_nat)
+{
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    struct rho_bearing bearing = look->scan->bearings[i];
+    /* an earlier look of the frame may have moved the track on a little */
+    bearing.offset_us = (int32_t)(time_of(look, i) - track->time_us);
+    rho_gate_open(&gate, &track->kalman, step->model.noise_density, step->sensor);
+    if (!rho_gate_test_bearing(&gate, &bearing, look->scan->x_m, look->scan->y_m, &result)) {
+        return 0;
+    }
+    *gain_nat =
+        step->log_pd - 0.5f * (LOG_TWO_PI + result.log_det + result.distance2) - look->log_density;
+    return 1;
+}
+
+/* A bearing in the gate is always better than none. */
+static void gate_bearings(struct step *step, const struct look *look, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    float gain_nat;
+    for (uint32_t i = 0; i < look->num; i++) {
+        if (look->fates[i] == RHO_FATE_HELD &&
+            gain_of(step, look, &tracker->tracks[row], i, &gain_nat)) {
+            int32_t gain = rho_tracker_mnat(gain_nat - step->log_miss);
+            (void)!rho_assignment_add(&tracker->assignment, row, i, gain > 1 ? -gain : -1);
+        }
+    }
+}
+
+static void claim(struct step *step, const struct look *look)
+{
+    struct rho_tracker *tracker = step->tracker;
+    /* both counts are within the capacities: nothing to refuse */
+    (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        if (tracker->tracks[row].status != RHO_TRACK_FREE) {
+            gate_bearings(step, look, row);
+        }
+    }
+    rho_assignment_solve(&tracker->assignment);
+    tracker->counters.gate_plots_dropped =
+        rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
+}
+
+static int update_track(struct step *step, const struct look *look, struct rho_track *track,
+                        uint32_t i)
+{
+    const struct rho_bearing *bearing = &look->scan->bearings[i];
+    float gain_nat = 0.0f;
+    struct rho_track_bearing seen = {
+        .time_us = time_of(look, i),
+        .sensor_id = look->scan->sensor_id,
+        .x_m = look->scan->x_m,
+        .y_m = look->scan->y_m,
+        .bearing_rad = bearing->bearing_rad,
+        .sigma_rad = bearing->sigma_rad,
+        .row = (int16_t)i,
+    };
+    if (!gain_of(step, look, track, i, &gain_nat) ||
+        rho_track_update_bearing(track, &seen, &step->model, rho_tracker_mnat(gain_nat)) !=
+            RHO_OK) {
+        step->tracker->counters.updates_refused =
+            rho_count(step->tracker->counters.updates_refused, 1);
+        return 0;
+    }
+    look->fates[i] = RHO_FATE_CLAIMED;
+    return 1;
+}
+
+/* A sensor that looked where the track is and saw nothing is evidence against it, whatever the others saw. */
+static void update(struct step *step, const struct look *look)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        int bearing = rho_assignment_column(&tracker->assignment, row);
+        if (track->status == RHO_TRACK_FREE ||
+            (bearing != RHO_ASSIGNMENT_NONE &&
+             update_track(step, look, track, (uint32_t)bearing))) {
+            continue;
+        }
+        if (rho_tracker_looked_at(step, look->scan->sector_from_rad, look->scan->sector_to_rad,
+                                  track)) {
+            rho_track_lose(track, rho_tracker_mnat(-step->log_miss));
+        }
+    }
+}
+
+static void note_unclaimed(struct step *step, const struct look *look)
+{
+    float unclaimed = 0.0f;
+    for (uint32_t i = 0; i < look->num; i++) {
+        unclaimed += look->fates[i] == RHO_FATE_HELD ? 1.0f : 0.0f;
+    }
+    step->tracker->unclaimed_bearings +=
+        CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_bearings);
+}
+
+static void take_look(struct step *step, const struct rho_bearing_scan *scan, uint32_t first)
+{
+    struct look look = open_look(step, scan, first);
+    step->sensor = &look.sensor;
+    rho_tracker_set_pd(step);
+    claim(step, &look);
+    update(step, &look);
+    note_unclaimed(step, &look);
+    step->sensor = 0;
+}
+
+/* ---- age -------------------------------------------------------------------------------------- */
+
+static int is_looked_at(struct step *step, const struct rho_track *track)
+{
+    int is_seen = 0;
+    for (uint32_t i = 0; i < step->frame->num_scans && !is_seen; i++) {
+        const struct rho_bearing_scan *scan = &step->frame->scans[i];
+        struct rho_sensor sensor = sensor_of(step, scan);
+        step->sensor = &sensor;
+        is_seen = rho_tracker_looked_at(step, scan->sector_from_rad, scan->sector_to_rad, track);
+    }
+    step->sensor = 0;
+    return is_seen;
+}
+
+/* A frame that has no bearing of a track is one miss, however many sensors looked; the score has had its losses. */
+static void count_misses(struct step *step)
+{
+    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+        struct rho_track *track = &step->tracker->tracks[row];
+        if (track->status != RHO_TRACK_FREE && track->plot < 0 && is_looked_at(step, track)) {
+            rho_track_miss(track, 0);
+        }
+    }
+}
+
+static void take_in(struct step *step)
+{
+    const struct rho_frame *frame = step->frame;
+    uint32_t first = 0;
+    if (frame->num_scans > step->tracker->looks_max) {
+        step->tracker->looks_max =
+            (uint16_t)(frame->num_scans < UINT16_MAX ? frame->num_scans : UINT16_MAX);
+    }
+    rho_tracker_set_pd(step); /* before any sensor is looked at */
+    memset(step->report->fates, RHO_FATE_NO_ROOM, step->num_gated);
+    rho_tracker_predict(step);
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        take_look(step, &frame->scans[i], first);
+        first = rho_count(first, frame->scans[i].num_bearings);
+    }
+    count_misses(step);
+    rho_tracker_age(step);
+    rho_tracker_initiate_passive(step);
+}
+
+/* ---- the step ----------------------------------------------------------------------------------- */
+
+static int is_look(const struct rho_frame *frame, const struct rho_bearing_scan *scan)
+{
+    return rho_is_coordinate(scan->x_m) && rho_is_coordinate(scan->y_m) &&
+           rho_tracker_is_sector(scan->sector_from_rad, scan->sector_to_rad) &&
+           rho_tracker_is_time(scan->time_us) &&
+           scan->time_us - frame->time_us <= RHO_LIMIT_OFFSET_US &&
+           scan->time_us - frame->time_us >= -RHO_LIMIT_OFFSET_US;
+}
+
+static enum rho_status check_frame(const struct rho_frame *frame)
+{
+    if (frame->num_scans > 0 && !frame->scans) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_time(frame->time_us)) {
+        return RHO_ERROR_VALUE;
+    }
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        if (frame->scans[i].num_bearings > 0 && !frame->scans[i].bearings) {
+            return RHO_ERROR_NULL;
+        }
+        if (!is_look(frame, &frame->scans[i])) {
+            return RHO_ERROR_VALUE;
+        }
+    }
+    return RHO_OK;
+}
+
+static uint32_t count_bearings(const struct rho_frame *frame)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        count = rho_count(count, frame->scans[i].num_bearings);
+    }
+    return count;
+}
+
+enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_passive *passive,
+                                       const struct rho_frame *frame, struct rho_report *report)
+{
+    if (!tracker || !frame || !report) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = check_frame(frame);
+    if (status == RHO_OK && passive && !rho_tracker_is_late(tracker, frame->time_us)) {
+        status = rho_passive_accepts(passive, frame);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    struct step step = {
+        .tracker = tracker,
+        .passive = passive,
+        .frame = frame,
+        .report = report,
+        .time_us = frame->time_us,
+        .num_inputs = count_bearings(frame),
+    };
+    if (rho_tracker_open(&step)) {
+        take_in(&step);
+    }
+    rho_tracker_close(&step);
+    return RHO_OK;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * inputs: files of plots and files of bearings, any of both, merged by time: scans and frames in one order.
+ * Of one time a scan of plots comes first.
+ */
+#ifndef RHOTRACK_TOOL_INPUTS_H
+#define RHOTRACK_TOOL_INPUTS_H
+
+#include <stdbool.h>
+
+#include "parameters.h"
+#include "rhotrack/types.h"
+
+struct inputs;
+
+/* One of both; the other is NULL. Both NULL: the end. */
+struct input {
+    const struct rho_scan *scan;
+    const struct rho_sensor
+        *sensor; /* who saw the scan; NULL where nothing was said of the sensor */
+    const struct rho_frame *frame;
+};
+
+struct inputs_counts {
+    uint64_t steps, scans, plots;       /* steps: scans of plots, and frames; plots: bearings too */
+    uint64_t frames, frames_incomplete; /* a sensor of the files is missing in these */
+    uint64_t rows_skipped;
+};
+
+/* Opens and checks the files, each by what its header says it holds; errors as the readers have them. Bearings alone take
+ * two sensors at least. */
+struct inputs *inputs_open(char *const *paths, int num_paths, const struct parameters *parameters,
+                           bool keep_going);
+
+bool inputs_have_plots(const struct inputs *inputs);
+bool inputs_have_bearings(const struct inputs *inputs);
+
+/* Valid until the next call. */
+struct input inputs_next(struct inputs *inputs);
+
+/* Passive sensors of the files, in the order of sensor_id: *count of them. */
+struct frame_sensor;
+const struct frame_sensor *inputs_passive_sensors(const struct inputs *inputs, size_t *count);
+
+struct inputs_counts inputs_counts(const struct inputs *inputs);
+void inputs_close(struct inputs *inputs);
+
+#endif
