@@ -87,8 +87,8 @@ const size_t passive_num_paper_cases = COUNT_OF(passive_paper_cases);
 
 /* Found, ghosts a run, exact, root mean square error of the place in m. */
 #define REFERENCE(found, ghosts_a_run, exact, rms_m)                                               \
-    .reference = {found, ghosts_a_run, exact}, .reference_rms_m = rms_m
-#define BARS(found, ghosts) .found_min = found, .ghosts_max = ghosts
+    .reference = {(found), (ghosts_a_run), (exact)}, .reference_rms_m = (rms_m)
+#define BARS(found, ghosts) .found_min = (found), .ghosts_max = (ghosts)
 #define NO_BARS BARS(NAN, NAN)
 
 const struct passive_default_case passive_default_cases[] = {
