@@ -329,6 +329,24 @@ static void the_default_finds_three_sensors_targets(void **state)
     assert_near(own_nees / (double)own, 4.1, 4.0 * sqrt(8.0 / (double)own));
 }
 
+/* Two of its targets meet at mid-batch, where each one's track once was taken for the other's: NEES 70 000, 87 degrees. */
+static void targets_that_meet_at_mid_batch_have_their_own_tracks(void **state)
+{
+    (void)state;
+    size_t number = case_named("4s 6t .1 P_D .9 FA 1");
+    struct rho_passive *passive = malloc(sizeof *passive);
+    assert_non_null(passive);
+    struct random random = random_start(1, 7000 + number, 343); /* of the command's own runs */
+    struct passive_default_run one =
+        passive_default_run(&passive_default_cases[number], passive, &random);
+    free(passive);
+    assert_int_equal(one.found, 6);
+    for (size_t i = 0; i < one.found; i++) {
+        assert_true(one.hits[i].nees < 30.0);
+        assert_true(one.hits[i].line_off.theta_rad < 10.0 * DEG_RAD);
+    }
+}
+
 static void no_target_is_found_where_there_is_none(void **state)
 {
     (void)state;
@@ -467,6 +485,7 @@ int main(void)
         cmocka_unit_test(pruning_is_counted_by_rule),
         cmocka_unit_test(the_papers_method_finds_what_it_did_elsewhere),
         cmocka_unit_test(the_default_finds_three_sensors_targets),
+        cmocka_unit_test(targets_that_meet_at_mid_batch_have_their_own_tracks),
         cmocka_unit_test(no_target_is_found_where_there_is_none),
         cmocka_unit_test(every_bar_can_be_missed),
         cmocka_unit_test(time_is_judged_from_100_runs_on),
