@@ -178,7 +178,7 @@ determinism:
 examples: $(library)
 	@BUILD=$(BUILD) tools/extract_example.sh
 
-## Sizes of code, objects and stack, as a table
+## Sizes of code, objects and stack, as a table; red where a passive search does not fit
 size:
 	@BUILD=$(BUILD) tools/size.sh
 

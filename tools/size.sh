@@ -3,6 +3,7 @@
 #
 # What the library costs: code and data a module at -Os (embedded profile), the worst stack of each module's functions,
 # and the public objects in both profiles. For Cortex-M4F where arm-none-eabi-gcc is there, else for this machine.
+# Ends with what must fit, and exit 1 where it does not; `size.sh --bars` says only that. SIZE_FLAGS are added to it.
 set -eu
 cd "$(dirname "$0")/.."
 folder=${BUILD:-build}/size
@@ -19,6 +20,32 @@ else
     target="this machine, $(uname -m) (no arm-none-eabi-gcc here)"
 fi
 flags="-std=c99 -Os -ffp-contract=off -Iinclude $machine"
+
+# A passive search with these capacities and a profile's others: bytes at most.
+fit() { # name, sensors, scans, bearings, bytes, flags
+    # shellcheck disable=SC2086 # words on purpose
+    printf '#include "rhotrack/passive.h"\nchar rho_sizeof_passive[sizeof(struct rho_passive)];\n' |
+        ${prefix}gcc $flags $6 ${SIZE_FLAGS:-} -DRHO_MAX_PASSIVE_SENSORS="$2" -DRHO_MAX_PASSIVE_SCANS="$3" \
+            -DRHO_MAX_BEARINGS="$4" -fno-common -x c -c -o "$folder/fit.o" -
+    read -r _ bytes _ < <(${prefix}nm -S "$folder/fit.o")
+    bytes=$((16#$bytes))
+    verdict=ok
+    [ "$bytes" -le "$5" ] || { verdict=MISSED; missed=1; }
+    printf '%-46s %9d %9d  %s\n' "$1, $2 sensors, $3 scans, $4 bearings" "$bytes" "$5" "$verdict"
+}
+
+bars() {
+    missed=''
+    printf '%-46s %9s %9s\n' 'struct rho_passive' bytes 'at most'
+    fit embedded 2 8 8 $((48 * 1024)) ''
+    fit workstation 4 16 16 $((90 * 1024)) -DRHO_PROFILE_WORKSTATION
+    [ -z "$missed" ] || { echo 'size: struct rho_passive is larger than it may be'; exit 1; }
+}
+
+if [ "${1:-}" = --bars ]; then
+    bars
+    exit
+fi
 
 row() { printf '%-34s %9s %9s %9s  %9s %s\n' "$@"; }
 
@@ -45,7 +72,7 @@ row 'all' $(${prefix}size -t "$folder"/*.o | tail -n 1 | awk '{print $1, $2, $3}
     for header in include/rhotrack/*.h; do
         echo "#include \"rhotrack/$(basename "$header")\""
     done
-    for object in accumulator classic window initiator ghost_matrix passive passive_paper assignment tracker report; do
+    for object in accumulator classic window initiator frames ghost_matrix passive passive_paper assignment tracker report; do
         echo "char rho_sizeof_$object[sizeof(struct rho_$object)];"
     done
     # HT on 4 x 2.5 km at 5 m x 1 mrad: the object, a window of plots with their times, and 128 peaks
@@ -69,3 +96,6 @@ printf '%-34s %12s %12s\n' object embedded workstation
 join <(sizes_of embedded '') <(sizes_of workstation -DRHO_PROFILE_WORKSTATION) | while read -r name embedded workstation; do
     printf '%-34s %12d %12d\n' "struct rho_${name%_slot}" "$embedded" "$workstation"
 done
+
+echo
+bars

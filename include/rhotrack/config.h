@@ -129,6 +129,17 @@
 #define RHO_MAX_PAPER_CROSSINGS RHO_CONFIG_PICK(512, 4096)
 #endif
 
+/* Directions that a sensor's bearings of a scan are looked up by. More of them mean fewer bearings compared. RAM: a bit. A
+ * multiple of 32. */
+#ifndef RHO_PASSIVE_BINS
+#define RHO_PASSIVE_BINS 256
+#endif
+
+/* Pairs of crossings that are known to have been fitted; others may be fitted again. RAM: 6 bytes a pair. 1 .. 65536. */
+#ifndef RHO_PASSIVE_PAIRS
+#define RHO_PASSIVE_PAIRS 256
+#endif
+
 /* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
 #ifndef RHO_MAX_TRACKS
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)

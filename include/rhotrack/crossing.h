@@ -53,7 +53,8 @@ RHO_MUST_CHECK enum rho_status rho_crossing_set_base(struct rho_crossing_base *b
 /*
  * Where a bearing from a (bearing_a_rad) and one from b meet. Both finite; range_max_m > 0. *crossing is filled only with
  * RHO_CROSSING_MEETS. A bearing that is not finite: RHO_CROSSING_APART.
- * Within 80 km, and with a delta of 0.02 rad or more, the place is within a metre of exact arithmetic.
+ * Within 80 km, and with a delta of 0.02 to pi - 0.02 rad, the place is within a metre of exact arithmetic; nearer to pi it
+ * is between the sensors, where both look at each other.
  * Cost: three sines and cosines, two divisions. Stack: 96 bytes.
  */
 enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, float bearing_a_rad,

@@ -49,9 +49,11 @@ struct rho_passive_track {
     float x_m, y_m, vx_mps, vy_mps;
     float covariance[10]; /* of these four, lower triangle */
     int32_t score_mnat;   /* log-odds that its bearings are one target's */
-    float chi2;           /* of the bearings, hits - 4 degrees of freedom */
-    uint16_t hits;        /* bearings */
-    uint16_t scans;       /* bit k: a bearing of scan k, 0 the oldest */
+    int32_t
+        margin_mnat; /* what the tracks together are worth more than the best others without this one */
+    float chi2;      /* of the bearings, hits - 4 degrees of freedom */
+    uint16_t hits;  /* bearings */
+    uint16_t scans; /* bit k: a bearing of scan k, 0 the oldest */
     /* by scan and sensor: the bearing's place among those held of that scan and sensor, from 1; 0: none */
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
@@ -74,6 +76,12 @@ struct rho_passive_point {
     float xx_m2, xy_m2, yy_m2;
     uint16_t scan;
     uint16_t reserved; /* 0 */
+};
+
+/* A pair of crossings that was fitted: their places in points. */
+struct rho_passive_fitted {
+    uint16_t a, b; /* the same: none */
+    uint16_t when; /* candidates taken away by then; UINT16_MAX: it was no track */
 };
 
 /* A fitted hypothesis: place at mid-batch, and half the way flown in the batch. */
@@ -100,8 +108,11 @@ struct rho_passive {
     struct rho_batch batch;
     uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
     /* scratch of a search */
+    /* by direction, round |x| + |y| = 1 from south: a bit where a bearing is within nine sigmas */
+    uint32_t directions[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS / 32];
     uint16_t cells[RHO_PASSIVE_THETA_CELLS][RHO_PASSIVE_RHO_CELLS]; /* a bit a scan */
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
+    struct rho_passive_fitted fitted[RHO_PASSIVE_PAIRS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
     uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES]; /* bearings */
 };

@@ -125,11 +125,12 @@ struct rho_sensor {
 enum rho_fate {
     RHO_FATE_CLAIMED = 0, /* updated a track */
     RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */
-    RHO_FATE_GHOST,       /* a bearing whose crossings were all false */
-    RHO_FATE_STALE,       /* its scan is older than what was already stepped */
-    RHO_FATE_INVALID,     /* not finite, or outside the limits above */
-    RHO_FATE_NO_ROOM,     /* beyond a capacity */
-    RHO_NUM_FATES         /* count of the values above, not a fate */
+    RHO_FATE_GHOST, /* a bearing whose crossings are all false; kept all the same, for it may be a target's
+                             that the other sensors missed */
+    RHO_FATE_STALE,   /* its scan is older than what was already stepped */
+    RHO_FATE_INVALID, /* not finite, or outside the limits above */
+    RHO_FATE_NO_ROOM, /* beyond a capacity */
+    RHO_NUM_FATES     /* count of the values above, not a fate */
 };
 
 /* Name of a fate in lower case ("claimed", ...); "unknown" for any other value. Constant cost, no stack. */

@@ -123,25 +123,26 @@ static float log_kernel(float f)
 /*
  * Root of m * 2^23 for 2^23 <= m < 2^25, to the nearest integer. Newton's iteration for 1/sqrt
  * brings the estimate to some units; the remainder, which fits 32 bits though m * 2^23 does
- * not, settles them exactly. A root is never half an integer, so there are no ties.
+ * not, tells how many, and settles the last one exactly. A root is never half an integer, so
+ * there are no ties.
  */
 static uint32_t integer_root(uint32_t m)
 {
     const float x = (float)m * (1.0f / 8388608.0f);
     float y = float_of(0x5f3759dfu - (bits_of(x) >> 1));
-    uint32_t root, rest;
+    uint32_t root;
+    int32_t rest, missing;
     int i;
 
     for (i = 0; i < 3; ++i) {
         y = y * (1.5f - 0.5f * x * y * y);
     }
-    root = (uint32_t)(x * y * 8388608.0f) - 4u;
-    rest = (m << EXPONENT_SHIFT) - root * root;
-    for (i = 0; i < 8 && rest > 2u * root; ++i) {
-        rest -= 2u * root + 1u;
-        ++root;
-    }
-    return rest > root ? root + 1u : root;
+    root = (uint32_t)(x * y * 8388608.0f);
+    rest = (int32_t)((m << EXPONENT_SHIFT) - root * root);
+    missing = (int32_t)((float)rest * y * (1.0f / 16777216.0f)); /* rest / (2 root) */
+    rest -= missing * (int32_t)(2u * root + (uint32_t)missing);
+    root += (uint32_t)missing;
+    return root + (uint32_t)(rest > (int32_t)root) - (uint32_t)(rest <= -(int32_t)root);
 }
 
 float rho_sin(float angle_rad)

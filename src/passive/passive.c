@@ -258,12 +258,14 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     set_odds(&search);
     set_sigma(&search);
     set_cells(&search);
+    rho_passive_mark_bearings(&search);
     pass(&search, 0.6f);
     rho_passive_select(&search);
     set_start(&search);
     search.is_second = 1;
     pass(&search, 0.5f);
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);
+    rho_passive_mix(&search);
     rho_passive_select(&search);
     return RHO_OK;
 }

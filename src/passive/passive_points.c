@@ -83,22 +83,33 @@ static float uncertainty_m2(const struct rho_passive_point *point)
     return point->xx_m2 + point->yy_m2;
 }
 
-/* Where there is no room the least certain one gives way. */
-static void add_point(struct rho_passive *passive, const struct rho_passive_point *point)
+static uint32_t least_certain(const struct rho_passive *passive)
 {
-    if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
-        passive->points[passive->num_points++] = *point;
-        return;
-    }
     uint32_t worst = 0;
     for (uint32_t i = 1; i < passive->num_points; i++) {
         if (uncertainty_m2(&passive->points[i]) > uncertainty_m2(&passive->points[worst])) {
             worst = i;
         }
     }
+    return worst;
+}
+
+/* Where there is no room the least certain one gives way; it is only looked for when it has changed. */
+static void add_point(struct rho_passive_search *search, const struct rho_passive_point *point)
+{
+    struct rho_passive *passive = search->passive;
+    if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
+        passive->points[passive->num_points++] = *point;
+        search->worst_point = passive->num_points;
+        return;
+    }
+    if (search->worst_point == passive->num_points) {
+        search->worst_point = least_certain(passive);
+    }
     passive->work.points_dropped = rho_count(passive->work.points_dropped, 1);
-    if (uncertainty_m2(point) < uncertainty_m2(&passive->points[worst])) {
-        passive->points[worst] = *point;
+    if (uncertainty_m2(point) < uncertainty_m2(&passive->points[search->worst_point])) {
+        passive->points[search->worst_point] = *point;
+        search->worst_point = passive->num_points;
     }
 }
 
@@ -125,7 +136,7 @@ static void add_crossing(struct rho_passive_search *search, const struct looks *
                                       .yy_m2 = covariance_m2[2],
                                       .scan = (uint16_t)looks->scan};
     if (is_supported(search, looks, &point)) {
-        add_point(passive, &point);
+        add_point(search, &point);
     }
 }
 
@@ -171,6 +182,7 @@ static void cross_sensors(struct rho_passive_search *search, unsigned a, unsigne
 void rho_passive_cross(struct rho_passive_search *search)
 {
     search->passive->num_points = 0;
+    memset(search->passive->fitted, 0, sizeof search->passive->fitted);
     for (unsigned a = 0; a + 1u < search->passive->batch.num_sensors; a++) {
         for (unsigned b = a + 1u; b < search->passive->batch.num_sensors; b++) {
             cross_sensors(search, a, b);
@@ -207,6 +219,24 @@ static void vote(struct rho_passive_search *search, const struct rho_passive_poi
     }
 }
 
+static unsigned bits(unsigned mask)
+{
+    mask = mask - (mask >> 1 & 0x5555u);
+    mask = (mask & 0x3333u) + (mask >> 2 & 0x3333u);
+    mask = (mask + (mask >> 4)) & 0x0f0fu;
+    return (mask + (mask >> 8)) & 0x1fu;
+}
+
+static unsigned most_of_row(const struct rho_passive_search *search, unsigned row)
+{
+    unsigned most = 0;
+    for (unsigned column = 0; column < search->rho_cells; column++) {
+        unsigned votes = bits(search->passive->cells[row][column]);
+        most = votes > most ? votes : most;
+    }
+    return most;
+}
+
 void rho_passive_vote(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
@@ -216,17 +246,12 @@ void rho_passive_vote(struct rho_passive_search *search)
             vote(search, &passive->points[i], row);
         }
     }
+    for (unsigned row = 0; row < search->theta_cells; row++) {
+        search->row_votes[row] = (uint8_t)most_of_row(search, row);
+    }
 }
 
 /* ---- lines ------------------------------------------------------------------------------------ */
-
-static unsigned bits(unsigned mask)
-{
-    mask = mask - (mask >> 1 & 0x5555u);
-    mask = (mask & 0x3333u) + (mask >> 2 & 0x3333u);
-    mask = (mask + (mask >> 4)) & 0x0f0fu;
-    return (mask + (mask >> 8)) & 0x1fu;
-}
 
 struct cell {
     int row, column;
@@ -236,15 +261,17 @@ struct cell {
 static unsigned find_most(const struct rho_passive_search *search, struct cell *at)
 {
     unsigned most = 0;
-    for (int row = 0; row < search->theta_cells; row++) {
-        for (int column = 0; column < search->rho_cells; column++) {
-            unsigned votes = bits(search->passive->cells[row][column]);
-            if (votes > most) {
-                most = votes;
-                *at = (struct cell){row, column};
-            }
+    int row = 0, column = 0;
+    for (int i = 0; i < search->theta_cells; i++) {
+        if (search->row_votes[i] > most) {
+            most = search->row_votes[i];
+            row = i;
         }
     }
+    while (bits(search->passive->cells[row][column]) != most) {
+        column++;
+    }
+    *at = (struct cell){row, column};
     return most;
 }
 
@@ -295,6 +322,7 @@ static void take_off(struct rho_passive_search *search, struct cell at)
                 search->passive->cells[row][column] = 0;
             }
         }
+        search->row_votes[row] = (uint8_t)most_of_row(search, (unsigned)row);
     }
 }
 
@@ -318,25 +346,36 @@ int rho_passive_next_line(struct rho_passive_search *search, unsigned votes_min,
 
 /* ---- hypotheses ------------------------------------------------------------------------------- */
 
+/* Two crossings' places in points, a's scan before b's. */
+struct pair {
+    uint16_t a, b;
+};
+
 /* The best so far, best first. */
 struct best {
     unsigned count;
     float agreement[FITS_PER_LINE];
-    float state_m[FITS_PER_LINE][RHO_PASSIVE_STATES];
+    struct pair pair[FITS_PER_LINE];
 };
 
-static void keep_best(struct best *best, float agreement, const float state_m[RHO_PASSIVE_STATES])
+/* Those that agree no better are not among the best. */
+static float least_agreement(const struct best *best)
 {
-    if (best->count == FITS_PER_LINE && !(agreement > best->agreement[FITS_PER_LINE - 1u])) {
+    return best->count < FITS_PER_LINE ? -1.0f : best->agreement[FITS_PER_LINE - 1u];
+}
+
+static void keep_best(struct best *best, float agreement, struct pair pair)
+{
+    if (!(agreement > least_agreement(best))) {
         return;
     }
     unsigned place = best->count < FITS_PER_LINE ? best->count++ : FITS_PER_LINE - 1u;
     for (; place > 0 && agreement > best->agreement[place - 1u]; place--) {
         best->agreement[place] = best->agreement[place - 1u];
-        memcpy(best->state_m[place], best->state_m[place - 1u], sizeof best->state_m[0]);
+        best->pair[place] = best->pair[place - 1u];
     }
     best->agreement[place] = agreement;
-    memcpy(best->state_m[place], state_m, sizeof best->state_m[0]);
+    best->pair[place] = pair;
 }
 
 static unsigned gather_points(const struct rho_passive_search *search,
@@ -364,15 +403,20 @@ static unsigned gather_points(const struct rho_passive_search *search,
 }
 
 /* The constant velocity through two crossings, where a target can have it. */
-static int join(const struct rho_passive_search *search, const struct rho_passive_point *a,
-                const struct rho_passive_point *b, float state_m[RHO_PASSIVE_STATES])
+static int join(const struct rho_passive_search *search, struct pair pair,
+                float state_m[RHO_PASSIVE_STATES])
 {
+    const struct rho_passive_point *a = &search->passive->points[pair.a];
+    const struct rho_passive_point *b = &search->passive->points[pair.b];
     float steps = search->step[b->scan] - search->step[a->scan], span_s = steps * search->half_s;
     float dx_m = b->x_m - a->x_m, dy_m = b->y_m - a->y_m;
-    float slack_m = rho_sqrt(uncertainty_m2(a) + uncertainty_m2(b));
-    float most_m = (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * span_s + slack_m;
-    if (dx_m * dx_m + dy_m * dy_m > most_m * most_m) {
-        return 0;
+    float most_m = (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * span_s;
+    float way2_m2 = dx_m * dx_m + dy_m * dy_m;
+    if (way2_m2 > most_m * most_m) { /* most need no root to be told */
+        most_m += rho_sqrt(uncertainty_m2(a) + uncertainty_m2(b));
+        if (way2_m2 > most_m * most_m) {
+            return 0;
+        }
     }
     state_m[2] = dx_m / steps;
     state_m[3] = dy_m / steps;
@@ -386,26 +430,54 @@ static void try_pairs(struct rho_passive_search *search, const uint16_t *which, 
 {
     struct rho_passive *passive = search->passive;
     for (unsigned i = 0; i < count; i++) {
-        const struct rho_passive_point *a = &passive->points[which[i]];
+        unsigned scan_min = passive->points[which[i]].scan + PAIR_SCANS_MIN;
         for (unsigned j = 0; j < count; j++) {
-            const struct rho_passive_point *b = &passive->points[which[j]];
+            struct pair pair = {which[i], which[j]};
             float state_m[RHO_PASSIVE_STATES];
-            if (b->scan >= a->scan + PAIR_SCANS_MIN && join(search, a, b, state_m)) {
-                keep_best(best, rho_passive_agreement(search, state_m), state_m);
+            if (passive->points[pair.b].scan >= scan_min && join(search, pair, state_m)) {
+                keep_best(best, rho_passive_agreement(search, state_m, least_agreement(best)),
+                          pair);
                 passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
             }
         }
     }
 }
 
-void rho_passive_propose(struct rho_passive_search *search, const struct rho_passive_line *line)
+static struct rho_passive_fitted *fitted_place(struct rho_passive *passive, struct pair pair)
+{
+    return &passive->fitted[(pair.a * 61u + pair.b) % RHO_PASSIVE_PAIRS];
+}
+
+/*
+ * Lines side by side share their pairs. What was no track is none again; and what was a track is a candidate's twin
+ * again, unless a candidate was taken away since.
+ */
+static int is_known(const struct rho_passive_search *search, struct pair pair)
+{
+    const struct rho_passive_fitted *fitted = fitted_place(search->passive, pair);
+    return fitted->a == pair.a && fitted->b == pair.b &&
+           (fitted->when == UINT16_MAX || fitted->when == search->candidates_taken);
+}
+
+static void fit_pair(struct rho_passive_search *search, struct pair pair)
 {
     static const float gates[4] = {8.0f, 5.0f, 3.5f, 3.5f};
+    float state_m[RHO_PASSIVE_STATES];
+    if (is_known(search, pair) || !join(search, pair, state_m)) {
+        return;
+    }
+    rho_passive_fit(search, state_m, gates, 4, 0);
+    int is_track = rho_passive_offer(search, state_m);
+    *fitted_place(search->passive, pair) = (struct rho_passive_fitted){
+        .a = pair.a, .b = pair.b, .when = is_track ? search->candidates_taken : UINT16_MAX};
+}
+
+void rho_passive_propose(struct rho_passive_search *search, const struct rho_passive_line *line)
+{
     uint16_t which[LINE_POINTS_MAX];
     struct best best = {.count = 0};
     try_pairs(search, which, gather_points(search, line, which), &best);
     for (unsigned i = 0; i < best.count; i++) {
-        rho_passive_fit(search, best.state_m[i], gates, 4, 0);
-        rho_passive_offer(search, best.state_m[i]);
+        fit_pair(search, best.pair[i]);
     }
 }

@@ -32,6 +32,9 @@ struct rho_passive_search {
     int is_second; /* pass: claimed bearings are not there, and no third sensor is asked */
     uint16_t theta_cells, rho_cells;
     float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
+    uint8_t row_votes[RHO_PASSIVE_THETA_CELLS]; /* the most in a row of cells */
+    uint32_t worst_point;                       /* the least certain; num_points: not known */
+    uint16_t candidates_taken;                  /* away again, so far */
 };
 
 /* ---- lines ---- */
@@ -55,9 +58,13 @@ void rho_passive_propose(struct rho_passive_search *search, const struct rho_pas
 
 /* ---- bearings of a state ---- */
 
-/* How well bearings agree with a state; each counts less the more sigmas it is off, from 9 on nothing. */
+/* Where bearings are, by direction: before any of the following. */
+void rho_passive_mark_bearings(struct rho_passive_search *search);
+
+/* How well bearings agree with a state; each counts less the more sigmas it is off, from 9 on nothing. 0 where it is told
+ * early that it cannot be more than `least`. */
 float rho_passive_agreement(const struct rho_passive_search *search,
-                            const float state_m[RHO_PASSIVE_STATES]);
+                            const float state_m[RHO_PASSIVE_STATES], float least);
 
 /* Gauss-Newton steps; the gates are in sigmas. claimed_too 0: bearings that are claimed are not there. */
 void rho_passive_fit(const struct rho_passive_search *search, float state_m[RHO_PASSIVE_STATES],
@@ -78,10 +85,19 @@ rho_passive_judge(const struct rho_passive_search *search, const float state_m[R
 int rho_passive_report(const struct rho_passive_search *search,
                        const float state_m[RHO_PASSIVE_STATES], struct rho_passive_track *track);
 
+/* ---- mixing ---- */
+
+/* Fits what one candidate's bearings of a sensor and another's of another sensor make, and offers it. */
+void rho_passive_mix(struct rho_passive_search *search);
+
 /* ---- selection ---- */
 
-/* A fitted state becomes a candidate, unless it is no track or another one's twin. */
-void rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES]);
+/* Candidates by score, best first. */
+void rho_passive_rank(const struct rho_passive *passive,
+                      uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
+
+/* A fitted state becomes a candidate, unless it is no track or another one's twin. Returns whether it is a track. */
+int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES]);
 
 /* The candidates that are tracks together: fitted again each on what the better ones leave, into passive->tracks; their
  * bearings are claimed. */

@@ -5,6 +5,7 @@
 #include "rhotrack/types.h"
 
 #define TWIN_SHARE 0.8f
+#define KIN_SHARE 0.7f
 #define STARTS 12u
 #define GAIN_MIN_NAT 1.0e-3f /* what rounding cannot make */
 
@@ -50,14 +51,16 @@ static void remove_worse_twins(struct rho_passive_search *search,
     for (unsigned i = passive->num_candidates; i > 0; i--) {
         if (is_twin(search, &passive->candidates[i - 1u], candidate)) {
             passive->candidates[i - 1u] = passive->candidates[--passive->num_candidates];
+            search->candidates_taken++; /* less often than there are fits: 2 passes, 96 lines, 20 */
         }
     }
 }
 
 /* Where there is no room the lowest score gives way. */
-static void add_candidate(struct rho_passive *passive,
+static void add_candidate(struct rho_passive_search *search,
                           const struct rho_passive_candidate *candidate)
 {
+    struct rho_passive *passive = search->passive;
     if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
         passive->candidates[passive->num_candidates++] = *candidate;
         return;
@@ -69,12 +72,13 @@ static void add_candidate(struct rho_passive *passive,
         }
     }
     passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
+    search->candidates_taken++;
     if (candidate->score_nat > passive->candidates[lowest].score_nat) {
         passive->candidates[lowest] = *candidate;
     }
 }
 
-void rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES])
+int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES])
 {
     struct rho_passive_candidate candidate;
     struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, 1, candidate.claim);
@@ -83,8 +87,9 @@ void rho_passive_offer(struct rho_passive_search *search, const float state_m[RH
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
     if (judgement.is_track && !has_better_twin(search, &candidate)) {
         remove_worse_twins(search, &candidate);
-        add_candidate(search->passive, &candidate);
+        add_candidate(search, &candidate);
     }
+    return judgement.is_track;
 }
 
 /* ---- joint selection -------------------------------------------------------------------------- */
@@ -97,6 +102,7 @@ struct choice {
     const struct rho_passive_search *search;
     unsigned count;
     uint8_t is_in[RHO_MAX_PASSIVE_CANDIDATES];
+    uint8_t is_out[RHO_MAX_PASSIVE_CANDIDATES]; /* may not come in */
     float gain_nat
         [RHO_MAX_PASSIVE_CANDIDATES]; /* of each, with those chosen: its score less what it shares */
     float total_nat;
@@ -108,6 +114,7 @@ static void start_choice(struct choice *choice, const struct rho_passive_search 
     choice->count = search->passive->num_candidates;
     choice->total_nat = 0.0f;
     memset(choice->is_in, 0, sizeof choice->is_in);
+    memset(choice->is_out, 0, sizeof choice->is_out);
     for (unsigned i = 0; i < choice->count; i++) {
         choice->gain_nat[i] = search->passive->candidates[i].score_nat;
     }
@@ -134,7 +141,7 @@ static unsigned find_gain(const struct choice *choice, unsigned but)
     unsigned best = choice->count;
     float most = GAIN_MIN_NAT;
     for (unsigned i = 0; i < choice->count; i++) {
-        if (!choice->is_in[i] && i != but && choice->gain_nat[i] > most) {
+        if (!choice->is_in[i] && !choice->is_out[i] && i != but && choice->gain_nat[i] > most) {
             most = choice->gain_nat[i];
             best = i;
         }
@@ -179,8 +186,8 @@ static void improve(struct choice *choice)
     } while (is_better);
 }
 
-/* Candidates by score, best first. */
-static void rank(const struct rho_passive *passive, uint8_t order[RHO_MAX_PASSIVE_CANDIDATES])
+void rho_passive_rank(const struct rho_passive *passive,
+                      uint8_t order[RHO_MAX_PASSIVE_CANDIDATES])
 {
     for (unsigned i = 0; i < passive->num_candidates; i++) {
         unsigned place = i;
@@ -221,6 +228,52 @@ static void choose(const struct rho_passive_search *search, const uint8_t *order
     }
 }
 
+/* ---- margins ---------------------------------------------------------------------------------- */
+
+/* The same target with a few other bearings, rather than something else. */
+static int is_kin(const struct rho_passive *passive, unsigned of, unsigned other)
+{
+    return (float)passive->shared[of][other] >= KIN_SHARE * (float)passive->candidates[of].hits;
+}
+
+/* The best that is found with `which` in place of what is against it. */
+static float total_with(const struct choice *without, unsigned which)
+{
+    struct choice choice = *without;
+    if (!choice.is_in[which]) {
+        flip(&choice, which);
+    }
+    fill_up(&choice, choice.count);
+    improve(&choice);
+    return choice.total_nat;
+}
+
+/*
+ * What the choice is worth more than the best one without this candidate and its kin: each that shares a bearing with it
+ * is tried in its place.
+ */
+static float margin_of(const struct choice *best, unsigned which)
+{
+    const struct rho_passive *passive = best->search->passive;
+    struct choice without = *best;
+    for (unsigned i = 0; i < without.count; i++) {
+        if (i == which || is_kin(passive, which, i)) {
+            without.is_out[i] = 1;
+            if (without.is_in[i]) {
+                flip(&without, i);
+            }
+        }
+    }
+    float most_nat = without.total_nat;
+    for (unsigned i = 0; i < without.count; i++) {
+        if (!without.is_out[i] && passive->shared[which][i] > 0) {
+            float total_nat = total_with(&without, i);
+            most_nat = total_nat > most_nat ? total_nat : most_nat;
+        }
+    }
+    return best->total_nat - most_nat;
+}
+
 /* ---- tracks ----------------------------------------------------------------------------------- */
 
 static void claim(struct rho_passive *passive, const struct rho_passive_track *track)
@@ -247,7 +300,8 @@ static void set_scans(const struct rho_passive *passive, struct rho_passive_trac
 }
 
 /* Fitted and judged again on the bearings that better tracks have left. */
-static void add_track(struct rho_passive_search *search, const float from_m[RHO_PASSIVE_STATES])
+static void add_track(struct rho_passive_search *search, const float from_m[RHO_PASSIVE_STATES],
+                      float margin_nat)
 {
     static const float gates[2] = {3.5f, 3.5f};
     struct rho_passive *passive = search->passive;
@@ -264,6 +318,7 @@ static void add_track(struct rho_passive_search *search, const float from_m[RHO_
         return;
     }
     track->score_mnat = (int32_t)(1000.0f * judgement.score_nat);
+    track->margin_mnat = (int32_t)(1000.0f * margin_nat);
     track->chi2 = judgement.chi2;
     track->hits = judgement.hits;
     set_scans(passive, track);
@@ -289,12 +344,12 @@ void rho_passive_select(struct rho_passive_search *search)
     struct rho_passive *passive = search->passive;
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
     struct choice choice;
-    rank(passive, order);
+    rho_passive_rank(passive, order);
     choose(search, order, &choice);
     passive->num_tracks = 0;
     for (unsigned i = 0; i < passive->num_candidates; i++) {
         if (choice.is_in[order[i]]) {
-            add_track(search, passive->candidates[order[i]].state_m);
+            add_track(search, passive->candidates[order[i]].state_m, margin_of(&choice, order[i]));
         }
     }
     sort_tracks(passive);

@@ -7,6 +7,9 @@
 #include "rhotrack/crossing.h"
 #include "tracker_step.h"
 
+/* A hundred to one against any other explanation of its bearings. */
+#define MARGIN_MIN_MNAT 4605
+
 /* ---- ghosts ----------------------------------------------------------------------------------- */
 
 /* Can this bearing and one of the other scan's be a target? *num counts the crossings asked for. */
@@ -43,6 +46,7 @@ static int is_ghost(const struct step *step, const struct rho_bearing_scan *scan
     return num > 0;
 }
 
+/* They stay in the batch: one may be a target's that the other sensors missed, and counts among its bearings. */
 static void tell_ghosts(struct step *step)
 {
     uint32_t first = 0;
@@ -176,8 +180,8 @@ void rho_tracker_initiate_passive(struct step *step)
         refuse_unclaimed(step);
         return;
     }
-    tell_ghosts(step);
     push(step);
+    tell_ghosts(step);
     step->tracker->counters.plots_clutter =
         rho_count(step->tracker->counters.plots_clutter, passive->batch.num_left);
     if (passive->batch.num_scans < passive->batch.scans_max) {
@@ -190,7 +194,8 @@ void rho_tracker_initiate_passive(struct step *step)
     limits.confirm_mnat = passive->start_mnat;
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];
-        if (found->score_mnat >= passive->start_mnat && is_fresh(passive, found)) {
+        if (found->score_mnat >= passive->start_mnat && found->margin_mnat >= MARGIN_MIN_MNAT &&
+            is_fresh(passive, found)) {
             start_track(step, found, &limits);
         }
     }

@@ -210,6 +210,7 @@ check "an unknown experiment names all there are" says 2 "*nothing*initiation*po
 check "bench kalman --json is JSON" sh -c "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
 check "bench initiate" "$RHOTRACK" bench initiate
 check "bench hough --json is JSON" sh -c "'$RHOTRACK' bench hough --json | python3 -m json.tool >/dev/null"
+check "bench passive --json is JSON" sh -c "'$RHOTRACK' bench passive --json | python3 -m json.tool >/dev/null"
 expect_exit 2 "an unknown bench" "$RHOTRACK" bench nothing
 check "the demo tracks all three aircraft and nothing else" sh -c "
     RHOTRACK='$RHOTRACK' '$root/tools/demo.sh' '$folder/demo' 2>/dev/null | grep -q '^3 of 3 targets tracked, 0 false tracks$'"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The paper's passive method in double precision, on dense planes. Rays are intersected as two linear equations, and every
- * crossing votes in a plane of its pair; nothing is shared with the library but its inputs.
+ * crossing votes in a plane of its pair; the library and this have nothing in common but the input.
  *
  * A crossing so near a limit that float32 may have it on the other side makes a scene doubtful, or is let fall on both
  * sides of a cell's border: then what is sure and what is possible differ, and the scene is not compared.

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -433,6 +434,79 @@ static void every_capacity_full_of_false_bearings(void **state)
     assert_in_range(passive.num_tracks, 0, 1); /* chance */
 }
 
+#define CROSSINGS_MOST                                                                             \
+    (RHO_MAX_PASSIVE_SENSORS * RHO_MAX_PASSIVE_SENSORS * RHO_MAX_PASSIVE_SCANS *                   \
+     RHO_MAX_BEARINGS * RHO_MAX_BEARINGS / 2)
+
+static double traces_m2[CROSSINGS_MOST];
+
+/* The trace of a crossing's covariance, as far as the rays meet within the range; else -1. In double precision. */
+static double trace_m2(unsigned a, unsigned b, const struct rho_bearing *of_a,
+                       const struct rho_bearing *of_b)
+{
+    double sine = sin((double)of_b->bearing_rad - (double)of_a->bearing_rad);
+    double dx_m = scene.sensor_x_m[b] - scene.sensor_x_m[a];
+    double dy_m = scene.sensor_y_m[b] - scene.sensor_y_m[a];
+    double a_m = (dx_m * sin(of_b->bearing_rad) - dy_m * cos(of_b->bearing_rad)) / sine;
+    double b_m = (dx_m * sin(of_a->bearing_rad) - dy_m * cos(of_a->bearing_rad)) / sine;
+    double range_max_m = passive.config.range_max_m;
+    double sum_m2 = pow(a_m * (double)of_a->sigma_rad, 2) + pow(b_m * (double)of_b->sigma_rad, 2);
+    return a_m > 0.0 && b_m > 0.0 && a_m <= range_max_m && b_m <= range_max_m
+               ? sum_m2 / (sine * sine)
+               : -1.0;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double first = *(const double *)a, second = *(const double *)b;
+    return (first > second) - (first < second);
+}
+
+static unsigned collect_traces(void)
+{
+    unsigned count = 0;
+    for (unsigned a = 0; a + 1 < scene.sensors; a++) {
+        for (unsigned b = a + 1; b < scene.sensors; b++) {
+            for (unsigned k = 0; k < scene.scans; k++) {
+                for (unsigned i = 0; i < RHO_MAX_BEARINGS * RHO_MAX_BEARINGS; i++) {
+                    double trace = trace_m2(a, b, &scene.look[k][a].bearings[i / RHO_MAX_BEARINGS],
+                                            &scene.look[k][b].bearings[i % RHO_MAX_BEARINGS]);
+                    traces_m2[count] = trace;
+                    count += trace >= 0.0;
+                }
+            }
+        }
+    }
+    qsort(traces_m2, count, sizeof traces_m2[0], compare_doubles);
+    return count;
+}
+
+static void the_most_certain_crossings_are_kept(void **state)
+{
+    (void)state;
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.scans = RHO_MAX_PASSIVE_SCANS;
+    config.rule = RHO_GHOST_NO_RULE;
+    random_state = 20;
+    scene = scene_of(RHO_MAX_PASSIVE_SENSORS, 0, 0.1, 0.9, 0.0);
+    scene.scans = RHO_MAX_PASSIVE_SCANS;
+    set_scan_times(&scene);
+    fill_looks();
+    start_with(&config);
+    push_all();
+    expect_sound_search();
+    assert_int_equal(passive.num_tracks, 0); /* so that the second pass has all bearings */
+    assert_true(collect_traces() > RHO_MAX_PASSIVE_POINTS);
+    assert_int_equal(passive.num_points, RHO_MAX_PASSIVE_POINTS);
+    double kept_m2 = 0.0, least_m2 = 0.0;
+    for (unsigned i = 0; i < RHO_MAX_PASSIVE_POINTS; i++) {
+        kept_m2 += (double)passive.points[i].xx_m2 + (double)passive.points[i].yy_m2;
+        least_m2 += traces_m2[i];
+    }
+    assert_true(fabs(kept_m2 / least_m2 - 1.0) < 1e-4);
+}
+
 /* All looks have the same bearings. */
 static void push_same(unsigned sensors, const double *bearings_rad, unsigned count,
                       double sigma_rad)
@@ -685,6 +759,7 @@ int main(void)
         cmocka_unit_test(bearings_that_are_not_held_are_left_alone),
         cmocka_unit_test(fates_come_in_the_order_of_scans),
         cmocka_unit_test(every_capacity_full_of_false_bearings),
+        cmocka_unit_test(the_most_certain_crossings_are_kept),
         cmocka_unit_test(bearings_that_are_all_equal_meet_nowhere),
         cmocka_unit_test(bearings_along_the_base_make_no_place),
         cmocka_unit_test(targets_on_the_bases_extension_are_no_certain_tracks),

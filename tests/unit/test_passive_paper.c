@@ -123,7 +123,7 @@ static void crossings_can_count_instead_of_scans(void **state)
 
 /* ---- eq. (3) ---------------------------------------------------------------------------------- */
 
-/* Two of the sensors of scene_of see a place within 80 km; true where float32 can tell its range. */
+/* Two of the sensors of scene_of see a place within 80 km; true where float32 can tell its range to a metre. */
 static int draw_crossing(struct rho_crossing_base *base, float bearing_rad[2],
                          struct rho_crossing *crossing)
 {
@@ -138,7 +138,7 @@ static int draw_crossing(struct rho_crossing_base *base, float bearing_rad[2],
     return hypot(x_m, y_m) <= 80e3 &&
            rho_crossing_find(base, bearing_rad[0], bearing_rad[1], 100e3f, crossing) ==
                RHO_CROSSING_MEETS &&
-           crossing->delta_rad >= 0.02f;
+           crossing->delta_rad >= 0.02f && crossing->delta_rad <= (float)PI - 0.02f;
 }
 
 /* Where the float32 bearings meet, in double precision. */

@@ -16,4 +16,7 @@ struct bench {
 /* The Hough accumulator against a dense one, and against OpenCV where tests/bench/hough_opencv.cpp was built. */
 void bench_hough(const struct bench *bench);
 
+/* Searches of bearings; in JSON an object of its own. */
+void bench_passive(const struct bench *bench);
+
 #endif

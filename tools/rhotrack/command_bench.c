@@ -262,7 +262,8 @@ static const struct {
 } benches[] = {{"kalman", bench_kalman},
                {"initiate", bench_initiate},
                {"track", bench_track},
-               {"hough", bench_hough}};
+               {"hough", bench_hough},
+               {"passive", bench_passive}};
 
 #define NUM_BENCHES (sizeof benches / sizeof benches[0])
 
@@ -291,7 +292,7 @@ static void check_name(const char *name)
             return;
         }
     }
-    fail(EXIT_USAGE, "no bench '%s'; there is: kalman, initiate, track, hough", name);
+    fail(EXIT_USAGE, "no bench '%s'; there is: kalman, initiate, track, hough, passive", name);
 }
 
 int command_bench(struct command_line *line)
@@ -300,7 +301,8 @@ int command_bench(struct command_line *line)
     const char *wanted = line->num_arguments > 0 ? line->arguments[0] : NULL;
     struct bench bench = {.seed = line->seed};
     if (line->num_arguments > 1) {
-        fail(EXIT_USAGE, "bench: give one name or none; there is: kalman, initiate, track, hough");
+        fail(EXIT_USAGE,
+             "bench: give one name or none; there is: kalman, initiate, track, hough, passive");
     }
     if (wanted) {
         check_name(wanted);
