@@ -16,11 +16,9 @@
 
 static void start_choice(struct rho_passive_choice *choice, const struct rho_passive_search *search)
 {
+    memset(choice, 0, sizeof *choice);
     choice->search = search;
     choice->count = search->passive->num_candidates;
-    choice->total_nat = 0.0f;
-    memset(choice->is_in, 0, sizeof choice->is_in);
-    memset(choice->is_out, 0, sizeof choice->is_out);
     for (unsigned i = 0; i < choice->count; i++) {
         choice->gain_nat[i] = search->passive->candidates[i].score_nat;
     }
@@ -123,7 +121,7 @@ void rho_passive_choose(const struct rho_passive_search *search, struct rho_pass
     set_shared(search);
     start_choice(best, search);
     for (unsigned i = 0; i < STARTS && i < best->count; i++) {
-        struct rho_passive_choice choice;
+        struct rho_passive_choice choice = {.count = 0};
         start_choice(&choice, search);
         flip(&choice, order[i]);
         fill_up(&choice, choice.count);

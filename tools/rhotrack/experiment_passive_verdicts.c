@@ -108,6 +108,8 @@ void passive_judge(struct passive_report *report)
     }
     if (report->defaults != NULL) {
         judge_default(report);
+    }
+    if (report->chain != NULL) {
         passive_chain_judge(report->chain, &report->verdicts);
     }
 }
