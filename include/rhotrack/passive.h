@@ -125,7 +125,7 @@ struct rho_passive {
     struct rho_passive_fitted fitted[RHO_PASSIVE_PAIRS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
     uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES]; /* bearings */
-    struct rho_passive_set best, other;
+    struct rho_passive_set best, other, spare;
 };
 
 /* scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, cells of 2 km and 5 degrees, the safe

@@ -376,14 +376,15 @@ static void count_bearing(const struct rho_passive_search *search, const struct 
 }
 
 struct rho_passive_judgement rho_passive_judge(const struct rho_passive_search *search,
-                                               const float state_m[N], rho_passive_claim *claim)
+                                               const float state_m[N], int claimed_too,
+                                               rho_passive_claim *claim)
 {
     const struct rho_batch *batch = &search->passive->batch;
     struct rho_passive_judgement judgement = {.hits = 0};
     memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct nearest nearest = nearest_bearing(search, k, s, state_m, 1);
+            struct nearest nearest = nearest_bearing(search, k, s, state_m, claimed_too);
             if (nearest.which >= 0 && square(sigmas_off(&nearest)) < square(GATE_SIGMAS)) {
                 claim[k][s] = (uint8_t)(nearest.which + 1);
                 count_bearing(search, &nearest, &judgement);

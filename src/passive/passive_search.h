@@ -88,7 +88,7 @@ struct rho_passive_judgement {
 /* Score and claims of a state: the nearest bearings within 3.5 sigmas. */
 struct rho_passive_judgement rho_passive_judge(const struct rho_passive_search *search,
                                                const float state_m[RHO_PASSIVE_STATES],
-                                               rho_passive_claim *claim);
+                                               int claimed_too, rho_passive_claim *claim);
 
 /* The score with given claims. */
 struct rho_passive_judgement rho_passive_judge_claimed(const struct rho_passive_search *search,

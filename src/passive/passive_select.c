@@ -78,7 +78,7 @@ static void add_candidate(struct rho_passive_search *search,
 int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO_PASSIVE_STATES])
 {
     struct rho_passive_candidate candidate;
-    struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, candidate.claim);
+    struct rho_passive_judgement judgement = rho_passive_judge(search, state_m, 1, candidate.claim);
     candidate.score_nat = judgement.score_nat;
     candidate.hits = judgement.hits;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
@@ -90,17 +90,6 @@ int rho_passive_offer(struct rho_passive_search *search, const float state_m[RHO
 }
 
 /* ---- tracks ----------------------------------------------------------------------------------- */
-
-static void claim(struct rho_passive *passive, rho_passive_const_claim *claims)
-{
-    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
-        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            if (claims[k][s] > 0) {
-                passive->is_claimed[k][s][claims[k][s] - 1u] = 1;
-            }
-        }
-    }
-}
 
 static void set_scans(const struct rho_passive *passive, struct rho_passive_track *track)
 {
@@ -146,17 +135,6 @@ static void sort_tracks(struct rho_passive *passive)
             passive->tracks[place] = passive->tracks[place - 1u];
         }
         passive->tracks[place] = track;
-    }
-}
-
-void rho_passive_claim_best(struct rho_passive_search *search)
-{
-    struct rho_passive *passive = search->passive;
-    struct rho_passive_choice choice;
-    rho_passive_choose(search, &choice);
-    rho_passive_gather(search, &choice, &passive->best);
-    for (unsigned i = 0; i < passive->best.num; i++) {
-        claim(passive, (rho_passive_const_claim *)passive->best.tracks[i].claim);
     }
 }
 

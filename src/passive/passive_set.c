@@ -186,8 +186,8 @@ static int drop_worst(struct rho_passive_set *set)
     return 1;
 }
 
-void rho_passive_gather(const struct rho_passive_search *search,
-                        const struct rho_passive_choice *choice, struct rho_passive_set *set)
+static void fill(const struct rho_passive_search *search, const struct rho_passive_choice *choice,
+                 struct rho_passive_set *set)
 {
     struct rho_passive *passive = search->passive;
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
@@ -204,9 +204,64 @@ void rho_passive_gather(const struct rho_passive_search *search,
         set->tracks[set->num] = passive->candidates[order[i]];
         set->candidate[set->num++] = order[i];
     }
+}
+
+static void settle(const struct rho_passive_search *search, struct rho_passive_set *set)
+{
     do {
         refine(search, set);
     } while (drop_worst(set));
+}
+
+static void claim(struct rho_passive *passive, rho_passive_const_claim *claims, uint8_t is_claimed)
+{
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            if (claims[k][s] > 0) {
+                passive->is_claimed[k][s][claims[k][s] - 1u] = is_claimed;
+            }
+        }
+    }
+}
+
+/* Each is fitted to the nearest bearings that better ones have left. */
+static void fit_in_turn(const struct rho_passive_search *search, struct rho_passive_set *set)
+{
+    for (unsigned t = 0; t < set->num; t++) {
+        struct rho_passive_candidate *track = &set->tracks[t];
+        rho_passive_fit(search, track->state_m, 0);
+        (void)rho_passive_judge(search, track->state_m, 0, track->claim);
+        claim(search->passive, (rho_passive_const_claim *)track->claim, 1);
+    }
+    for (unsigned t = 0; t < set->num; t++) {
+        claim(search->passive, (rho_passive_const_claim *)set->tracks[t].claim, 0);
+    }
+}
+
+/* Giving out and fitting by turns ends where it began near; two beginnings are better than one. */
+void rho_passive_gather(const struct rho_passive_search *search,
+                        const struct rho_passive_choice *choice, struct rho_passive_set *set)
+{
+    struct rho_passive_set *spare = &search->passive->spare;
+    fill(search, choice, set);
+    *spare = *set;
+    settle(search, set);
+    fit_in_turn(search, spare);
+    settle(search, spare);
+    if (spare->total_nat > set->total_nat + GAIN_MIN_NAT) {
+        *set = *spare;
+    }
+}
+
+void rho_passive_claim_best(struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    struct rho_passive_choice choice;
+    rho_passive_choose(search, &choice);
+    rho_passive_gather(search, &choice, &passive->best);
+    for (unsigned i = 0; i < passive->best.num; i++) {
+        claim(passive, (rho_passive_const_claim *)passive->best.tracks[i].claim, 1);
+    }
 }
 
 /* ---- other sets ------------------------------------------------------------------------------- */

@@ -72,11 +72,12 @@ static void every_bearing_has_its_fate_in_its_place(void **state)
     assert_int_equal(report.tracks[0].plot, 2); /* of the last sensor's scan */
     assert_int_equal(report.tracks[0].sensor_id, 11);
     assert_int_equal(report.fates_total[RHO_FATE_GHOST], 2);
-    /* what was held is in the batch, and nothing else */
-    assert_int_equal(passive.batch.num_bearings[BATCH - 1][0], RHO_MAX_BEARINGS - 5);
-    assert_int_equal(passive.batch.num_bearings[BATCH - 1][1], 1);
-    assert_float_equal(passive.batch.bearings[BATCH - 1][0][0].bearing_rad, 0.5, 1e-6);
+    /* what was held is in the batch, ghosts too, and nothing else */
+    assert_int_equal(passive.batch.num_bearings[BATCH - 1][0], RHO_MAX_BEARINGS - 4);
+    assert_int_equal(passive.batch.num_bearings[BATCH - 1][1], 2);
+    assert_float_equal(passive.batch.bearings[BATCH - 1][0][1].bearing_rad, 0.5, 1e-6);
     assert_float_equal(passive.batch.bearings[BATCH - 1][1][0].bearing_rad, -0.5, 1e-6);
+    assert_float_equal(passive.batch.bearings[BATCH - 1][1][1].bearing_rad, 2.0, 1e-6);
 }
 
 /* A bearing that meets nobody's, as nobody else has any, may be a target's. */
@@ -115,7 +116,7 @@ static void counters_add_up_over_a_long_run(void **state)
         const struct rho_tracker_counters *counters = &tracker.counters;
         frames++;
         assert_int_equal(counters->scans_accepted, frames);
-        assert_int_equal(counters->fates[RHO_FATE_HELD],
+        assert_int_equal(counters->fates[RHO_FATE_HELD] + counters->fates[RHO_FATE_GHOST],
                          counters->plots_initiated + counters->plots_clutter + count_held());
         assert_int_equal(counters->tracks_started - counters->tracks_ended, report.num_tracks);
     }
@@ -128,12 +129,12 @@ static void counters_add_up_over_a_long_run(void **state)
 
 /* ---- capacities ------------------------------------------------------------------------------- */
 
-/* The batch's newest frame holds just the bearings of this scan that are HELD, in their order. */
+/* The batch's newest frame holds just the bearings of this scan that are HELD or a GHOST, in their order. */
 static void expect_held(unsigned sensor, const struct rho_bearing_scan *scan, uint32_t first)
 {
     unsigned newest = passive.batch.num_scans - 1u, held = 0;
     for (uint32_t i = 0; i < scan->num_bearings && first + i < RHO_MAX_PLOTS; i++) {
-        if (report.fates[first + i] == RHO_FATE_HELD) {
+        if (report.fates[first + i] == RHO_FATE_HELD || report.fates[first + i] == RHO_FATE_GHOST) {
             const struct rho_batch_bearing *bearing = &passive.batch.bearings[newest][sensor][held];
             assert_true(bearing->bearing_rad == scan->bearings[i].bearing_rad);
             held++;
