@@ -104,10 +104,7 @@ struct choice {
 
 static void start_choice(struct choice *choice, const struct rho_passive_search *search)
 {
-    choice->search = search;
-    choice->count = search->passive->num_candidates;
-    choice->total_nat = 0.0f;
-    memset(choice->is_in, 0, sizeof choice->is_in);
+    *choice = (struct choice){.search = search, .count = search->passive->num_candidates};
     for (unsigned i = 0; i < choice->count; i++) {
         choice->gain_nat[i] = search->passive->candidates[i].score_nat;
     }
