@@ -11,6 +11,7 @@
 #define GATE_SIGMAS 3.5f
 /* Weak beliefs that keep a fit from running away: a place within the range, and 500 m/s. */
 #define SPEED_PRIOR_MPS 500.0f
+#define EXACT_M 1.0f      /* places and straight lines are no better: near a sensor a bearing is */
 #define STEP_SHARE 0.1f   /* of the range, in one step */
 #define PLACE_SHARE 2.0f  /* of the range, at most */
 #define CHI2_SIGMAS 3.09f /* 99.9 % */
@@ -56,7 +57,7 @@ static void add_bearing(const struct rho_passive_search *search, unsigned scan,
     float step = search->step[scan];
     float row_x = -nearest->way.y_m / range2_m2, row_y = nearest->way.x_m / range2_m2;
     const float row[N] = {row_x, row_y, step * row_x, step * row_y};
-    add_row(equations, row, 1.0f / square(nearest->sigma_rad),
+    add_row(equations, row, 1.0f / (square(nearest->sigma_rad) + square(EXACT_M) / range2_m2),
             rho_passive_sigmas_off(nearest) * nearest->sigma_rad);
 }
 
