@@ -161,7 +161,7 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
 /*
  * Searches the batch. Results: passive->tracks[0 .. num_tracks - 1].
  * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no track.
- * Cost: src/DESIGN.md. Stack: 2 KB.
+ * Cost: src/DESIGN.md. Stack: 3.5 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 
