@@ -301,11 +301,11 @@ static unsigned best_of(const struct others *others)
 }
 
 /*
- * The most that any set is worth without the candidate and its kin. More than the best: it becomes the best, and its choice
- * the choice. Sets that are far worse by the choice's reckoning count as that says.
+ * The most that any set is worth without the candidate and its kin. More than the best: where it may, it becomes the best,
+ * and its choice the choice. Sets that are far worse by the choice's reckoning count as that says.
  */
 static float best_without(const struct rho_passive_search *search,
-                          struct rho_passive_choice *choice, unsigned which)
+                          struct rho_passive_choice *choice, unsigned which, int may_change)
 {
     struct rho_passive *passive = search->passive;
     float most_nat = NONE_NAT, off_nat = passive->best.total_nat - choice->total_nat;
@@ -322,7 +322,7 @@ static float best_without(const struct rho_passive_search *search,
         rho_passive_gather(search, &tried, &passive->other);
         others.total_nat[best] = NONE_NAT;
         most_nat = passive->other.total_nat > most_nat ? passive->other.total_nat : most_nat;
-        if (most_nat > passive->best.total_nat + GAIN_MIN_NAT) {
+        if (may_change && most_nat > passive->best.total_nat + GAIN_MIN_NAT) {
             passive->best = passive->other;
             *choice = tried;
             memset(choice->is_out, 0, sizeof choice->is_out);
@@ -333,19 +333,21 @@ static float best_without(const struct rho_passive_search *search,
     return left_nat > most_nat ? left_nat : most_nat;
 }
 
+/* Margins are all of one set: where another is better they begin anew with it, and in the end no other one is let in. */
 void rho_passive_weigh(const struct rho_passive_search *search, struct rho_passive_choice *choice,
                        float margins_nat[RHO_MAX_PASSIVE_TRACKS])
 {
-    struct rho_passive_set *best = &search->passive->best;
+    const struct rho_passive_set *best = &search->passive->best;
     unsigned changes = 0;
-    for (unsigned t = 0; t < best->num; t++) {
+    for (unsigned t = 0; t < best->num;) {
         float total_nat = best->total_nat;
-        margins_nat[t] = total_nat - best_without(search, choice, best->candidate[t]);
-        if (margins_nat[t] < 0.0f) {
-            margins_nat[t] = 0.0f;
-            if (changes++ < CHANGES_MAX) {
-                t = (unsigned)-1; /* from the start */
-            }
+        float margin_nat = total_nat - best_without(search, choice, best->candidate[t],
+                                                    changes < CHANGES_MAX);
+        if (best->total_nat > total_nat) {
+            changes++;
+            t = 0;
+        } else {
+            margins_nat[t++] = margin_nat > 0.0f ? margin_nat : 0.0f;
         }
     }
 }
