@@ -341,8 +341,8 @@ void rho_passive_weigh(const struct rho_passive_search *search, struct rho_passi
     unsigned changes = 0;
     for (unsigned t = 0; t < best->num;) {
         float total_nat = best->total_nat;
-        float margin_nat = total_nat - best_without(search, choice, best->candidate[t],
-                                                    changes < CHANGES_MAX);
+        float margin_nat =
+            total_nat - best_without(search, choice, best->candidate[t], changes < CHANGES_MAX);
         if (best->total_nat > total_nat) {
             changes++;
             t = 0;
