@@ -36,6 +36,9 @@ struct rho_batch {
     int64_t time_us[RHO_MAX_PASSIVE_SCANS];
     uint8_t num_bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]; /* the sensor reported */
+    /* of each look, counter-clockwise from .. to; equal: the whole circle */
+    float sector_from_rad[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    float sector_to_rad[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     struct rho_batch_bearing bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]
                                      [RHO_MAX_BEARINGS];
 };
@@ -59,7 +62,8 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  *          (rho_measurement_is_bearing) or NO_ROOM (beyond RHO_MAX_BEARINGS) where they cannot be
  * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than RHO_MAX_PASSIVE_SENSORS), VALUE
  * (a sensor twice in the frame, in another place than before, nearer than RHO_CROSSING_BASE_MIN_M or farther than apart_max_m
- * from another, its place not a coordinate); nothing is changed. Cost: the bearings, and the batch moved by a frame.
+ * from another, its place not a coordinate, a sector beyond one
+ * turn either way); nothing is changed. Cost: the bearings, and the batch moved by a frame.
  * Stack: 100 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,

@@ -36,7 +36,9 @@ struct rho_passive_config {
     float v_max_mps;         /* of targets: 1 .. RHO_LIMIT_SPEED_MPS */
     float pd;                /* probability that a sensor sees a target in a scan: 0.01 .. 0.999 */
     float field_of_view_rad; /* that false bearings are spread over: 0.01 .. 2 pi */
-    float hits_min; /* share of the scans and sensors that a track has a bearing of: 0.1 .. 1 */
+    /* share of the looks that a track has a bearing of, of those whose sectors it was in: 0.1 .. 1; and half as much of
+     * all */
+    float hits_min;
     float
         rho_cell_m; /* 2 (range_max_m + the farthest sensor) over it: at most RHO_PASSIVE_RHO_CELLS */
     float theta_cell_rad;        /* pi over it: at most RHO_PASSIVE_THETA_CELLS */
@@ -159,7 +161,7 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
 /*
  * Searches the batch. Results: passive->tracks[0 .. num_tracks - 1].
  * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no track.
- * Cost: src/DESIGN.md. Stack: 2 KB.
+ * Cost: src/DESIGN.md. Stack: 3.5 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 

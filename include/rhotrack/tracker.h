@@ -155,7 +155,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
  * either way, a time beyond RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its frame), and those of
  * rho_passive_accepts; nothing is changed, *report neither.
  * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one rho_passive_search.
- * Stack: 3 KB (embedded profile).
+ * Stack: 4.2 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker,
                                                       struct rho_passive *passive,

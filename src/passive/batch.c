@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/measurement.h"
 
@@ -77,6 +78,12 @@ static int is_apart_in_frame(const struct rho_batch *batch, const struct rho_fra
     return 1;
 }
 
+static int has_sector(const struct rho_bearing_scan *scan)
+{
+    return rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
+           rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI);
+}
+
 static enum rho_status check_scans(const struct rho_batch *batch, const struct rho_frame *frame)
 {
     unsigned num_sensors = batch->num_sensors;
@@ -85,7 +92,7 @@ static enum rho_status check_scans(const struct rho_batch *batch, const struct r
         if (scan->num_bearings > 0 && !scan->bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!is_place(batch, scan) || !is_apart_in_frame(batch, frame, i)) {
+        if (!is_place(batch, scan) || !is_apart_in_frame(batch, frame, i) || !has_sector(scan)) {
             return RHO_ERROR_VALUE;
         }
         num_sensors += find_sensor(batch, scan->sensor_id) == batch->num_sensors;
@@ -118,6 +125,9 @@ static void drop_oldest(struct rho_batch *batch)
     memmove(batch->time_us, batch->time_us + 1, left * sizeof batch->time_us[0]);
     memmove(batch->num_bearings, batch->num_bearings + 1, left * sizeof batch->num_bearings[0]);
     memmove(batch->was_seen, batch->was_seen + 1, left * sizeof batch->was_seen[0]);
+    memmove(batch->sector_from_rad, batch->sector_from_rad + 1,
+            left * sizeof batch->sector_from_rad[0]);
+    memmove(batch->sector_to_rad, batch->sector_to_rad + 1, left * sizeof batch->sector_to_rad[0]);
     memmove(batch->bearings, batch->bearings + 1, left * sizeof batch->bearings[0]);
     batch->num_scans--;
 }
@@ -136,6 +146,8 @@ static void take_scan(struct rho_batch *batch, const struct rho_bearing_scan *sc
 {
     unsigned k = batch->num_scans, s = have_sensor(batch, scan);
     batch->was_seen[k][s] = 1;
+    batch->sector_from_rad[k][s] = scan->sector_from_rad;
+    batch->sector_to_rad[k][s] = scan->sector_to_rad;
     for (uint32_t i = 0; i < scan->num_bearings; i++) {
         const struct rho_bearing *from = &scan->bearings[i];
         uint8_t *count = &batch->num_bearings[k][s];

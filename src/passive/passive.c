@@ -176,7 +176,6 @@ static void set_odds(struct rho_passive_search *search)
     search->miss_nat = rho_log(1.0f - config->pd);
     search->share_nat =
         search->hit_nat - log_sigmas / (total > 0.0f ? total : 1.0f) - search->miss_nat;
-    search->hits_min = (unsigned)(config->hits_min * looks + 0.999f);
 }
 
 static void set_cells(struct rho_passive_search *search)

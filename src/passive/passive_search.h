@@ -4,8 +4,12 @@
  *
  *   passive.c          configuration, frames, the order of a search
  *   passive_points.c   crossings, votes, lines
- *   passive_fit.c      bearings of a hypothesis: score, fit, covariance
- *   passive_select.c   candidates, and which of them are tracks together
+ *   passive_near.c     bearings near a hypothesis
+ *   passive_fit.c      its fit, score and covariance
+ *   passive_mix.c      candidates from two others' bearings
+ *   passive_select.c   candidates, and what of them become tracks
+ *   passive_choose.c   which of them are tracks together, by what they share
+ *   passive_set.c      fitted together, and weighed against others
  */
 #ifndef RHOTRACK_PASSIVE_SEARCH_H
 #define RHOTRACK_PASSIVE_SEARCH_H
@@ -28,7 +32,6 @@ struct rho_passive_search {
     float share_nat;         /* what a bearing that two tracks claim costs one of them */
     float sigma_min_rad;     /* bearings count as no better */
     unsigned looks;          /* scans times sensors that reported */
-    unsigned hits_min;
     int is_second; /* pass: claimed bearings are not there, and no third sensor is asked */
     uint16_t theta_cells, rho_cells;
     float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
@@ -58,6 +61,36 @@ void rho_passive_propose(struct rho_passive_search *search, const struct rho_pas
 
 /* ---- bearings of a state ---- */
 
+/* From a sensor to a state's place at a scan. */
+struct rho_passive_way {
+    float x_m, y_m;
+};
+struct rho_passive_way rho_passive_way_to(const struct rho_passive_search *search, unsigned scan,
+                                          unsigned sensor, const float state_m[RHO_PASSIVE_STATES]);
+
+/* A bearing beside a state. */
+struct rho_passive_near {
+    int which; /* place among those held, from 0; -1: none within nine sigmas */
+    struct rho_passive_way way;
+    float off_m; /* from the place to the bearing's ray */
+    float sigma_rad;
+};
+
+/* The nearest bearing of a look. claimed_too 0: bearings that are claimed are not there. */
+struct rho_passive_near rho_passive_nearest(const struct rho_passive_search *search, unsigned scan,
+                                            unsigned sensor,
+                                            const float state_m[RHO_PASSIVE_STATES],
+                                            int claimed_too);
+
+/* The claimed bearing (from 1) however far off; 0: none. */
+struct rho_passive_near rho_passive_claimed(const struct rho_passive_search *search, unsigned scan,
+                                            unsigned sensor,
+                                            const float state_m[RHO_PASSIVE_STATES],
+                                            unsigned claim);
+
+/* Its error, measured less expected, in sigmas. */
+float rho_passive_sigmas_off(const struct rho_passive_near *near);
+
 /* Where bearings are, by direction: before any of the following. */
 void rho_passive_mark_bearings(struct rho_passive_search *search);
 
@@ -82,7 +115,8 @@ void rho_passive_fit_claimed(const struct rho_passive_search *search,
 struct rho_passive_judgement {
     float score_nat, chi2;
     uint16_t hits;
-    int is_track; /* hits, chi2, speed and score are a track's */
+    uint16_t looks_away; /* of sensors that could not see it then */
+    int is_track;        /* hits, chi2, speed and score are a track's */
 };
 
 /* Score and claims of a state: the nearest bearings within 3.5 sigmas. */

@@ -38,6 +38,7 @@ static inline double normal(void)
 /* What one sensor saw in one scan. */
 struct look {
     int is_absent; /* the sensor is not in the frame */
+    double sector_from_rad, sector_to_rad;
     unsigned count;
     struct rho_bearing bearings[LOOK_MAX];
     int target[LOOK_MAX]; /* -1: a false bearing */
@@ -230,6 +231,8 @@ static inline void fill_frame(const struct scene *scene, unsigned k, struct full
                                           .sensor_id = (int32_t)(10 + s),
                                           .x_m = (float)scene->sensor_x_m[s],
                                           .y_m = (float)scene->sensor_y_m[s],
+                                          .sector_from_rad = (float)look->sector_from_rad,
+                                          .sector_to_rad = (float)look->sector_to_rad,
                                           .num_bearings = look->count,
                                           .bearings = look->bearings};
         }

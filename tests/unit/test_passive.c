@@ -478,15 +478,21 @@ static void four_scans_are_the_fewest(void **state)
     }
 }
 
-/* Sensor 2 sees nothing, or is not there: the other two alone have two thirds of the bearings. */
-static void search_without_third(int is_absent, float hits_min)
+enum third { SAW_NOTHING, WAS_ABSENT, LOOKED_AWAY, LOOKED_THERE };
+
+/* Sensor 2 sees the target at the first scan only: the other two alone have two thirds of the bearings. */
+static void search_without_third(enum third third, float hits_min)
 {
     struct rho_passive_config config;
     struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
     draw(&from, 14);
     for (unsigned k = 1; k < scene.scans; k++) {
         scene.look[k][2].count = 0;
-        scene.look[k][2].is_absent = is_absent;
+        scene.look[k][2].is_absent = third == WAS_ABSENT;
+        scene.look[k][2].sector_from_rad = third == LOOKED_AWAY ? 2.0 : -0.5 * PI;
+        scene.look[k][2].sector_to_rad = third == LOOKED_AWAY    ? 4.0
+                                         : third == LOOKED_THERE ? 0.5 * PI
+                                                                 : -0.5 * PI;
     }
     rho_passive_config_default(&config);
     config.hits_min = hits_min;
@@ -500,20 +506,27 @@ static void search_without_third(int is_absent, float hits_min)
 static void what_a_sensor_did_not_look_at_is_no_miss(void **state)
 {
     (void)state;
-    search_without_third(1, 0.9f);
+    search_without_third(WAS_ABSENT, 0.9f);
     assert_int_equal(passive.num_tracks, 1);
     assert_int_equal(passive.tracks[0].hits, 17);
-    search_without_third(0, 0.9f);
+    int32_t score_mnat = passive.tracks[0].score_mnat;
+    search_without_third(LOOKED_AWAY, 0.9f);
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].hits, 17);
+    assert_int_equal(passive.tracks[0].score_mnat, score_mnat);
+    search_without_third(SAW_NOTHING, 0.9f);
+    assert_int_equal(passive.num_tracks, 0);
+    search_without_third(LOOKED_THERE, 0.9f);
     assert_int_equal(passive.num_tracks, 0);
 }
 
 static void a_miss_costs_the_logarithm_of_its_probability(void **state)
 {
     (void)state;
-    search_without_third(1, 0.65f);
+    search_without_third(WAS_ABSENT, 0.65f);
     assert_int_equal(passive.num_tracks, 1);
     int32_t score_mnat = passive.tracks[0].score_mnat;
-    search_without_third(0, 0.65f);
+    search_without_third(SAW_NOTHING, 0.65f);
     assert_int_equal(passive.num_tracks, 1);
     assert_in_range(score_mnat - passive.tracks[0].score_mnat, 16118 - 20, 16118 + 20);
 }

@@ -100,28 +100,17 @@ static void write_found(const struct batch *batch, const char *path)
     output_close(&output);
 }
 
-static int compare_descending(const void *a, const void *b)
-{
-    return *(const int *)b - *(const int *)a;
-}
-
 /* Votes of each track found, descending; *sum gets them all. */
 static cJSON *peaks_json(const struct rho_initiator *initiator, double *sum)
 {
     int hits[RHO_MAX_CANDIDATES];
-    cJSON *list;
 
     *sum = 0;
     for (int i = 0; i < initiator->num_candidates; i++) {
         hits[i] = initiator->candidates[i].hits;
         *sum += hits[i];
     }
-    qsort(hits, initiator->num_candidates, sizeof *hits, compare_descending);
-    list = cJSON_CreateIntArray(hits, initiator->num_candidates);
-    if (!list) {
-        fail(EXIT_RUNTIME, "out of memory");
-    }
-    return list;
+    return json_descending(hits, initiator->num_candidates);
 }
 
 static void print_json(const struct batch *batch)

@@ -268,6 +268,23 @@ const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
     return text;
 }
 
+static int compare_descending(const void *a, const void *b)
+{
+    return *(const int *)b - *(const int *)a;
+}
+
+struct cJSON *json_descending(int *values, int count)
+{
+    cJSON *list;
+
+    qsort(values, (size_t)count, sizeof *values, compare_descending);
+    list = cJSON_CreateIntArray(values, count);
+    if (!list) {
+        fail(EXIT_RUNTIME, "out of memory");
+    }
+    return list;
+}
+
 void json_print(struct cJSON *object)
 {
     struct output output = output_open(NULL);

@@ -52,6 +52,9 @@ void make_folder(const char *path);
 struct cJSON;
 void json_print(struct cJSON *object);
 
+/* Sorts the values, the largest first, and makes a list of them. */
+struct cJSON *json_descending(int *values, int count);
+
 /* A float32 in the fewest digits that read back as the same float32; "0" for -0. */
 #define FLOAT_TEXT_BYTES 24
 const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);

@@ -94,6 +94,8 @@ static void judge_default(struct passive_report *report)
         judge_default_case(report, i);
     }
     judge_nees(&report->verdicts, &report->clean_nees, "clean cases ahead: NEES of the found");
+    judge_nees(&report->verdicts, &report->nees,
+               "all cases but the base's extension: NEES of the found");
     judge_nees(&report->verdicts, &report->own_nees,
                "all cases but the base's extension: NEES of the found with their own bearings "
                "alone");

@@ -48,11 +48,6 @@ static void write_found(const struct rho_passive *passive, int64_t time_us, cons
     output_close(&output);
 }
 
-static int compare_descending(const void *a, const void *b)
-{
-    return *(const int *)b - *(const int *)a;
-}
-
 /* Bearings of each track, descending, and their number. */
 static void add_votes(cJSON *object, const struct rho_passive *passive)
 {
@@ -62,9 +57,17 @@ static void add_votes(cJSON *object, const struct rho_passive *passive)
         hits[i] = passive->tracks[i].hits;
         sum += hits[i];
     }
-    qsort(hits, passive->num_tracks, sizeof *hits, compare_descending);
     cJSON_AddNumberToObject(object, "votes", sum);
-    cJSON_AddItemToObject(object, "peak_votes", cJSON_CreateIntArray(hits, passive->num_tracks));
+    cJSON_AddItemToObject(object, "peak_votes", json_descending(hits, passive->num_tracks));
+}
+
+static void add_margins(cJSON *object, const struct rho_passive *passive)
+{
+    cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
+
+    for (int i = 0; i < passive->num_tracks; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(1e-3 * passive->tracks[i].margin_mnat));
+    }
 }
 
 static void print_json(const struct rho_passive *passive, const struct bearings_batch *batch)
@@ -79,6 +82,7 @@ static void print_json(const struct rho_passive *passive, const struct bearings_
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
     add_votes(object, passive);
     cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
+    add_margins(object, passive);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
     cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);

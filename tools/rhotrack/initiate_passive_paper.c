@@ -46,11 +46,6 @@ static void write_found(const struct rho_passive_paper *paper, int64_t time_us, 
     output_close(&output);
 }
 
-static int compare_descending(const void *a, const void *b)
-{
-    return *(const int *)b - *(const int *)a;
-}
-
 static void add_votes(cJSON *object, const struct rho_passive_paper *paper)
 {
     int votes[RHO_MAX_PASSIVE_LINES];
@@ -58,9 +53,8 @@ static void add_votes(cJSON *object, const struct rho_passive_paper *paper)
     for (int i = 0; i < paper->num_lines; i++) {
         votes[i] = paper->lines[i].votes;
     }
-    qsort(votes, paper->num_lines, sizeof *votes, compare_descending);
     cJSON_AddNumberToObject(object, "votes", paper->work.votes);
-    cJSON_AddItemToObject(object, "peak_votes", cJSON_CreateIntArray(votes, paper->num_lines));
+    cJSON_AddItemToObject(object, "peak_votes", json_descending(votes, paper->num_lines));
 }
 
 static void print_json(const struct rho_passive_paper *paper, const struct bearings_batch *batch)

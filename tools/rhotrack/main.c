@@ -17,10 +17,13 @@
 static const struct command commands[] = {
     {"track", command_track, "INPUT... [-o OUTPUT] [--gate nearest]", 1, INT_MAX, "ogfcjksC",
      "the main job: scans in, tracks out",
-     "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns; several inputs are merged by\n"
-     "time), starts and maintains tracks, and writes one row a track and scan (CSV) to OUTPUT or\n"
-     "standard output. A summary goes to standard error. With --json the results go to standard\n"
-     "output as one JSON object, and tracks only to OUTPUT.\n"},
+     "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
+     "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
+     "tracks,\n"
+     "and writes one row a track and scan (CSV) to OUTPUT or standard output. A summary goes to\n"
+     "standard error. With --json the results go to standard output as one JSON object, and "
+     "tracks\n"
+     "only to OUTPUT.\n"},
     {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method METHOD]", 1, 1, "omjksC",
      "initiation alone, on the last scans as one batch",
      "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks "

@@ -16,8 +16,9 @@ struct checking {
 /* Other kinds of files have other columns: say so rather than that x_m is missing. */
 static void check_kind(const struct table *table)
 {
-    static const char *const others[][2] = {{"bearing_rad", "bearings"},
-                                            {"lat_deg", "geographic plots"}};
+    static const char *const others[][2] = {
+        {"bearing_rad", "bearings, which are not read from a pipe"},
+        {"lat_deg", "geographic plots"}};
 
     if (table_find(table, "x_m") >= 0 || table_find(table, "range_m") >= 0) {
         return;
