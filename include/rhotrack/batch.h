@@ -64,7 +64,7 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  * (a sensor twice in the frame, in another place than before, nearer than RHO_CROSSING_BASE_MIN_M or farther than apart_max_m
  * from another, its place not a coordinate, a sector beyond one
  * turn either way); nothing is changed. Cost: the bearings, and the batch moved by a frame.
- * Stack: 100 bytes.
+ * Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
                                               const struct rho_frame *frame, uint8_t *fates);

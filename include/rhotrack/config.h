@@ -106,7 +106,7 @@
 #define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Cells of the passive Hough transform. RAM: 2 bytes a cell. */
+/* Cells of the passive Hough transform. RAM: 2 bytes a cell. 7 .. 255; 8 .. 4096. */
 #ifndef RHO_PASSIVE_THETA_CELLS
 #define RHO_PASSIVE_THETA_CELLS 36
 #endif
@@ -130,7 +130,7 @@
 #endif
 
 /* Directions that a sensor's bearings of a scan are looked up by. More of them mean fewer bearings compared. RAM: a bit. A
- * multiple of 32. */
+ * multiple of 32, 32 .. 4096. */
 #ifndef RHO_PASSIVE_BINS
 #define RHO_PASSIVE_BINS 256
 #endif
@@ -216,6 +216,18 @@
 #endif
 #if RHO_MAX_PAPER_CROSSINGS < 16 || RHO_MAX_PAPER_CROSSINGS > 65535
 #error "RHO_MAX_PAPER_CROSSINGS must be 16 .. 65535"
+#endif
+#if RHO_PASSIVE_THETA_CELLS < 7 || RHO_PASSIVE_THETA_CELLS > 255
+#error "RHO_PASSIVE_THETA_CELLS must be 7 .. 255"
+#endif
+#if RHO_PASSIVE_RHO_CELLS < 8 || RHO_PASSIVE_RHO_CELLS > 4096
+#error "RHO_PASSIVE_RHO_CELLS must be 8 .. 4096"
+#endif
+#if RHO_PASSIVE_BINS < 32 || RHO_PASSIVE_BINS > 4096 || RHO_PASSIVE_BINS % 32 != 0
+#error "RHO_PASSIVE_BINS must be a multiple of 32, 32 .. 4096"
+#endif
+#if RHO_PASSIVE_PAIRS < 1 || RHO_PASSIVE_PAIRS > 65536
+#error "RHO_PASSIVE_PAIRS must be 1 .. 65536"
 #endif
 #if RHO_MAX_TRACKS < 1 || RHO_MAX_TRACKS > 8192
 #error "RHO_MAX_TRACKS must be 1 .. 8192"

@@ -132,7 +132,7 @@ RHO_MUST_CHECK enum rho_status rho_frames_close(struct rho_frames *frames);
 
 /*
  * Shows the frame that the last push or close has closed. It is valid until the next of them that is not refused.
- * Returns 0 where none was closed, with an empty frame. Cost: sensors squared. Stack: 32 bytes.
+ * Returns 0 where none was closed, with an empty frame. Cost: sensors squared. Stack: 60 bytes.
  */
 int rho_frames_closed(const struct rho_frames *frames, struct rho_frame_view *view);
 

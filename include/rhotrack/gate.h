@@ -46,7 +46,7 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot, uint
 
 /*
  * The same for a bearing from a place: one dimension, log_det of rad^2. Cost: about 200 instructions, and a prediction for
- * a bearing with an own time. Stack: 200 bytes.
+ * a bearing with an own time. Stack: 320 bytes.
  */
 int rho_gate_test_bearing(const struct rho_gate *gate, const struct rho_bearing *bearing, float x_m,
                           float y_m, struct rho_gate_result *result);

@@ -122,6 +122,19 @@ check 'bearings: the second of two inputs' refused 'bad.csv:4: bearing_rad 4 is 
 run track bad.csv plots.csv -o out.csv
 check 'bearings: the first of two inputs' refused 'bad.csv:4: bearing_rad 4 is outside *'
 
+printf "${bearings}0,1,0,0,1\\n0,2,0,60000,1\\n" >apart.csv
+refuse_file 'bearings: sensors too far apart for the cells' \
+    'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 hold range_max_m 100000 and 56000 m' apart.csv
+echo before >out.csv
+run track plots.csv apart.csv -o out.csv
+check 'bearings: sensors too far apart, beside plots' refused 'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 *'
+printf "$two" >once.csv
+printf "$two" >again.csv
+run track once.csv again.csv -o out.csv
+check 'bearings: a scan that two files have' refused 'again.csv:2: sensor 1 has another scan at 0.000000 s: line 2 of once.csv'
+run track once.csv again.csv --keep-going -o out.csv
+check 'bearings: a scan that two files have, left out' says 0 '*2 plots*2 bad rows skipped*'
+
 # ---- polar plots ----
 polar='t_s,sensor_id,range_m,azimuth_rad\n'
 refuse 'range 0' "2: range_m '0' is not above 0" "${polar}1,1,0,1\n"

@@ -24,13 +24,9 @@ static void check_apart(const struct frame_sensor *a, const struct frame_sensor 
     }
 }
 
-static void check_sensors(const struct frame_reader *reader, const struct rho_batch *batch,
-                          const struct parameters *parameters)
+void bearings_check_sensors(const struct frame_sensor *sensors, size_t count,
+                            const struct rho_batch *batch, const struct parameters *parameters)
 {
-    size_t count;
-    const struct frame_sensor *sensors = frame_reader_sensors(reader, &count);
-
-    frame_reader_need_pair(reader);
     if (count > RHO_MAX_PASSIVE_SENSORS) {
         fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,
              RHO_MAX_PASSIVE_SENSORS);
@@ -40,6 +36,16 @@ static void check_sensors(const struct frame_reader *reader, const struct rho_ba
             check_apart(&sensors[j], &sensors[i], (double)batch->apart_max_m, parameters);
         }
     }
+}
+
+static void check_sensors(const struct frame_reader *reader, const struct rho_batch *batch,
+                          const struct parameters *parameters)
+{
+    size_t count;
+    const struct frame_sensor *sensors = frame_reader_sensors(reader, &count);
+
+    frame_reader_need_pair(reader);
+    bearings_check_sensors(sensors, count, batch, parameters);
 }
 
 static void push(struct bearings_batch *batch, const struct bearings_search *search,

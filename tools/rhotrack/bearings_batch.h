@@ -4,6 +4,7 @@
 #define RHOTRACK_TOOL_BEARINGS_BATCH_H
 
 #include "commands.h"
+#include "frame_reader.h"
 #include "rhotrack/batch.h"
 
 /* An initiator, ready for a first frame. */
@@ -23,6 +24,10 @@ struct bearings_batch {
 /* Reads and searches. Sensors that are too many, or too far apart for the cells, and bad input: exit 2. */
 struct bearings_batch bearings_batch_search(const struct bearings_search *search,
                                             const struct command_line *line);
+
+/* Exit 2 where the sensors are too many, or too far apart for the batch's cells. */
+void bearings_check_sensors(const struct frame_sensor *sensors, size_t count,
+                            const struct rho_batch *batch, const struct parameters *parameters);
 
 /* Scans of a mask, a bit each. */
 unsigned bearings_count_scans(unsigned mask);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bearings_batch.h"
 #include "chain.h"
 #include "commands.h"
 #include "common.h"
@@ -50,9 +51,11 @@ static void describe_passive(struct tracking *tracking, const struct inputs *inp
     size_t count;
     const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
 
-    if (count > RHO_MAX_PASSIVE_SENSORS) {
-        fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,
-             RHO_MAX_PASSIVE_SENSORS);
+    if (count > 0) {
+        struct parameters customary = *parameters;
+
+        method_suggest(METHOD_PASSIVE, &customary);
+        bearings_check_sensors(sensors, count, &tracking->chain.passive->batch, &customary);
     }
     for (size_t i = 0; i < count; i++) {
         struct rho_sensor sensor;

@@ -17,7 +17,9 @@
 /* A scan while its rows are collected. */
 struct entry {
     struct rho_bearing_scan scan;
-    size_t order; /* of its first row, over all files */
+    const char *path; /* of its first row, as are */
+    uint32_t line;
+    size_t order; /* over all files */
     size_t first_bearing;
 };
 
@@ -159,7 +161,8 @@ static struct known_sensor *have_sensor(struct frame_reader *reader, const char 
     return known;
 }
 
-static size_t add_entry(struct frame_reader *reader, const struct bearing_row *row)
+static size_t add_entry(struct frame_reader *reader, const char *path, uint32_t line,
+                        const struct bearing_row *row)
 {
     reader->entries = must_grow(reader->entries, reader->num_entries, &reader->entries_capacity,
                                 sizeof *reader->entries);
@@ -170,18 +173,21 @@ static size_t add_entry(struct frame_reader *reader, const struct bearing_row *r
                  .y_m = row->y_m,
                  .sector_from_rad = row->sector_from_rad,
                  .sector_to_rad = row->sector_to_rad},
+        .path = path,
+        .line = line,
         .order = reader->num_entries,
     };
     return reader->num_entries++;
 }
 
-static void add_row(struct frame_reader *reader, struct known_sensor *known,
+static void add_row(struct frame_reader *reader, const char *path, uint32_t line,
                     const struct bearing_row *row)
 {
+    struct known_sensor *known = have_sensor(reader, path, line, row);
     struct member *member;
 
     if (!joins(reader, known, row->time_us)) {
-        known->open = add_entry(reader, row);
+        known->open = add_entry(reader, path, line, row);
     }
     if (!row->has_bearing) {
         return;
@@ -236,7 +242,7 @@ static void read_table(struct frame_reader *reader, const struct table *table, c
         }
         last_us = row.time_us;
         has_last = true;
-        add_row(reader, have_sensor(reader, path, table->lines[i], &row), &row);
+        add_row(reader, path, table->lines[i], &row);
     }
     if (!has_last) {
         table_fail(table, TABLE_HEADER, "not one good row after the header");
@@ -317,6 +323,47 @@ static bool belongs(const struct frame_reader *reader, const struct rho_frame *f
     return true;
 }
 
+/* A sensor's scan at the time of another one of its own, of another file: which of them was before cannot be told. */
+static const struct entry *find_twin(const struct frame_reader *reader, size_t index)
+{
+    const struct entry *entry = &reader->entries[index];
+
+    for (size_t i = index;
+         i-- > 0 && entry[-1].scan.time_us == reader->entries[index].scan.time_us;) {
+        entry--;
+        if (entry->scan.sensor_id == reader->entries[index].scan.sensor_id) {
+            return entry;
+        }
+    }
+    return NULL;
+}
+
+/* Entries are in the order of time; twins of earlier ones are refused, or left out and counted. */
+static void leave_out_twins(struct frame_reader *reader)
+{
+    size_t kept = 0;
+
+    for (size_t i = 0; i < reader->num_entries; i++) {
+        const struct entry *entry = &reader->entries[i], *twin;
+
+        reader->entries[kept] = *entry;
+        twin = find_twin(reader, kept);
+        if (!twin) {
+            kept++;
+            continue;
+        }
+        entry = &reader->entries[kept];
+        if (!reader->keep_going) {
+            fail(EXIT_USAGE, "%s:%u: sensor %d has another scan at %.6f s: line %u of %s",
+                 entry->path, (unsigned)entry->line, (int)entry->scan.sensor_id,
+                 (double)entry->scan.time_us * 1e-6, (unsigned)twin->line, twin->path);
+        }
+        reader->rows_skipped += entry->scan.num_bearings ? entry->scan.num_bearings : 1;
+        reader->num_members -= entry->scan.num_bearings;
+    }
+    reader->num_entries = kept;
+}
+
 /* The scan goes behind those of the open frame, or into one of its own. */
 static void add_to_frame(struct frame_reader *reader, size_t index)
 {
@@ -381,6 +428,7 @@ struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
     sort_sensors(reader);
     place_bearings(reader);
     qsort(reader->entries, reader->num_entries, sizeof *reader->entries, compare_entries);
+    leave_out_twins(reader);
     make_frames(reader);
     return reader;
 }
