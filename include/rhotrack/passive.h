@@ -31,8 +31,10 @@
 #include "rhotrack/types.h"
 
 struct rho_passive_config {
-    uint16_t scans;          /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
-    float range_max_m;       /* no sensor sees farther: 1000 .. 500000 */
+    uint16_t scans; /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
+    /* no sensor sees farther: 1000 .. 500000. Too small, targets beyond are not to be had, and ghosts explain their
+     * bearings with a margin */
+    float range_max_m;
     float v_max_mps;         /* of targets: 1 .. RHO_LIMIT_SPEED_MPS */
     float pd;                /* probability that a sensor sees a target in a scan: 0.01 .. 0.999 */
     float field_of_view_rad; /* that false bearings are spread over: 0.01 .. 2 pi */

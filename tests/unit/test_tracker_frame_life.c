@@ -388,6 +388,36 @@ static void own_times_of_bearings_count(void **state)
     expect_no_bias(2.0, 3.0, 1.5, 1.0);
 }
 
+/* ---- thresholds ------------------------------------------------------------------------------- */
+
+/* One target that bearings of eight degrees make hardly likelier than chance; returns the tracks started. */
+static uint32_t start_at_rate(float false_tracks_per_hour)
+{
+    struct rho_passive_config config;
+    random_state = 5;
+    scene = scene_of(2, 1, 8.0, 1.0, 0.0);
+    start_chain(5.0f);
+    rho_passive_config_default(&config);
+    config.false_tracks_per_hour = false_tracks_per_hour;
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+    scene.target[0] = (struct target){.x_m = 20e3, .y_m = 2e3, .vx_mps = -20.0, .vy_mps = 150.0};
+    fly(0, BATCH, 10.0);
+    return tracker.counters.tracks_started;
+}
+
+static void a_track_starts_where_chance_makes_so_few(void **state)
+{
+    (void)state;
+    assert_int_equal(start_at_rate(1e5f), 1);
+    int32_t often_mnat = passive.start_mnat, score_mnat = passive.tracks[0].score_mnat;
+    assert_int_equal(start_at_rate(1e-5f), 0);
+    assert_int_equal(passive.num_tracks, 1); /* found, but not believed */
+    assert_int_equal(passive.tracks[0].score_mnat, score_mnat);
+    /* a threshold of ln(1 / rate) */
+    assert_in_range(passive.start_mnat - often_mnat, 23026 - 3, 23026 + 3);
+    assert_true(often_mnat <= score_mnat && score_mnat < passive.start_mnat);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -401,6 +431,7 @@ int main(void)
         cmocka_unit_test(a_sensors_own_reach_and_sector_count),
         cmocka_unit_test(the_initiations_reach_is_the_sensors),
         cmocka_unit_test(own_times_of_bearings_count),
+        cmocka_unit_test(a_track_starts_where_chance_makes_so_few),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

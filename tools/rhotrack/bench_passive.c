@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * bench_passive: a search of bearings, and the push of a frame, over several batches of scenario passive-clutter; and of a
- * batch as full as the capacities allow, bearings anywhere, which is the worst that can come.
+ * batch as full as the capacities allow, bearings anywhere: sharp ones, and the least certain that there may be, near to
+ * which everything is.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,6 +19,7 @@
 
 #define PI 3.141592653589793
 #define SIGMA_RAD (0.1 * PI / 180.0)
+#define COARSE_RAD 0.5
 #define SCANS 8
 #define SCAN_US 10000000
 #define PUSHES 2000
@@ -27,12 +29,16 @@ struct job {
     const char *name, *json_name;
     int sensors, targets; /* no sensors: a full batch */
     int batches;
+    double sigma_rad;
 };
 
-static const struct job jobs[] = {
-    {"2 sensors, 2 targets", "2s2t", 2, 2, 20}, {"2 sensors, 4 targets", "2s4t", 2, 4, 20},
-    {"2 sensors, 6 targets", "2s6t", 2, 6, 20}, {"3 sensors, 4 targets", "3s4t", 3, 4, 20},
-    {"4 sensors, 6 targets", "4s6t", 4, 6, 5},  {"full, by chance", "full", 0, 0, 1}};
+static const struct job jobs[] = {{"2 sensors, 2 targets", "2s2t", 2, 2, 20, SIGMA_RAD},
+                                  {"2 sensors, 4 targets", "2s4t", 2, 4, 20, SIGMA_RAD},
+                                  {"2 sensors, 6 targets", "2s6t", 2, 6, 20, SIGMA_RAD},
+                                  {"3 sensors, 4 targets", "3s4t", 3, 4, 20, SIGMA_RAD},
+                                  {"4 sensors, 6 targets", "4s6t", 4, 6, 5, SIGMA_RAD},
+                                  {"full, by chance", "full", 0, 0, 1, SIGMA_RAD},
+                                  {"full, 0.5 rad", "full_coarse", 0, 0, 1, COARSE_RAD}};
 
 #define NUM_JOBS (sizeof jobs / sizeof jobs[0])
 #define JOB_WITH_A_BAR 3
@@ -69,11 +75,11 @@ static struct rho_bearing_scan *add_scan(struct recording *recording, unsigned k
 }
 
 static void add_bearing(struct recording *recording, unsigned k, size_t sensor,
-                        struct rho_bearing_scan *scan, double bearing_rad)
+                        struct rho_bearing_scan *scan, double bearing_rad, double sigma_rad)
 {
     if (scan->num_bearings < RHO_MAX_BEARINGS) {
         recording->bearings[k][sensor][scan->num_bearings++] =
-            (struct rho_bearing){.bearing_rad = (float)bearing_rad, .sigma_rad = (float)SIGMA_RAD};
+            (struct rho_bearing){.bearing_rad = (float)bearing_rad, .sigma_rad = (float)sigma_rad};
     }
 }
 
@@ -85,7 +91,7 @@ static void record_scene(struct recording *recording, const struct job *job, uin
     scenario_suggest("passive-clutter", &parameters);
     parameters_suggest(&parameters, PARAMETER_SENSORS, job->sensors);
     parameters_suggest(&parameters, PARAMETER_TARGETS, job->targets);
-    parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, SIGMA_RAD);
+    parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, job->sigma_rad);
     struct simulation *simulation = scenario_simulate("passive-clutter", &parameters, seed, run);
     *recording = (struct recording){.num_frames = SCANS};
     for (size_t i = 0; i < simulation->num_looks; i++) {
@@ -95,13 +101,14 @@ static void record_scene(struct recording *recording, const struct job *job, uin
             add_scan(recording, k, look->sensor, simulation->passive.sensors[look->sensor].x_m,
                      simulation->passive.sensors[look->sensor].y_m);
         for (size_t j = 0; j < look->num_bearings; j++) {
-            add_bearing(recording, k, look->sensor, scan, look->bearings[j].bearing_rad);
+            add_bearing(recording, k, look->sensor, scan, look->bearings[j].bearing_rad,
+                        job->sigma_rad);
         }
     }
     simulation_free(simulation);
 }
 
-static void record_full(struct recording *recording, uint64_t seed)
+static void record_full(struct recording *recording, double sigma_rad, uint64_t seed)
 {
     struct random random = random_start(seed, 79, 0);
     *recording = (struct recording){.num_frames = RHO_MAX_PASSIVE_SCANS};
@@ -112,7 +119,7 @@ static void record_full(struct recording *recording, uint64_t seed)
                 add_scan(recording, k, sensor, 1e4 * cos(direction_rad), 1e4 * sin(direction_rad));
             for (int i = 0; i < RHO_MAX_BEARINGS; i++) {
                 add_bearing(recording, k, sensor, scan,
-                            random_between(&random, -PI / 2.0, PI / 2.0));
+                            random_between(&random, -PI / 2.0, PI / 2.0), sigma_rad);
             }
         }
     }
@@ -174,7 +181,7 @@ static struct figures measure(struct rho_passive *passive, const struct job *job
         if (job->sensors > 0) {
             record_scene(&recording, job, seed, (uint64_t)run);
         } else {
-            record_full(&recording, seed);
+            record_full(&recording, job->sigma_rad, seed);
         }
         fill(passive, &recording);
         double ms = search_ms(passive);

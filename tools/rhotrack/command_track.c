@@ -129,7 +129,8 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
             counters->fates[RHO_FATE_INVALID], counters->fates[RHO_FATE_STALE],
             counters->fates[RHO_FATE_NO_ROOM]);
     if (counts->frames_incomplete) {
-        fprintf(stderr, ", %" PRIu64 " frames miss a sensor", counts->frames_incomplete);
+        fprintf(stderr, ", %" PRIu64 " frames miss a sensor%s", counts->frames_incomplete,
+                counts->frames_incomplete == counts->frames ? " (all: see frame_tolerance_s)" : "");
     }
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);

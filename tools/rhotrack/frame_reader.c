@@ -475,6 +475,11 @@ void frame_reader_report(const struct frame_reader *reader)
         fprintf(stderr, "rhotrack: %" PRIu64 " of %" PRIu64 " frames miss a sensor\n",
                 reader->frames_incomplete, (uint64_t)reader->num_frames);
     }
+    if (reader->frames_incomplete == reader->num_frames) {
+        fprintf(stderr,
+                "rhotrack: frames hold the scans within frame_tolerance_s %.9g of one another\n",
+                (double)reader->tolerance_us * 1e-6);
+    }
 }
 
 void frame_reader_close(struct frame_reader *reader)
