@@ -645,6 +645,33 @@ static void bearings_of_one_sensor_alone_are_no_track(void **state)
     }
 }
 
+/* Each bearing is so many of its sigmas off, to either side by turns. */
+static void scatter(double sigmas)
+{
+    struct scene from = scene_of(2, 1, 0.1, 1.0, 0.0);
+    draw(&from, 21);
+    for (unsigned k = 0; k < scene.scans; k++) {
+        for (unsigned s = 0; s < scene.sensors; s++) {
+            double dx_m = target_x_m(&scene.target[0], scene.time_s[k]) - scene.sensor_x_m[s];
+            double dy_m = target_y_m(&scene.target[0], scene.time_s[k]) - scene.sensor_y_m[s];
+            double off_rad = (k % 2 ? sigmas : -sigmas) * scene.sigma_from_rad;
+            scene.look[k][s].bearings[0].bearing_rad = (float)(atan2(dy_m, dx_m) + off_rad);
+        }
+    }
+    search_into(&passive);
+}
+
+/* 16 bearings within their gates, 12 degrees of freedom: chi-square of 16 and 77 at most, 99.9 % are below 33. */
+static void bearings_that_scatter_too_much_are_no_track(void **state)
+{
+    (void)state;
+    scatter(1.0);
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].hits, 16);
+    scatter(2.2);
+    assert_int_equal(passive.num_tracks, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -669,6 +696,7 @@ int main(void)
         cmocka_unit_test(a_coarse_sensor_helps_a_precise_one),
         cmocka_unit_test(targets_beyond_200_km_are_found),
         cmocka_unit_test(bearings_of_one_sensor_alone_are_no_track),
+        cmocka_unit_test(bearings_that_scatter_too_much_are_no_track),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
