@@ -2,6 +2,7 @@
 #include "rhotrack/angle.h"
 
 #include "rhotrack/approx.h"
+#include "rhotrack/types.h"
 
 #define ANGLE_LIMIT_RAD 100.0f
 #define TURNS_PER_RADIAN 0.159154943f
@@ -55,6 +56,12 @@ float rho_angle_wrap(float angle_rad)
 float rho_angle_difference(float a_rad, float b_rad)
 {
     return rho_angle_wrap(rho_angle_wrap(a_rad) - rho_angle_wrap(b_rad));
+}
+
+int rho_angle_is_sector(float from_rad, float to_rad)
+{
+    return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
+           rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
 }
 
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)

@@ -78,12 +78,6 @@ static int is_apart_in_frame(const struct rho_batch *batch, const struct rho_fra
     return 1;
 }
 
-static int has_sector(const struct rho_bearing_scan *scan)
-{
-    return rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
-           rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI);
-}
-
 static enum rho_status check_scans(const struct rho_batch *batch, const struct rho_frame *frame)
 {
     unsigned num_sensors = batch->num_sensors;
@@ -92,7 +86,8 @@ static enum rho_status check_scans(const struct rho_batch *batch, const struct r
         if (scan->num_bearings > 0 && !scan->bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!is_place(batch, scan) || !is_apart_in_frame(batch, frame, i) || !has_sector(scan)) {
+        if (!is_place(batch, scan) || !is_apart_in_frame(batch, frame, i) ||
+            !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
             return RHO_ERROR_VALUE;
         }
         num_sensors += find_sensor(batch, scan->sensor_id) == batch->num_sensors;

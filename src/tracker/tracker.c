@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/measurement.h"
 #include "tracker_step.h"
@@ -13,7 +14,7 @@
 #define ACCEL_SHARE 0.5f
 #define ACCEL_TIME_S 1.0f
 
-/* Memory of the smoothed clutter count: ten scans. */
+/* Memory of the smoothed clutter counts: ten scans. */
 #define CLUTTER_SMOOTHING 0.1f
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
@@ -36,12 +37,6 @@ int rho_tracker_is_time(int64_t time_us)
     return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
 }
 
-int rho_tracker_is_sector(float from_rad, float to_rad)
-{
-    return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
-           rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
-}
-
 /* ---- sensors ---------------------------------------------------------------------------------- */
 
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
@@ -61,8 +56,7 @@ static int is_usable_sensor(const struct rho_sensor *sensor)
            rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            sensor->range_min_m < sensor->range_max_m &&
-           rho_is_within(sensor->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
-           rho_is_within(sensor->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI);
+           rho_angle_is_sector(sensor->sector_from_rad, sensor->sector_to_rad);
 }
 
 /* ---- begin: which plots can be believed ------------------------------------------------------- */
@@ -142,6 +136,11 @@ static void count_fates(const struct step *step)
     counters->plots_in = rho_count(counters->plots_in, step->num_inputs);
 }
 
+void rho_tracker_smooth(float *mean, float newest)
+{
+    *mean += CLUTTER_SMOOTHING * (newest - *mean);
+}
+
 static void note_unclaimed(struct step *step)
 {
     float unclaimed = 0.0f;
@@ -149,8 +148,7 @@ static void note_unclaimed(struct step *step)
         uint8_t fate = step->report->fates[i];
         unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
     }
-    step->tracker->unclaimed_plots +=
-        CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_plots);
+    rho_tracker_smooth(&step->tracker->unclaimed_plots, unclaimed);
 }
 
 void rho_tracker_close(struct step *step)
@@ -239,7 +237,7 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!rho_tracker_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+    if (!rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
         !rho_tracker_is_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }

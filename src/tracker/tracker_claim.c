@@ -5,8 +5,6 @@
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
 
-#define LOG_TWO_PI 1.83787707f
-
 /* The least area that clutter is spread over while few plots were seen. */
 #define CLUTTER_SIDE_MIN_M 1000.0f
 
@@ -66,7 +64,20 @@ static float log_ratio(const struct step *step, const struct rho_gate_result *re
     return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
 }
 
-/* A pair's cost is minus what the plot gains over a miss, in mnat. A plot in the gate is always better than none. */
+void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat)
+{
+    int32_t gain = rho_tracker_mnat(gain_nat);
+    (void)!rho_assignment_add(&step->tracker->assignment, row, column, gain > 1 ? -gain : -1);
+}
+
+void rho_tracker_assign(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    rho_assignment_solve(&tracker->assignment);
+    tracker->counters.gate_plots_dropped =
+        rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
+}
+
 static void gate_plots(struct step *step, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -79,9 +90,9 @@ static void gate_plots(struct step *step, unsigned row)
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD &&
             rho_gate_test(&gate, &step->scan->plots[i], step->scan->measures, &result)) {
-            int32_t gain = rho_tracker_mnat(step->log_pd + log_ratio(step, &result, log_density) -
-                                            step->log_miss);
-            (void)!rho_assignment_add(&tracker->assignment, row, i, gain > 1 ? -gain : -1);
+            rho_tracker_offer(step, row, i,
+                              step->log_pd + log_ratio(step, &result, log_density) -
+                                  step->log_miss);
         }
     }
 }
@@ -96,9 +107,7 @@ void rho_tracker_claim(struct step *step)
             gate_plots(step, row);
         }
     }
-    rho_assignment_solve(&tracker->assignment);
-    tracker->counters.gate_plots_dropped =
-        rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
+    rho_tracker_assign(step);
 }
 
 /* ---- update ----------------------------------------------------------------------------------- */

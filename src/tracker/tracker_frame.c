@@ -11,9 +11,6 @@
 #include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
-#define LOG_TWO_PI 1.83787707f
-#define CLUTTER_SMOOTHING 0.1f
-
 /* One sensor's scan in its frame. */
 struct look {
     const struct rho_bearing_scan *scan;
@@ -112,7 +109,6 @@ static int gain_of(const struct step *step, const struct look *look, const struc
     return 1;
 }
 
-/* A bearing in the gate is always better than none. */
 static void gate_bearings(struct step *step, const struct look *look, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -120,8 +116,7 @@ static void gate_bearings(struct step *step, const struct look *look, unsigned r
     for (uint32_t i = 0; i < look->num; i++) {
         if (look->fates[i] == RHO_FATE_HELD &&
             gain_of(step, look, &tracker->tracks[row], i, &gain_nat)) {
-            int32_t gain = rho_tracker_mnat(gain_nat - step->log_miss);
-            (void)!rho_assignment_add(&tracker->assignment, row, i, gain > 1 ? -gain : -1);
+            rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
         }
     }
 }
@@ -136,9 +131,7 @@ static void claim(struct step *step, const struct look *look)
             gate_bearings(step, look, row);
         }
     }
-    rho_assignment_solve(&tracker->assignment);
-    tracker->counters.gate_plots_dropped =
-        rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
+    rho_tracker_assign(step);
 }
 
 static int update_track(struct step *step, const struct look *look, struct rho_track *track,
@@ -191,8 +184,7 @@ static void note_unclaimed(struct step *step, const struct look *look)
     for (uint32_t i = 0; i < look->num; i++) {
         unclaimed += look->fates[i] == RHO_FATE_HELD ? 1.0f : 0.0f;
     }
-    step->tracker->unclaimed_bearings +=
-        CLUTTER_SMOOTHING * (unclaimed - step->tracker->unclaimed_bearings);
+    rho_tracker_smooth(&step->tracker->unclaimed_bearings, unclaimed);
 }
 
 static void take_look(struct step *step, const struct rho_bearing_scan *scan, uint32_t first)
@@ -257,7 +249,7 @@ static void take_in(struct step *step)
 static int is_look(const struct rho_frame *frame, const struct rho_bearing_scan *scan)
 {
     return rho_is_coordinate(scan->x_m) && rho_is_coordinate(scan->y_m) &&
-           rho_tracker_is_sector(scan->sector_from_rad, scan->sector_to_rad) &&
+           rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) &&
            rho_tracker_is_time(scan->time_us) &&
            scan->time_us - frame->time_us <= RHO_LIMIT_OFFSET_US &&
            scan->time_us - frame->time_us >= -RHO_LIMIT_OFFSET_US;

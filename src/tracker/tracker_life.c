@@ -170,7 +170,7 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
     }
 }
 
-static void refuse_unclaimed(struct step *step)
+void rho_tracker_refuse_unclaimed(struct step *step)
 {
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {
@@ -184,7 +184,7 @@ void rho_tracker_initiate(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     struct rho_initiator *initiator = step->initiator;
     if (!initiator) {
-        refuse_unclaimed(step);
+        rho_tracker_refuse_unclaimed(step);
         return;
     }
     /* only the plots with a fate of their own are offered; pointers were checked before the step began */

@@ -103,15 +103,6 @@ static void push(struct step *step)
     move_fates(step, &held, 1);
 }
 
-static void refuse_unclaimed(struct step *step)
-{
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            step->report->fates[i] = RHO_FATE_NO_ROOM;
-        }
-    }
-}
-
 /* The batch's estimate is of x, y, vx and vy. */
 static void fill_estimate(const struct rho_passive_track *found, struct rho_kalman *estimate)
 {
@@ -177,7 +168,7 @@ void rho_tracker_initiate_passive(struct step *step)
 {
     struct rho_passive *passive = step->passive;
     if (!passive) {
-        refuse_unclaimed(step);
+        rho_tracker_refuse_unclaimed(step);
         return;
     }
     push(step);

@@ -7,6 +7,8 @@
 
 #include "rhotrack/tracker.h"
 
+#define LOG_TWO_PI 1.83787707f
+
 struct step {
     struct rho_tracker *tracker;
     int64_t time_us;
@@ -28,7 +30,6 @@ struct step {
 /* tracker.c: what a step may be asked */
 int rho_tracker_is_ready(const struct rho_tracker *tracker);
 int rho_tracker_is_time(int64_t time_us);
-int rho_tracker_is_sector(float from_rad, float to_rad);
 int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
 
 /* NULL: not in the table */
@@ -37,6 +38,9 @@ const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *track
 
 /* The pd of the sensor that looks. */
 void rho_tracker_set_pd(struct step *step);
+
+/* A count of clutter goes into its smoothed mean. */
+void rho_tracker_smooth(float *mean, float newest);
 
 /* A report begins; 0 where the inputs are late, and have their fates. It ends with rho_tracker_close in any case. */
 int rho_tracker_open(struct step *step);
@@ -67,6 +71,16 @@ void rho_tracker_initiate_passive(struct step *step);
 uint32_t rho_tracker_num_held(const struct step *step, const struct rho_bearing_scan *scan,
                               uint32_t first);
 int rho_tracker_is_bearing(const struct rho_bearing *bearing);
+
+/* A pair for the assignment: its cost is minus what it gains over a miss. What is in the gate is always better than
+ * none. */
+void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);
+
+/* Solves the assignment, and counts what its gates had no room for. */
+void rho_tracker_assign(struct step *step);
+
+/* HELD inputs have nowhere to be held. */
+void rho_tracker_refuse_unclaimed(struct step *step);
 
 /* Thousandths of a nat, within the assignment's range. */
 int32_t rho_tracker_mnat(float nat);
