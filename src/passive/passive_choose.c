@@ -10,7 +10,6 @@
 
 #define STARTS 12u
 #define KIN_SHARE 0.7f
-#define GAIN_MIN_NAT 1.0e-3f /* what rounding cannot make */
 
 /* ---- joint selection -------------------------------------------------------------------------- */
 
@@ -43,7 +42,7 @@ static void flip(struct rho_passive_choice *choice, unsigned which)
 static unsigned find_gain(const struct rho_passive_choice *choice, unsigned but)
 {
     unsigned best = choice->count;
-    float most = GAIN_MIN_NAT;
+    float most = RHO_PASSIVE_GAIN_MIN_NAT;
     for (unsigned i = 0; i < choice->count; i++) {
         if (!choice->is_in[i] && !choice->is_out[i] && i != but && choice->gain_nat[i] > most) {
             most = choice->gain_nat[i];
@@ -59,7 +58,7 @@ static void fill_up(struct rho_passive_choice *choice, unsigned but)
     for (unsigned added; (added = find_gain(choice, but)) < choice->count;) {
         flip(choice, added);
         for (unsigned i = 0; i < choice->count; i++) {
-            if (choice->is_in[i] && i != added && choice->gain_nat[i] < -GAIN_MIN_NAT) {
+            if (choice->is_in[i] && i != added && choice->gain_nat[i] < -RHO_PASSIVE_GAIN_MIN_NAT) {
                 flip(choice, i);
             }
         }
@@ -72,7 +71,7 @@ static int leave_out(struct rho_passive_choice *choice, unsigned which)
     struct rho_passive_choice tried = *choice;
     flip(&tried, which);
     fill_up(&tried, which);
-    if (!(tried.total_nat > choice->total_nat + GAIN_MIN_NAT)) {
+    if (!(tried.total_nat > choice->total_nat + RHO_PASSIVE_GAIN_MIN_NAT)) {
         return 0;
     }
     *choice = tried;

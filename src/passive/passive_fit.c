@@ -61,6 +61,11 @@ static void add_bearing(const struct rho_passive_search *search, unsigned scan,
             rho_passive_sigmas_off(nearest) * nearest->sigma_rad);
 }
 
+static int is_in_gate(const struct rho_passive_near *nearest, float gate_sigmas)
+{
+    return square(rho_passive_sigmas_off(nearest)) < square(gate_sigmas);
+}
+
 /* Of the nearest bearings within the gate. */
 static struct equations equations_near(const struct rho_passive_search *search,
                                        const float state_m[N], float gate, int claimed_too)
@@ -71,7 +76,7 @@ static struct equations equations_near(const struct rho_passive_search *search,
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_near nearest =
                 rho_passive_nearest(search, k, s, state_m, claimed_too);
-            if (nearest.which >= 0 && square(rho_passive_sigmas_off(&nearest)) < square(gate)) {
+            if (nearest.which >= 0 && is_in_gate(&nearest, gate)) {
                 add_bearing(search, k, &nearest, &equations);
             }
         }
@@ -176,7 +181,7 @@ static int is_in_view(const struct rho_passive_search *search, unsigned scan, un
     float from_rad = batch->sector_from_rad[scan][sensor];
     float to_rad = batch->sector_to_rad[scan][sensor];
     if (!(from_rad < to_rad || from_rad > to_rad)) {
-        return 1;
+        return 1; /* the whole circle, without an arctangent */
     }
     struct rho_passive_way way = rho_passive_way_to(search, scan, sensor, state_m);
     return rho_angle_in_sector(rho_atan2(way.y_m, way.x_m), from_rad, to_rad);
@@ -213,38 +218,11 @@ static int is_track(const struct rho_passive_search *search, const float state_m
            is_observable(search, claim);
 }
 
-static void count_bearing(const struct rho_passive_search *search,
-                          const struct rho_passive_near *nearest,
-                          struct rho_passive_judgement *judgement)
+/* What a bearing adds to the score. */
+static float hit_nat(const struct rho_passive_search *search, const struct rho_passive_near *seen,
+                     float chi2)
 {
-    float chi2 = square(rho_passive_sigmas_off(nearest));
-    judgement->hits++;
-    judgement->chi2 += chi2;
-    judgement->score_nat += search->hit_nat - rho_log(nearest->sigma_rad) - 0.5f * chi2;
-}
-
-struct rho_passive_judgement rho_passive_judge(const struct rho_passive_search *search,
-                                               const float state_m[N], int claimed_too,
-                                               rho_passive_claim *claim)
-{
-    const struct rho_batch *batch = &search->passive->batch;
-    struct rho_passive_judgement judgement = {.hits = 0};
-    memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_passive_near nearest =
-                rho_passive_nearest(search, k, s, state_m, claimed_too);
-            if (nearest.which >= 0 &&
-                square(rho_passive_sigmas_off(&nearest)) < square(GATE_SIGMAS)) {
-                claim[k][s] = (uint8_t)(nearest.which + 1);
-                count_bearing(search, &nearest, &judgement);
-            } else {
-                count_miss(search, k, s, state_m, &judgement);
-            }
-        }
-    }
-    judgement.is_track = is_track(search, state_m, &judgement, (rho_passive_const_claim *)claim);
-    return judgement;
+    return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * chi2;
 }
 
 struct rho_passive_judgement rho_passive_judge_claimed(const struct rho_passive_search *search,
@@ -255,34 +233,54 @@ struct rho_passive_judgement rho_passive_judge_claimed(const struct rho_passive_
     struct rho_passive_judgement judgement = {.hits = 0};
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_passive_near nearest =
-                rho_passive_claimed(search, k, s, state_m, claim[k][s]);
-            if (nearest.which >= 0) {
-                count_bearing(search, &nearest, &judgement);
-            } else {
+            struct rho_passive_near seen = rho_passive_claimed(search, k, s, state_m, claim[k][s]);
+            if (seen.which < 0) {
                 count_miss(search, k, s, state_m, &judgement);
+                continue;
             }
+            float chi2 = square(rho_passive_sigmas_off(&seen));
+            judgement.hits++;
+            judgement.chi2 += chi2;
+            judgement.score_nat += hit_nat(search, &seen, chi2);
         }
     }
     judgement.is_track = is_track(search, state_m, &judgement, claim);
     return judgement;
 }
 
+struct rho_passive_judgement rho_passive_judge(const struct rho_passive_search *search,
+                                               const float state_m[N], int claimed_too,
+                                               rho_passive_claim *claim)
+{
+    const struct rho_batch *batch = &search->passive->batch;
+    memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            struct rho_passive_near nearest =
+                rho_passive_nearest(search, k, s, state_m, claimed_too);
+            if (nearest.which >= 0 && is_in_gate(&nearest, GATE_SIGMAS)) {
+                claim[k][s] = (uint8_t)(nearest.which + 1);
+            }
+        }
+    }
+    return rho_passive_judge_claimed(search, state_m, (rho_passive_const_claim *)claim);
+}
+
 float rho_passive_gain(const struct rho_passive_search *search, const float state_m[N],
                        unsigned scan, unsigned sensor, unsigned claim)
 {
-    struct rho_passive_near nearest = rho_passive_claimed(search, scan, sensor, state_m, claim);
-    if (nearest.which < 0) {
+    struct rho_passive_near seen = rho_passive_claimed(search, scan, sensor, state_m, claim);
+    if (seen.which < 0) {
         return 0.0f;
     }
     const struct rho_batch_bearing *bearing =
         &search->passive->batch.bearings[scan][sensor][claim - 1u];
-    float chi2 = square(rho_passive_sigmas_off(&nearest));
-    if (bearing->cosine * nearest.way.x_m + bearing->sine * nearest.way.y_m <= 0.0f ||
+    float chi2 = square(rho_passive_sigmas_off(&seen));
+    if (bearing->cosine * seen.way.x_m + bearing->sine * seen.way.y_m <= 0.0f ||
         chi2 >= square(GATE_SIGMAS)) {
         return 0.0f;
     }
-    return search->hit_nat - rho_log(nearest.sigma_rad) - 0.5f * chi2 - search->miss_nat;
+    return hit_nat(search, &seen, chi2) - search->miss_nat;
 }
 
 /* ---- report ----------------------------------------------------------------------------------- */

@@ -17,6 +17,7 @@
 #include "rhotrack/passive.h"
 
 #define RHO_PASSIVE_STATES 4
+#define RHO_PASSIVE_GAIN_MIN_NAT 1.0e-3f /* what rounding cannot make */
 
 /*
  * What a search goes by. Places count from the sensors' middle; a state is the place at mid-batch (x, y) and the way

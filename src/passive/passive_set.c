@@ -10,9 +10,8 @@
 
 #define ROUNDS 3
 #define EXCHANGES_MAX (2 * RHO_MAX_PASSIVE_TRACKS)
-#define GAIN_MIN_NAT 1.0e-3f /* what rounding cannot make */
-#define OTHERS_NAT 20.0f     /* worse by the choice's reckoning: not looked at closely */
-#define OTHERS_MAX 4u        /* looked at closely, for each track */
+#define OTHERS_NAT 20.0f /* worse by the choice's reckoning: not looked at closely */
+#define OTHERS_MAX 4u    /* looked at closely, for each track */
 #define NONE_NAT (-1.0e9f)
 #define CHANGES_MAX 4
 
@@ -92,7 +91,7 @@ static int exchange(struct look *look, unsigned taker, unsigned loser)
     give(look, taker, wanted);
     give(look, loser, best_free(look, loser));
     float after_nat = look->gain_nat[taker][wanted] + look->gain_nat[loser][look->claim[loser]];
-    if (after_nat > before_nat + GAIN_MIN_NAT) {
+    if (after_nat > before_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
         return 1;
     }
     give(look, loser, 0);
@@ -248,7 +247,7 @@ void rho_passive_gather(const struct rho_passive_search *search,
     settle(search, set);
     fit_in_turn(search, spare);
     settle(search, spare);
-    if (spare->total_nat > set->total_nat + GAIN_MIN_NAT) {
+    if (spare->total_nat > set->total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
         *set = *spare;
     }
 }
@@ -322,7 +321,7 @@ static float best_without(const struct rho_passive_search *search,
         rho_passive_gather(search, &tried, &passive->other);
         others.total_nat[best] = NONE_NAT;
         most_nat = passive->other.total_nat > most_nat ? passive->other.total_nat : most_nat;
-        if (may_change && most_nat > passive->best.total_nat + GAIN_MIN_NAT) {
+        if (may_change && most_nat > passive->best.total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
             passive->best = passive->other;
             *choice = tried;
             memset(choice->is_out, 0, sizeof choice->is_out);
