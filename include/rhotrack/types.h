@@ -142,6 +142,9 @@ float rho_plot_sigma_m(const struct rho_plot *plot);
 /* a + n that stops at UINT32_MAX: every counter of the library moves this way. Constant cost. */
 uint32_t rho_count(uint32_t counter, uint32_t n);
 
+/* Bits that are set in a mask of scans. */
+unsigned rho_count_bits(uint32_t mask);
+
 /* Seconds from one time to another, any two: rounded once for spans to 2^24 us, relative error 1.2e-7 beyond. */
 float rho_seconds_between(int64_t from_us, int64_t to_us);
 

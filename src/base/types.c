@@ -30,6 +30,15 @@ uint32_t rho_count(uint32_t counter, uint32_t n)
  * The span of two int64_t needs 64 bits and a sign, so the sign is taken first and the rest is
  * unsigned.
  */
+/* In pairs, then by fours, eights, and all together. */
+unsigned rho_count_bits(uint32_t mask)
+{
+    mask = mask - (mask >> 1 & 0x55555555u);
+    mask = (mask & 0x33333333u) + (mask >> 2 & 0x33333333u);
+    mask = (mask + (mask >> 4)) & 0x0f0f0f0fu;
+    return (unsigned)((mask * 0x01010101u) >> 24);
+}
+
 float rho_seconds_between(int64_t from_us, int64_t to_us)
 {
     const uint64_t from = (uint64_t)from_us;

@@ -219,19 +219,11 @@ static void vote(struct rho_passive_search *search, const struct rho_passive_poi
     }
 }
 
-static unsigned bits(unsigned mask)
-{
-    mask = mask - (mask >> 1 & 0x5555u);
-    mask = (mask & 0x3333u) + (mask >> 2 & 0x3333u);
-    mask = (mask + (mask >> 4)) & 0x0f0fu;
-    return (mask + (mask >> 8)) & 0x1fu;
-}
-
 static unsigned most_of_row(const struct rho_passive_search *search, unsigned row)
 {
     unsigned most = 0;
     for (unsigned column = 0; column < search->rho_cells; column++) {
-        unsigned votes = bits(search->passive->cells[row][column]);
+        unsigned votes = rho_count_bits(search->passive->cells[row][column]);
         most = votes > most ? votes : most;
     }
     return most;
@@ -268,7 +260,7 @@ static unsigned find_most(const struct rho_passive_search *search, struct cell *
             row = i;
         }
     }
-    while (bits(search->passive->cells[row][column]) != most) {
+    while (rho_count_bits(search->passive->cells[row][column]) != most) {
         column++;
     }
     *at = (struct cell){row, column};
@@ -278,7 +270,7 @@ static unsigned find_most(const struct rho_passive_search *search, struct cell *
 static int is_as_high(const struct rho_passive_search *search, int row, int column, unsigned votes)
 {
     return row >= 0 && row < search->theta_cells && column >= 0 && column < search->rho_cells &&
-           bits(search->passive->cells[row][column]) == votes;
+           rho_count_bits(search->passive->cells[row][column]) == votes;
 }
 
 /* Votes that spread make plateaus: the line is in the middle of its own. */

@@ -117,15 +117,6 @@ static void fill_estimate(const struct rho_passive_track *found, struct rho_kalm
     }
 }
 
-static uint16_t count_bits(unsigned mask)
-{
-    uint16_t count = 0;
-    for (; mask; mask &= mask - 1u) {
-        count++;
-    }
-    return count;
-}
-
 /* One of the sensors that saw it last. */
 static int32_t last_sensor(const struct rho_passive *passive, const struct rho_passive_track *found)
 {
@@ -146,7 +137,8 @@ static void start_track(struct step *step, const struct rho_passive_track *found
     struct rho_track track;
     fill_estimate(found, &estimate);
     if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->time_us,
-                                 last_sensor(step->passive, found), count_bits(found->scans),
+                                 last_sensor(step->passive, found),
+                                 (uint16_t)rho_count_bits(found->scans),
                                  found->score_mnat) == RHO_OK &&
         rho_tracker_admit(step, &track, limits)) {
         tracker->counters.plots_initiated =

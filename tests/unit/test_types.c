@@ -57,6 +57,20 @@ static void counters_saturate(void **state)
     assert_int_equal(rho_count(0x80000000u, 0x7ffffffeu), UINT32_MAX - 1);
 }
 
+static void bits_are_counted(void **state)
+{
+    (void)state;
+    uint32_t mask = 0;
+    assert_int_equal(rho_count_bits(0), 0);
+    assert_int_equal(rho_count_bits(UINT32_MAX), 32);
+    for (unsigned i = 0; i < 32; i++) {
+        assert_int_equal(rho_count_bits(UINT32_C(1) << i), 1);
+        mask |= UINT32_C(1) << (i * 11 % 32);
+        assert_int_equal(rho_count_bits(mask), i + 1);
+        assert_int_equal(rho_count_bits(~mask), 31 - i);
+    }
+}
+
 static void short_spans_are_rounded_once(void **state)
 {
     (void)state;
@@ -141,6 +155,7 @@ int main(void)
         cmocka_unit_test(every_fate_has_its_name),
         cmocka_unit_test(other_fates_are_unknown),
         cmocka_unit_test(counters_saturate),
+        cmocka_unit_test(bits_are_counted),
         cmocka_unit_test(short_spans_are_rounded_once),
         cmocka_unit_test(any_two_times_have_a_span),
         cmocka_unit_test(within_includes_its_ends),

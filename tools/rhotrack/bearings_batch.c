@@ -95,13 +95,3 @@ struct bearings_batch bearings_batch_search(const struct bearings_search *search
     frame_reader_close(reader);
     return batch;
 }
-
-unsigned bearings_count_scans(unsigned mask)
-{
-    unsigned count = 0;
-
-    for (; mask; mask &= mask - 1) {
-        count++;
-    }
-    return count;
-}

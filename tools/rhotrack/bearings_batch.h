@@ -29,7 +29,4 @@ struct bearings_batch bearings_batch_search(const struct bearings_search *search
 void bearings_check_sensors(const struct frame_sensor *sensors, size_t count,
                             const struct rho_batch *batch, const struct parameters *parameters);
 
-/* Scans of a mask, a bit each. */
-unsigned bearings_count_scans(unsigned mask);
-
 #endif

@@ -40,7 +40,7 @@ static void write_found(const struct rho_passive *passive, int64_t time_us, cons
                                 .vy_mps = track->vy_mps,
                                 .rho_m = line.rho_m,
                                 .theta_rad = line.theta_rad,
-                                .scans = bearings_count_scans(track->scans),
+                                .scans = rho_count_bits(track->scans),
                                 .score = (double)((float)track->score_mnat / 1000.0f)};
 
         initiated_write_row(output.file, &row);

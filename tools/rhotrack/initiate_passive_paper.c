@@ -38,7 +38,7 @@ static void write_found(const struct rho_passive_paper *paper, int64_t time_us, 
                                 .vy_mps = line->vy_mps,
                                 .rho_m = line->rho_m,
                                 .theta_rad = line->theta_rad,
-                                .scans = bearings_count_scans(line->scans),
+                                .scans = rho_count_bits(line->scans),
                                 .score = line->votes};
 
         initiated_write_row(output.file, &row);
