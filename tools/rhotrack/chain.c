@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "chain.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "common.h"
@@ -62,4 +63,22 @@ void chain_step_frame(struct chain *chain, const struct rho_frame *frame)
 {
     must_succeed(rho_tracker_step_frame(chain->tracker, chain->passive, frame, chain->report),
                  "step");
+}
+
+struct rho_bearing_scan chain_look(const struct scenario_passive *passive,
+                                   const struct simulated_look *look, struct rho_bearing *bearings,
+                                   size_t most)
+{
+    size_t count = look->num_bearings < most ? look->num_bearings : most;
+
+    for (size_t i = 0; i < count; i++) {
+        bearings[i] = (struct rho_bearing){.bearing_rad = (float)look->bearings[i].bearing_rad,
+                                           .sigma_rad = (float)passive->sigma_rad};
+    }
+    return (struct rho_bearing_scan){.time_us = llround(look->t_s * 1e6),
+                                     .sensor_id = (int32_t)look->sensor + 1,
+                                     .x_m = (float)passive->sensors[look->sensor].x_m,
+                                     .y_m = (float)passive->sensors[look->sensor].y_m,
+                                     .num_bearings = (uint32_t)count,
+                                     .bearings = bearings};
 }

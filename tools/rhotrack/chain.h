@@ -4,6 +4,7 @@
 #define RHOTRACK_TOOL_CHAIN_H
 
 #include "parameters.h"
+#include "scenario.h"
 
 struct chain {
     struct rho_initiator *initiator;
@@ -25,6 +26,11 @@ void chain_open_passive(struct chain *chain, const struct parameters *parameters
 /* One step; the report is the chain's. */
 void chain_step(struct chain *chain, const struct rho_scan *scan);
 void chain_step_frame(struct chain *chain, const struct rho_frame *frame);
+
+/* A simulated look as the library takes it, `most` bearings of it at most; these go into the caller's array. */
+struct rho_bearing_scan chain_look(const struct scenario_passive *passive,
+                                   const struct simulated_look *look, struct rho_bearing *bearings,
+                                   size_t most);
 
 /* Exit 1 naming what the library refused, and why. */
 void must_succeed(enum rho_status status, const char *what);

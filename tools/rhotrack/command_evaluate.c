@@ -347,9 +347,7 @@ static void print_results(const struct result *results, bool as_json)
     for (size_t i = 0; i < NUM_RESULTS; i++) {
         bool known = isfinite(results[i].value);
         if (as_json) {
-            cJSON_AddItemToObject(object, results[i].name,
-                                  known ? cJSON_CreateNumber(results[i].value)
-                                        : cJSON_CreateNull());
+            json_add_number(object, results[i].name, results[i].value);
         } else if (known) {
             printf("%-22s %12.6g\n", results[i].name, results[i].value);
         } else {

@@ -4,6 +4,7 @@
 #include <cjson/cJSON.h>
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -283,6 +284,12 @@ struct cJSON *json_descending(int *values, int count)
         fail(EXIT_RUNTIME, "out of memory");
     }
     return list;
+}
+
+void json_add_number(struct cJSON *object, const char *name, double value)
+{
+    cJSON_AddItemToObject(object, name,
+                          isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
 }
 
 void json_print(struct cJSON *object)

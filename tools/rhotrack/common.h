@@ -52,6 +52,9 @@ void make_folder(const char *path);
 struct cJSON;
 void json_print(struct cJSON *object);
 
+/* Adds a number, or null where it is not finite. */
+void json_add_number(struct cJSON *object, const char *name, double value);
+
 /* Sorts the values, the largest first, and makes a list of them. */
 struct cJSON *json_descending(int *values, int count);
 

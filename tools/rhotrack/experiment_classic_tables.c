@@ -239,12 +239,6 @@ void classic_print(const struct classic_report *report)
 
 /* ---- JSON ------------------------------------------------------------------------------------- */
 
-static void add_number(cJSON *object, const char *name, double value)
-{
-    cJSON_AddItemToObject(object, name,
-                          isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
-}
-
 static cJSON *summary_json(const struct classic_summary *summary)
 {
     static const char *const names[CLASSIC_FIGURES] = {"detected",         "met",   "false_peaks",
@@ -253,18 +247,18 @@ static cJSON *summary_json(const struct classic_summary *summary)
     cJSON *object = cJSON_CreateObject();
     cJSON_AddStringToObject(object, "case", summary->situation->name);
     cJSON_AddStringToObject(object, "method", classic_method_names[summary->method]);
-    add_number(object, "noise_m", summary->situation->noise_m);
+    json_add_number(object, "noise_m", summary->situation->noise_m);
     for (size_t i = 0; i < CLASSIC_FIGURES; i++) {
         char name[TEXT];
-        add_number(object, names[i], summary->mean[i]);
+        json_add_number(object, names[i], summary->mean[i]);
         snprintf(name, sizeof name, "%s_standard_error", names[i]);
-        add_number(object, name, summary->error[i]);
+        json_add_number(object, name, summary->error[i]);
     }
     if (summary->method == CLASSIC_KERNEL) {
-        add_number(object, "found", summary->found);
-        add_number(object, "false_tracks", summary->false_tracks);
+        json_add_number(object, "found", summary->found);
+        json_add_number(object, "false_tracks", summary->false_tracks);
     }
-    add_number(object, "time_us", summary->time_us);
+    json_add_number(object, "time_us", summary->time_us);
     return object;
 }
 
@@ -273,13 +267,13 @@ static cJSON *time_json(const struct classic_time *time)
     static const char *const names[CLASSIC_METHODS + 1] = {"ht",    "mht",     "iht",     "nht_a",
                                                            "nht_c", "default", "dense_ht"};
     cJSON *object = cJSON_CreateObject();
-    add_number(object, "clutter_per_km2", time->per_km2);
+    json_add_number(object, "clutter_per_km2", time->per_km2);
     for (size_t i = 0; i <= CLASSIC_METHODS; i++) {
         char name[TEXT];
         snprintf(name, sizeof name, "%s_time_us", names[i]);
-        add_number(object, name, time->time_us[i]);
+        json_add_number(object, name, time->time_us[i]);
         snprintf(name, sizeof name, "%s_votes", names[i]);
-        add_number(object, name, time->votes[i]);
+        json_add_number(object, name, time->votes[i]);
     }
     return object;
 }
@@ -288,10 +282,10 @@ static cJSON *verdict_json(const struct classic_verdict *verdict)
 {
     cJSON *object = cJSON_CreateObject();
     cJSON_AddStringToObject(object, "what", verdict->what);
-    add_number(object, "value", verdict->value);
+    json_add_number(object, "value", verdict->value);
     cJSON_AddStringToObject(object, "relation", verdict->relation);
-    add_number(object, "expected", verdict->expected);
-    add_number(object, "tolerance", verdict->tolerance);
+    json_add_number(object, "expected", verdict->expected);
+    json_add_number(object, "tolerance", verdict->tolerance);
     cJSON_AddBoolToObject(object, "held", verdict->is_held);
     return object;
 }
@@ -317,7 +311,7 @@ void classic_json(const struct classic_report *report, cJSON *root)
     for (size_t i = 0; i < report->num_verdicts; i++) {
         cJSON_AddItemToArray(bars, verdict_json(&report->verdicts[i]));
     }
-    add_number(object, "table3_nht_a_votes", report->table3_votes);
+    json_add_number(object, "table3_nht_a_votes", report->table3_votes);
     cJSON_AddNumberToObject(object, "bars_held", report->held);
     cJSON_AddNumberToObject(object, "bars_missed", report->missed);
 }

@@ -219,22 +219,6 @@ static void count_lives(struct run *run)
 
 /* ---- frames ----------------------------------------------------------------------------------- */
 
-static void fill_look(const struct run *run, const struct simulated_look *look,
-                      struct rho_bearing_scan *scan, struct rho_bearing *bearings)
-{
-    const struct scenario_passive *passive = &run->simulation->passive;
-    *scan = (struct rho_bearing_scan){.time_us = llround(look->t_s * 1e6),
-                                      .sensor_id = (int32_t)look->sensor + 1,
-                                      .x_m = (float)passive->sensors[look->sensor].x_m,
-                                      .y_m = (float)passive->sensors[look->sensor].y_m,
-                                      .num_bearings = (uint32_t)look->num_bearings,
-                                      .bearings = bearings};
-    for (size_t i = 0; i < look->num_bearings; i++) {
-        bearings[i] = (struct rho_bearing){.bearing_rad = (float)look->bearings[i].bearing_rad,
-                                           .sigma_rad = (float)passive->sigma_rad};
-    }
-}
-
 static void step(struct run *run, size_t frame, struct result *result)
 {
     struct rho_bearing_scan scans[SCENARIO_SENSORS_MAX];
@@ -242,7 +226,8 @@ static void step(struct run *run, size_t frame, struct result *result)
     for (size_t sensor = 0; sensor < run->of->sensors; sensor++) {
         const struct simulated_look *look = look_of(run, frame, sensor);
         bearings[sensor] = must_calloc(look->num_bearings + 1, sizeof *bearings[sensor]);
-        fill_look(run, look, &scans[sensor], bearings[sensor]);
+        scans[sensor] =
+            chain_look(&run->simulation->passive, look, bearings[sensor], look->num_bearings);
     }
     struct rho_frame whole = {
         .time_us = scans[0].time_us, .num_scans = (uint32_t)run->of->sensors, .scans = scans};
@@ -375,14 +360,6 @@ void passive_chain_judge(const struct passive_chain_summary *summaries, struct v
     }
 }
 
-#define TEXT 24
-
-static const char *number(char text[TEXT], int digits, double value)
-{
-    snprintf(text, TEXT, "%.*f", digits, value);
-    return isnan(value) ? "-" : text;
-}
-
 struct grid passive_chain_grid(const struct passive_chain_summary *summaries)
 {
     struct grid grid = grid_start(1, "bearings through the tracker|frames|tracked at the end|"
@@ -390,21 +367,17 @@ struct grid passive_chain_grid(const struct passive_chain_summary *summaries)
                                      "us a frame");
     for (size_t i = 0; i < passive_num_chain_cases; i++) {
         const struct passive_chain_summary *is = &summaries[i];
-        char text[7][TEXT];
+        char text[7][GRID_NUMBER];
         grid_row(&grid, "%s|%zu|%s|%s|%s|%s|%s|%s|%s", passive_chain_cases[i].name,
-                 passive_chain_cases[i].frames, number(text[0], 3, is->tracked),
-                 number(text[1], 2, is->confirmed_at), number(text[2], 3, is->false_tracks),
-                 number(text[3], 3, is->rms_m / 1e3), number(text[4], 3, is->filter_rms_m / 1e3),
-                 number(text[5], 3, is->rms_m / is->filter_rms_m),
-                 number(text[6], 0, is->frame_us));
+                 passive_chain_cases[i].frames, grid_number(text[0], 3, is->tracked),
+                 grid_number(text[1], 2, is->confirmed_at),
+                 grid_number(text[2], 3, is->false_tracks),
+                 grid_number(text[3], 3, is->rms_m / 1e3),
+                 grid_number(text[4], 3, is->filter_rms_m / 1e3),
+                 grid_number(text[5], 3, is->rms_m / is->filter_rms_m),
+                 grid_number(text[6], 0, is->frame_us));
     }
     return grid;
-}
-
-static void add(cJSON *object, const char *name, double value)
-{
-    cJSON_AddItemToObject(object, name,
-                          isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
 }
 
 cJSON *passive_chain_json(const struct passive_chain_summary *summaries)
@@ -414,15 +387,15 @@ cJSON *passive_chain_json(const struct passive_chain_summary *summaries)
         const struct passive_chain_case *of = &passive_chain_cases[i];
         cJSON *object = cJSON_CreateObject();
         cJSON_AddStringToObject(object, "case", of->name);
-        add(object, "sensors", (double)of->sensors);
-        add(object, "targets", (double)of->targets);
-        add(object, "frames", (double)of->frames);
-        add(object, "tracked", summaries[i].tracked);
-        add(object, "confirmed_at_frame", summaries[i].confirmed_at);
-        add(object, "false_tracks_per_run", summaries[i].false_tracks);
-        add(object, "rms_m", summaries[i].rms_m);
-        add(object, "filter_rms_m", summaries[i].filter_rms_m);
-        add(object, "frame_us", summaries[i].frame_us);
+        json_add_number(object, "sensors", (double)of->sensors);
+        json_add_number(object, "targets", (double)of->targets);
+        json_add_number(object, "frames", (double)of->frames);
+        json_add_number(object, "tracked", summaries[i].tracked);
+        json_add_number(object, "confirmed_at_frame", summaries[i].confirmed_at);
+        json_add_number(object, "false_tracks_per_run", summaries[i].false_tracks);
+        json_add_number(object, "rms_m", summaries[i].rms_m);
+        json_add_number(object, "filter_rms_m", summaries[i].filter_rms_m);
+        json_add_number(object, "frame_us", summaries[i].frame_us);
         cJSON_AddItemToArray(list, object);
     }
     return list;

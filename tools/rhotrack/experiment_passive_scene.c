@@ -106,12 +106,6 @@ const struct simulated_look *passive_look(const struct passive_scene *scene, siz
     return &scene->simulation->looks[scan * scene->of->sensors + sensor];
 }
 
-/* How many bearings of a look the library gets. */
-static size_t count_of(const struct simulated_look *look, size_t most)
-{
-    return look->num_bearings < most ? look->num_bearings : most;
-}
-
 void passive_frame_fill(struct passive_frame *frame, const struct passive_scene *scene, size_t scan,
                         unsigned sensors)
 {
@@ -121,22 +115,12 @@ void passive_frame_fill(struct passive_frame *frame, const struct passive_scene 
     frame->frame.scans = frame->scans;
     for (size_t sensor = 0; sensor < scene->of->sensors; sensor++) {
         const struct simulated_look *look = passive_look(scene, scan, sensor);
-        size_t count = count_of(look, PASSIVE_LOOK_MAX);
         if ((sensors >> sensor & 1u) == 0) {
             continue;
         }
-        for (size_t i = 0; i < count; i++) {
-            frame->bearings[sensor][i] =
-                (struct rho_bearing){.bearing_rad = (float)look->bearings[i].bearing_rad,
-                                     .sigma_rad = (float)scene->plan.passive.sigma_rad};
-        }
-        frame->scans[frame->frame.num_scans++] =
-            (struct rho_bearing_scan){.time_us = frame->frame.time_us,
-                                      .sensor_id = (int32_t)sensor + 1,
-                                      .x_m = (float)scene->plan.passive.sensors[sensor].x_m,
-                                      .y_m = (float)scene->plan.passive.sensors[sensor].y_m,
-                                      .num_bearings = (uint32_t)count,
-                                      .bearings = frame->bearings[sensor]};
+        struct rho_bearing_scan *own = &frame->scans[frame->frame.num_scans++];
+        *own = chain_look(&scene->plan.passive, look, frame->bearings[sensor], PASSIVE_LOOK_MAX);
+        own->time_us = frame->frame.time_us;
     }
 }
 
@@ -163,7 +147,7 @@ struct passive_line passive_line_off(const struct passive_line *a, const struct 
 
 static size_t bearings_of(const struct simulated_look *look, float bearings_rad[RHO_MAX_BEARINGS])
 {
-    size_t count = count_of(look, RHO_MAX_BEARINGS);
+    size_t count = look->num_bearings < RHO_MAX_BEARINGS ? look->num_bearings : RHO_MAX_BEARINGS;
     for (size_t i = 0; i < count; i++) {
         bearings_rad[i] = (float)look->bearings[i].bearing_rad;
     }

@@ -4,25 +4,18 @@
 #include "common.h"
 #include "experiment_passive_report.h"
 
-#define TEXT 48
+#define TEXT GRID_NUMBER
 #define RAD_DEG 57.29577951308232
 
 /* ---- numbers as text -------------------------------------------------------------------------- */
-
-/* "-" where there is none. */
-static const char *number(char text[TEXT], int digits, double value)
-{
-    snprintf(text, TEXT, "%.*f", digits, value);
-    return isnan(value) ? "-" : text;
-}
 
 /* "measured/reference". */
 static const char *beside(char text[TEXT], int digits, double value, double reference)
 {
     char measured[TEXT], expected[TEXT];
-    snprintf(text, TEXT, "%.20s%s%.20s", number(measured, digits, value),
+    snprintf(text, TEXT, "%.20s%s%.20s", grid_number(measured, digits, value),
              isnan(reference) ? "" : "/",
-             isnan(reference) ? "" : number(expected, digits, reference));
+             isnan(reference) ? "" : grid_number(expected, digits, reference));
     return text;
 }
 
@@ -98,14 +91,15 @@ struct grid passive_default_grid(const struct passive_report *report)
                  beside(text[1], 3, is->found.ghosts_a_run, of->reference.ghosts_a_run),
                  beside(text[2], 2, is->found.exact, of->reference.exact),
                  beside(text[3], 3, is->rms_m / 1e3, of->reference_rms_m / 1e3),
-                 number(text[4], 3, is->fit_rms_m / 1e3),
-                 number(text[5], 3, is->rms_m / is->fit_rms_m),
-                 number(text[6], 2, is->line_off.theta_rad * RAD_DEG),
-                 number(text[7], 2, is->fit_line_off.theta_rad * RAD_DEG),
-                 number(text[8], 3, is->line_off.rho_m / 1e3),
-                 number(text[9], 3, is->fit_line_off.rho_m / 1e3),
-                 number(text[10], 2, is->nees.mean), number(text[11], 2, is->own_nees.mean),
-                 number(text[12], 3, 1.0 - own), number(text[13], 2, is->search_ms));
+                 grid_number(text[4], 3, is->fit_rms_m / 1e3),
+                 grid_number(text[5], 3, is->rms_m / is->fit_rms_m),
+                 grid_number(text[6], 2, is->line_off.theta_rad * RAD_DEG),
+                 grid_number(text[7], 2, is->fit_line_off.theta_rad * RAD_DEG),
+                 grid_number(text[8], 3, is->line_off.rho_m / 1e3),
+                 grid_number(text[9], 3, is->fit_line_off.rho_m / 1e3),
+                 grid_number(text[10], 2, is->nees.mean),
+                 grid_number(text[11], 2, is->own_nees.mean), grid_number(text[12], 3, 1.0 - own),
+                 grid_number(text[13], 2, is->search_ms));
     }
     return grid;
 }
@@ -157,23 +151,17 @@ void passive_report_print(const struct passive_report *report)
 
 /* ---- JSON ------------------------------------------------------------------------------------- */
 
-static void add_number(cJSON *object, const char *name, double value)
-{
-    cJSON_AddItemToObject(object, name,
-                          isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
-}
-
 /* What the case draws. */
 static cJSON *case_json(const char *name, const struct passive_setting *setting)
 {
     static const char *const regions[] = {"ahead", "base's extension", "near"};
     cJSON *object = cJSON_CreateObject();
     cJSON_AddStringToObject(object, "case", name);
-    add_number(object, "sensors", (double)setting->sensors);
-    add_number(object, "targets", (double)setting->targets);
-    add_number(object, "sigma_deg", setting->sigma_deg);
-    add_number(object, "pd", setting->pd);
-    add_number(object, "false_alarms", setting->false_mean);
+    json_add_number(object, "sensors", (double)setting->sensors);
+    json_add_number(object, "targets", (double)setting->targets);
+    json_add_number(object, "sigma_deg", setting->sigma_deg);
+    json_add_number(object, "pd", setting->pd);
+    json_add_number(object, "false_alarms", setting->false_mean);
     cJSON_AddStringToObject(object, "region", regions[setting->region]);
     cJSON_AddBoolToObject(object, "unequal_intervals", setting->has_unequal_intervals);
     return object;
@@ -182,12 +170,12 @@ static cJSON *case_json(const char *name, const struct passive_setting *setting)
 static void add_found(cJSON *object, const struct passive_found *found,
                       const struct passive_found *reference)
 {
-    add_number(object, "found", found->share);
-    add_number(object, "ghosts_per_run", found->ghosts_a_run);
-    add_number(object, "exact", found->exact);
-    add_number(object, "reference_found", reference->share);
-    add_number(object, "reference_ghosts_per_run", reference->ghosts_a_run);
-    add_number(object, "reference_exact", reference->exact);
+    json_add_number(object, "found", found->share);
+    json_add_number(object, "ghosts_per_run", found->ghosts_a_run);
+    json_add_number(object, "exact", found->exact);
+    json_add_number(object, "reference_found", reference->share);
+    json_add_number(object, "reference_ghosts_per_run", reference->ghosts_a_run);
+    json_add_number(object, "reference_exact", reference->exact);
 }
 
 static void add_pruning(cJSON *root, const struct passive_report *report)
@@ -200,14 +188,14 @@ static void add_pruning(cJSON *root, const struct passive_report *report)
             cJSON *object =
                 case_json(passive_pruning_cases[i].name, &passive_pruning_cases[i].setting);
             cJSON_AddStringToObject(object, "rule", passive_rule_names[rule]);
-            add_number(object, "ghosts_removed", measured->ghosts);
-            add_number(object, "targets_lost", measured->targets);
-            add_number(object, "reference_ghosts_removed", reference->ghosts);
-            add_number(object, "reference_targets_lost", reference->targets);
+            json_add_number(object, "ghosts_removed", measured->ghosts);
+            json_add_number(object, "targets_lost", measured->targets);
+            json_add_number(object, "reference_ghosts_removed", reference->ghosts);
+            json_add_number(object, "reference_targets_lost", reference->targets);
             cJSON_AddItemToArray(list, object);
         }
     }
-    add_number(root, "pruning_runs", (double)report->pruning_runs);
+    json_add_number(root, "pruning_runs", (double)report->pruning_runs);
 }
 
 static void add_figures(cJSON *root, const struct passive_report *report)
@@ -219,11 +207,11 @@ static void add_figures(cJSON *root, const struct passive_report *report)
         cJSON_AddStringToObject(object, "figures", of->figures);
         cJSON_AddStringToObject(object, "sensors", of->sensors);
         cJSON_AddStringToObject(object, "rule", passive_rule_names[of->rule]);
-        add_number(object, "target_crossings", (double)of->crossings);
-        add_number(object, "ghosts", (double)of->ghosts);
-        add_number(object, "votes_min", of->votes_min);
-        add_number(object, "target_lines", (double)of->lines.found);
-        add_number(object, "ghost_lines", (double)of->lines.ghosts);
+        json_add_number(object, "target_crossings", (double)of->crossings);
+        json_add_number(object, "ghosts", (double)of->ghosts);
+        json_add_number(object, "votes_min", of->votes_min);
+        json_add_number(object, "target_lines", (double)of->lines.found);
+        json_add_number(object, "ghost_lines", (double)of->lines.ghosts);
         cJSON_AddItemToArray(list, object);
     }
 }
@@ -237,21 +225,21 @@ static void add_paper(cJSON *root, const struct passive_report *report)
             if (of->has_rule[rule]) {
                 cJSON *object = case_json(of->name, &of->setting);
                 cJSON_AddStringToObject(object, "rule", passive_rule_names[rule]);
-                add_number(object, "votes_min", of->votes_min);
+                json_add_number(object, "votes_min", of->votes_min);
                 add_found(object, &report->paper[i].by_rule[rule], &of->reference[rule]);
                 cJSON_AddItemToArray(list, object);
             }
         }
     }
-    add_number(root, "paper_runs", (double)report->paper_runs);
+    json_add_number(root, "paper_runs", (double)report->paper_runs);
     add_figures(root, report);
 }
 
 static void add_nees(cJSON *object, const char *name, const struct passive_nees *nees)
 {
     cJSON *of = cJSON_AddObjectToObject(object, name);
-    add_number(of, "mean", nees->count > 0 ? nees->mean : NAN);
-    add_number(of, "tracks", (double)nees->count);
+    json_add_number(of, "mean", nees->count > 0 ? nees->mean : NAN);
+    json_add_number(of, "tracks", (double)nees->count);
 }
 
 static void add_default(cJSON *root, const struct passive_report *report)
@@ -262,23 +250,23 @@ static void add_default(cJSON *root, const struct passive_report *report)
         const struct passive_default_summary *summary = &report->defaults[i];
         cJSON *object = case_json(of->name, &of->setting);
         add_found(object, &summary->found, &of->reference);
-        add_number(object, "rms_m", summary->rms_m);
-        add_number(object, "reference_rms_m", of->reference_rms_m);
-        add_number(object, "fit_rms_m", summary->fit_rms_m);
-        add_number(object, "rms_over_fit", summary->rms_m / summary->fit_rms_m);
-        add_number(object, "theta_error_rad", summary->line_off.theta_rad);
-        add_number(object, "fit_theta_error_rad", summary->fit_line_off.theta_rad);
-        add_number(object, "rho_error_m", summary->line_off.rho_m);
-        add_number(object, "fit_rho_error_m", summary->fit_line_off.rho_m);
+        json_add_number(object, "rms_m", summary->rms_m);
+        json_add_number(object, "reference_rms_m", of->reference_rms_m);
+        json_add_number(object, "fit_rms_m", summary->fit_rms_m);
+        json_add_number(object, "rms_over_fit", summary->rms_m / summary->fit_rms_m);
+        json_add_number(object, "theta_error_rad", summary->line_off.theta_rad);
+        json_add_number(object, "fit_theta_error_rad", summary->fit_line_off.theta_rad);
+        json_add_number(object, "rho_error_m", summary->line_off.rho_m);
+        json_add_number(object, "fit_rho_error_m", summary->fit_line_off.rho_m);
         add_nees(object, "nees", &summary->nees);
         add_nees(object, "own_nees", &summary->own_nees);
-        add_number(object, "search_ms", summary->search_ms);
+        json_add_number(object, "search_ms", summary->search_ms);
         cJSON_AddItemToArray(list, object);
     }
     add_nees(root, "nees", &report->nees);
     add_nees(root, "own_nees", &report->own_nees);
     add_nees(root, "clean_nees", &report->clean_nees);
-    add_number(root, "default_runs", (double)report->default_runs);
+    json_add_number(root, "default_runs", (double)report->default_runs);
 }
 
 cJSON *passive_report_json(struct passive_report *report)
@@ -294,7 +282,7 @@ cJSON *passive_report_json(struct passive_report *report)
     if (report->defaults != NULL) {
         add_default(root, report);
         cJSON_AddItemToObject(root, "chain", passive_chain_json(report->chain));
-        add_number(root, "chain_runs", (double)report->chain_runs);
+        json_add_number(root, "chain_runs", (double)report->chain_runs);
     }
     verdicts_to_json(&report->verdicts, root);
     return root;

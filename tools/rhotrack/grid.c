@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "grid.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,4 +122,10 @@ void grid_free(struct grid *grid)
     }
     free(grid->cells);
     grid->cells = NULL;
+}
+
+const char *grid_number(char text[GRID_NUMBER], int digits, double value)
+{
+    snprintf(text, GRID_NUMBER, "%.*f", digits, value);
+    return isnan(value) ? "-" : text;
 }

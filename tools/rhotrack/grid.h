@@ -23,6 +23,10 @@ const char *grid_cell(const struct grid *grid, size_t row, size_t column);
 /* In columns, with a rule under the head. */
 void grid_print(const struct grid *grid, FILE *out);
 
+/* A number for a cell, "-" where it is NAN. */
+#define GRID_NUMBER 48
+const char *grid_number(char text[GRID_NUMBER], int digits, double value);
+
 void grid_free(struct grid *grid);
 
 #endif

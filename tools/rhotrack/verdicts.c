@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "verdicts.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
+
+#include "common.h"
 
 #define ROUNDING 1e-9 /* of sums of counts */
 
@@ -27,8 +28,7 @@ static void add(struct verdicts *verdicts, double value, const struct bar *bar, 
     cJSON *object = cJSON_CreateObject();
     vsnprintf(what, sizeof what, format, list);
     cJSON_AddStringToObject(object, "what", what);
-    cJSON_AddItemToObject(object, "value",
-                          isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
+    json_add_number(object, "value", value);
     cJSON_AddNumberToObject(object, bar->relation[0] == '<' ? "at_most" : "at_least", bar->value);
     cJSON_AddBoolToObject(object, "held", bar->is_held);
     cJSON_AddItemToArray(verdicts->json, object);
