@@ -35,6 +35,20 @@ static inline double normal(void)
     return size * cos(uniform(0.0, 2.0 * PI));
 }
 
+static inline float any_float(void)
+{
+    uint32_t bits = (uint32_t)(random_bits() >> 16);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Between from and to; with this probability anything. */
+static inline float float_or_any(double from, double to, double any)
+{
+    return uniform(0.0, 1.0) < any ? any_float() : (float)uniform(from, to);
+}
+
 /* What one sensor saw in one scan. */
 struct look {
     int is_absent; /* the sensor is not in the frame */

@@ -414,14 +414,13 @@ static void fill_looks(void)
     }
 }
 
-/* As many sensors and scans as there is room for, each look full. */
-static void every_capacity_full_of_false_bearings(void **state)
+/* As many sensors, scans and bearings as there may be, all false. */
+static void search_full(enum rho_ghost_rule rule)
 {
-    (void)state;
-    const struct rho_passive_work *work = &passive.work;
     struct rho_passive_config config;
     rho_passive_config_default(&config);
     config.scans = RHO_MAX_PASSIVE_SCANS;
+    config.rule = rule;
     random_state = 20;
     scene = scene_of(RHO_MAX_PASSIVE_SENSORS, 0, 0.1, 0.9, 0.0);
     scene.scans = RHO_MAX_PASSIVE_SCANS;
@@ -430,6 +429,14 @@ static void every_capacity_full_of_false_bearings(void **state)
     start_with(&config);
     push_all();
     expect_sound_search();
+}
+
+/* As many sensors and scans as there is room for, each look full. */
+static void every_capacity_full_of_false_bearings(void **state)
+{
+    (void)state;
+    const struct rho_passive_work *work = &passive.work;
+    search_full(RHO_GHOST_SAFE);
     print_message("full: %u crossings, %u dropped, %u lines, %u hypotheses, %u fits, %u tracks\n",
                   work->crossings, work->points_dropped, work->peaks, work->hypotheses, work->fits,
                   passive.num_tracks);
@@ -491,18 +498,7 @@ static unsigned collect_traces(void)
 static void the_most_certain_crossings_are_kept(void **state)
 {
     (void)state;
-    struct rho_passive_config config;
-    rho_passive_config_default(&config);
-    config.scans = RHO_MAX_PASSIVE_SCANS;
-    config.rule = RHO_GHOST_NO_RULE;
-    random_state = 20;
-    scene = scene_of(RHO_MAX_PASSIVE_SENSORS, 0, 0.1, 0.9, 0.0);
-    scene.scans = RHO_MAX_PASSIVE_SCANS;
-    set_scan_times(&scene);
-    fill_looks();
-    start_with(&config);
-    push_all();
-    expect_sound_search();
+    search_full(RHO_GHOST_NO_RULE);
     assert_int_equal(passive.num_tracks, 0); /* so that the second pass has all bearings */
     assert_true(collect_traces() > RHO_MAX_PASSIVE_POINTS);
     assert_int_equal(passive.num_points, RHO_MAX_PASSIVE_POINTS);
@@ -627,18 +623,10 @@ static void any_times_do(void **state)
 
 /* ---- fuzz ------------------------------------------------------------------------------------- */
 
-static float any_float(void)
-{
-    uint32_t bits = (uint32_t)(random_bits() >> 16);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* Mostly what is believed, sometimes anything. */
 static float some_float(double from, double to)
 {
-    return uniform(0.0, 1.0) < 0.1 ? any_float() : (float)uniform(from, to);
+    return float_or_any(from, to, 0.1);
 }
 
 static void any_look(struct look *look)

@@ -255,18 +255,10 @@ static void a_snapshot_goes_on_alike(void **state)
 
 /* ---- hostile frames ----------------------------------------------------------------------------- */
 
-static float any_float(void)
-{
-    uint32_t bits = (uint32_t)(random_bits() >> 16);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* Mostly what is believed, sometimes anything. */
 static float some_float(double from, double to)
 {
-    return uniform(0.0, 1.0) < 0.02 ? any_float() : (float)uniform(from, to);
+    return float_or_any(from, to, 0.02);
 }
 
 static int32_t some_offset_us(void)
