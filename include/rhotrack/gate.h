@@ -14,6 +14,40 @@
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
+/* ---- Hough clutter elimination ------------------------------------------------------------------ */
+
+/* Planes of velocity space in which plots are looked at; values to be or-ed. */
+#define RHO_GATE_PLANE_XY 1u
+#define RHO_GATE_PLANE_XZ 2u
+#define RHO_GATE_PLANE_YZ 4u
+#define RHO_GATE_PLANES 3
+
+/*
+ * A target that flies straight has estimated velocities that lie on one line of velocity space: in each plane the angle
+ * theta* is found whose rho changed least between the last two estimates, and the plot whose velocity changes it least
+ * is the target's.
+ */
+struct rho_gate_hough {
+    uint8_t planes; /* RHO_GATE_PLANE_... */
+    float newest_mps[3];
+    float cos_theta[RHO_GATE_PLANES], sin_theta[RHO_GATE_PLANES]; /* of theta*, by plane */
+};
+
+/*
+ * Finds theta* in each of the planes: the cell (j - 1/2) theta_cell_rad, j = 1, 2, ..., in [0, pi), whose rho changed
+ * least from the estimate before the last to the last; of equals the lowest.
+ * Errors: NULL, VALUE (planes, cell not in 1e-3 .. pi/2, velocities not finite); *hough is unchanged.
+ * Source: the paper named in rhotrack/input.h, (20) to (28).
+ */
+RHO_MUST_CHECK enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
+                                                   float theta_cell_rad, const float before_mps[3],
+                                                   const float newest_mps[3]);
+
+/* How far a plot with this velocity would change rho at theta*, summed over the planes, m/s. (29), (30). */
+float rho_gate_hough_off(const struct rho_gate_hough *hough, const float velocity_mps[3]);
+
+/* ---- nearest ------------------------------------------------------------------------------------ */
+
 /* A track's prediction at a scan's time, as its gate sees it. The sensor stays the caller's. */
 struct rho_gate {
     struct rho_kalman predicted;

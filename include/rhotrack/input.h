@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * input: a Kalman filter that also estimates the target's acceleration, its unknown input.
+ *
+ * Two stages. A Kalman filter runs as if there were no input (`bare`). How a constant input since its onset k would have
+ * moved that filter's estimate is known: sensitivities M (after an update) and N (after a prediction), one column an axis,
+ *
+ *     N(n+1) = F M(n) + D,    M(n+1) = (I - K H) N(n+1),    M(k) = 0,
+ *
+ * so the innovations are a linear regression in the input, nu = H N u + e, solved by recursive least squares for its
+ * estimate u and variance V. An input is taken as present on an axis while |u| / sqrt(V) is above a threshold. Where
+ * it is absent M, u and V start anew at each update, so that an onset shows in one scan; where it stops, M u goes into the
+ * estimate and M V M^T into its covariance. The corrected estimate is x + M u with covariance P + M V M^T.
+ *
+ *     rho_input_predict(&input, &config, dt_s);
+ *     rho_input_update_position(&input, &config, &measurement);      and what else the plot measures
+ *     rho_input_decide(&input, &config);                             once a scan with a plot
+ *     rho_input_estimate(&input, &kalman);                           at any time
+ *
+ * Source: the input estimation of "a novel tracking algorithm by integrating the Kalman filter, input estimation, and
+ * clutter elimination algorithm to track maneuvering targets in cluttered environments", (2) to (18).
+ */
+#ifndef RHOTRACK_INPUT_H
+#define RHOTRACK_INPUT_H
+
+#include <stdint.h>
+
+#include "rhotrack/kalman.h"
+#include "rhotrack/measurement.h"
+#include "rhotrack/status.h"
+
+#define RHO_INPUT_AXES 3
+
+/* What a constant input does in an interval T to a position and its velocity. */
+enum rho_input_model {
+    RHO_INPUT_LITERAL = 0, /* the paper's D: 0 and T. Blind where only positions are measured */
+    RHO_INPUT_PHYSICAL,    /* T^2 / 2 and T */
+    RHO_NUM_INPUT_MODELS
+};
+
+struct rho_input_config {
+    uint8_t is_estimated; /* 0: a plain Kalman filter */
+    uint8_t model;        /* enum rho_input_model */
+    float sigma_mps2;     /* sd of the input before it was estimated, the root of V(0): > 0 */
+    float threshold;      /* sigmas from which on an input is present: > 0 */
+    float gamma; /* forgetting: V / gamma at each prediction, V(0) at most; 1: none. > 0 .. 1 */
+    float noise_density; /* white acceleration, m^2/s^3: >= 0 */
+    float noise_m,
+        noise_mps; /* the paper's Q: sd added at each prediction, whatever its interval: >= 0 */
+    float velocity_variance; /* of an axis that opens later: RHO_KALMAN_VARIANCE_MIN .. MAX */
+};
+
+struct rho_input {
+    struct rho_kalman bare; /* the filter without input */
+    float sensitivity[RHO_KALMAN_STATES]
+                     [RHO_INPUT_AXES];            /* N after a prediction, M after an update */
+    float input_mps2[RHO_INPUT_AXES];             /* u */
+    float variance[RHO_TRIANGLE(RHO_INPUT_AXES)]; /* V, (m/s^2)^2 */
+    uint8_t present;                              /* bit an axis: x 1, y 2, z 4 */
+};
+
+/* Two-sided threshold of a standard normal: 0.95 gives 1.96. Absolute error <= 1e-3 for .5 .. .9999; NaN outside 0 .. 1. */
+float rho_input_threshold(float confidence);
+
+/* As in the paper: literal D, sigma 22.36 m/s^2, confidence .95, gamma 1, noise 1 m and 1 m/s; velocity sd 700 m/s. */
+void rho_input_config_default(struct rho_input_config *config);
+
+/* True where every field is finite and within its range. */
+int rho_input_is_usable(const struct rho_input_config *config);
+
+/* Starts from an estimate, without input. Errors: NULL. */
+RHO_MUST_CHECK enum rho_status rho_input_start(struct rho_input *input,
+                                               const struct rho_input_config *config,
+                                               const struct rho_kalman *estimate);
+
+/* Moves on by dt_s: the bare filter, N, forgetting. Errors: as rho_kalman_predict; unchanged. */
+RHO_MUST_CHECK enum rho_status rho_input_predict(struct rho_input *input,
+                                                 const struct rho_input_config *config, float dt_s);
+
+/* One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update; unchanged. */
+RHO_MUST_CHECK enum rho_status rho_input_update(struct rho_input *input,
+                                                const struct rho_input_config *config, int element,
+                                                float value, float variance);
+
+/* Updates with a position, in the frame of its noise. Errors: as rho_kalman_update_position. */
+RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input,
+                                                         const struct rho_input_config *config,
+                                                         const struct rho_measurement *measurement);
+
+/* Updates with a range rate, linearised at the corrected estimate. Errors: as rho_kalman_update_range_rate. */
+RHO_MUST_CHECK enum rho_status rho_input_update_range_rate(struct rho_input *input,
+                                                           const struct rho_input_config *config,
+                                                           const struct rho_sensor *sensor,
+                                                           float rate_mps, float variance);
+
+/* Tests each axis, starts anew where no input is present, and takes one that has stopped into the estimate. */
+void rho_input_decide(struct rho_input *input, const struct rho_input_config *config);
+
+/* The corrected estimate, (14) to (18). Constant cost. */
+void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate);
+
+#endif
