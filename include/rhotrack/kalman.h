@@ -84,6 +84,21 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *k
                                                             const struct rho_sensor *sensor,
                                                             float rate_mps, float variance);
 
+/* A range rate as a scalar measurement of an estimate. */
+struct rho_kalman_rate {
+    float row[RHO_KALMAN_STATES];
+    float off_mps;  /* measured minus predicted */
+    float variance; /* the noise, (m/s)^2 */
+};
+
+/*
+ * Fills *seen; to the noise is added what the derivative leaves out where the place is uncertain by much of its distance.
+ * Returns 0, and fills nothing of use, where the estimate is nearer than a metre to the sensor. Cost: two square roots,
+ * three divisions. Stack: 96 bytes.
+ */
+int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                              float rate_mps, float variance, struct rho_kalman_rate *seen);
+
 /* A bearing from a place as a scalar measurement of an estimate, in metres across the line of sight. */
 struct rho_kalman_bearing {
     float row[RHO_KALMAN_STATES];

@@ -359,24 +359,35 @@ static float bend_variance(const struct rho_kalman *kalman, const struct rho_sen
     return 0.5f * speed2 * share * share;
 }
 
+int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                              float rate_mps, float variance, struct rho_kalman_rate *seen)
+{
+    float predicted_mps;
+
+    if (!rho_measurement_range_rate(kalman->state, sensor, rho_kalman_is_open(kalman, 2), seen->row,
+                                    &predicted_mps)) {
+        return 0;
+    }
+    const float bend = bend_variance(kalman, sensor);
+    seen->off_mps = rate_mps - predicted_mps;
+    /* what is no variance stays none, to be refused by the update */
+    seen->variance = variance > 0.0f && bend <= FLT_MAX ? variance + bend : variance;
+    return 1;
+}
+
 enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                              const struct rho_sensor *sensor, float rate_mps,
                                              float variance)
 {
-    float row[RHO_KALMAN_STATES], predicted_mps;
+    struct rho_kalman_rate seen;
 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_measurement_range_rate(kalman->state, sensor, rho_kalman_is_open(kalman, 2), row,
-                                    &predicted_mps)) {
+    if (!rho_kalman_see_range_rate(kalman, sensor, rate_mps, variance, &seen)) {
         return RHO_OK;
     }
-    const float bend = bend_variance(kalman, sensor);
-    if (variance > 0.0f && bend <= FLT_MAX) { /* else it is refused below */
-        variance += bend;
-    }
-    return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps, variance, NULL);
+    return rho_kalman_update_row(kalman, seen.row, seen.off_mps, seen.variance, NULL);
 }
 
 /*
