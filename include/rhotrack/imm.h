@@ -72,7 +72,8 @@ struct rho_imm_match {
     float distance2;      /* squared Mahalanobis distance from the nearer model's prediction */
     float log_likelihood; /* ln of the plot's density, over both models */
     float probability;    /* of the manoeuvring model, if the plot is the target's */
-    int num_dimensions;
+    uint8_t num_axes;     /* that count: 2, or 3 with height */
+    uint8_t has_velocity, has_range_rate; /* count, too */
 };
 
 /*

@@ -121,8 +121,8 @@ static void add_velocity(const struct view *view, const struct rho_imm_plot *see
 }
 
 /* A range rate touches all states: its row times the covariance, and that times the row. */
-static void add_range_rate(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
-                           int has_velocity, struct innovation *out)
+static int add_range_rate(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
+                          int has_velocity, struct innovation *out)
 {
     const struct rho_plot *plot = seen->plot;
     struct rho_kalman at;
@@ -133,7 +133,7 @@ static void add_range_rate(const struct view *view, const struct rho_imm_plot *s
     if (!rho_kalman_see_range_rate(&at, seen->sensor, plot->range_rate_mps,
                                    plot->sigma_range_rate_mps * plot->sigma_range_rate_mps,
                                    &rate)) {
-        return;
+        return 0;
     }
     float variance = rho_linalg_project6(at.covariance, rate.row, projected);
     memcpy(row, projected, (size_t)num_axes * sizeof *row);
@@ -142,22 +142,22 @@ static void add_range_rate(const struct view *view, const struct rho_imm_plot *s
     }
     row[out->num] = variance + rate.variance;
     out->d[out->num++] = rate.off_mps;
+    return 1;
 }
 
-static int view_coupled(struct view *view, const struct rho_imm_plot *seen, int num_axes,
-                        int has_velocity)
+/* A model that is in the sensor's own place has no range rate, and says nothing. */
+static void view_coupled(struct view *view, const struct rho_imm_plot *seen,
+                         const struct rho_imm_match *match)
 {
     struct innovation innovation;
-    add_position(view, seen, num_axes, &innovation);
-    if (has_velocity) {
-        add_velocity(view, seen, num_axes, &innovation);
+    add_position(view, seen, match->num_axes, &innovation);
+    if (match->has_velocity) {
+        add_velocity(view, seen, match->num_axes, &innovation);
     }
-    if (seen->measures & RHO_MEASURES_RANGE_RATE) {
-        add_range_rate(view, seen, num_axes, has_velocity, &innovation);
-    }
-    view->counts = rho_linalg_match(innovation.num, innovation.s, innovation.d, COUNTS_MAX,
-                                    &view->distance2, &view->log_det);
-    return innovation.num;
+    view->counts = !match->has_range_rate ||
+                   add_range_rate(view, seen, match->num_axes, match->has_velocity, &innovation);
+    view->counts = view->counts && rho_linalg_match(innovation.num, innovation.s, innovation.d,
+                                                    COUNTS_MAX, &view->distance2, &view->log_det);
 }
 
 /* ---- both models ------------------------------------------------------------------------------ */
@@ -166,7 +166,8 @@ static int view_coupled(struct view *view, const struct rho_imm_plot *seen, int 
  * -2 ln of a model's density but for the constant; the density over both is that of the better one, and the share of the
  * other beside it.
  */
-static void combine(const struct view views[2], float probability, struct rho_imm_match *match)
+static void combine(const struct view views[2], float probability, int num_dimensions,
+                    struct rho_imm_match *match)
 {
     const float steady = views[0].distance2 + views[0].log_det;
     const float manoeuvre = views[1].distance2 + views[1].log_det;
@@ -179,8 +180,7 @@ static void combine(const struct view views[2], float probability, struct rho_im
         m = probability * rho_exp(0.5f * (steady - manoeuvre));
     }
     match->probability = m / (s + m);
-    match->log_likelihood =
-        rho_log(s + m) - 0.5f * (least + (float)match->num_dimensions * LOG_TWO_PI);
+    match->log_likelihood = rho_log(s + m) - 0.5f * (least + (float)num_dimensions * LOG_TWO_PI);
 }
 
 static int is_in_gate(const struct view views[2], struct rho_imm_match *match)
@@ -198,12 +198,12 @@ void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float v
                           float *gain_nat)
 {
     struct view views[2] = {{0, 0, 0.0f, 0.0f, 1}, {0, 0, 0.0f, 0.0f, 1}};
-    struct rho_imm_match match = {.num_dimensions = 1};
+    struct rho_imm_match match = {.distance2 = 0.0f};
     for (int i = 0; i < 2; i++) {
         views[i].distance2 = off[i] * off[i] / variance[i];
         views[i].log_det = rho_log(variance[i]);
     }
-    combine(views, imm->probability, &match);
+    combine(views, imm->probability, 1, &match);
     imm->probability = match.probability;
     *gain_nat = match.log_likelihood;
 }
@@ -213,20 +213,21 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
 {
     struct view views[2] = {{imm->steady.state, imm->steady.covariance, 0.0f, 0.0f, 0},
                             {imm->state, imm->covariance, 0.0f, 0.0f, 0}};
-    const int num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
-    const int has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
-    if (imm->is_coupled || !seen->position.is_isotropic ||
-        (seen->measures & RHO_MEASURES_RANGE_RATE) != 0) {
-        match->num_dimensions = view_coupled(&views[0], seen, num_axes, has_velocity);
-        match->num_dimensions = view_coupled(&views[1], seen, num_axes, has_velocity);
-    } else {
-        match->num_dimensions = has_velocity ? 2 * num_axes : num_axes;
-        view_axes(&views[0], seen, num_axes, has_velocity);
-        view_axes(&views[1], seen, num_axes, has_velocity);
+    match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
+    match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
+    match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;
+    const int num_dimensions =
+        (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate;
+    for (int i = 0; i < 2; i++) {
+        if (imm->is_coupled || !seen->position.is_isotropic || match->has_range_rate) {
+            view_coupled(&views[i], seen, match);
+        } else {
+            view_axes(&views[i], seen, match->num_axes, match->has_velocity);
+        }
     }
     if (!is_in_gate(views, match)) {
         return 0;
     }
-    combine(views, imm->probability, match);
+    combine(views, imm->probability, num_dimensions, match);
     return match->log_likelihood >= -1e6f && match->log_likelihood <= 1e6f;
 }
