@@ -19,8 +19,8 @@
 
 /* Measured: a step of 0.34 accel_max in a quarter of a second, which follows an onset within two plots. */
 #define DRIVE_SHARE 0.68f
-#define MEMORY_S 12.4f
-#define SOJOURN_S 8.1f
+#define MEMORY_S 3.0f
+#define SOJOURN_S 4.0f
 #define QUIET_DENSITY 1.0f
 #define SPEED_SIGMA_MPS 700.0f
 
@@ -254,14 +254,14 @@ static void mix(struct rho_imm *imm, float change)
 
 /* ---- predict ---------------------------------------------------------------------------------- */
 
+/* Variances of `num` derivatives; false for NaN. */
 static inline int is_usable(const float *p, int axis, int num)
 {
-    int good = 1;
-    for (int d = 0; d < num; d++) {
-        const float variance = p[PLACE(axis, d, axis, d)];
-        good &= variance >= 0.0f && variance <= RHO_KALMAN_VARIANCE_MAX;
-    }
-    return good;
+    const uint8_t *at = axis_places[axis];
+    const float low = p[at[0]] < p[at[2]] ? p[at[0]] : p[at[2]];
+    const float high = p[at[0]] + p[at[2]];
+    return low >= 0.0f && high <= RHO_KALMAN_VARIANCE_MAX &&
+           (num < 3 || (p[at[5]] >= 0.0f && p[at[5]] <= RHO_KALMAN_VARIANCE_MAX));
 }
 
 static inline float raised(float variance)
@@ -270,63 +270,78 @@ static inline float raised(float variance)
     return higher < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : higher;
 }
 
+/* F P F^T + Q of the manoeuvring model's axis. */
 static inline void move_axis(struct rho_imm *imm, int axis, const struct rho_imm_step *step)
 {
-    struct axis at;
     if (!is_open(imm, axis)) {
         return;
     }
-    take_axis(&at, imm->state, imm->covariance, axis, 3);
-    at.x[0] += step->dt_s * at.x[1] + step->position_by_accel * at.x[2];
-    at.x[1] += step->velocity_by_accel * at.x[2];
-    at.x[2] *= step->accel_by_accel;
-    carry(at.p, step->dt_s, step);
-    for (int k = 0; k < 6; k++) {
-        at.p[k] += step->noise[k];
-    }
-    at.p[0] = raised(at.p[0]);
-    at.p[2] = raised(at.p[2]);
-    at.p[5] = raised(at.p[5]);
-    put_axis(&at, imm->state, imm->covariance, axis, 3);
-}
-
-/* F C F^T for the covariances of one axis with another. */
-static inline void move_pair(float *p, int a, int b, const struct rho_imm_step *step)
-{
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
                 h = step->accel_by_accel;
-    float c[3][3];
-    for (int j = 0; j < 3; j++) {
-        const float x = p[PLACE(a, 0, b, j)], v = p[PLACE(a, 1, b, j)], w = p[PLACE(a, 2, b, j)];
-        c[0][j] = x + dt * v + f * w;
-        c[1][j] = v + g * w;
-        c[2][j] = h * w;
-    }
-    for (int i = 0; i < 3; i++) {
-        p[PLACE(a, i, b, 0)] = c[i][0] + dt * c[i][1] + f * c[i][2];
-        p[PLACE(a, i, b, 1)] = c[i][1] + g * c[i][2];
-        p[PLACE(a, i, b, 2)] = h * c[i][2];
-    }
+    struct axis at = take_manoeuvre(imm, axis);
+    const float pp = at.pp + dt * at.vp + f * at.ap, pv = at.vp + dt * at.vv + f * at.av;
+    const float pa = at.ap + dt * at.av + f * at.aa;
+    const float vv = at.vv + g * at.av, va = at.av + g * at.aa;
+    at.p += dt * at.v + f * at.a;
+    at.v += g * at.a;
+    at.a *= h;
+    at.pp = raised(pp + dt * pv + f * pa + step->noise[0]);
+    at.vp = pv + g * pa + step->noise[1];
+    at.vv = raised(vv + g * va + step->noise[2]);
+    at.ap = h * pa + step->noise[3];
+    at.av = h * va + step->noise[4];
+    at.aa = raised(h * h * at.aa + step->noise[5]);
+    put_manoeuvre(imm, axis, &at);
 }
 
-/* The steady model by its axes alone; rho_kalman_predict would move the covariances between them, too. */
+/* The same of the steady model, whose axes are independent; rho_kalman_predict moves them with what couples them. */
 static inline void move_steady_axis(struct rho_kalman *steady, int axis,
                                     const struct rho_imm_step *step)
 {
-    float *p = steady->covariance;
-    const float dt = step->dt_s;
-    const float q =
-        steady->covariance[PLACE(axis, 0, axis, 0)] > 0.0f ? step->quiet_density * dt : 0.0f;
-    const float pp = p[PLACE(axis, 0, axis, 0)], pv = p[PLACE(axis, 1, axis, 0)];
-    const float vv = p[PLACE(axis, 1, axis, 1)];
-    if (!(pp > 0.0f)) {
+    struct axis at = take_steady(steady, axis);
+    const float dt = step->dt_s, q = step->quiet_density * dt;
+    if (!(at.pp > 0.0f)) {
         return;
     }
-    steady->state[axis] += dt * steady->state[NUM_AXES + axis];
-    p[PLACE(axis, 0, axis, 0)] =
-        raised(pp + dt * (2.0f * pv + dt * vv) + q * dt * dt * (1.0f / 3.0f));
-    p[PLACE(axis, 1, axis, 0)] = pv + dt * vv + 0.5f * dt * q;
-    p[PLACE(axis, 1, axis, 1)] = raised(vv + q);
+    at.p += dt * at.v;
+    at.pp = raised(at.pp + dt * (2.0f * at.vp + dt * at.vv) + q * dt * dt * (1.0f / 3.0f));
+    at.vp += dt * at.vv + 0.5f * dt * q;
+    at.vv = raised(at.vv + q);
+    put_steady(steady, axis, &at);
+}
+
+/* Where the covariances of two axes lie: by derivative of the first, of the second. */
+static const uint8_t pair_places[NUM_AXES][9] = {
+#define PAIR(a, b)                                                                                 \
+    {                                                                                              \
+        PLACE(a, 0, b, 0), PLACE(a, 0, b, 1), PLACE(a, 0, b, 2), PLACE(a, 1, b, 0),                \
+            PLACE(a, 1, b, 1), PLACE(a, 1, b, 2), PLACE(a, 2, b, 0), PLACE(a, 2, b, 1),            \
+            PLACE(a, 2, b, 2)                                                                      \
+    }
+    PAIR(1, 0), PAIR(2, 0), PAIR(2, 1)
+#undef PAIR
+};
+
+/* F C F^T for the covariances of one axis with another: three columns, then three rows. */
+static inline void move_pair(float *p, const uint8_t at[9], const struct rho_imm_step *step)
+{
+    const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
+                h = step->accel_by_accel;
+    const float c00 = p[at[0]] + dt * p[at[3]] + f * p[at[6]];
+    const float c01 = p[at[1]] + dt * p[at[4]] + f * p[at[7]];
+    const float c02 = p[at[2]] + dt * p[at[5]] + f * p[at[8]];
+    const float c10 = p[at[3]] + g * p[at[6]], c11 = p[at[4]] + g * p[at[7]];
+    const float c12 = p[at[5]] + g * p[at[8]];
+    const float c20 = h * p[at[6]], c21 = h * p[at[7]], c22 = h * p[at[8]];
+    p[at[0]] = c00 + dt * c01 + f * c02;
+    p[at[1]] = c01 + g * c02;
+    p[at[2]] = h * c02;
+    p[at[3]] = c10 + dt * c11 + f * c12;
+    p[at[4]] = c11 + g * c12;
+    p[at[5]] = h * c12;
+    p[at[6]] = c20 + dt * c21 + f * c22;
+    p[at[7]] = c21 + g * c22;
+    p[at[8]] = h * c22;
 }
 
 static enum rho_status move_steady(struct rho_imm *imm, const struct rho_imm_step *step)
@@ -362,9 +377,11 @@ enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *ste
         return RHO_ERROR_VALUE;
     }
     if (imm->is_coupled) {
-        move_pair(imm->covariance, 1, 0, step);
-        move_pair(imm->covariance, 2, 0, step);
-        move_pair(imm->covariance, 2, 1, step);
+        move_pair(imm->covariance, pair_places[0], step);
+        if (is_open(imm, 2)) {
+            move_pair(imm->covariance, pair_places[1], step);
+            move_pair(imm->covariance, pair_places[2], step);
+        }
     }
     move_axis(imm, 0, step);
     move_axis(imm, 1, step);

@@ -3,7 +3,7 @@
  * The axes of the two models, as imm*.c see them. Private to src/maintenance/imm*.c.
  *
  * The steady model's triangle is the first 21 elements of the manoeuvring one's: positions and velocities have the same
- * places in both.
+ * places in both. Straight code over named elements, not loops: it runs for each hypothesis of each track.
  */
 #ifndef RHOTRACK_IMM_AXES_H
 #define RHOTRACK_IMM_AXES_H
@@ -17,30 +17,67 @@
 
 /* One axis by itself: position, velocity and, of the manoeuvring model, acceleration. */
 struct axis {
-    float x[3];
-    float p[RHO_TRIANGLE(3)]; /* pp, vp, vv, ap, av, aa */
+    float p, v, a;
+    float pp, vp, vv, ap, av, aa;
 };
 
-static inline void take_axis(struct axis *out, const float *state, const float *covariance,
-                             int axis, int num)
+/* Where an axis' covariances lie: pp, vp, vv, ap, av, aa. */
+static const uint8_t axis_places[NUM_AXES][6] = {
+    {PLACE(0, 0, 0, 0), PLACE(0, 1, 0, 0), PLACE(0, 1, 0, 1), PLACE(0, 2, 0, 0), PLACE(0, 2, 0, 1),
+     PLACE(0, 2, 0, 2)},
+    {PLACE(1, 0, 1, 0), PLACE(1, 1, 1, 0), PLACE(1, 1, 1, 1), PLACE(1, 2, 1, 0), PLACE(1, 2, 1, 1),
+     PLACE(1, 2, 1, 2)},
+    {PLACE(2, 0, 2, 0), PLACE(2, 1, 2, 0), PLACE(2, 1, 2, 1), PLACE(2, 2, 2, 0), PLACE(2, 2, 2, 1),
+     PLACE(2, 2, 2, 2)},
+};
+
+/* The steady model's axis has an acceleration of 0. */
+static inline struct axis take_steady(const struct rho_kalman *steady, int axis)
 {
-    for (int i = 0; i < num; i++) {
-        out->x[i] = state[NUM_AXES * i + axis];
-        for (int j = 0; j <= i; j++) {
-            out->p[RHO_AT(i, j)] = covariance[PLACE(axis, i, axis, j)];
-        }
-    }
+    const uint8_t *at = axis_places[axis];
+    return (struct axis){.p = steady->state[axis],
+                         .v = steady->state[NUM_AXES + axis],
+                         .pp = steady->covariance[at[0]],
+                         .vp = steady->covariance[at[1]],
+                         .vv = steady->covariance[at[2]]};
 }
 
-static inline void put_axis(const struct axis *in, float *state, float *covariance, int axis,
-                            int num)
+static inline void put_steady(struct rho_kalman *steady, int axis, const struct axis *in)
 {
-    for (int i = 0; i < num; i++) {
-        state[NUM_AXES * i + axis] = in->x[i];
-        for (int j = 0; j <= i; j++) {
-            covariance[PLACE(axis, i, axis, j)] = in->p[RHO_AT(i, j)];
-        }
-    }
+    const uint8_t *at = axis_places[axis];
+    steady->state[axis] = in->p;
+    steady->state[NUM_AXES + axis] = in->v;
+    steady->covariance[at[0]] = in->pp;
+    steady->covariance[at[1]] = in->vp;
+    steady->covariance[at[2]] = in->vv;
+}
+
+static inline struct axis take_manoeuvre(const struct rho_imm *imm, int axis)
+{
+    const uint8_t *at = axis_places[axis];
+    return (struct axis){.p = imm->state[axis],
+                         .v = imm->state[NUM_AXES + axis],
+                         .a = imm->state[2 * NUM_AXES + axis],
+                         .pp = imm->covariance[at[0]],
+                         .vp = imm->covariance[at[1]],
+                         .vv = imm->covariance[at[2]],
+                         .ap = imm->covariance[at[3]],
+                         .av = imm->covariance[at[4]],
+                         .aa = imm->covariance[at[5]]};
+}
+
+static inline void put_manoeuvre(struct rho_imm *imm, int axis, const struct axis *in)
+{
+    const uint8_t *at = axis_places[axis];
+    imm->state[axis] = in->p;
+    imm->state[NUM_AXES + axis] = in->v;
+    imm->state[2 * NUM_AXES + axis] = in->a;
+    imm->covariance[at[0]] = in->pp;
+    imm->covariance[at[1]] = in->vp;
+    imm->covariance[at[2]] = in->vv;
+    imm->covariance[at[3]] = in->ap;
+    imm->covariance[at[4]] = in->av;
+    imm->covariance[at[5]] = in->aa;
 }
 
 static inline int is_open(const struct rho_imm *imm, int axis)

@@ -19,18 +19,36 @@ struct view {
     int counts;
 };
 
+/* Isotropic noise has no frame: nothing to find it for. */
+static int open_isotropic(struct rho_measurement *out, const struct rho_plot *plot,
+                          uint32_t measures)
+{
+    const int has_z = (measures & RHO_MEASURES_Z) != 0;
+    const float sigma_m = plot->sigma_range_m, variance = sigma_m * sigma_m;
+    if (plot->sigma_cross_m < sigma_m || plot->sigma_cross_m > sigma_m ||
+        (has_z && (plot->sigma_up_m < sigma_m || plot->sigma_up_m > sigma_m))) {
+        return 0;
+    }
+    *out = (struct rho_measurement){.place_m = {plot->x_m, plot->y_m, has_z ? plot->z_m : 0.0f},
+                                    .cos_azimuth = 1.0f,
+                                    .cos_elevation = 1.0f,
+                                    .variance_m2 = {variance, variance, variance},
+                                    .has_z = has_z,
+                                    .is_isotropic = 1};
+    return 1;
+}
+
 void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
                        const struct rho_sensor *sensor)
 {
-    rho_measurement_open(plot, measures, sensor, &seen->position);
-    if (!seen->position.is_isotropic) {
-        rho_measurement_covariance(&seen->position, seen->covariance);
-    } else {
-        memset(seen->covariance, 0, sizeof seen->covariance);
-    }
     seen->measures = measures;
     seen->plot = plot;
     seen->sensor = sensor;
+    if (open_isotropic(&seen->position, plot, measures)) {
+        return;
+    }
+    rho_measurement_open(plot, measures, sensor, &seen->position);
+    rho_measurement_covariance(&seen->position, seen->covariance);
 }
 
 /* ---- independent axes ------------------------------------------------------------------------- */
@@ -40,41 +58,52 @@ static float velocity_of(const struct rho_plot *plot, int axis)
     return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
 }
 
-/* Position, and velocity where it counts, of one axis: a distance, and the factor of the determinant. */
-static inline float axis_distance2(const struct view *view, const struct rho_imm_plot *seen,
-                                   int axis, int has_velocity, float *det)
+static inline void view_places(struct view *view, const struct rho_imm_plot *seen, int has_z)
 {
-    const float *p = view->covariance;
-    const float s = p[PLACE(axis, 0, axis, 0)] + seen->position.variance_m2[0];
-    const float off_m = seen->position.place_m[axis] - view->state[axis];
-    float distance2 = off_m * off_m / s;
-    *det = s;
-    if (has_velocity) {
-        const float factor = p[PLACE(axis, 1, axis, 0)] / s;
-        const float rest = p[PLACE(axis, 1, axis, 1)] +
-                           seen->plot->sigma_mps * seen->plot->sigma_mps -
-                           factor * p[PLACE(axis, 1, axis, 0)];
-        const float off_mps =
-            velocity_of(seen->plot, axis) - view->state[NUM_AXES + axis] - factor * off_m;
-        distance2 += off_mps * off_mps / rest;
-        *det *= rest;
+    const float *p = view->covariance, noise = seen->position.variance_m2[0];
+    const float sx = p[RHO_AT(0, 0)] + noise, sy = p[RHO_AT(1, 1)] + noise;
+    const float dx = seen->position.place_m[0] - view->state[0];
+    const float dy = seen->position.place_m[1] - view->state[1];
+    float det = sx * sy;
+    view->distance2 = (dx * dx * sy + dy * dy * sx) / det;
+    if (has_z) {
+        const float sz = p[RHO_AT(2, 2)] + noise, dz = seen->position.place_m[2] - view->state[2];
+        view->distance2 += dz * dz / sz;
+        det *= sz;
     }
-    return distance2;
+    view->counts = view->distance2 <= COUNTS_MAX && det > 0.0f;
+    if (view->counts) {
+        view->log_det = rho_log(det);
+    }
 }
 
-static void view_axes(struct view *view, const struct rho_imm_plot *seen, int num_axes,
-                      int has_velocity)
+/* Position and velocity of one axis: a distance, and the factor of the determinant. */
+static float axis_distance2(const struct view *view, const struct rho_imm_plot *seen, int axis,
+                            float *det)
+{
+    const float *p = view->covariance, noise = seen->plot->sigma_mps * seen->plot->sigma_mps;
+    const float s = p[axis_places[axis][0]] + seen->position.variance_m2[0];
+    const float factor = p[axis_places[axis][1]] / s;
+    const float rest = p[axis_places[axis][2]] + noise - factor * p[axis_places[axis][1]];
+    const float off_m = seen->position.place_m[axis] - view->state[axis];
+    const float off_mps =
+        velocity_of(seen->plot, axis) - view->state[NUM_AXES + axis] - factor * off_m;
+    *det = s * rest;
+    return off_m * off_m / s + off_mps * off_mps / rest;
+}
+
+static void view_places_and_velocities(struct view *view, const struct rho_imm_plot *seen,
+                                       int num_axes)
 {
     float det[NUM_AXES] = {1.0f, 1.0f, 1.0f};
     view->distance2 = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
-        view->distance2 += axis_distance2(view, seen, axis, has_velocity, &det[axis]);
+        view->distance2 += axis_distance2(view, seen, axis, &det[axis]);
     }
     view->counts = view->distance2 <= COUNTS_MAX && det[0] > 0.0f && det[1] > 0.0f && det[2] > 0.0f;
     if (view->counts) {
-        /* apart where velocities count: the product of six variances may be no number */
-        view->log_det = has_velocity ? rho_log(det[0] * det[1]) + rho_log(det[2])
-                                     : rho_log(det[0] * det[1] * det[2]);
+        /* apart: the product of six variances may be no number */
+        view->log_det = rho_log(det[0] * det[1]) + rho_log(det[2]);
     }
 }
 
@@ -221,8 +250,10 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
     for (int i = 0; i < 2; i++) {
         if (imm->is_coupled || !seen->position.is_isotropic || match->has_range_rate) {
             view_coupled(&views[i], seen, match);
+        } else if (match->has_velocity) {
+            view_places_and_velocities(&views[i], seen, match->num_axes);
         } else {
-            view_axes(&views[i], seen, match->num_axes, match->has_velocity);
+            view_places(&views[i], seen, match->num_axes > 2);
         }
     }
     if (!is_in_gate(views, match)) {

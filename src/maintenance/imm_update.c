@@ -25,36 +25,53 @@ static float at_least(float variance)
 
 /* ---- independent axes ------------------------------------------------------------------------- */
 
-/* Derivative `which` of an axis with `num` of them was measured. */
-static inline enum rho_status update_axis(struct axis *at, int num, int which, float value,
-                                          float variance)
+/* What an update divides by, and whether it may. */
+struct divisor {
+    float inverse, kept;
+    int is_usable;
+};
+
+static inline struct divisor divide_by(float predicted, float variance)
 {
-    const float sum = at->p[RHO_AT(which, which)] + variance, inverse = 1.0f / sum;
-    const float off = value - at->x[which], kept = variance * inverse;
-    float row[3] = {0.0f, 0.0f, 0.0f};
-    if (!(at->p[RHO_AT(which, which)] >= 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
-        return RHO_ERROR_SINGULAR;
-    }
-    if (!is_finite(off * inverse * off)) {
-        return RHO_ERROR_VALUE;
-    }
-    for (int i = 0; i < num; i++) {
-        row[i] = at->p[RHO_AT(i, which)];
-    }
-    for (int i = 0; i < num; i++) {
-        at->x[i] += row[i] * inverse * off;
-        for (int j = 0; j < i; j++) {
-            at->p[RHO_AT(i, j)] -= row[i] * inverse * row[j];
-        }
-        at->p[RHO_AT(i, i)] =
-            at_least(at->p[RHO_AT(i, i)] * ROUNDING_ALLOWANCE - row[i] * inverse * row[i]);
-    }
-    /* the measured row is scaled, not differenced */
-    for (int i = 0; i < num; i++) {
-        at->p[RHO_AT(i, which)] = row[i] * kept;
-    }
-    at->p[RHO_AT(which, which)] = at_least(at->p[RHO_AT(which, which)]);
-    return is_finite(at->x[0] + at->x[1] + at->x[num - 1]) ? RHO_OK : RHO_ERROR_VALUE;
+    const float sum = predicted + variance, inverse = 1.0f / sum;
+    return (struct divisor){inverse, variance * inverse,
+                            predicted >= 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX};
+}
+
+/* The position was measured. Its own row is scaled, not differenced: no digit is lost. */
+static inline int take_position(struct axis *at, float place_m, float variance)
+{
+    const struct divisor by = divide_by(at->pp, variance);
+    const float off = place_m - at->p, step = off * by.inverse;
+    const float gain_v = at->vp * by.inverse, gain_a = at->ap * by.inverse;
+    at->p += at->pp * step;
+    at->v += at->vp * step;
+    at->a += at->ap * step;
+    at->vv = at_least(at->vv * ROUNDING_ALLOWANCE - gain_v * at->vp);
+    at->av -= gain_a * at->vp;
+    at->aa = at->aa * ROUNDING_ALLOWANCE - gain_a * at->ap;
+    at->pp = at_least(at->pp * by.kept);
+    at->vp *= by.kept;
+    at->ap *= by.kept;
+    return by.is_usable && is_finite(off * step);
+}
+
+/* The velocity was. */
+static inline int take_velocity(struct axis *at, float speed_mps, float variance)
+{
+    const struct divisor by = divide_by(at->vv, variance);
+    const float off = speed_mps - at->v, step = off * by.inverse;
+    const float gain_p = at->vp * by.inverse, gain_a = at->av * by.inverse;
+    at->p += at->vp * step;
+    at->v += at->vv * step;
+    at->a += at->av * step;
+    at->pp = at_least(at->pp * ROUNDING_ALLOWANCE - gain_p * at->vp);
+    at->ap -= gain_a * at->vp;
+    at->aa = at->aa * ROUNDING_ALLOWANCE - gain_a * at->av;
+    at->vv = at_least(at->vv * by.kept);
+    at->vp *= by.kept;
+    at->av *= by.kept;
+    return by.is_usable && is_finite(off * step);
 }
 
 static float velocity_of(const struct rho_plot *plot, int axis)
@@ -62,33 +79,31 @@ static float velocity_of(const struct rho_plot *plot, int axis)
     return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
 }
 
-static inline enum rho_status update_model_axis(float *state, float *covariance, int axis, int num,
-                                                const struct rho_imm_plot *seen)
+static inline int take_axis(struct axis *at, int axis, const struct rho_imm_plot *seen)
 {
-    struct axis at;
-    take_axis(&at, state, covariance, axis, num);
-    enum rho_status status = update_axis(&at, num, 0, seen->position.place_m[axis],
-                                         at_least(seen->position.variance_m2[0]));
-    if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
+    int good =
+        take_position(at, seen->position.place_m[axis], at_least(seen->position.variance_m2[0]));
+    if (seen->measures & RHO_MEASURES_VELOCITY) {
         const float sigma_mps = seen->plot->sigma_mps;
-        status = update_axis(&at, num, 1, velocity_of(seen->plot, axis),
-                             at_least(sigma_mps * sigma_mps));
+        good &= take_velocity(at, velocity_of(seen->plot, axis), at_least(sigma_mps * sigma_mps));
     }
-    put_axis(&at, state, covariance, axis, num);
-    return status;
+    return good && is_finite(at->p + at->v + at->a);
 }
 
 static enum rho_status update_axes(struct rho_imm *imm, int num_axes,
                                    const struct rho_imm_plot *seen)
 {
-    enum rho_status status = RHO_OK;
-    for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
-        status = update_model_axis(imm->steady.state, imm->steady.covariance, axis, 2, seen);
-        if (status == RHO_OK) {
-            status = update_model_axis(imm->state, imm->covariance, axis, 3, seen);
-        }
+    int good = 1;
+    for (int axis = 0; axis < num_axes; axis++) {
+        struct axis at = take_steady(&imm->steady, axis);
+        good &= take_axis(&at, axis, seen);
+        put_steady(&imm->steady, axis, &at);
+        at = take_manoeuvre(imm, axis);
+        good &= take_axis(&at, axis, seen);
+        at.aa = at_least(at.aa);
+        put_manoeuvre(imm, axis, &at);
     }
-    return status;
+    return good ? RHO_OK : RHO_ERROR_SINGULAR;
 }
 
 /* ---- coupled axes ----------------------------------------------------------------------------- */
