@@ -33,7 +33,7 @@
 #define RHO_HYPOTHESES_OF_TRACK 8
 #define RHO_HYPOTHESES_CHILDREN 3          /* plots of a scan that one hypothesis goes on with */
 #define RHO_HYPOTHESES_MEMORY 3            /* scans in which two hypotheses must differ */
-#define RHO_HYPOTHESES_WEIGHT_MIN (-25.0f) /* beside the best one; less is given up */
+#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f) /* beside the best one; less is given up */
 #define RHO_HYPOTHESES_MISS (-1)
 
 struct rho_hypothesis {

@@ -155,7 +155,7 @@ static int add_range_rate(const struct view *view, const struct rho_imm_plot *se
 {
     const struct rho_plot *plot = seen->plot;
     struct rho_kalman at;
-    struct rho_kalman_rate rate;
+    struct rho_kalman_row rate;
     float projected[RHO_KALMAN_STATES], *row = &out->s[RHO_TRIANGLE(out->num)];
     memcpy(at.state, view->state, sizeof at.state);
     memcpy(at.covariance, view->covariance, sizeof at.covariance);
@@ -170,7 +170,7 @@ static int add_range_rate(const struct view *view, const struct rho_imm_plot *se
         memcpy(row + num_axes, projected + NUM_AXES, (size_t)num_axes * sizeof *row);
     }
     row[out->num] = variance + rate.variance;
-    out->d[out->num++] = rate.off_mps;
+    out->d[out->num++] = rate.innovation;
     return 1;
 }
 

@@ -194,7 +194,7 @@ static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_i
     const float variance =
         at_least(seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps);
     struct rho_kalman at;
-    struct rho_kalman_rate rate;
+    struct rho_kalman_row rate;
     memcpy(at.state, imm->state, sizeof at.state);
     memcpy(at.covariance, imm->covariance, sizeof at.covariance);
     enum rho_status status =
@@ -204,7 +204,7 @@ static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_i
         return status;
     }
     return rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, RHO_KALMAN_STATES,
-                                   rate.row, rate.off_mps, rate.variance);
+                                   rate.row, rate.innovation, rate.variance);
 }
 
 static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
