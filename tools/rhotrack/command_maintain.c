@@ -180,6 +180,9 @@ static void step_all(struct maintaining *maintaining, struct scan_reader *reader
         step(maintaining, scan, scan_reader_sensor(reader));
         if (maintaining->is_started && !was_started) {
             warn_blind(line, maintaining->gate, scan);
+            if (file) {
+                tracks_write_header(file, line->covariance);
+            }
         }
         if (maintaining->is_started && file) {
             fill_row(maintaining, &estimate);
@@ -276,7 +279,6 @@ int command_maintain(struct command_line *line)
     }
     if (has_file) {
         output = output_open(line->output);
-        tracks_write_header(output.file, line->covariance);
     }
     step_all(&maintaining, reader, line, has_file ? output.file : NULL);
     if (has_file) {
