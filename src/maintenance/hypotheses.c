@@ -23,7 +23,7 @@ int rho_hypotheses_is_ready(const struct rho_hypotheses *pool)
 
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
 {
-    return rho_hypotheses_is_ready(pool) && slot < RHO_MAX_TRACKS && pool->num_of[slot] > 0;
+    return rho_hypotheses_is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
 }
 
 uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool)
@@ -40,7 +40,7 @@ void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node)
 static uint16_t richest(const struct rho_hypotheses *pool, uint16_t but)
 {
     uint16_t found = but;
-    for (uint16_t slot = 0; slot < RHO_MAX_TRACKS; slot++) {
+    for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
         if (slot != but && pool->num_of[slot] > (found == but ? 0 : pool->num_of[found])) {
             found = slot;
         }
@@ -50,14 +50,15 @@ static uint16_t richest(const struct rho_hypotheses *pool, uint16_t but)
 
 unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted)
 {
-    unsigned own = slot < RHO_MAX_TRACKS ? pool->num_of[slot] : 0;
+    unsigned own = slot < RHO_HYPOTHESES_SLOTS ? pool->num_of[slot] : 0;
     while (own + pool->num_free < wanted) {
         uint16_t giver = richest(pool, slot);
         unsigned most = giver == slot ? 0 : pool->num_of[giver];
-        pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
         if (most < 2 || most <= own + pool->num_free) {
+            pool->hypotheses_cut = rho_count(pool->hypotheses_cut, wanted - own - pool->num_free);
             return own + pool->num_free;
         }
+        pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
         pool->num_of[giver]--;
         rho_hypotheses_release(pool, pool->node_of[giver][pool->num_of[giver]]);
     }
@@ -92,7 +93,7 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
 
 static int find_slot(const struct rho_hypotheses *pool, uint16_t *slot)
 {
-    for (uint16_t i = 0; i < RHO_MAX_TRACKS; i++) {
+    for (uint16_t i = 0; i < RHO_HYPOTHESES_SLOTS; i++) {
         if (pool->num_of[i] == 0) {
             *slot = i;
             return 1;
