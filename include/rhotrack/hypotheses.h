@@ -67,7 +67,7 @@ struct rho_hypotheses {
     struct rho_imm_step step;             /* of the last interval: most tracks have the same one */
     uint8_t num_of[RHO_HYPOTHESES_SLOTS]; /* hypotheses of a slot; 0: nobody's */
     uint16_t node_of[RHO_HYPOTHESES_SLOTS][RHO_HYPOTHESES_OF_TRACK]; /* the best first */
-    uint16_t free[RHO_MAX_HYPOTHESES];
+    uint16_t spare[RHO_MAX_HYPOTHESES];
     struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK * (RHO_HYPOTHESES_CHILDREN + 1)];
     struct rho_imm scratch;
     struct rho_hypothesis nodes[RHO_MAX_HYPOTHESES];

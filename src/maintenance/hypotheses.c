@@ -28,12 +28,12 @@ int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
 
 uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool)
 {
-    return pool->free[--pool->num_free];
+    return pool->spare[--pool->num_free];
 }
 
 void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node)
 {
-    pool->free[pool->num_free++] = node;
+    pool->spare[pool->num_free++] = node;
 }
 
 /* The slot with the most hypotheses, of equals the first, but for one. */
@@ -82,7 +82,7 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
     pool->model = copy;
     pool->num_free = RHO_MAX_HYPOTHESES;
     for (unsigned i = 0; i < RHO_MAX_HYPOTHESES; i++) {
-        pool->free[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
+        pool->spare[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
     }
     rho_imm_step_open(&pool->step, model, 0.0f);
     pool->magic = POOL_MAGIC;
