@@ -209,14 +209,8 @@ static int is_usable(const struct rho_tracker_config *config)
 
 static enum rho_status open_hypotheses(struct rho_tracker *tracker)
 {
-    const float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
     struct rho_imm_model model;
-    rho_imm_model_default(&model, tracker->config.accel_max_mps2);
-    model.speed_sigma_mps = tracker->config.v_max_mps;
-    /* targets that hardly manoeuvre are steadier still than the default takes them to be */
-    if (accel_mps2 * accel_mps2 < model.quiet_density) {
-        model.quiet_density = accel_mps2 * accel_mps2;
-    }
+    rho_imm_model_default(&model, tracker->config.accel_max_mps2, tracker->config.v_max_mps);
     return rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
 }
 
