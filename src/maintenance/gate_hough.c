@@ -116,17 +116,18 @@ enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes
     return RHO_OK;
 }
 
+/* A plane that is not looked at has neither a cosine nor a sine. */
+static float off_in_plane(const struct rho_gate_hough *hough, int plane, float a_mps, float b_mps)
+{
+    return size_of(a_mps * hough->cos_theta[plane] + b_mps * hough->sin_theta[plane]);
+}
+
 float rho_gate_hough_off(const struct rho_gate_hough *hough, const float velocity_mps[3])
 {
-    float change_mps[3], off_mps = 0.0f;
+    const float x_mps = velocity_mps[0] - hough->newest_mps[0];
+    const float y_mps = velocity_mps[1] - hough->newest_mps[1];
+    const float z_mps = velocity_mps[2] - hough->newest_mps[2];
 
-    for (int i = 0; i < 3; i++) {
-        change_mps[i] = velocity_mps[i] - hough->newest_mps[i];
-    }
-    for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {
-        const uint8_t *axes = axes_of[plane];
-        off_mps += size_of(change_mps[axes[0]] * hough->cos_theta[plane] +
-                           change_mps[axes[1]] * hough->sin_theta[plane]);
-    }
-    return off_mps;
+    return off_in_plane(hough, 0, x_mps, y_mps) + off_in_plane(hough, 1, x_mps, z_mps) +
+           off_in_plane(hough, 2, y_mps, z_mps);
 }

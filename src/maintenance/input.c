@@ -78,23 +78,47 @@ static int is_in(uint32_t axes, int axis)
     return (axes >> axis & 1u) != 0;
 }
 
-/* p := p + factor m m^T */
-static void add_square(float p[RHO_TRIANGLE(NUM_STATES)], const float m[NUM_STATES], float factor)
+static int is_zero(float v)
 {
+    return !(v < 0.0f || v > 0.0f);
+}
+
+/* What rounding may take off a variance that something is added to. */
+static float with_allowance(float added)
+{
+    return added + added * ROUNDING_SHARE;
+}
+
+/* p := p + factor m m^T where m has entries of one axis only. */
+static void add_square_of_axis(float p[RHO_TRIANGLE(NUM_STATES)], const float m[NUM_STATES], int a,
+                               float factor)
+{
+    const float place = m[a], speed = m[a + NUM_AXES];
+
+    p[RHO_AT(a, a)] += with_allowance(factor * place * place);
+    p[RHO_AT(a + NUM_AXES, a)] += factor * place * speed;
+    p[RHO_AT(a + NUM_AXES, a + NUM_AXES)] += with_allowance(factor * speed * speed);
+}
+
+/* p := p + factor m m^T, m the column of this axis: mostly it has no entries of others. */
+static void add_square(float p[RHO_TRIANGLE(NUM_STATES)], const float m[NUM_STATES], int a,
+                       float factor)
+{
+    const int b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2;
+
+    if (is_zero(m[b]) && is_zero(m[c]) && is_zero(m[b + NUM_AXES]) && is_zero(m[c + NUM_AXES])) {
+        add_square_of_axis(p, m, a, factor);
+        return;
+    }
     for (int i = 0; i < NUM_STATES; i++) {
         const float scaled = factor * m[i];
         float *row = &p[RHO_TRIANGLE(i)];
 
-        for (int j = 0; j <= i; j++) {
+        for (int j = 0; j < i; j++) {
             row[j] += scaled * m[j];
         }
-        row[i] += scaled * m[i] * ROUNDING_SHARE;
+        row[i] += with_allowance(scaled * m[i]);
     }
-}
-
-static int is_zero(float v)
-{
-    return !(v < 0.0f || v > 0.0f);
 }
 
 /*
@@ -133,7 +157,7 @@ static void add_inputs(struct rho_kalman *estimate, const struct rho_input *inpu
                 v[RHO_AT(c, b)] -= share * v[RHO_AT(c, a)];
             }
         }
-        add_square(estimate->covariance, column, pivot);
+        add_square(estimate->covariance, column, a, pivot);
     }
 }
 
@@ -243,6 +267,25 @@ static int is_certain_enough(const struct rho_input *input, float size2)
     return 1;
 }
 
+static enum rho_status predict(struct rho_input *input, const struct rho_input_config *config,
+                               float dt_s)
+{
+    enum rho_status status = rho_kalman_predict(&input->bare, dt_s, config->noise_density);
+
+    if (status == RHO_OK && dt_s > 0.0f) {
+        status = rho_kalman_add_noise(&input->bare, config->noise_m * config->noise_m,
+                                      config->noise_mps * config->noise_mps);
+    }
+    if (status != RHO_OK || !config->is_estimated) {
+        return status;
+    }
+    if (dt_s > 0.0f && config->gamma < 1.0f) {
+        forget(input, config);
+    }
+    const float size2 = predict_sensitivity(input, config, dt_s);
+    return is_certain_enough(input, size2) ? RHO_OK : RHO_ERROR_VALUE;
+}
+
 enum rho_status rho_input_predict(struct rho_input *input, const struct rho_input_config *config,
                                   float dt_s)
 {
@@ -251,26 +294,12 @@ enum rho_status rho_input_predict(struct rho_input *input, const struct rho_inpu
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
     }
-    struct rho_input next = *input;
-    status = rho_kalman_predict(&next.bare, dt_s, config->noise_density);
-    if (status == RHO_OK && dt_s > 0.0f) {
-        status = rho_kalman_add_noise(&next.bare, config->noise_m * config->noise_m,
-                                      config->noise_mps * config->noise_mps);
-    }
+    const struct rho_input before = *input;
+    status = predict(input, config, dt_s);
     if (status != RHO_OK) {
-        return status;
+        *input = before;
     }
-    if (config->is_estimated) {
-        if (dt_s > 0.0f && config->gamma < 1.0f) {
-            forget(&next, config);
-        }
-        const float size2 = predict_sensitivity(&next, config, dt_s);
-        if (!is_certain_enough(&next, size2)) {
-            return RHO_ERROR_VALUE;
-        }
-    }
-    *input = next;
-    return RHO_OK;
+    return status;
 }
 
 /* ---- onset and stop --------------------------------------------------------------------------- */
@@ -341,7 +370,7 @@ static void take_in(struct rho_input *input, int axis)
     for (int i = 0; i < NUM_STATES; i++) {
         input->bare.state[i] += m[i] * rest_mps2;
     }
-    add_square(input->bare.covariance, m, variance);
+    add_square(input->bare.covariance, m, axis, variance);
 }
 
 static float significance2(const struct rho_input *input, int axis)

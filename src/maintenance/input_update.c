@@ -15,6 +15,12 @@
 #define INPUT2_MAX 1.0e24f
 #define SENSITIVITY2_MAX 1.0e24f
 
+/* Where row i of a packed 6 x 6 matrix lies. */
+static const uint8_t row_places[NUM_STATES][NUM_STATES] = {
+    {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
+    {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
+};
+
 /* A scalar measurement, and how it is seen: P h, h P h^T + R, and its derivatives by the inputs, H N. */
 struct sight {
     const float *row; /* NULL: an element of the state */
@@ -137,29 +143,37 @@ static enum rho_status update_all(struct rho_input *input, const struct sight *s
     return status;
 }
 
-/* Which input alone, correlated with no other, the measurement depends on; NUM_AXES: there is more to it. */
-static int only_axis(const struct rho_input *input, const float by_input[NUM_AXES])
+/* The bits of a number but for its sign: none for zero. */
+static uint32_t bits_of(float v)
 {
-    const int x = !is_zero(by_input[0]), y = !is_zero(by_input[1]), z = !is_zero(by_input[2]);
-    const int axis = x ? 0 : (y ? 1 : 2);
-    const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
+    uint32_t bits;
 
-    if (x + y + z != 1 || !is_zero(input->variance[RHO_AT(axis, b)]) ||
-        !is_zero(input->variance[RHO_AT(axis, c)])) {
-        return NUM_AXES;
-    }
-    return axis;
+    memcpy(&bits, &v, sizeof bits);
+    return bits << 1;
 }
 
-static enum rho_status update(struct rho_input *input, const struct sight *sight)
+/* True where the measurement depends on the input of this axis at most, and that on no other's. */
+static int is_apart(const struct rho_input *input, const float by_input[NUM_AXES], int axis)
 {
-    const float *s = sight->by_input;
+    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
+    static const uint8_t covariances[NUM_AXES][2] = {
+        {RHO_AT(1, 0), RHO_AT(2, 0)}, {RHO_AT(1, 0), RHO_AT(2, 1)}, {RHO_AT(2, 0), RHO_AT(2, 1)}};
+    const uint8_t *other = others[axis], *covariance = covariances[axis];
 
-    if (is_zero(s[0]) && is_zero(s[1]) && is_zero(s[2])) {
+    return (bits_of(by_input[other[0]]) | bits_of(by_input[other[1]]) |
+            bits_of(input->variance[covariance[0]]) | bits_of(input->variance[covariance[1]])) == 0;
+}
+
+/* axis: the one whose input it depends on if on one only. */
+static enum rho_status update(struct rho_input *input, const struct sight *sight, int axis)
+{
+    if (!is_apart(input, sight->by_input, axis)) {
+        return update_all(input, sight);
+    }
+    if (bits_of(sight->by_input[axis]) == 0) {
         return update_bare(&input->bare, sight);
     }
-    const int axis = only_axis(input, s);
-    return axis < NUM_AXES ? update_one(input, sight, axis) : update_all(input, sight);
+    return update_one(input, sight, axis);
 }
 
 /* ---- scalar measurements ---------------------------------------------------------------------- */
@@ -175,14 +189,14 @@ static enum rho_status update_element(struct rho_input *input, int element, floa
     sight.value = value;
     sight.noise = variance;
     for (int i = 0; i < NUM_STATES; i++) {
-        sight.projected[i] = bare->covariance[RHO_AT(element, i)];
+        sight.projected[i] = bare->covariance[row_places[element][i]];
     }
     for (int a = 0; a < NUM_AXES; a++) {
         sight.by_input[a] = input->sensitivity[a][element];
     }
     sight.variance = sight.projected[element] + noise_of(variance);
     sight.off = value - bare->state[element];
-    return update(input, &sight);
+    return update(input, &sight, element < NUM_AXES ? element : element - NUM_AXES);
 }
 
 static enum rho_status update_row(struct rho_input *input, const float row[6], float innovation,
@@ -203,7 +217,7 @@ static enum rho_status update_row(struct rho_input *input, const float row[6], f
             sight.by_input[a] += row[i] * input->sensitivity[a][i];
         }
     }
-    return update(input, &sight);
+    return update(input, &sight, 0);
 }
 
 enum rho_status rho_input_update(struct rho_input *input, const struct rho_input_config *config,
