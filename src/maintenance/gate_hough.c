@@ -44,9 +44,8 @@ static int32_t count_cells(float theta_cell_rad)
  * The cell whose centre is nearest to theta in [0, pi), on a circle of length pi: behind the last cell comes the first.
  * Between two borders it is the one that theta lies in.
  */
-static int32_t nearest_cell(float theta_rad, float theta_cell_rad)
+static int32_t nearest_cell(float theta_rad, float theta_cell_rad, int32_t num)
 {
-    const int32_t num = count_cells(theta_cell_rad);
     int32_t cell = (int32_t)(theta_rad / theta_cell_rad);
 
     if (cell >= num) {
@@ -67,7 +66,7 @@ static int32_t nearest_cell(float theta_rad, float theta_cell_rad)
  * rho changes by |d| |cos(theta - phi)| where the velocity changes by d in the direction phi: least at right angles to it,
  * and more the farther from there. All angles are alike where nothing changes.
  */
-static float best_theta(float da, float db, float theta_cell_rad)
+static float best_theta(float da, float db, float theta_cell_rad, int32_t num_cells)
 {
     float theta_rad;
 
@@ -81,7 +80,7 @@ static float best_theta(float da, float db, float theta_cell_rad)
     if (theta_rad >= RHO_PI) {
         theta_rad = 0.0f;
     }
-    return centre_rad(nearest_cell(theta_rad, theta_cell_rad), theta_cell_rad);
+    return centre_rad(nearest_cell(theta_rad, theta_cell_rad, num_cells), theta_cell_rad);
 }
 
 enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
@@ -103,12 +102,14 @@ enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes
             return RHO_ERROR_VALUE;
         }
     }
+    const int32_t num_cells = count_cells(theta_cell_rad);
     *hough = (struct rho_gate_hough){.planes = planes,
                                      .newest_mps = {newest_mps[0], newest_mps[1], newest_mps[2]}};
     for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {
         if (planes & (1u << plane)) {
             const uint8_t *axes = axes_of[plane];
-            float theta_rad = best_theta(change_mps[axes[0]], change_mps[axes[1]], theta_cell_rad);
+            float theta_rad =
+                best_theta(change_mps[axes[0]], change_mps[axes[1]], theta_cell_rad, num_cells);
             hough->cos_theta[plane] = rho_cos(theta_rad);
             hough->sin_theta[plane] = rho_sin(theta_rad);
         }

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "rhotrack/approx.h"
 
@@ -83,37 +84,53 @@ static int is_zero(float v)
     return !(v < 0.0f || v > 0.0f);
 }
 
+/* The bits of a number but for its sign: none for zero. */
+static uint32_t bits_of(float v)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    return bits << 1;
+}
+
 /* What rounding may take off a variance that something is added to. */
 static float with_allowance(float added)
 {
     return added + added * ROUNDING_SHARE;
 }
 
-/* p := p + factor m m^T where m has entries of one axis only. */
-static void add_square_of_axis(float p[RHO_TRIANGLE(NUM_STATES)], const float m[NUM_STATES], int a,
-                               float factor)
+/* True where a column has entries of its axis only, which is the usual case. */
+static int is_of_axis(const float m[NUM_STATES], int a)
 {
-    const float place = m[a], speed = m[a + NUM_AXES];
+    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
+    const int b = others[a][0], c = others[a][1];
 
-    p[RHO_AT(a, a)] += with_allowance(factor * place * place);
-    p[RHO_AT(a + NUM_AXES, a)] += factor * place * speed;
-    p[RHO_AT(a + NUM_AXES, a + NUM_AXES)] += with_allowance(factor * speed * speed);
+    return (bits_of(m[b]) | bits_of(m[c]) | bits_of(m[b + NUM_AXES]) | bits_of(m[c + NUM_AXES])) ==
+           0;
 }
 
-/* p := p + factor m m^T, m the column of this axis: mostly it has no entries of others. */
-static void add_square(float p[RHO_TRIANGLE(NUM_STATES)], const float m[NUM_STATES], int a,
-                       float factor)
+/* x := x + m u, p := p + v m m^T, m the column of this axis. */
+static void add_column(struct rho_kalman *kalman, const float m[NUM_STATES], int a, float u,
+                       float v)
 {
-    const int b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2;
+    static const uint8_t places[NUM_AXES][3] = {{0, 6, 9}, {2, 11, 14}, {5, 17, 20}};
+    float *x = kalman->state, *p = kalman->covariance;
 
-    if (is_zero(m[b]) && is_zero(m[c]) && is_zero(m[b + NUM_AXES]) && is_zero(m[c + NUM_AXES])) {
-        add_square_of_axis(p, m, a, factor);
+    if (is_of_axis(m, a)) {
+        const float place = m[a], speed = m[a + NUM_AXES];
+
+        x[a] += place * u;
+        x[a + NUM_AXES] += speed * u;
+        p[places[a][0]] += with_allowance(v * place * place);
+        p[places[a][1]] += v * place * speed;
+        p[places[a][2]] += with_allowance(v * speed * speed);
         return;
     }
     for (int i = 0; i < NUM_STATES; i++) {
-        const float scaled = factor * m[i];
+        const float scaled = v * m[i];
         float *row = &p[RHO_TRIANGLE(i)];
 
+        x[i] += m[i] * u;
         for (int j = 0; j < i; j++) {
             row[j] += scaled * m[j];
         }
@@ -121,35 +138,36 @@ static void add_square(float p[RHO_TRIANGLE(NUM_STATES)], const float m[NUM_STAT
     }
 }
 
+static int are_independent(const float v[RHO_TRIANGLE(NUM_AXES)])
+{
+    return (bits_of(v[RHO_AT(1, 0)]) | bits_of(v[RHO_AT(2, 0)]) | bits_of(v[RHO_AT(2, 1)])) == 0;
+}
+
 /*
  * M V M^T of these inputs as a sum of squares, V = L D L^T: the first input's column takes with it what the others are
  * expected to be where it is one, and what they are beyond that comes by itself.
  */
-static void add_inputs(struct rho_kalman *estimate, const struct rho_input *input, uint32_t axes)
+static void add_correlated_inputs(struct rho_kalman *estimate, const struct rho_input *input,
+                                  uint32_t axes)
 {
     float v[RHO_TRIANGLE(NUM_AXES)], column[NUM_STATES];
 
-    for (int k = 0; k < RHO_TRIANGLE(NUM_AXES); k++) {
-        v[k] = input->variance[k];
-    }
+    memcpy(v, input->variance, sizeof v);
     for (int a = 0; a < NUM_AXES; a++) {
         const float *m = input->sensitivity[a];
         const float pivot = v[RHO_AT(a, a)];
 
-        if (!is_in(axes, a) || !(pivot > 0.0f)) {
+        if (!is_in(axes, a)) {
             continue;
         }
-        for (int i = 0; i < NUM_STATES; i++) {
-            estimate->state[i] += m[i] * input->input_mps2[a];
-            column[i] = m[i];
+        add_column(estimate, m, a, input->input_mps2[a], 0.0f);
+        if (!(pivot > 0.0f)) {
+            continue;
         }
+        memcpy(column, m, sizeof column);
         for (int b = a + 1; b < NUM_AXES; b++) {
-            const float covariance = v[RHO_AT(b, a)];
+            const float share = is_in(axes, b) ? v[RHO_AT(b, a)] / pivot : 0.0f;
 
-            if (!is_in(axes, b) || is_zero(covariance)) {
-                continue;
-            }
-            const float share = covariance / pivot;
             for (int i = 0; i < NUM_STATES; i++) {
                 column[i] += share * input->sensitivity[b][i];
             }
@@ -157,7 +175,23 @@ static void add_inputs(struct rho_kalman *estimate, const struct rho_input *inpu
                 v[RHO_AT(c, b)] -= share * v[RHO_AT(c, a)];
             }
         }
-        add_square(estimate->covariance, column, a, pivot);
+        add_column(estimate, column, a, 0.0f, pivot);
+    }
+}
+
+static void add_inputs(struct rho_kalman *estimate, const struct rho_input *input, uint32_t axes)
+{
+    static const uint8_t diagonal[NUM_AXES] = {0, 2, 5};
+
+    if (!are_independent(input->variance)) {
+        add_correlated_inputs(estimate, input, axes);
+        return;
+    }
+    for (int a = 0; a < NUM_AXES; a++) {
+        if (is_in(axes, a)) {
+            add_column(estimate, input->sensitivity[a], a, input->input_mps2[a],
+                       input->variance[diagonal[a]]);
+        }
     }
 }
 
@@ -206,16 +240,14 @@ static float predict_sensitivity(struct rho_input *input, const struct rho_input
     for (int a = 0; a < NUM_AXES; a++) {
         float *n = input->sensitivity[a];
 
-        for (int i = 0; i < NUM_AXES; i++) {
-            n[i] += dt_s * n[i + NUM_AXES];
-        }
-        if (rho_kalman_is_open(&input->bare, a)) {
+        n[0] += dt_s * n[3];
+        n[1] += dt_s * n[4];
+        n[2] += dt_s * n[5];
+        if (input->bare.covariance[RHO_AT(a, a)] > 0.0f) { /* it is open */
             n[a] += moved_m;
             n[a + NUM_AXES] += dt_s;
         }
-        for (int i = 0; i < NUM_STATES; i++) {
-            size2 += n[i] * n[i];
-        }
+        size2 += n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3] + n[4] * n[4] + n[5] * n[5];
     }
     return size2;
 }
@@ -367,10 +399,7 @@ static void take_in(struct rho_input *input, int axis)
             input->sensitivity[c][i] += share_c * m[i];
         }
     }
-    for (int i = 0; i < NUM_STATES; i++) {
-        input->bare.state[i] += m[i] * rest_mps2;
-    }
-    add_square(input->bare.covariance, m, axis, variance);
+    add_column(&input->bare, m, axis, rest_mps2, variance);
 }
 
 static float significance2(const struct rho_input *input, int axis)
