@@ -96,29 +96,30 @@ static void theta_is_the_best_of_all_cells(void **state)
     }
 }
 
-/* Along an axis two cells are as good where cells divide pi, and no rounding may choose the higher. */
+/*
+ * Along an axis two cells are as good where cells divide pi, and no rounding may choose the higher: at right angles to the
+ * first axis 85 to 95 degrees, to the second 175 to 5.
+ */
+static void assert_lowest(float along, float across, int is_second)
+{
+    const float change_mps[3] = {is_second ? across : along, is_second ? along : across, 0.0f};
+    const struct rho_gate_hough hough = opened(RHO_GATE_PLANE_XY, FIVE_DEGREES, change_mps);
+    const double theta_rad = atan2(hough.sin_theta[0], hough.cos_theta[0]);
+
+    assert_float_equal(theta_rad, (is_second ? 2.5 : 87.5) * acos(-1.0) / 180.0, ANGLE_RAD);
+}
+
 static void of_equals_the_lowest_is_taken(void **state)
 {
     const float lengths[] = {1e-30f, 1e-3f, 1.0f, 77.0f, 1e10f, 1e37f};
+    const float tilts[] = {0.0f, 1e-9f, 1e-7f, 5e-7f, -1e-9f, -1e-7f, -5e-7f};
 
     (void)state;
     for (size_t k = 0; k < NUM(lengths); ++k) {
-        for (int sign = -1; sign <= 1; sign += 2) {
-            for (int axis = 0; axis < 3; ++axis) {
-                float change_mps[3] = {0.0f, 0.0f, 0.0f};
-
-                change_mps[axis] = (float)sign * lengths[k];
-                const struct rho_gate_hough hough = opened(PLANES_ALL, FIVE_DEGREES, change_mps);
-                for (int plane = 0; plane < RHO_GATE_PLANES; ++plane) {
-                    const int is_first = axes_of[plane][0] == axis,
-                              is_second = axes_of[plane][1] == axis;
-                    const double theta_rad = atan2(hough.sin_theta[plane], hough.cos_theta[plane]);
-
-                    /* at right angles to the first axis 85 to 95 degrees, to the second 175 to 5 */
-                    assert_float_equal(theta_rad, (is_first ? 87.5 : 2.5) * acos(-1.0) / 180.0,
-                                       ANGLE_RAD);
-                    assert_true(is_first || is_second || theta_rad < FIVE_DEGREES);
-                }
+        for (size_t n = 0; n < NUM(tilts); ++n) {
+            for (int is_second = 0; is_second <= 1; ++is_second) {
+                assert_lowest(lengths[k], tilts[n] * lengths[k], is_second);
+                assert_lowest(-lengths[k], tilts[n] * lengths[k], is_second);
             }
         }
     }

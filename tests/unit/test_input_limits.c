@@ -487,6 +487,8 @@ static void assert_sound(const struct rho_input *input)
             assert_true(isfinite(input->sensitivity[axis][i]));
         }
     }
+    rho_input_expect(input, &estimate);
+    assert_true(is_positive_definite(&estimate));
     rho_input_estimate(input, &estimate);
     assert_true(is_positive_definite(&estimate));
     for (int i = 0; i < PACKED; ++i) {
@@ -610,6 +612,62 @@ static void a_vague_input_with_a_sharp_sensor(void **state)
     }
 }
 
+/* Quiet until its place is known to a fraction of what an input would have moved it by: V P / (V s^2 + P). */
+static void an_onset_that_a_sharp_sensor_sees(void **state)
+{
+    struct rho_input_config config = paper();
+
+    (void)state;
+    config.model = RHO_INPUT_PHYSICAL;
+    config.sigma_mps2 = 2000.0f;
+    config.noise_m = config.noise_mps = 0.0f;
+    struct rho_input input = started(&config, 3);
+    for (int k = 1; k <= 25; ++k) {
+        assert_int_equal(rho_input_predict(&input, &config, 10.0f), RHO_OK);
+        assert_sound(&input);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double variance = input.bare.covariance[RHO_AT(axis, axis)] + 1e-4;
+            const double s = input.sensitivity[axis][axis], v = 4e6;
+            const float onset_m = k == 25 ? 500.0f : 0.0f;
+
+            assert_int_equal(rho_input_update(&input, &config, axis,
+                                              100.0f * (float)(axis + 1) + onset_m, 1e-4f),
+                             RHO_OK);
+            assert_float_equal(input.variance[RHO_AT(axis, axis)],
+                               v * variance / (v * s * s + variance),
+                               1e-4 * v * variance / (v * s * s + variance));
+            assert_sound(&input);
+        }
+        rho_input_decide(&input, &config);
+        assert_int_equal(input.present, k == 25 ? 7 : 0);
+        assert_sound(&input);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        assert_float_equal(input.input_mps2[axis], 10.0, 1e-3);
+    }
+}
+
+/* What is added is 10^10 times as uncertain as the filter: its rounding alone would be more than that. */
+static void a_gate_that_an_input_widens_stays_definite(void **state)
+{
+    struct rho_input_config config = paper();
+
+    (void)state;
+    config.model = RHO_INPUT_PHYSICAL;
+    config.sigma_mps2 = 2000.0f;
+    config.noise_m = config.noise_mps = 0.0f;
+    for (int n = 0; n < 2000; ++n) {
+        const struct rho_kalman sharp = opened(3, 1e-6f, 1e-6f);
+        struct rho_kalman estimate;
+        struct rho_input input;
+
+        assert_int_equal(rho_input_start(&input, &config, &sharp), RHO_OK);
+        assert_int_equal(rho_input_predict(&input, &config, (float)uniform(0.1, 3.0)), RHO_OK);
+        rho_input_expect(&input, &estimate);
+        assert_true(is_positive_definite(&estimate));
+    }
+}
+
 static void a_copy_goes_on_the_same_way(void **state)
 {
     struct rho_input_config config = paper();
@@ -646,6 +704,8 @@ int main(void)
         cmocka_unit_test(an_input_may_make_a_prediction_too_uncertain),
         cmocka_unit_test(hostile_calls_leave_it_sound),
         cmocka_unit_test(a_vague_input_with_a_sharp_sensor),
+        cmocka_unit_test(an_onset_that_a_sharp_sensor_sees),
+        cmocka_unit_test(a_gate_that_an_input_widens_stays_definite),
         cmocka_unit_test(a_copy_goes_on_the_same_way),
     };
 
