@@ -5,21 +5,12 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "input_columns.h"
 #include "rhotrack/approx.h"
-
-#define NUM_AXES RHO_INPUT_AXES
-#define NUM_STATES RHO_KALMAN_STATES
-#define ALL_PRESENT 7u
 
 #define SIGMA_MIN_MPS2 1.0e-3f
 #define SIGMA_MAX_MPS2 1.0e5f
 #define NOISE_MAX 1.0e6f
-
-/* Sensitivities grow no farther than that, so that their squares times any variance are finite. */
-#define SENSITIVITY2_MAX 1.0e24f
-
-/* What is added to a covariance carries some units of float32's rounding, and the variances get sixteen. */
-#define ROUNDING_SHARE (1.0f / 1048576.0f)
 
 /* What inputs may add to a variance before one looks whether it is beyond the filter's limit. */
 #define ADDED_EASILY (1.0e-3f * RHO_KALMAN_VARIANCE_MAX)
@@ -73,75 +64,6 @@ int rho_input_is_usable(const struct rho_input_config *config)
 }
 
 /* ---- the estimate with its inputs ------------------------------------------------------------- */
-
-static int is_in(uint32_t axes, int axis)
-{
-    return (axes >> axis & 1u) != 0;
-}
-
-static int is_zero(float v)
-{
-    return !(v < 0.0f || v > 0.0f);
-}
-
-/* The bits of a number but for its sign: none for zero. */
-static uint32_t bits_of(float v)
-{
-    uint32_t bits;
-
-    memcpy(&bits, &v, sizeof bits);
-    return bits << 1;
-}
-
-/* What rounding may take off a variance that something is added to. */
-static float with_allowance(float added)
-{
-    return added + added * ROUNDING_SHARE;
-}
-
-/* True where a column has entries of its axis only, which is the usual case. */
-static int is_of_axis(const float m[NUM_STATES], int a)
-{
-    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
-    const int b = others[a][0], c = others[a][1];
-
-    return (bits_of(m[b]) | bits_of(m[c]) | bits_of(m[b + NUM_AXES]) | bits_of(m[c + NUM_AXES])) ==
-           0;
-}
-
-/* x := x + m u, p := p + v m m^T, m the column of this axis. */
-static void add_column(struct rho_kalman *kalman, const float m[NUM_STATES], int a, float u,
-                       float v)
-{
-    static const uint8_t places[NUM_AXES][3] = {{0, 6, 9}, {2, 11, 14}, {5, 17, 20}};
-    float *x = kalman->state, *p = kalman->covariance;
-
-    if (is_of_axis(m, a)) {
-        const float place = m[a], speed = m[a + NUM_AXES];
-
-        x[a] += place * u;
-        x[a + NUM_AXES] += speed * u;
-        p[places[a][0]] += with_allowance(v * place * place);
-        p[places[a][1]] += v * place * speed;
-        p[places[a][2]] += with_allowance(v * speed * speed);
-        return;
-    }
-    for (int i = 0; i < NUM_STATES; i++) {
-        const float scaled = v * m[i];
-        float *row = &p[RHO_TRIANGLE(i)];
-
-        x[i] += m[i] * u;
-        for (int j = 0; j < i; j++) {
-            row[j] += scaled * m[j];
-        }
-        row[i] += with_allowance(scaled * m[i]);
-    }
-}
-
-static int are_independent(const float v[RHO_TRIANGLE(NUM_AXES)])
-{
-    return (bits_of(v[RHO_AT(1, 0)]) | bits_of(v[RHO_AT(2, 0)]) | bits_of(v[RHO_AT(2, 1)])) == 0;
-}
 
 /*
  * M V M^T of these inputs as a sum of squares, V = L D L^T: the first input's column takes with it what the others are
@@ -204,7 +126,7 @@ void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estima
 void rho_input_expect(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
-    add_inputs(estimate, input, ALL_PRESENT);
+    add_inputs(estimate, input, INPUT_ALL_PRESENT);
 }
 
 /* ---- start and prediction --------------------------------------------------------------------- */
@@ -332,119 +254,4 @@ enum rho_status rho_input_predict(struct rho_input *input, const struct rho_inpu
         *input = before;
     }
     return status;
-}
-
-/* ---- onset and stop --------------------------------------------------------------------------- */
-
-static void start_anew(struct rho_input *input, int axis, float variance)
-{
-    for (int i = 0; i < NUM_STATES; i++) {
-        input->sensitivity[axis][i] = 0.0f;
-    }
-    for (int b = 0; b < NUM_AXES; b++) {
-        input->variance[RHO_AT(axis, b)] = 0.0f;
-    }
-    input->input_mps2[axis] = 0.0f;
-    input->variance[RHO_AT(axis, axis)] = variance;
-}
-
-/* A variance less what another explains; rounding must not take all of it. */
-static float remaining(float variance, float explained)
-{
-    const float rest = variance - explained, least = variance * ROUNDING_SHARE;
-
-    return rest > least ? rest : least;
-}
-
-/* There never was an input on this axis: the others are what they are, given that. */
-static void rule_out(struct rho_input *input, int axis)
-{
-    const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
-    float *v = input->variance;
-    const float vb = v[RHO_AT(axis, b)], vc = v[RHO_AT(axis, c)];
-    const float share_b = vb / v[RHO_AT(axis, axis)], share_c = vc / v[RHO_AT(axis, axis)];
-
-    if (is_zero(vb) && is_zero(vc)) {
-        return;
-    }
-    input->input_mps2[b] -= share_b * input->input_mps2[axis];
-    input->input_mps2[c] -= share_c * input->input_mps2[axis];
-    v[RHO_AT(b, b)] = remaining(v[RHO_AT(b, b)], share_b * vb);
-    v[RHO_AT(c, c)] = remaining(v[RHO_AT(c, c)], share_c * vc);
-    v[RHO_AT(b, c)] -= share_b * vc;
-}
-
-/*
- * The input of this axis has been, and is no more: what it did goes into the estimate. Expressed by those of the other
- * axes, u = s_b u_b + s_c u_c + rest: their sensitivities take their shares over, and only the rest, which they do not
- * explain, is taken in, so that the filter's estimate and they stay independent.
- */
-static void take_in(struct rho_input *input, int axis)
-{
-    const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
-    const float *v = input->variance, *m = input->sensitivity[axis];
-    const float vb = v[RHO_AT(axis, b)], vc = v[RHO_AT(axis, c)];
-    float rest_mps2 = input->input_mps2[axis], variance = v[RHO_AT(axis, axis)];
-
-    if (!is_zero(vb) || !is_zero(vc)) {
-        const float bb = v[RHO_AT(b, b)], bc = v[RHO_AT(b, c)];
-        const float pivot = remaining(v[RHO_AT(c, c)], bc / bb * bc);
-        const float share_c = (vc - bc / bb * vb) / pivot;
-        const float share_b = (vb - share_c * bc) / bb;
-
-        rest_mps2 -= share_b * input->input_mps2[b] + share_c * input->input_mps2[c];
-        variance = remaining(variance, share_b * vb + share_c * vc);
-        for (int i = 0; i < NUM_STATES; i++) {
-            input->sensitivity[b][i] += share_b * m[i];
-            input->sensitivity[c][i] += share_c * m[i];
-        }
-    }
-    add_column(&input->bare, m, axis, rest_mps2, variance);
-}
-
-static float significance2(const struct rho_input *input, int axis)
-{
-    const float u = input->input_mps2[axis];
-
-    return u / input->variance[RHO_AT(axis, axis)] * u;
-}
-
-/* Of these axes, at least one; of equals the first. */
-static int find_weakest(const struct rho_input *input, uint32_t axes)
-{
-    int weakest = is_in(axes, 0) ? 0 : (is_in(axes, 1) ? 1 : 2);
-    float least = significance2(input, weakest);
-
-    for (int axis = weakest + 1; axis < NUM_AXES; axis++) {
-        if (is_in(axes, axis) && significance2(input, axis) < least) {
-            weakest = axis;
-            least = significance2(input, axis);
-        }
-    }
-    return weakest;
-}
-
-void rho_input_decide(struct rho_input *input, const struct rho_input_config *config)
-{
-    if (input == NULL || config == NULL || !config->is_estimated) {
-        return;
-    }
-    const float limit2 = config->threshold * config->threshold;
-    uint32_t left = ALL_PRESENT;
-
-    while (left) {
-        const int axis = find_weakest(input, left);
-
-        if (significance2(input, axis) > limit2) {
-            break;
-        }
-        if (is_in(input->present, axis)) {
-            take_in(input, axis);
-        } else {
-            rule_out(input, axis);
-        }
-        start_anew(input, axis, config->sigma_mps2 * config->sigma_mps2);
-        left &= ~(1u << axis);
-    }
-    input->present = left;
 }

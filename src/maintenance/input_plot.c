@@ -3,10 +3,8 @@
 #include <float.h>
 #include <stddef.h>
 
+#include "input_columns.h"
 #include "rhotrack/input.h"
-
-#define NUM_AXES RHO_INPUT_AXES
-#define NUM_STATES RHO_KALMAN_STATES
 
 /* False for NaN. */
 static int is_finite(float v)

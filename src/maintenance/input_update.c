@@ -4,16 +4,13 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "input_columns.h"
 #include "rhotrack/input.h"
-
-#define NUM_AXES RHO_INPUT_AXES
-#define NUM_STATES RHO_KALMAN_STATES
 
 /* As in the filter: variances that something is taken off are raised by sixteen units of rounding. */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
 #define INPUT2_MAX 1.0e24f
-#define SENSITIVITY2_MAX 1.0e24f
 
 /* Of (s / S)^2 P_ii: no covariance with the element is larger than the root of P_ii times that of the largest variance. */
 #define MOVED2_MAX (SENSITIVITY2_MAX / RHO_KALMAN_VARIANCE_MAX)
@@ -23,11 +20,6 @@ static const uint8_t row_places[NUM_STATES][NUM_STATES] = {
     {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
     {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
 };
-
-static int is_zero(float v)
-{
-    return !(v < 0.0f || v > 0.0f);
-}
 
 static float noise_of(float variance)
 {
@@ -155,15 +147,6 @@ static enum rho_status update_coupled(struct rho_input *input, int element, floa
 }
 
 /* ---- an element that depends on the input of its own axis ----------------------------------------- */
-
-/* The bits of a number but for its sign: none for zero. */
-static uint32_t bits_of(float v)
-{
-    uint32_t bits;
-
-    memcpy(&bits, &v, sizeof bits);
-    return bits << 1;
-}
 
 /* True where an element depends on the input of its axis at most, and that on no other's: the usual case. */
 static int is_apart(const struct rho_input *input, int element, int axis)
