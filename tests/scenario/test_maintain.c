@@ -552,7 +552,7 @@ static void places_alone_are_enough_to_start(void **state)
 
 #define CLUTTER_MAX 400
 
-/* Clutter in a region about a place that moves, the target's plot first. */
+/* Clutter in a region about a place that moves, where the target is. */
 struct region {
     int num_clutter, axes;
     bool is_ball;
@@ -601,9 +601,6 @@ static double density_error(const struct region *region, int scans)
         uint32_t count = 0;
         struct rho_scan scan;
 
-        if (random_uniform(&random) < region->pd) {
-            plots[count++] = plot_at(place_m, start_mps);
-        }
         for (int i = 0; i < region->num_clutter; i++) {
             double p[3], v[3], offset[3];
 
@@ -613,6 +610,9 @@ static double density_error(const struct region *region, int scans)
                 v[k] = region->half_mps * offset[k]; /* follow from the places */
             }
             plots[count++] = plot_at(p, v);
+        }
+        if (random_uniform(&random) < region->pd) {
+            plots[count++] = plot_at(place_m, start_mps);
         }
         scan = scan_of(step, plots, count, measures);
         double found = scan_density_log(density, &scan, place_m, region->pd);
