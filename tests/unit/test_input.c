@@ -13,7 +13,7 @@
 #define POSITION_SIZE 1e4
 
 /*
- * The library: in sigmas, of variances, and of a state itself. Worst of the runs: 7e-4 and 2e-5; along the line of sight,
+ * The library: in sigmas, of variances, and of a state itself. Worst of the runs: 1.1e-3 and 2e-5; along the line of sight,
  * where after many plots an input is known to a digit or two of its positions, 2.3e-2 and 4e-4.
  */
 static const struct tolerance {
