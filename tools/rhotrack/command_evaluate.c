@@ -11,7 +11,7 @@
  *                  over the hours that the truth spans
  *   switches       how often a target's track is another than the one it had before
  *   delay_scans    mean over the targets found: times from a target's first to its first with a track
- *   rmse_m, rmse_mps  over the pairs; nees: mean e^T P^-1 e of the position's x and y over the pairs (2 is consistent)
+ *   rmse_m, rmse_mps  over the pairs, in z too where both files have it; nees: mean e^T P^-1 e of the position's x and y over the pairs (2 is consistent)
  */
 #include <cjson/cJSON.h>
 #include <inttypes.h>
@@ -32,14 +32,14 @@ struct point {
     int32_t id;
     size_t row; /* in its table */
     struct gospa_place place;
-    double vx_mps, vy_mps;
+    double vx_mps, vy_mps, vz_mps;
     double cov[3]; /* xx, yx, yy; NAN where not given */
 };
 
 struct points {
     struct point *list; /* by time, then as in the file */
     size_t count;
-    bool has_velocity, has_covariance;
+    bool has_z, has_velocity, has_vz, has_covariance;
 };
 
 /* A target or a track through its life. */
@@ -90,6 +90,7 @@ static struct point read_point(const struct table *table, size_t row, const char
     point.place.z_m = table_number_or(table, row, table_find(table, "z_m"), 0.0);
     point.vx_mps = table_number_or(table, row, table_find(table, "vx_mps"), NAN);
     point.vy_mps = table_number_or(table, row, table_find(table, "vy_mps"), NAN);
+    point.vz_mps = table_number_or(table, row, table_find(table, "vz_mps"), 0.0);
     point.cov[0] = table_number_or(table, row, table_find(table, "cov_x_x"), NAN);
     point.cov[1] = table_number_or(table, row, table_find(table, "cov_y_x"), NAN);
     point.cov[2] = table_number_or(table, row, table_find(table, "cov_y_y"), NAN);
@@ -121,7 +122,9 @@ static int by_time(const void *a, const void *b)
 static struct points read_points(const struct table *table, const char *id_name)
 {
     struct points points = {.list = must_calloc(table->num_rows + 1, sizeof(struct point)),
+                            .has_z = table_find(table, "z_m") >= 0,
                             .has_velocity = table_find(table, "vx_mps") >= 0,
+                            .has_vz = table_find(table, "vz_mps") >= 0,
                             .has_covariance = table_find(table, "cov_y_y") >= 0};
     for (size_t row = 0; row < table->num_rows; row++) {
         struct point point = read_point(table, row, id_name);
@@ -131,6 +134,19 @@ static struct points read_points(const struct table *table, const char *id_name)
     }
     qsort(points.list, points.count, sizeof points.list[0], by_time);
     return points;
+}
+
+/* What one of the two does not say is not compared: heights, and velocities upwards. */
+static void level(struct points *truth, struct points *tracks)
+{
+    struct points *both[] = {truth, tracks};
+    for (int i = 0; i < 2; i++) {
+        for (size_t j = 0; j < both[i]->count; j++) {
+            struct point *point = &both[i]->list[j];
+            point->place.z_m = truth->has_z && tracks->has_z ? point->place.z_m : 0.0;
+            point->vz_mps = truth->has_vz && tracks->has_vz ? point->vz_mps : 0.0;
+        }
+    }
 }
 
 /* ---- lives ------------------------------------------------------------------------------------ */
@@ -178,6 +194,7 @@ static void count_pair(struct evaluation *e, const struct point *target, const s
     double ex_m = track->place.x_m - target->place.x_m, ey_m = track->place.y_m - target->place.y_m;
     double ez_m = track->place.z_m - target->place.z_m;
     double evx = track->vx_mps - target->vx_mps, evy = track->vy_mps - target->vy_mps;
+    double evz = track->vz_mps - target->vz_mps;
 
     if (life->partner != NO_ID && life->partner != track->id) {
         e->switches++;
@@ -189,7 +206,7 @@ static void count_pair(struct evaluation *e, const struct point *target, const s
     life_of(&e->track_lives, track->id)->paired++;
     e->pairs++;
     e->error2_m2 += ex_m * ex_m + ey_m * ey_m + ez_m * ez_m;
-    e->error2_m2ps2 += evx * evx + evy * evy;
+    e->error2_m2ps2 += evx * evx + evy * evy + evz * evz;
     e->nees += nees_of(track, ex_m, ey_m);
 }
 
@@ -371,6 +388,7 @@ int command_evaluate(struct command_line *line)
     struct result results[NUM_RESULTS];
     e.truth = read_points(truth, "target_id");
     e.tracks = read_points(tracks, "track_id");
+    level(&e.truth, &e.tracks);
     e.targets = lives_of(&e.truth);
     e.track_lives = lives_of(&e.tracks);
     evaluate_all(&e, tracks);

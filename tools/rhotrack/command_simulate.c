@@ -7,6 +7,39 @@
 #include "common.h"
 #include "scenario.h"
 
+/* Plots of a beam have heights, and velocities where these are measured. */
+static void write_beam_plot(const struct simulation *simulation, const struct simulated_scan *scan,
+                            const struct simulated_plot *plot, FILE *file)
+{
+    fprintf(file, "%.6f,0,%.3f,%.3f,%.3f,%g", scan->t_s, plot->x_m, plot->y_m, plot->z_m,
+            simulation->sigma_m);
+    if (simulation->beam.has_velocity) {
+        fprintf(file, ",%.4f,%.4f,%.4f,%g", plot->vx_mps, plot->vy_mps, plot->vz_mps,
+                simulation->beam.sigma_mps);
+    }
+    fprintf(file, "\n");
+}
+
+static void write_beam(const struct simulation *simulation, const char *folder)
+{
+    bool has_velocity = simulation->beam.has_velocity;
+    char *path = path_join(folder, "plots.csv");
+    struct output output = output_open(path);
+    fprintf(output.file, "t_s,sensor_id,x_m,y_m,z_m,sigma_m%s\n",
+            has_velocity ? ",vx_mps,vy_mps,vz_mps,sigma_mps" : "");
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        const struct simulated_scan *scan = &simulation->scans[i];
+        for (size_t j = 0; j < scan->num_plots; j++) {
+            write_beam_plot(simulation, scan, &scan->plots[j], output.file);
+        }
+        if (scan->num_plots == 0) {
+            fprintf(output.file, "%.6f,0,,,,%s\n", scan->t_s, has_velocity ? ",,,," : "");
+        }
+    }
+    output_close(&output);
+    free(path);
+}
+
 static void write_plots(const struct simulation *simulation, const char *folder)
 {
     char *path = path_join(folder, "plots.csv");
@@ -83,11 +116,19 @@ static void write_truth(const struct simulation *simulation, const char *folder)
 {
     char *path = path_join(folder, "truth.csv");
     struct output output = output_open(path);
-    fprintf(output.file, "t_s,target_id,x_m,y_m,vx_mps,vy_mps\n");
+    bool has_height = simulation->beam.is_used;
+    fprintf(output.file, "t_s,target_id,x_m,y_m,%svx_mps,vy_mps%s\n", has_height ? "z_m," : "",
+            has_height ? ",vz_mps" : "");
     for (size_t i = 0; i < simulation->num_truth; i++) {
         const struct truth_point *point = &simulation->truth[i];
-        fprintf(output.file, "%.6f,%d,%.3f,%.3f,%.4f,%.4f\n", point->t_s, point->target_id,
-                point->x_m, point->y_m, point->vx_mps, point->vy_mps);
+        fprintf(output.file, "%.6f,%d,%.3f,%.3f", point->t_s, point->target_id, point->x_m,
+                point->y_m);
+        if (has_height) {
+            fprintf(output.file, ",%.3f,%.4f,%.4f,%.4f\n", point->z_m, point->vx_mps, point->vy_mps,
+                    point->vz_mps);
+        } else {
+            fprintf(output.file, ",%.4f,%.4f\n", point->vx_mps, point->vy_mps);
+        }
     }
     output_close(&output);
     free(path);
@@ -108,6 +149,12 @@ static void write_radar(const struct scenario_radar *radar, double interval_s, F
     }
 }
 
+static void write_area(const struct scenario_box *area, FILE *file)
+{
+    fprintf(file, "area_x_min_m = %.3f\narea_x_max_m = %.3f\n", area->x_min_m, area->x_max_m);
+    fprintf(file, "area_y_min_m = %.3f\narea_y_max_m = %.3f\n", area->y_min_m, area->y_max_m);
+}
+
 /* What a tracker should know of the scenario, for `track --config`. */
 static void write_settings(const char *name, const struct simulation *simulation,
                            const struct parameters *parameters, const char *folder)
@@ -124,13 +171,15 @@ static void write_settings(const char *name, const struct simulation *simulation
     } else {
         fprintf(output.file, "sigma_m = %g\n", simulation->sigma_m);
     }
+    if (simulation->beam.has_velocity) {
+        fprintf(output.file, "sigma_mps = %g\n", simulation->beam.sigma_mps);
+    }
     for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
         fprintf(output.file, "%s = %g\n", parameters_name(told[i]), parameters->value[told[i]]);
     }
-    fprintf(output.file, "area_x_min_m = %.3f\narea_x_max_m = %.3f\n", simulation->area.x_min_m,
-            simulation->area.x_max_m);
-    fprintf(output.file, "area_y_min_m = %.3f\narea_y_max_m = %.3f\n", simulation->area.y_min_m,
-            simulation->area.y_max_m);
+    if (!simulation->beam.is_used) { /* whose clutter moves with it */
+        write_area(&simulation->area, output.file);
+    }
     output_close(&output);
     free(path);
 }
@@ -144,6 +193,8 @@ static void write_run(const struct command_line *line, const char *folder, uint6
         write_bearings(simulation, folder);
     } else if (simulation->radar.is_used) {
         write_polar(simulation, folder);
+    } else if (simulation->beam.is_used) {
+        write_beam(simulation, folder);
     } else {
         write_plots(simulation, folder);
     }

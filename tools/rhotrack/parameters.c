@@ -11,13 +11,14 @@
 
 static const struct parameter_text texts[NUM_PARAMETERS] = {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text)                          \
-    {name, unit, text, value, min, max, is_integer, has_default, NULL},
+    {name, unit, text, value, min, max, is_integer, has_default, NULL, false},
     PARAMETERS(X)
 #undef X
 };
 
 static const struct parameter_text sensor_texts[NUM_SENSOR_PARAMETERS] = {
-#define X(id, name, unit, min, max, text) {name, unit, text, 0, min, max, false, false, NULL},
+#define X(id, name, unit, min, max, text)                                                          \
+    {name, unit, text, 0, min, max, false, false, NULL, false},
     SENSOR_PARAMETERS(X)
 #undef X
 };
@@ -32,6 +33,13 @@ static const char *choices_of(enum parameter_id id)
         return "scans|counts";
     case PARAMETER_PRUNE:
         return "safe|literal|none";
+    case PARAMETER_GATE:
+        return "best|hough|nearest|none";
+    case PARAMETER_INPUT_MODEL:
+    case PARAMETER_TRUE_MODEL:
+        return "literal|physical";
+    case PARAMETER_PLANES:
+        return "xy|xz|yz";
     default:
         return NULL;
     }
@@ -42,7 +50,24 @@ struct parameter_text parameters_text(enum parameter_id id)
     struct parameter_text text = texts[id];
 
     text.choices = choices_of(id);
+    text.is_sum = id == PARAMETER_PLANES;
     return text;
+}
+
+/* The words of a sum, joined by +. */
+static void sum_text(const char *words, unsigned sum, char buffer[PARAMETER_VALUE_BYTES])
+{
+    size_t length = 0;
+
+    for (; sum && length < PARAMETER_VALUE_BYTES; sum >>= 1) {
+        size_t bytes = strcspn(words, "|");
+
+        if (sum & 1u) {
+            length += (size_t)snprintf(buffer + length, PARAMETER_VALUE_BYTES - length, "%s%.*s",
+                                       length ? "+" : "", (int)bytes, words);
+        }
+        words += bytes + (words[bytes] == '|');
+    }
 }
 
 const char *parameters_value_text(const struct parameter_text *text, double value,
@@ -51,6 +76,10 @@ const char *parameters_value_text(const struct parameter_text *text, double valu
     const char *word = text->choices;
 
     snprintf(buffer, PARAMETER_VALUE_BYTES, "%.9g", value);
+    if (text->is_sum) {
+        sum_text(word, (unsigned)value, buffer);
+        return buffer;
+    }
     for (int i = (int)value; word && i > 0; i--) {
         word = strchr(word, '|') + 1;
     }
@@ -108,13 +137,13 @@ static int find_name(const char *key, hint_name name, char *reason)
     return -1;
 }
 
-/* The number of a word among "a|b|c", or -1. */
-static int find_word(const char *words, const char *word)
+/* The number of a word of so many bytes among "a|b|c", or -1. */
+static int find_word(const char *words, const char *word, size_t bytes)
 {
     for (int i = 0;; i++, words++) {
         size_t length = strcspn(words, "|");
 
-        if (strlen(word) == length && strncmp(words, word, length) == 0) {
+        if (bytes == length && strncmp(words, word, length) == 0) {
             return i;
         }
         words += length;
@@ -124,13 +153,34 @@ static int find_word(const char *words, const char *word)
     }
 }
 
+/* The sum of 1, 2, 4, ... of the words in "a+b", in any order, or -1. */
+static int find_sum(const char *words, const char *cell)
+{
+    unsigned sum = 0;
+
+    for (;; cell++) {
+        size_t bytes = strcspn(cell, "+");
+        int index = find_word(words, cell, bytes);
+
+        if (index < 0) {
+            return -1;
+        }
+        sum |= 1u << index;
+        cell += bytes;
+        if (*cell == '\0') {
+            return (int)sum;
+        }
+    }
+}
+
 static bool read_word(const struct parameter_text *text, const char *cell, double *value,
                       char *reason)
 {
-    *value = find_word(text->choices, cell);
+    *value =
+        text->is_sum ? find_sum(text->choices, cell) : find_word(text->choices, cell, strlen(cell));
     if (*value < 0) {
-        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not one of %s", text->name, cell,
-                 text->choices);
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not one of %s%s", text->name, cell,
+                 text->choices, text->is_sum ? ", or several joined by +" : "");
     }
     return *value >= 0;
 }

@@ -82,12 +82,27 @@
       "ht, passive-paper: a cell's votes are distinct scans, or plots")                            \
     X(PRUNE, "prune", "-", 0, 0, 2, 1, 1,                                                          \
       "passive, passive-paper: which crossings of bearings are left out as ghosts")                \
+    X(GATE, "gate", "-", 0, 0, 3, 1, 1,                                                            \
+      "how tracks choose their plots; --gate goes before it; none: maintain alone")                \
+    X(GAMMA, "gamma", "-", 1, 0.01, 1, 0, 1,                                                       \
+      "hough, nearest: forgetting of the estimated input a scan; 1: none")                         \
+    X(INPUT_MODEL, "input_model", "-", 0, 0, 1, 1, 1,                                              \
+      "hough, nearest: what an input does to a place in T: nothing, as the paper, or T^2/2")       \
+    X(INPUT_SIGMA_MPS2, "input_sigma_mps2", "m/s^2", 22.36, 0.001, 1e4, 0, 1,                      \
+      "hough, nearest: inputs before they are estimated, each axis; root of V(0)")                 \
+    X(ONSET_CONFIDENCE, "onset_confidence", "-", 0.95, 0.5, 0.9999, 0, 1,                          \
+      "hough, nearest: of the test for an input")                                                  \
+    X(FILTER_NOISE_M, "filter_noise_m", "m", 1, 0, 1e5, 0, 1,                                      \
+      "hough, nearest: process noise a scan, each axis; root of Q")                                \
+    X(FILTER_NOISE_MPS, "filter_noise_mps", "m/s", 1, 0, 1e4, 0, 1, "the same of velocities")      \
+    X(PLANES, "planes", "-", 7, 1, 7, 1, 1, "hough: planes of velocity space that count")          \
+    X(GATE_THETA_DEG, "gate_theta_deg", "deg", 5, 0.1, 90, 0, 1, "hough: cell of theta")           \
     X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
       "distance beyond which a track and a target are not paired")                                 \
     X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0,                               \
       "simulate: mean clutter plots a scan and area")                                              \
     X(CLUTTER_PER_SCAN, "clutter_per_scan", "-", 0, 0, 1e4, 0, 0,                                  \
-      "simulate: mean clutter plots a scan")                                                       \
+      "simulate: mean clutter plots a scan; popup, weave, hard-turn: always so many")              \
     X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0,                                                   \
       "simulate: probability of detection that happens")                                           \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
@@ -108,7 +123,22 @@
     X(SPEED_MPS, "speed_mps", "m/s", 250, 0.1, 2e4, 0, 0,                                          \
       "simulate parallel, crossing-angle, same-line, slow-turn: speed of the targets")             \
     X(SECOND_SPEED_MPS, "second_speed_mps", "m/s", 250, -2e4, 2e4, 0, 0,                           \
-      "simulate same-line: speed of the one ahead; below 0 it comes towards the first")
+      "simulate same-line: speed of the one ahead; below 0 it comes towards the first")            \
+    X(ACCEL_G, "accel_g", "g", 10, 0, 100, 0, 0,                                                   \
+      "simulate popup, weave, hard-turn: what the target pulls, 9.80665 m/s^2 each")               \
+    X(VELOCITY, "velocity", "-", 0, 0, 1, 1, 0,                                                    \
+      "simulate popup, ...: 1: plots have velocities too, with sigma_mps")                         \
+    X(BEAM_DEG, "beam_deg", "deg", 1.2, 0.01, 60, 0, 0,                                            \
+      "simulate popup, ...: width of the beam about the target, full of clutter")                  \
+    X(CLEAN_SCANS, "clean_scans", "-", 3, 0, 1e6, 1, 0,                                            \
+      "simulate popup, ...: first scans without clutter or misses")                                \
+    X(TRUE_MODEL, "true_model", "-", 1, 0, 1, 1, 0,                                                \
+      "simulate popup, ...: what an acceleration does to the place, as input_model")               \
+    X(TRUE_NOISE_MPS2, "true_noise_mps2", "m/s^2", 2, 0, 1e4, 0, 0,                                \
+      "simulate popup, ..., physical: random acceleration a scan, each axis")                      \
+    X(TRUE_NOISE_M, "true_noise_m", "m", 1, 0, 1e5, 0, 0,                                          \
+      "simulate popup, ..., literal: random change of place a scan, each axis; root of Q")         \
+    X(TRUE_NOISE_MPS, "true_noise_mps", "m/s", 1, 0, 1e4, 0, 0, "the same of velocities")
 
 enum parameter_id {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,
@@ -207,6 +237,7 @@ struct parameter_text {
     double value, min, max;
     bool is_integer, has_default;
     const char *choices; /* "a|b": a word, whose value is its number from 0; NULL: a number */
+    bool is_sum;         /* "a|b|c": words joined by +, whose value is the sum of 1, 2, 4 */
 };
 struct parameter_text parameters_text(enum parameter_id id);
 struct parameter_text parameters_sensor_text(enum sensor_parameter_id id); /* value: 0 */

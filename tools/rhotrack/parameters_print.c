@@ -13,7 +13,7 @@ static void print_row(FILE *out, const struct parameter_text *text, const char *
     }
     snprintf(range, sizeof range, "%.9g .. %.9g", text->min, text->max);
     if (text->choices) {
-        snprintf(range, sizeof range, "%s", text->choices);
+        snprintf(range, sizeof range, "%s%s", text->choices, text->is_sum ? ", joined by +" : "");
     }
     fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", text->name, text->unit, initial, range,
             value, parameters_source_name(source), text->text);

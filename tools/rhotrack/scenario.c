@@ -149,71 +149,6 @@ static struct scenario_plan traffic(const struct parameters *parameters, struct 
     return plan;
 }
 
-#define POLAR_NEAR_M 20000.0
-#define POLAR_FAR_M 60000.0
-
-/* Anywhere between 20 and 60 km, any heading, drawn again until the whole straight path lies there. */
-static struct scenario_state straight_around(const struct parameters *parameters, double duration_s,
-                                             struct random *random)
-{
-    for (int i = 0; i < 10000; i++) {
-        double range_m =
-            sqrt(random_between(random, POLAR_NEAR_M * POLAR_NEAR_M, POLAR_FAR_M * POLAR_FAR_M));
-        double azimuth_rad = random_between(random, 0.0, 360.0 * DEG_RAD);
-        double heading_rad = random_between(random, 0.0, 360.0 * DEG_RAD);
-        double speed_mps = random_between(random, parameters->value[PARAMETER_V_MIN_MPS],
-                                          parameters->value[PARAMETER_V_MAX_MPS]);
-        struct scenario_state state = {.x_m = range_m * cos(azimuth_rad),
-                                       .vx_mps = speed_mps * cos(heading_rad),
-                                       .y_m = range_m * sin(azimuth_rad),
-                                       .vy_mps = speed_mps * sin(heading_rad)};
-        double closing = state.x_m * state.vx_mps + state.y_m * state.vy_mps;
-        double nearest_s = fmin(fmax(-closing / (speed_mps * speed_mps), 0.0), duration_s);
-        double nearest_m =
-            hypot(state.x_m + state.vx_mps * nearest_s, state.y_m + state.vy_mps * nearest_s);
-        double last_m =
-            hypot(state.x_m + state.vx_mps * duration_s, state.y_m + state.vy_mps * duration_s);
-        if (nearest_m >= POLAR_NEAR_M && last_m <= POLAR_FAR_M) {
-            return state;
-        }
-    }
-    fail(EXIT_USAGE, "scenario polar: no target can stay within 20 to 60 km for the whole run; "
-                     "take fewer scans or slower targets");
-}
-
-/* A turn is a scan, and scan_interval_s is to say so. */
-static void check_turn(const struct parameters *parameters)
-{
-    double max_s = parameters_text(PARAMETER_SCAN_INTERVAL_S).max;
-    if (parameters->value[PARAMETER_INTERVAL_S] > max_s) {
-        fail(EXIT_USAGE, "scenario polar: a turn of interval_s %.9g is longer than a scan, %.9g s",
-             parameters->value[PARAMETER_INTERVAL_S], max_s);
-    }
-}
-
-static struct scenario_plan polar(const struct parameters *parameters, struct random *random)
-{
-    check_turn(parameters);
-    struct scenario_plan plan = plan_of(parameters, count_of(parameters, PARAMETER_TARGETS));
-    for (size_t target = 0; target < plan.num_targets; target++) {
-        /* also the last turn takes its time */
-        plan_straight(
-            &plan, target,
-            straight_around(parameters, plan.interval_s * (double)plan.num_scans, random));
-    }
-    plan.radar = (struct scenario_radar){
-        .is_used = true,
-        .has_range_rate = parameters->value[PARAMETER_RANGE_RATE] > 0.0,
-        .sigma_range_m = parameters->value[PARAMETER_SIGMA_RANGE_M],
-        .sigma_azimuth_rad = parameters->value[PARAMETER_SIGMA_AZIMUTH_RAD],
-        .sigma_range_rate_mps = parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS],
-        .range_min_m = parameters->value[PARAMETER_RANGE_MIN_M],
-        .range_max_m = parameters->value[PARAMETER_RANGE_MAX_M],
-        .clutter_rate_max_mps = parameters->value[PARAMETER_V_MAX_MPS],
-    };
-    return plan;
-}
-
 /* ---- their names and customary parameters ----------------------------------------------------- */
 
 static const struct scenario {
@@ -331,7 +266,7 @@ static const struct scenario {
     {"polar",
      "a turning radar: straight targets at 20 to 60 km, plots in range and azimuth, each at its "
      "own time",
-     polar,
+     plan_polar,
      15,
      4,
      100,
@@ -381,6 +316,45 @@ static const struct scenario {
      {0, 80000, -55000, 55000},
      0,
      0},
+    {"popup",
+     "one target in a beam that pulls accel_g upwards, over, and level again",
+     plan_popup,
+     161,
+     0.25,
+     10,
+     1,
+     100,
+     1000,
+     0,
+     {10000, 60000, 5000, 45000},
+     0,
+     4},
+    {"weave",
+     "the same to the sides",
+     plan_weave,
+     161,
+     0.25,
+     10,
+     1,
+     100,
+     1000,
+     0,
+     {10000, 60000, 5000, 45000},
+     0,
+     4},
+    {"hard-turn",
+     "the same in level turns",
+     plan_hard_turn,
+     161,
+     0.25,
+     10,
+     1,
+     100,
+     1000,
+     0,
+     {10000, 60000, 5000, 45000},
+     0,
+     4},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -429,6 +403,12 @@ static void suggest_passive(const char *name, struct parameters *parameters)
     parameters_suggest(parameters, PARAMETER_SIGMA_RAD, 0.1 * DEG_RAD);
 }
 
+static bool is_beam(const struct scenario *scenario)
+{
+    return scenario->plan == plan_popup || scenario->plan == plan_weave ||
+           scenario->plan == plan_hard_turn;
+}
+
 void scenario_suggest(const char *name, struct parameters *parameters)
 {
     const struct scenario *scenario = find_scenario(name);
@@ -438,21 +418,26 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     parameters_suggest(parameters, PARAMETER_TRUE_PD, scenario->true_pd);
     parameters_suggest(parameters, PARAMETER_V_MIN_MPS, scenario->v_min_mps);
     parameters_suggest(parameters, PARAMETER_V_MAX_MPS, scenario->v_max_mps);
-    parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, scenario->accel_max_mps2);
-    parameters_suggest(parameters, PARAMETER_TARGETS, scenario->plan == polar ? 3 : 50);
+    if (scenario->accel_max_mps2 > 0.0) {
+        parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, scenario->accel_max_mps2);
+    }
+    parameters_suggest(parameters, PARAMETER_TARGETS, scenario->plan == plan_polar ? 3 : 50);
     parameters_suggest(parameters, PARAMETER_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_SECOND_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
     parameters_suggest(parameters, PARAMETER_TURN_DEG, 2);
     parameters_suggest(parameters, PARAMETER_SPACING_M, scenario->plan == same_line ? 300 : 50);
     suggest_area(parameters, &scenario->box);
-    if (scenario->plan == polar) {
+    if (scenario->plan == plan_polar) {
         parameters_suggest(parameters, PARAMETER_RANGE_RATE, 0);
         parameters_suggest(parameters, PARAMETER_RANGE_MIN_M, 1000);
         parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, scenario->box.x_max_m);
     }
     if (scenario->plan == plan_passive) {
         suggest_passive(name, parameters);
+    }
+    if (is_beam(scenario)) {
+        suggest_beam(parameters);
     }
     if (scenario->clutter_per_km2 > 0.0) {
         parameters_suggest(parameters, PARAMETER_CLUTTER_PER_KM2, scenario->clutter_per_km2);

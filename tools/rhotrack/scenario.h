@@ -3,7 +3,7 @@
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
  * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, polar, passive-two,
- * passive-three, passive-clutter. The same seed gives the same data on every machine.
+ * passive-three, passive-clutter, popup, weave, hard-turn. The same seed gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H
@@ -18,6 +18,7 @@ struct truth_point {
     double t_s;
     int target_id; /* 0, 1, ... */
     double x_m, y_m, vx_mps, vy_mps;
+    double z_m, vz_mps; /* 0 but for a beam's target */
 };
 
 struct simulated_plot {
@@ -26,6 +27,7 @@ struct simulated_plot {
     /* of a rotating radar, else 0: when the antenna looked there, and what it measured */
     double offset_s; /* after the scan's time */
     double range_m, azimuth_rad, range_rate_mps;
+    double z_m, vx_mps, vy_mps, vz_mps; /* of a beam, else 0 */
 };
 
 /* A radar in the origin that turns counter-clockwise, from +x at the scan's time on, once an interval. */
@@ -48,6 +50,16 @@ struct scenario_passive {
     } sensors[SCENARIO_SENSORS_MAX];
     double sigma_rad;
     double false_mean; /* false bearings a sensor and scan, uniform within pi/2 of +x */
+};
+
+/* A beam from the origin that stays on its one target, and clutter in a sphere about it, as wide as the beam. */
+struct scenario_beam {
+    bool is_used;      /* plots have heights */
+    bool has_velocity; /* and velocities */
+    double sigma_mps;
+    double half_rad;    /* half the beam's width */
+    size_t num_clutter; /* plots a scan, always so many */
+    size_t clean_scans; /* first scans, without clutter or misses */
 };
 
 struct simulated_bearing {
@@ -80,6 +92,7 @@ struct simulation {
     double interval_s;
     struct scenario_radar radar;
     struct scenario_passive passive;
+    struct scenario_beam beam;
     struct simulated_scan *scans; /* without plots where passive is used */
     struct simulated_look *looks; /* num_looks = num_scans x passive.num_sensors: by time, sensor */
     struct truth_point *truth;    /* by time, then target */

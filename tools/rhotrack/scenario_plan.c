@@ -165,7 +165,7 @@ static void add_detection(const struct scenario_plan *plan, struct simulated_sca
     }
 }
 
-static void shuffle(struct simulated_scan *scan, struct random *random)
+void plan_shuffle(struct simulated_scan *scan, struct random *random)
 {
     for (size_t i = scan->num_plots; i > 1; i--) {
         size_t j = random_below(random, i);
@@ -187,7 +187,7 @@ static void simulate_scan(const struct scenario_plan *plan, size_t index,
     }
     add_clutter(scan, &plan->box, num_clutter, random);
     add_clutter(scan, &plan->spot, num_spot, random);
-    shuffle(scan, random);
+    plan_shuffle(scan, random);
 }
 
 struct simulation *plan_simulate(const struct scenario_plan *plan, struct random *random)
@@ -201,6 +201,7 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
     simulation->interval_s = plan->interval_s;
     simulation->radar = plan->radar;
     simulation->passive = plan->passive;
+    simulation->beam = plan->beam;
     simulation->num_looks = plan->num_scans * plan->passive.num_sensors;
     simulation->looks = must_calloc(simulation->num_looks + 1, sizeof *simulation->looks);
     simulation->scans = must_calloc(plan->num_scans, sizeof *simulation->scans);
@@ -213,6 +214,8 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
             plan_look_of_sensors(plan, scan, &simulation->looks[first], random);
         } else if (plan->radar.is_used) {
             plan_turn_of_radar(plan, scan, &simulation->scans[scan], random);
+        } else if (plan->beam.is_used) {
+            plan_look_of_beam(plan, scan, &simulation->scans[scan], random);
         } else {
             simulate_scan(plan, scan, &simulation->scans[scan], random);
         }

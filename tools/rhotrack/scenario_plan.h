@@ -32,6 +32,7 @@ struct scenario_plan {
     double spot_mean;                /* plots a scan; 0: none */
     struct scenario_radar radar;     /* where it is used: its noise, its clutter */
     struct scenario_passive passive; /* the same */
+    struct scenario_beam beam;       /* the same; noise_m goes to three axes */
     struct truth_point *truth;       /* num_scans x num_targets, by time, then target */
 };
 
@@ -64,8 +65,14 @@ void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_
 /* The real plots as paths; velocities from a straight-line fit. The plan has RADAR_TABLE_... sizes, or fewer scans. */
 void plan_radar_table(struct scenario_plan *plan);
 
+/* Puts the plots of a scan in random order. */
+void plan_shuffle(struct simulated_scan *scan, struct random *random);
+
 /* Plots by chance: detections with noise, clutter, shuffled in each scan. */
 struct simulation *plan_simulate(const struct scenario_plan *plan, struct random *random);
+
+/* Scenario polar. scenario_radar.c */
+struct scenario_plan plan_polar(const struct parameters *parameters, struct random *random);
 
 /* One turn of the plan's radar, from scan `index` on: in the order of time. scenario_radar.c */
 void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
@@ -87,5 +94,43 @@ struct scenario_plan plan_passive_in(const struct scenario_region *region,
 /* What the plan's passive sensors see at scan `index`: a look a sensor. scenario_bearings.c */
 void plan_look_of_sensors(const struct scenario_plan *plan, size_t index,
                           struct simulated_look *looks, struct random *random);
+
+/* ---- Targets that pull, in a beam: scenario_beam.c ---------------------------------------------- */
+
+enum scenario_maneuver {
+    MANEUVER_POPUP = 0, /* up, over, and level again at the first height */
+    MANEUVER_WEAVE,     /* to the sides of the first heading, and back on its line */
+    MANEUVER_TURN /* level turns at constant speed: the acceleration turns with the velocity */
+};
+
+/* What happens to such a target's state in an interval T. */
+struct scenario_motion {
+    double accel_mps2; /* while it pulls */
+    bool
+        is_physical; /* an acceleration u moves it by u T^2 / 2, else not at all; both change its velocity by u T */
+    double noise_mps2;         /* physical: sd of more acceleration, each axis */
+    double noise_m, noise_mps; /* else: sd of what is added to place and velocity, each axis */
+};
+
+/* The acceleration of each interval without noise, num_scans - 1 of them. */
+void plan_inputs(enum scenario_maneuver maneuver, double accel_mps2, double interval_s,
+                 size_t num_scans, double (*inputs_mps2)[3]);
+
+/* The path of target 0, from (50 km, 35 km, 300 m) at (-600, -500, 0) m/s. */
+void plan_maneuver(struct scenario_plan *plan, enum scenario_maneuver maneuver,
+                   const struct scenario_motion *motion, struct random *random);
+
+/* What the plan's beam sees at scan `index`. */
+void plan_look_of_beam(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
+                       struct random *random);
+
+/* Radius of the beam at a target, its clutter's sphere. */
+double beam_radius_m(const struct scenario_beam *beam, const struct truth_point *truth);
+
+/* The scenarios' plans, and their customary parameters. */
+struct scenario_plan plan_popup(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_weave(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_hard_turn(const struct parameters *parameters, struct random *random);
+void suggest_beam(struct parameters *parameters);
 
 #endif

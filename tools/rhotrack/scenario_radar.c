@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scenario_radar: what a turning radar in the origin sees: polar plots, each at its own time. */
+/* scenario_radar: what a turning radar in the origin sees: polar plots, each at its own time; scenario polar. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -88,4 +88,73 @@ void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct s
         scan->plots[scan->num_plots++] = clutter(plan, random);
     }
     qsort(scan->plots, scan->num_plots, sizeof *scan->plots, by_time);
+}
+
+/* ---- the scenario ----------------------------------------------------------------------------- */
+
+#define POLAR_NEAR_M 20000.0
+#define POLAR_FAR_M 60000.0
+
+/* Anywhere between 20 and 60 km, any heading, drawn again until the whole straight path lies there. */
+static struct scenario_state straight_around(const struct parameters *parameters, double duration_s,
+                                             struct random *random)
+{
+    for (int i = 0; i < 10000; i++) {
+        double range_m =
+            sqrt(random_between(random, POLAR_NEAR_M * POLAR_NEAR_M, POLAR_FAR_M * POLAR_FAR_M));
+        double azimuth_rad = random_between(random, 0.0, 2.0 * PI);
+        double heading_rad = random_between(random, 0.0, 2.0 * PI);
+        double speed_mps = random_between(random, parameters->value[PARAMETER_V_MIN_MPS],
+                                          parameters->value[PARAMETER_V_MAX_MPS]);
+        struct scenario_state state = {.x_m = range_m * cos(azimuth_rad),
+                                       .vx_mps = speed_mps * cos(heading_rad),
+                                       .y_m = range_m * sin(azimuth_rad),
+                                       .vy_mps = speed_mps * sin(heading_rad)};
+        double closing = state.x_m * state.vx_mps + state.y_m * state.vy_mps;
+        double nearest_s = fmin(fmax(-closing / (speed_mps * speed_mps), 0.0), duration_s);
+        double nearest_m =
+            hypot(state.x_m + state.vx_mps * nearest_s, state.y_m + state.vy_mps * nearest_s);
+        double last_m =
+            hypot(state.x_m + state.vx_mps * duration_s, state.y_m + state.vy_mps * duration_s);
+        if (nearest_m >= POLAR_NEAR_M && last_m <= POLAR_FAR_M) {
+            return state;
+        }
+    }
+    fail(EXIT_USAGE, "scenario polar: no target can stay within 20 to 60 km for the whole run; "
+                     "take fewer scans or slower targets");
+}
+
+/* A turn is a scan, and scan_interval_s is to say so. */
+static void check_turn(const struct parameters *parameters)
+{
+    double max_s = parameters_text(PARAMETER_SCAN_INTERVAL_S).max;
+    if (parameters->value[PARAMETER_INTERVAL_S] > max_s) {
+        fail(EXIT_USAGE, "scenario polar: a turn of interval_s %.9g is longer than a scan, %.9g s",
+             parameters->value[PARAMETER_INTERVAL_S], max_s);
+    }
+}
+
+struct scenario_plan plan_polar(const struct parameters *parameters, struct random *random)
+{
+    check_turn(parameters);
+    struct scenario_plan plan = plan_start((size_t)parameters->value[PARAMETER_TARGETS],
+                                           (size_t)parameters->value[PARAMETER_NUM_SCANS],
+                                           parameters->value[PARAMETER_INTERVAL_S]);
+    for (size_t target = 0; target < plan.num_targets; target++) {
+        /* also the last turn takes its time */
+        plan_straight(
+            &plan, target,
+            straight_around(parameters, plan.interval_s * (double)plan.num_scans, random));
+    }
+    plan.radar = (struct scenario_radar){
+        .is_used = true,
+        .has_range_rate = parameters->value[PARAMETER_RANGE_RATE] > 0.0,
+        .sigma_range_m = parameters->value[PARAMETER_SIGMA_RANGE_M],
+        .sigma_azimuth_rad = parameters->value[PARAMETER_SIGMA_AZIMUTH_RAD],
+        .sigma_range_rate_mps = parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS],
+        .range_min_m = parameters->value[PARAMETER_RANGE_MIN_M],
+        .range_max_m = parameters->value[PARAMETER_RANGE_MAX_M],
+        .clutter_rate_max_mps = parameters->value[PARAMETER_V_MAX_MPS],
+    };
+    return plan;
 }
