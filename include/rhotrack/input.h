@@ -12,6 +12,8 @@
  * it is absent M, u and V start anew at each update, so that an onset shows in one scan; where it stops, M u goes into the
  * estimate and M V M^T into its covariance. The corrected estimate is x + M u with covariance P + M V M^T.
  *
+ * A call that is refused leaves the object as it was, byte for byte. No pointers: a copy is a snapshot.
+ *
  *     rho_input_predict(&input, &config, dt_s);
  *     rho_input_update_position(&input, &config, &measurement);      and what else the plot measures
  *     rho_input_decide(&input, &config);                             once a scan with a plot
@@ -41,25 +43,28 @@ enum rho_input_model {
 struct rho_input_config {
     uint8_t is_estimated; /* 0: a plain Kalman filter */
     uint8_t model;        /* enum rho_input_model */
-    float sigma_mps2;     /* sd of the input before it was estimated, the root of V(0): > 0 */
-    float threshold;      /* sigmas from which on an input is present: > 0 */
+    float sigma_mps2; /* sd of the input before it was estimated, the root of V(0): 1e-3 .. 1e5 */
+    float threshold;  /* sigmas from which on an input is present: > 0 */
     float gamma; /* forgetting: V / gamma at each prediction, V(0) at most; 1: none. > 0 .. 1 */
     float noise_density; /* white acceleration, m^2/s^3: >= 0 */
     float noise_m,
-        noise_mps; /* the paper's Q: sd added at each prediction, whatever its interval: >= 0 */
+        noise_mps; /* the paper's Q: sd added at each prediction, whatever its interval: 0 .. 1e6 */
     float velocity_variance; /* of an axis that opens later: RHO_KALMAN_VARIANCE_MIN .. MAX */
 };
 
 struct rho_input {
     struct rho_kalman bare; /* the filter without input */
-    float sensitivity[RHO_KALMAN_STATES]
-                     [RHO_INPUT_AXES];            /* N after a prediction, M after an update */
-    float input_mps2[RHO_INPUT_AXES];             /* u */
+    float sensitivity[RHO_INPUT_AXES]
+                     [RHO_KALMAN_STATES]; /* by input: N after a prediction, M after an update */
+    float input_mps2[RHO_INPUT_AXES];     /* u */
     float variance[RHO_TRIANGLE(RHO_INPUT_AXES)]; /* V, (m/s^2)^2 */
-    uint8_t present;                              /* bit an axis: x 1, y 2, z 4 */
+    uint32_t present;                             /* bit an axis: x 1, y 2, z 4 */
 };
 
-/* Two-sided threshold of a standard normal: 0.95 gives 1.96. Absolute error <= 1e-3 for .5 .. .9999; NaN outside 0 .. 1. */
+/*
+ * Two-sided threshold of a standard normal: 0.95 gives 1.96. Absolute error <= 1e-3 for 0 .. .9999; NaN outside 0 .. 1,
+ * exclusive of 1. Cost: a logarithm, a square root.
+ */
 float rho_input_threshold(float confidence);
 
 /* As in the paper: literal D, sigma 22.36 m/s^2, confidence .95, gamma 1, noise 1 m and 1 m/s; velocity sd 700 m/s. */
@@ -68,21 +73,39 @@ void rho_input_config_default(struct rho_input_config *config);
 /* True where every field is finite and within its range. */
 int rho_input_is_usable(const struct rho_input_config *config);
 
-/* Starts from an estimate, without input. Errors: NULL. */
+/*
+ * Starts from an estimate, without input. Errors: NULL, CONFIG (not usable; the calls below do not look again).
+ * Constant cost.
+ */
 RHO_MUST_CHECK enum rho_status rho_input_start(struct rho_input *input,
                                                const struct rho_input_config *config,
                                                const struct rho_kalman *estimate);
 
-/* Moves on by dt_s: the bare filter, N, forgetting. Errors: as rho_kalman_predict; unchanged. */
+/*
+ * Moves on by dt_s: the bare filter, N, forgetting. Back (dt_s < 0) there is neither noise nor forgetting, and dt_s 0
+ * changes nothing. Errors: as rho_kalman_predict, also where an input that is present makes the result too uncertain.
+ */
 RHO_MUST_CHECK enum rho_status rho_input_predict(struct rho_input *input,
                                                  const struct rho_input_config *config, float dt_s);
 
-/* One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update; unchanged. */
+/* One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update. */
 RHO_MUST_CHECK enum rho_status rho_input_update(struct rho_input *input,
                                                 const struct rho_input_config *config, int element,
                                                 float value, float variance);
 
-/* Updates with a position, in the frame of its noise. Errors: as rho_kalman_update_position. */
+/*
+ * One scalar update: row . state was measured, `innovation` is its measured value minus that of the bare filter.
+ * Errors: as rho_kalman_update_row.
+ */
+RHO_MUST_CHECK enum rho_status rho_input_update_row(struct rho_input *input,
+                                                    const struct rho_input_config *config,
+                                                    const float row[6], float innovation,
+                                                    float variance);
+
+/*
+ * Updates with a position, in the frame of its noise. Axes that are not open are opened as rho_kalman_update_position
+ * does. Errors: as there.
+ */
 RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input,
                                                          const struct rho_input_config *config,
                                                          const struct rho_measurement *measurement);
@@ -93,10 +116,26 @@ RHO_MUST_CHECK enum rho_status rho_input_update_range_rate(struct rho_input *inp
                                                            const struct rho_sensor *sensor,
                                                            float rate_mps, float variance);
 
-/* Tests each axis, starts anew where no input is present, and takes one that has stopped into the estimate. */
+/* Updates with a bearing from a place, linearised at the corrected estimate. Errors: as rho_kalman_update_bearing. */
+RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
+                                                        const struct rho_input_config *config,
+                                                        float x_m, float y_m, float bearing_rad,
+                                                        float sigma_rad);
+
+/*
+ * Tests each axis, starts anew where no input is present, and takes one that has stopped into the estimate. Once a scan,
+ * after what the plot measures; a scan without a plot decides nothing. Where the inputs of axes are correlated the weakest
+ * is judged first, and the others as they are without it.
+ */
 void rho_input_decide(struct rho_input *input, const struct rho_input_config *config);
 
 /* The corrected estimate, (14) to (18). Constant cost. */
 void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate);
+
+/*
+ * The same as a gate has to see it: an axis without input may have got one since the last plot, of 0 with variance V(0).
+ * Constant cost.
+ */
+void rho_input_expect(const struct rho_input *input, struct rho_kalman *estimate);
 
 #endif

@@ -48,6 +48,14 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
                                                   float noise_density);
 
 /*
+ * Adds noise of its own to each open axis: a step of the papers that state Q a step, whatever its interval.
+ * Errors: NULL, VALUE (a variance negative or not finite, a result beyond RHO_KALMAN_VARIANCE_MAX); unchanged.
+ * Constant cost. No stack.
+ */
+RHO_MUST_CHECK enum rho_status
+rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float velocity_variance);
+
+/*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0 (below
  * RHO_KALMAN_VARIANCE_MIN it counts as that). *nis (may be NULL) gets the normalised innovation squared. On an axis
  * that is not open nothing else changes. Errors: NULL, VALUE (element, value or variance, a result not finite),
@@ -65,6 +73,17 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, 
                                                      float innovation, float variance, float *nis);
 
 /*
+ * 1 .. 6 elements of the state were measured together: elements[i] as values[i], the noise's covariance a packed
+ * triangle. It is made diagonal once, R = L D L^T without a square root, and each row of L^-1 H is a scalar update.
+ * Elements of an axis that is not open are left out. Errors: NULL, VALUE (num, an element, a value or covariance not
+ * finite, a result), SINGULAR (R not positive definite, an innovation variance); unchanged.
+ */
+RHO_MUST_CHECK enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,
+                                                            const int elements[],
+                                                            const float values[],
+                                                            const float covariance[]);
+
+/*
  * Updates with a position: x and y, and z where it was measured. An axis that is not open is opened with its place
  * and its noise, and a velocity of 0 with variance velocity_variance. After an error the filter is partly updated:
  * work on a copy where that matters. Errors: as rho_kalman_update and rho_kalman_open_axis.
@@ -74,6 +93,20 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, 
 RHO_MUST_CHECK enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
                                                           const struct rho_measurement *measurement,
                                                           float velocity_variance);
+
+/* A scalar measurement of an estimate, linearised there: what rho_kalman_update_row takes. */
+struct rho_kalman_row {
+    float row[RHO_KALMAN_STATES];
+    float innovation; /* measured minus predicted */
+    float variance;   /* the noise, and what the derivative leaves out */
+};
+
+/*
+ * Fills *seen for a range rate with noise `variance`. Returns 0, and fills nothing, where the estimate is nearer than a
+ * metre to the sensor. Cost: rho_measurement_range_rate, and a division. Stack: 80 bytes.
+ */
+int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                              float rate_mps, float variance, struct rho_kalman_row *seen);
 
 /*
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate: after the position of

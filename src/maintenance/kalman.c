@@ -173,6 +173,38 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
     return RHO_OK;
 }
 
+/* Of an open axis; false for NaN, and beyond the limit. */
+static int may_grow(float variance, float by)
+{
+    return variance + by <= RHO_KALMAN_VARIANCE_MAX;
+}
+
+enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance,
+                                     float velocity_variance)
+{
+    int axis;
+
+    if (kalman == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!(position_variance >= 0.0f && velocity_variance >= 0.0f)) {
+        return RHO_ERROR_VALUE;
+    }
+    for (axis = 0; axis < NUM_AXES; ++axis) {
+        if (!may_grow(kalman->covariance[DIAGONAL(axis)], position_variance) ||
+            !may_grow(kalman->covariance[DIAGONAL(NUM_AXES + axis)], velocity_variance)) {
+            return RHO_ERROR_VALUE;
+        }
+    }
+    for (axis = 0; axis < NUM_AXES; ++axis) {
+        if (rho_kalman_is_open(kalman, axis)) {
+            kalman->covariance[DIAGONAL(axis)] += position_variance;
+            kalman->covariance[DIAGONAL(NUM_AXES + axis)] += velocity_variance;
+        }
+    }
+    return RHO_OK;
+}
+
 enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float value,
                                   float variance, float *nis)
 {
@@ -359,24 +391,37 @@ static float bend_variance(const struct rho_kalman *kalman, const struct rho_sen
     return 0.5f * speed2 * share * share;
 }
 
+int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                              float rate_mps, float variance, struct rho_kalman_row *seen)
+{
+    float predicted_mps;
+
+    if (!rho_measurement_range_rate(kalman->state, sensor, rho_kalman_is_open(kalman, 2), seen->row,
+                                    &predicted_mps)) {
+        return 0;
+    }
+    const float bend = bend_variance(kalman, sensor);
+    seen->innovation = rate_mps - predicted_mps;
+    seen->variance = variance;
+    if (variance > 0.0f && bend <= FLT_MAX) { /* else it is refused */
+        seen->variance += bend;
+    }
+    return 1;
+}
+
 enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                              const struct rho_sensor *sensor, float rate_mps,
                                              float variance)
 {
-    float row[RHO_KALMAN_STATES], predicted_mps;
+    struct rho_kalman_row seen;
 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_measurement_range_rate(kalman->state, sensor, rho_kalman_is_open(kalman, 2), row,
-                                    &predicted_mps)) {
+    if (!rho_kalman_see_range_rate(kalman, sensor, rate_mps, variance, &seen)) {
         return RHO_OK;
     }
-    const float bend = bend_variance(kalman, sensor);
-    if (variance > 0.0f && bend <= FLT_MAX) { /* else it is refused below */
-        variance += bend;
-    }
-    return rho_kalman_update_row(kalman, row, rate_mps - predicted_mps, variance, NULL);
+    return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance, NULL);
 }
 
 /*

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/* Hough clutter elimination: where in velocity space does a target lie that flies straight? */
+#include <float.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/approx.h"
+#include "rhotrack/gate.h"
+
+#define CELL_MIN_RAD 1.0e-3f
+#define PLANES_ALL (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
+
+/* Nearer to the border of two cells than an angle is known: both are as good, and the lower is taken. */
+#define TIE_RAD 1.0e-6f
+
+/* The two axes of a plane, by the plane's bit. */
+static const uint8_t axes_of[RHO_GATE_PLANES][2] = {{0, 1}, {0, 2}, {1, 2}};
+
+/* False for NaN. */
+static int is_finite(float v)
+{
+    return v >= -FLT_MAX && v <= FLT_MAX;
+}
+
+static float size_of(float v)
+{
+    return v < 0.0f ? -v : v;
+}
+
+static float centre_rad(int32_t cell, float theta_cell_rad)
+{
+    return ((float)cell + 0.5f) * theta_cell_rad;
+}
+
+/* Cells from 0 on whose centre lies before pi. */
+static int32_t count_cells(float theta_cell_rad)
+{
+    const int32_t num = (int32_t)(RHO_PI / theta_cell_rad + 0.5f);
+
+    return centre_rad(num - 1, theta_cell_rad) < RHO_PI ? num : num - 1;
+}
+
+/*
+ * The cell whose centre is nearest to theta in [0, pi), on a circle of length pi: behind the last cell comes the first.
+ * Between two borders it is the one that theta lies in.
+ */
+static int32_t nearest_cell(float theta_rad, float theta_cell_rad)
+{
+    const int32_t num = count_cells(theta_cell_rad);
+    int32_t cell = (int32_t)(theta_rad / theta_cell_rad);
+
+    if (cell >= num) {
+        cell = num - 1;
+    } else if (cell > 0 && theta_rad - (float)cell * theta_cell_rad < TIE_RAD) {
+        cell -= 1;
+    }
+    const float off_rad = size_of(centre_rad(cell, theta_cell_rad) - theta_rad);
+    const float first_rad = centre_rad(0, theta_cell_rad) + RHO_PI - theta_rad;
+    const float last_rad = theta_rad + RHO_PI - centre_rad(num - 1, theta_cell_rad);
+    if (first_rad < off_rad + TIE_RAD) {
+        return 0;
+    }
+    return last_rad < off_rad - TIE_RAD ? num - 1 : cell;
+}
+
+/*
+ * rho changes by |d| |cos(theta - phi)| where the velocity changes by d in the direction phi: least at right angles to it,
+ * and more the farther from there. All angles are alike where nothing changes.
+ */
+static float best_theta(float da, float db, float theta_cell_rad)
+{
+    float theta_rad;
+
+    if (!(da < 0.0f || da > 0.0f || db < 0.0f || db > 0.0f)) {
+        return centre_rad(0, theta_cell_rad);
+    }
+    theta_rad = rho_atan2(da, -db);
+    if (theta_rad < 0.0f) {
+        theta_rad += RHO_PI;
+    }
+    if (theta_rad >= RHO_PI) {
+        theta_rad = 0.0f;
+    }
+    return centre_rad(nearest_cell(theta_rad, theta_cell_rad), theta_cell_rad);
+}
+
+enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
+                                    float theta_cell_rad, const float before_mps[3],
+                                    const float newest_mps[3])
+{
+    float change_mps[3];
+
+    if (hough == NULL || before_mps == NULL || newest_mps == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (planes == 0 || planes > PLANES_ALL ||
+        !(theta_cell_rad >= CELL_MIN_RAD && theta_cell_rad <= RHO_HALF_PI)) {
+        return RHO_ERROR_VALUE;
+    }
+    for (int i = 0; i < 3; i++) {
+        change_mps[i] = newest_mps[i] - before_mps[i];
+        if (!is_finite(newest_mps[i]) || !is_finite(change_mps[i])) {
+            return RHO_ERROR_VALUE;
+        }
+    }
+    *hough = (struct rho_gate_hough){.planes = planes,
+                                     .newest_mps = {newest_mps[0], newest_mps[1], newest_mps[2]}};
+    for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {
+        if (planes & (1u << plane)) {
+            const uint8_t *axes = axes_of[plane];
+            float theta_rad = best_theta(change_mps[axes[0]], change_mps[axes[1]], theta_cell_rad);
+            hough->cos_theta[plane] = rho_cos(theta_rad);
+            hough->sin_theta[plane] = rho_sin(theta_rad);
+        }
+    }
+    return RHO_OK;
+}
+
+float rho_gate_hough_off(const struct rho_gate_hough *hough, const float velocity_mps[3])
+{
+    float change_mps[3], off_mps = 0.0f;
+
+    for (int i = 0; i < 3; i++) {
+        change_mps[i] = velocity_mps[i] - hough->newest_mps[i];
+    }
+    for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {
+        const uint8_t *axes = axes_of[plane];
+        off_mps += size_of(change_mps[axes[0]] * hough->cos_theta[plane] +
+                           change_mps[axes[1]] * hough->sin_theta[plane]);
+    }
+    return off_mps;
+}
