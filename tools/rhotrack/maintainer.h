@@ -7,6 +7,7 @@
 #define RHOTRACK_TOOL_MAINTAINER_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "parameters.h"
 #include "random.h"
@@ -29,6 +30,9 @@ struct maintainer_estimate {
 struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_estimation,
                                   const struct parameters *parameters);
 void maintainer_free(struct maintainer *maintainer);
+
+/* Of the library's objects that hold the track. */
+size_t maintainer_state_bytes(const struct maintainer *maintainer);
 
 /* The first plot starts the track: its place and, where measured, its velocity, with their noise. */
 void maintainer_start(struct maintainer *maintainer, int64_t time_us, const struct rho_plot *plot,
