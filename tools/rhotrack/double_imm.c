@@ -56,14 +56,19 @@ struct double_model double_model_singer(double interval_s, double keep, double s
 
 /* ---- one filter ---------------------------------------------------------------------------------- */
 
-static struct double_matrix multiply(const struct double_matrix *a, const struct double_matrix *b,
-                                     int is_b_transposed)
+/* F P, or P F^T; F couples no axes. */
+static struct double_matrix moved(const struct double_matrix *transition,
+                                  const struct double_matrix *of, int is_from_right)
 {
     struct double_matrix product = {.at = {{0.0}}};
     for (int i = 0; i < DOUBLE_STATES; i++) {
-        for (int k = 0; k < DOUBLE_STATES; k++) {
+        for (int k = i % AXES; k < DOUBLE_STATES; k += AXES) {
             for (int j = 0; j < DOUBLE_STATES; j++) {
-                product.at[i][j] += a->at[i][k] * (is_b_transposed ? b->at[j][k] : b->at[k][j]);
+                if (is_from_right) {
+                    product.at[j][i] += of->at[j][k] * transition->at[i][k];
+                } else {
+                    product.at[i][j] += transition->at[i][k] * of->at[k][j];
+                }
             }
         }
     }
@@ -73,9 +78,9 @@ static struct double_matrix multiply(const struct double_matrix *a, const struct
 void double_gaussian_predict(struct double_gaussian *gaussian, const struct double_model *model,
                              const double shift[DOUBLE_STATES])
 {
-    struct double_matrix half = multiply(&model->transition, &gaussian->covariance, 0);
+    struct double_matrix half = moved(&model->transition, &gaussian->covariance, 0);
     double mean[DOUBLE_STATES];
-    gaussian->covariance = multiply(&half, &model->transition, 1);
+    gaussian->covariance = moved(&model->transition, &half, 1);
     for (int i = 0; i < DOUBLE_STATES; i++) {
         mean[i] = shift != NULL ? shift[i] : 0.0;
         for (int j = 0; j < DOUBLE_STATES; j++) {
