@@ -27,7 +27,7 @@ struct double_model {
     bool is_steady; /* without acceleration */
 };
 
-/* The first `size` elements of the state were measured: 2 or 3 a place, 6 place and velocity. */
+/* The first `size` elements of the state were measured: 1 to 3 of a place, 6 place and velocity. */
 struct double_measured {
     size_t size;
     double value[6];

@@ -147,9 +147,9 @@ static double widest(const struct curves *curves)
 }
 
 static const char axes[] =
-    " $curves using 1:2 with lines lw 2 lc rgb '#0072b2' title 'downrange, x', \\\n"
-    " $curves using 1:3 with lines lw 2 lc rgb '#d55e00' title 'offrange, y', \\\n"
-    " $curves using 1:4 with lines lw 2 lc rgb '#009e73' title 'altitude, z'";
+    " $curves using 1:2 with lines lw 2 lc rgb '#0072b2' title 'x, downrange', \\\n"
+    " $curves using 1:3 with lines lw 2 lc rgb '#d55e00' title 'y, offrange', \\\n"
+    " $curves using 1:4 with lines lw 2 lc rgb '#009e73' title 'z, altitude'";
 
 static void put_errors(FILE *file, const struct curves *curves, enum maneuver_drawn drawn)
 {
@@ -160,11 +160,11 @@ static void put_errors(FILE *file, const struct curves *curves, enum maneuver_dr
     }
     fprintf(file,
             "set ylabel '%s'\nplot $curves using 1:5:6 with filledcurves lc rgb '#d9d9d9' "
-            "title '%d runs lie within', \\\n%s",
+            "title 'all of %d runs', \\\n%s",
             is_place ? "errors in position (m)" : "errors in velocity (m/s)", RUNS, axes);
     if (is_place) {
         fprintf(file, ", \\\n $curves using 1:7 with lines lw 2 dt 2 lc rgb '#000000' title "
-                      "'bounds of the radar beam', \\\n"
+                      "'beam', \\\n"
                       " $curves using 1:(-$7) with lines lw 2 dt 2 lc rgb '#000000' notitle");
     }
     fprintf(file, "\n");
@@ -177,8 +177,10 @@ void maneuver_draw(const struct maneuver_picture *picture, uint64_t seed, const 
     struct picture svg = picture_open(path, 900, 480);
     FILE *file = svg.script;
     put_curves(file, curves, picture->drawn == MANEUVER_DRAW_USED ? 1e3 : 1.0);
-    fprintf(file, "set xlabel 'time (s)'\nset xrange [0:40]\n"
-                  "set key outside top center horizontal\nset datafile missing 'nan'\n");
+    fprintf(
+        file,
+        "set xlabel 'time (s)'\nset xrange [0:40]\n"
+        "set key outside top center horizontal samplen 2 width -1\nset datafile missing 'nan'\n");
     if (picture->drawn == MANEUVER_DRAW_USED) {
         fprintf(file, "set ylabel 'position of the plot taken (km)'\nplot %s\n", axes);
     } else {
