@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 #
 # The same input gives the same bytes, whatever the compiler and its optimisation: builds the program with gcc and clang
-# at -O0 and -O3, lets each simulate, track and initiate by every method with a fixed seed, plots and bearings, and compares
-# all files.
+# at -O0 and -O3, lets each simulate, track, initiate by every method, and maintain, with a fixed seed, plots and bearings,
+# and compares all files.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}/determinism
-scenarios='crossing radar traffic passive-clutter'
+scenarios='crossing radar traffic passive-clutter popup'
 variants='gcc-O0 gcc-O3 clang-O0 clang-O3'
 
 unset MAKEFLAGS MAKELEVEL MFLAGS
@@ -28,6 +28,8 @@ run() { # variant, scenario: its files in output/SCENARIO
     if [ "${2%%-*}" = passive ]; then
         input=bearings.csv
         more=(--set num_scans=20)
+    elif [ "$2" = popup ]; then
+        more=(--set velocity=1)
     fi
     "$rhotrack" simulate "$2" --seed 3 "${more[@]}" -o "$data" &&
         "$rhotrack" track "$data/$input" --covariance -o "$data/tracks.csv" &&
@@ -35,6 +37,13 @@ run() { # variant, scenario: its files in output/SCENARIO
     if [ "$2" = crossing ]; then # traffic's area has too many cells of 5 m
         for method in ht mht iht nht; do
             "$rhotrack" initiate "$data/plots.csv" --method "$method" -o "$data/$method.csv" || return 1
+            files+=" $method.csv"
+        done
+    fi
+    if [ "$2" = popup ]; then
+        files=tracks.csv # the last scans start no track
+        for method in hough nearest; do
+            "$rhotrack" maintain "$data/plots.csv" --gate "$method" --covariance -o "$data/$method.csv" || return 1
             files+=" $method.csv"
         done
     fi

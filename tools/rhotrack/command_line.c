@@ -10,7 +10,7 @@
 #include "hint.h"
 #include "method.h"
 
-enum { NUM_OPTIONS = 12, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 13, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -19,7 +19,8 @@ static const struct {
 } options[NUM_OPTIONS] = {
     {'o', "output", "OUTPUT", "where to write; it appears there only when it is complete"},
     {'m', "method", "METHOD", "how tracks are initiated: " METHOD_NAMES},
-    {'g', "gate", "GATE", "how tracks choose their plots: nearest (the default)"},
+    {'g', "gate", "GATE", "how a track chooses its plots; the parameter gate says the same"},
+    {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
     {'f', "follow", NULL, NULL},
     {'c', "covariance", NULL, "tracks with 21 columns more: the covariance's lower triangle"},
     {'r', "runs", "N", "how many runs"},
@@ -102,6 +103,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     case 'g':
         line->gate = argument;
+        break;
+    case 'i':
+        line->no_input_estimation = true;
         break;
     case 'c':
         line->covariance = true;

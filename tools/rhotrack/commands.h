@@ -11,20 +11,22 @@
 struct command_line {
     char **arguments; /* beside the options, without the command's own name */
     int num_arguments;
-    const char *output; /* -o; NULL where not given */
-    const char *method; /* --method; NULL where not given */
-    const char *gate;   /* --gate */
-    uint64_t seed;      /* --seed; default 1 */
-    long runs;          /* --runs; 0 where not given */
-    bool json;          /* --json */
-    bool keep_going;    /* --keep-going */
-    bool covariance;    /* --covariance */
+    const char *output;       /* -o; NULL where not given */
+    const char *method;       /* --method; NULL where not given */
+    const char *gate;         /* --gate */
+    uint64_t seed;            /* --seed; default 1 */
+    long runs;                /* --runs; 0 where not given */
+    bool json;                /* --json */
+    bool keep_going;          /* --keep-going */
+    bool covariance;          /* --covariance */
+    bool no_input_estimation; /* --no-input-estimation */
     struct parameters parameters;
 };
 
 /* Each returns the program's exit code. */
 int command_track(struct command_line *line);
 int command_initiate(struct command_line *line);
+int command_maintain(struct command_line *line);
 int command_simulate(struct command_line *line);
 int command_evaluate(struct command_line *line);
 int command_experiment(struct command_line *line);

@@ -31,6 +31,16 @@ static const struct command commands[] = {
      "in it (CSV), best first, at the time of the last scan. Methods: kernel and, for bearings,\n"
      "passive (the defaults), and those of the literature, for comparison: ht, mht, iht, nht, for\n"
      "bearings passive-paper (score: votes; place and velocity are fitted through what voted).\n"},
+    {"maintain", command_maintain, "INPUT [-o OUTPUT] [--gate best|hough|nearest|none]", 1, 1,
+     "ogicjkSsC", "one track alone, never dropped",
+     "The first plot of the first scan starts a track; of each further scan it takes one plot, or "
+     "none.\n"
+     "Writes one row a scan (CSV) to OUTPUT or standard output. Gates: best (the default: several\n"
+     "hypotheses, two motions), hough (clutter elimination in velocity space, of the literature; "
+     "needs\n"
+     "columns vx_mps, vy_mps), nearest (the least Mahalanobis distance), none (any plot, drawn "
+     "with\n"
+     "--seed). hough, nearest and none run a Kalman filter with input estimation.\n"},
     {"simulate", command_simulate, "SCENARIO -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
      "made-up targets, noise, misses and clutter",
      "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and "
@@ -38,8 +48,9 @@ static const struct command commands[] = {
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
      "same-line, clutter, slow-turn, traffic, polar (polar.csv: a turning radar's plots),\n"
-     "passive-two, passive-three, passive-clutter (bearings.csv); their parameters are set by "
-     "--set.\n"},
+     "passive-two, passive-three, passive-clutter (bearings.csv), popup, weave, hard-turn (one "
+     "target\n"
+     "that pulls, in a beam, with heights); their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS", 2, 2, "jsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a "
      "tracks\n"
@@ -61,7 +72,6 @@ static const struct command commands[] = {
      "Prints each parameter's unit, default, range, and its value now with where it came from; "
      "with\n"
      "--method, that method's customary values.\n"},
-    {"maintain", NULL, "", 0, 0, "", "", ""},
     {"convert", NULL, "", 0, 0, "", "", ""},
     {"node", NULL, "", 0, 0, "", "", ""},
     {"publish", NULL, "", 0, 0, "", "", ""},

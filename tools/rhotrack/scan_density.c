@@ -87,17 +87,23 @@ static void values_of(const struct rho_plot *plot, enum quantity quantity, doubl
     *noise2 = sigma[quantity] * sigma[quantity];
 }
 
+static double square(double v)
+{
+    return v * v;
+}
+
 static size_t nearest_to(const struct rho_scan *scan, const double place_m[AXES])
 {
     double least = INFINITY, value[AXES], noise2;
     size_t nearest = 0;
 
     for (size_t i = 0; i < scan->num_plots; i++) {
-        double distance2 = 0.0;
+        double distance2;
 
         values_of(&scan->plots[i], PLACE, value, &noise2);
-        for (int k = 0; k < axes_of(scan->measures, PLACE); k++) {
-            distance2 += (value[k] - place_m[k]) * (value[k] - place_m[k]);
+        distance2 = square(value[0] - place_m[0]) + square(value[1] - place_m[1]);
+        if (scan->measures & RHO_MEASURES_Z) {
+            distance2 += square(value[2] - place_m[2]);
         }
         if (distance2 < least) {
             least = distance2;

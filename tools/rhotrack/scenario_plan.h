@@ -99,8 +99,8 @@ void plan_look_of_sensors(const struct scenario_plan *plan, size_t index,
 
 enum scenario_maneuver {
     MANEUVER_POPUP = 0, /* up, over, and level again at the first height */
-    MANEUVER_WEAVE,     /* to the sides of the first heading, and back on its line */
-    MANEUVER_TURN /* level turns at constant speed: the acceleration turns with the velocity */
+    MANEUVER_WEAVE,     /* to the sides of the first heading, and along it again */
+    MANEUVER_TURN /* level turns: the acceleration turns with the heading, scan by scan (speed: 5 % more) */
 };
 
 /* What happens to such a target's state in an interval T. */
