@@ -145,6 +145,12 @@
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
 #endif
 
+/* Hypotheses of all tracks together, up to eight a track: a quiet one needs one, one that manoeuvres in clutter eight. No
+ * fewer than RHO_MAX_TRACKS where the tracker's gate is `best`; 1 where it never is. RAM: 400 bytes each. 1 .. 65534. */
+#ifndef RHO_MAX_HYPOTHESES
+#define RHO_MAX_HYPOTHESES RHO_CONFIG_PICK(96, 6000)
+#endif
+
 /* Plots in one track's gate that compete in the assignment; the nearest are kept. 1 .. 32. */
 #ifndef RHO_MAX_GATE_PLOTS
 #define RHO_MAX_GATE_PLOTS RHO_CONFIG_PICK(8, 16)
@@ -231,6 +237,9 @@
 #endif
 #if RHO_MAX_TRACKS < 1 || RHO_MAX_TRACKS > 8192
 #error "RHO_MAX_TRACKS must be 1 .. 8192"
+#endif
+#if RHO_MAX_HYPOTHESES < 1 || RHO_MAX_HYPOTHESES > 65534
+#error "RHO_MAX_HYPOTHESES must be 1 .. 65534"
 #endif
 #if RHO_MAX_GATE_PLOTS < 1 || RHO_MAX_GATE_PLOTS > 32
 #error "RHO_MAX_GATE_PLOTS must be 1 .. 32"

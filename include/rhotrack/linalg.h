@@ -64,6 +64,25 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], c
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6]);
 
 /*
+ * The same updates for a state of n <= RHO_LINALG_MAX elements and its triangle p: of element `index`, and of a row whose
+ * elements beyond the first num are 0. Errors: also CAPACITY (n, num). Cost: about 4 n^2 and 6 n^2 instructions.
+ * Stack: 250 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index,
+                                                    float innovation, float variance);
+RHO_MUST_CHECK enum rho_status rho_linalg_update_along(int n, float *x, float *p, int num,
+                                                       const float *row, float innovation,
+                                                       float variance);
+
+/*
+ * d^T S^-1 d and ln det S for any n <= RHO_LINALG_MAX, S (its triangle) and d spoiled. 0 where S is not positive definite,
+ * a result is not finite, or the distance beyond distance2_max: then nothing else is filled. Cost: n^3 / 3 operations, n
+ * divisions and a logarithm for each three dimensions.
+ */
+int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *distance2,
+                     float *log_det);
+
+/*
  * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p G^T with new a =
  * c a + s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by 2^-22 of the larger one, more than
  * rounding takes, so that a positive definite p stays so, unless it is singular to within 10^-6 already. a, b: 0 ..

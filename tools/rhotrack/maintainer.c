@@ -138,16 +138,17 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
     struct rho_kalman kalman;
 
     keep_sensor(maintainer, sensor);
-    if (maintainer->best) {
-        maintainer_best_start(maintainer->best, time_us, plot, measures, sensor);
-        return;
-    }
     rho_kalman_init(&kalman);
     rho_measurement_open(plot, measures, sensor, &seen);
     must_succeed(rho_kalman_update_position(&kalman, &seen, maintainer->config.velocity_variance),
                  "start");
     if (measures & RHO_MEASURES_VELOCITY) {
         start_velocity(&kalman, plot);
+    }
+    if (maintainer->best) {
+        maintainer_best_start(maintainer->best, time_us + plot->offset_us, time_us, &kalman,
+                              sensor);
+        return;
     }
     must_succeed(rho_input_start(&maintainer->input, &maintainer->config, &kalman), "start");
     maintainer->input_us = time_us + plot->offset_us;

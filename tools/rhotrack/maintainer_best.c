@@ -1,19 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 #include "maintainer_best.h"
 
+#include <math.h>
 #include <stdlib.h>
 
+#include "chain.h"
 #include "common.h"
+#include "plot_distance.h"
+#include "rhotrack/hypotheses.h"
 
-static _Noreturn void fail_planned(void)
-{
-    fail(EXIT_USAGE, "--gate best is not in this version; there are: hough, nearest, none");
-}
+struct maintainer_best {
+    uint16_t slot;
+    int64_t time_us;                    /* of the last scan, or the start */
+    struct rho_hypotheses_estimate now; /* predicted, or updated */
+    bool has_sensor;
+    struct rho_sensor sensor;
+    struct rho_hypotheses pool;
+};
 
 struct maintainer_best *maintainer_best_new(const struct parameters *parameters)
 {
-    (void)parameters;
-    fail_planned();
+    struct maintainer_best *best = must_calloc(1, sizeof *best);
+    struct rho_imm_model model;
+
+    rho_imm_model_default(&model, (float)parameters->value[PARAMETER_ACCEL_MAX_MPS2]);
+    model.speed_sigma_mps = (float)parameters->value[PARAMETER_V_MAX_MPS];
+    must_succeed(rho_hypotheses_init(&best->pool, sizeof best->pool, &model), "hypotheses");
+    return best;
 }
 
 void maintainer_best_free(struct maintainer_best *best)
@@ -23,53 +36,117 @@ void maintainer_best_free(struct maintainer_best *best)
 
 size_t maintainer_best_bytes(void)
 {
-    return 0;
+    return RHO_HYPOTHESES_OF_TRACK * sizeof(struct rho_hypothesis);
 }
 
-void maintainer_best_start(struct maintainer_best *best, int64_t time_us,
-                           const struct rho_plot *plot, uint32_t measures,
-                           const struct rho_sensor *sensor)
+static void estimate_now(struct maintainer_best *best)
 {
-    (void)best, (void)time_us, (void)plot, (void)measures, (void)sensor;
-    fail_planned();
+    must_succeed(rho_hypotheses_estimate(&best->pool, best->slot, best->time_us, &best->now),
+                 "estimate");
 }
 
+void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
+                           const struct rho_kalman *kalman, const struct rho_sensor *sensor)
+{
+    best->has_sensor = sensor;
+    if (sensor) {
+        best->sensor = *sensor;
+    }
+    must_succeed(rho_hypotheses_open(&best->pool, kalman, time_us, &best->slot), "start");
+    best->time_us = scan_us;
+    estimate_now(best);
+}
+
+/* A prediction is refused only where nothing sensible could be said any more; a track that is never dropped ends here. */
 void maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
 {
-    (void)best, (void)time_us;
-    fail_planned();
+    enum rho_status status = rho_hypotheses_predict(&best->pool, best->slot, time_us);
+
+    if (status != RHO_OK) {
+        fail(EXIT_RUNTIME, "the track's covariance has grown beyond all limits: %s",
+             rho_status_name(status));
+    }
+    best->time_us = time_us;
+    estimate_now(best);
 }
 
 void maintainer_best_where(const struct maintainer_best *best, double place_m[3])
 {
-    (void)best;
-    place_m[0] = place_m[1] = place_m[2] = 0.0;
-    fail_planned();
+    struct rho_kalman kalman;
+
+    rho_imm_estimate(&rho_hypotheses_at(&best->pool, best->slot, 0)->imm, &kalman, NULL);
+    for (int i = 0; i < 3; i++) {
+        place_m[i] = (double)kalman.state[i];
+    }
+}
+
+static void weigh_all(struct maintainer_best *best, const struct rho_scan *scan,
+                      const struct rho_sensor *sensor, double log_density, double pd)
+{
+    /* the density is one of all that is measured */
+    struct rho_hypotheses_clutter clutter = {.log_per_m2 = (float)log_density};
+    struct rho_hypotheses_reach reach;
+    float log_pd = (float)log(pd), gain_nat;
+
+    rho_hypotheses_look(&best->pool, best->slot, &reach);
+    for (uint32_t i = 0; i < scan->num_plots && i <= INT16_MAX; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+        struct rho_imm_plot seen;
+
+        if (rho_measurement_is_valid(plot, scan->measures) &&
+            rho_hypotheses_reaches(&reach, plot)) {
+            rho_imm_open_plot(&seen, plot, scan->measures, sensor);
+            (void)rho_hypotheses_weigh(&best->pool, best->slot, &seen,
+                                       scan->time_us + plot->offset_us, (int16_t)i, log_pd,
+                                       &clutter, &gain_nat);
+        }
+    }
 }
 
 int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *scan,
                            const struct rho_sensor *sensor, double log_density, double pd)
 {
-    (void)best, (void)scan, (void)sensor, (void)log_density, (void)pd;
-    fail_planned();
+    struct rho_hypotheses_scan seen = {.time_us = scan->time_us,
+                                       .measures = scan->measures,
+                                       .plots = scan->plots,
+                                       .sensor = sensor,
+                                       .log_miss = (float)log1p(-pd)};
+    struct rho_hypotheses_outcome outcome;
+
+    best->has_sensor = sensor;
+    if (sensor) {
+        best->sensor = *sensor;
+    }
+    weigh_all(best, scan, sensor, log_density, pd);
+    must_succeed(rho_hypotheses_commit(&best->pool, best->slot, &seen, &outcome), "commit");
+    estimate_now(best);
+    return outcome.row;
 }
 
 void maintainer_best_estimate(const struct maintainer_best *best,
                               struct maintainer_estimate *estimate)
 {
-    (void)best, (void)estimate;
-    fail_planned();
+    *estimate = (struct maintainer_estimate){
+        .kalman = best->now.kalman,
+        .maneuver_probability = best->now.maneuver_probability,
+        .num_hypotheses = rho_hypotheses_count(&best->pool, best->slot),
+    };
+    for (int i = 0; i < 3; i++) {
+        estimate->accel_mps2[i] = best->now.accel_mps2[i];
+    }
 }
 
 double maintainer_best_nis(const struct maintainer_best *best, const struct rho_plot *plot,
                            uint32_t measures)
 {
-    (void)best, (void)plot, (void)measures;
-    fail_planned();
+    int dimensions = 1;
+    double distance2 = plot_distance2(&best->now.kalman, plot, measures,
+                                      best->has_sensor ? &best->sensor : NULL, &dimensions);
+
+    return distance2 / dimensions;
 }
 
 unsigned long maintainer_best_refused(const struct maintainer_best *best)
 {
-    (void)best;
-    fail_planned();
+    return best->pool.updates_refused;
 }

@@ -7,13 +7,12 @@
 
 struct maintainer_best;
 
-/* Each as the call of maintainer.h that is named alike; log_density is a number here. */
+/* Each as the call of maintainer.h that is named alike; it starts from an estimate of time_us, log_density is a number. */
 struct maintainer_best *maintainer_best_new(const struct parameters *parameters);
 void maintainer_best_free(struct maintainer_best *best);
 size_t maintainer_best_bytes(void);
-void maintainer_best_start(struct maintainer_best *best, int64_t time_us,
-                           const struct rho_plot *plot, uint32_t measures,
-                           const struct rho_sensor *sensor);
+void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
+                           const struct rho_kalman *kalman, const struct rho_sensor *sensor);
 void maintainer_best_predict(struct maintainer_best *best, int64_t time_us);
 void maintainer_best_where(const struct maintainer_best *best, double place_m[3]);
 int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *scan,

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * hypotheses: which plots were a track's? Not decided at once, but kept open over a few scans.
+ *
+ * A hypothesis is one answer for all scans so far: an imm filter that took those plots, and a weight, ln of the likelihood
+ * that they were the target's and all others clutter. At each scan every hypothesis has children: one for each of
+ * its best plots, and one for a miss. The heaviest go on, of those that agree on the last RHO_HYPOTHESES_MEMORY scans only
+ * one. So a plot of clutter that was taken for the target's is undone when the next plots do not follow it.
+ *
+ *     scan n            n+1                    A quiet track in thin clutter has one hypothesis, one that meets
+ *     h1 ---- plot 3 ---- plot 1   w  0        clutter while it turns up to RHO_HYPOTHESES_OF_TRACK. All tracks share
+ *       \---- miss ------ plot 1   w -4        one pool; where it is empty, the tracks that have most give up
+ *        \--- plot 7 ---- miss     w -9        their least likely ones, and a counter moves.
+ *
+ * Tracks have slots in the pool. One scan is: rho_hypotheses_predict, rho_hypotheses_look, rho_hypotheses_weigh for each plot
+ * near the track, rho_hypotheses_commit. Between the last two the caller may give plots to other tracks.
+ *
+ * Source: D. B. Reid, An algorithm for tracking multiple targets, IEEE Transactions on Automatic Control 24, 1979, for one
+ * track, with the pruning of the last N scans.
+ */
+#ifndef RHOTRACK_HYPOTHESES_H
+#define RHOTRACK_HYPOTHESES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/imm.h"
+#include "rhotrack/kalman.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+#define RHO_HYPOTHESES_OF_TRACK 8
+#define RHO_HYPOTHESES_CHILDREN 3          /* plots of a scan that one hypothesis goes on with */
+#define RHO_HYPOTHESES_MEMORY 3            /* scans in which two hypotheses must differ */
+#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f) /* beside the best one; less is given up */
+#define RHO_HYPOTHESES_MISS (-1)
+
+struct rho_hypothesis {
+    struct rho_imm imm;
+    int64_t time_us;                      /* of the filter: a scan's, or the last plot's own */
+    float weight_nat;                     /* 0: the best of its track */
+    int16_t picks[RHO_HYPOTHESES_MEMORY]; /* rows of the last scans' plots, the newest last */
+    /* plots of the scan that is looked at: the best ones, in this order */
+    int16_t rows[RHO_HYPOTHESES_CHILDREN];
+    float gains_nat[RHO_HYPOTHESES_CHILDREN];
+    float probabilities[RHO_HYPOTHESES_CHILDREN]; /* of a manoeuvre, with that plot */
+    uint8_t num_candidates;
+};
+
+struct rho_hypotheses_child {
+    float weight_nat;
+    int16_t row;
+    uint8_t parent, candidate;
+};
+
+/* The pool. */
+struct rho_hypotheses {
+    uint32_t magic;
+    uint32_t
+        updates_refused; /* numerically impossible: the hypothesis took a miss instead; saturates */
+    uint32_t hypotheses_cut; /* given up for want of room; saturates */
+    uint16_t num_free;
+    struct rho_imm_model model;
+    struct rho_imm_step step;       /* of the last interval: most tracks have the same one */
+    uint8_t num_of[RHO_MAX_TRACKS]; /* hypotheses of a slot; 0: nobody's */
+    uint16_t node_of[RHO_MAX_TRACKS][RHO_HYPOTHESES_OF_TRACK]; /* the best first */
+    uint16_t free[RHO_MAX_HYPOTHESES];
+    struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK * (RHO_HYPOTHESES_CHILDREN + 1)];
+    struct rho_imm scratch;
+    struct rho_hypothesis nodes[RHO_MAX_HYPOTHESES];
+};
+
+/* How dense clutter is, in each of the dimensions that may count: ln. */
+struct rho_hypotheses_clutter {
+    float log_per_m2;         /* of the plane */
+    float log_per_m;          /* of height */
+    float log_per_mps;        /* of each velocity */
+    float log_per_range_rate; /* m/s */
+};
+
+/* A box that plots outside of need not be weighed: grows with a plot's sigma and own time. */
+struct rho_hypotheses_reach {
+    float x_min_m, x_max_m, y_min_m, y_max_m;
+    float speed_max_mps; /* of all hypotheses, with their uncertainty */
+};
+
+/* A scan that a track commits itself to. */
+struct rho_hypotheses_scan {
+    int64_t time_us;
+    uint32_t measures;
+    const struct rho_plot *plots;
+    const struct rho_sensor *sensor; /* NULL: at the origin */
+    float log_miss;                  /* ln(1 - pd); 0 where the sensor did not look */
+    /* plots of others: row of plots to track, or -1 for nobody's; own is this track. NULL: all are free */
+    const int16_t *claims;
+    int16_t own;
+};
+
+struct rho_hypotheses_outcome {
+    int16_t row;    /* of the best hypothesis' plot; RHO_HYPOTHESES_MISS: none */
+    float gain_nat; /* ln of the scan's likelihood with this track's target, over clutter alone */
+};
+
+struct rho_hypotheses_estimate {
+    struct rho_kalman kalman; /* mean over all hypotheses and models, with their spread */
+    float accel_mps2[3];
+    float maneuver_probability;
+};
+
+/* Prepares an empty pool; the model is copied. Errors: NULL, SIZE, CONFIG. Cost: clears the object. */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
+                                                   const struct rho_imm_model *model);
+
+/*
+ * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all slots taken, or no
+ * hypothesis that another track could give up). Cost: RHO_MAX_TRACKS.
+ */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool,
+                                                   const struct rho_kalman *estimate,
+                                                   int64_t time_us, uint16_t *slot);
+
+/* Gives a slot and its hypotheses back; one that is not open is left alone. */
+void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot);
+
+/* Hypotheses of a slot; 0 where it is not open. Constant cost. */
+unsigned rho_hypotheses_count(const struct rho_hypotheses *pool, uint16_t slot);
+
+/* One hypothesis of an open slot, the best at 0; NULL beyond. Constant cost. */
+const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool, uint16_t slot,
+                                               unsigned index);
+
+/*
+ * Moves all hypotheses of a slot to time_us. One that cannot be moved on is given up. Errors: NULL, STATE (slot), VALUE
+ * (none is left: the slot is closed). Cost: rho_imm_predict each.
+ */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
+                                                      int64_t time_us);
+
+/* Begins a scan: no plot has been weighed. *reach (may be NULL) is filled. Cost: 40 instructions a hypothesis and model. */
+void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
+                         struct rho_hypotheses_reach *reach);
+
+/* True where a plot may be in the gate of a hypothesis. Constant cost. */
+int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot);
+
+/*
+ * Weighs a plot of time_us, its own, with every hypothesis; each keeps its RHO_HYPOTHESES_CHILDREN best, of equals those that
+ * came first. Returns 1 where the plot is in the gate of any, and then in *gain_nat what the best hypothesis with the plot
+ * is worth: ln of pd times the plot's density over the clutter's, plus that hypothesis' weight.
+ * Cost: rho_imm_weigh a hypothesis, and rho_imm_move for a plot with an own time.
+ */
+int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
+                         const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
+                         float log_pd, const struct rho_hypotheses_clutter *clutter,
+                         float *gain_nat);
+
+/*
+ * Ends the scan: the heaviest children of all hypotheses go on. Plots that scan->claims gives to other tracks are left out.
+ * An update that is refused becomes a miss (updates_refused). Errors: NULL, STATE (slot).
+ * Cost: rho_imm_update for each of at most RHO_HYPOTHESES_OF_TRACK. Stack: 700 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot,
+                                                     const struct rho_hypotheses_scan *scan,
+                                                     struct rho_hypotheses_outcome *outcome);
+
+/*
+ * All hypotheses take a plot that is known to be the target's, at its own time. Errors: NULL, STATE (slot), and those of
+ * rho_imm_update where no hypothesis could take it: then they are as they were predicted to its time.
+ */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, uint16_t slot,
+                                                   const struct rho_imm_plot *seen,
+                                                   int64_t time_us);
+
+/* The same with a bearing from a place: hypotheses' weights move by how well they had predicted it. */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool,
+                                                           uint16_t slot, int64_t time_us,
+                                                           float x_m, float y_m, float bearing_rad,
+                                                           float sigma_rad);
+
+/* The mean over all hypotheses, moved to time_us. Errors: NULL, STATE (slot). Cost: 600 instructions a hypothesis. */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot,
+                                                       int64_t time_us,
+                                                       struct rho_hypotheses_estimate *estimate);
+
+#endif

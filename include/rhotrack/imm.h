@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * imm: a filter of two motion models that interact: constant velocity, and a manoeuvre whose acceleration is remembered for
+ * a while (Singer).
+ *
+ * `steady` is a Kalman filter [x y z vx vy vz] with little white acceleration. The manoeuvring model has the acceleration
+ * beside these, [x y z vx vy vz ax ay az], which decays with memory_s and is driven by white noise. A target changes
+ * between both as a Markov chain of two states in continuous time, so that any interval will do: at each prediction the
+ * two estimates are mixed by the probabilities of a change, and at each update the models' probabilities move by how well
+ * they had predicted the plot.
+ *
+ * While all noise was isotropic the axes are independent, and are kept so: three small filters a model (decoupled). The
+ * first plot with noise of another form couples them for good.
+ *
+ * Sources: R. A. Singer, Estimating optimal tracking filter performance for manned maneuvering targets, IEEE Transactions
+ * on Aerospace and Electronic Systems 6, 1970; H. A. P. Blom, Y. Bar-Shalom, The interacting multiple model algorithm for
+ * systems with Markovian switching coefficients, IEEE Transactions on Automatic Control 33, 1988.
+ */
+#ifndef RHOTRACK_IMM_H
+#define RHOTRACK_IMM_H
+
+#include <stdint.h>
+
+#include "rhotrack/kalman.h"
+#include "rhotrack/linalg.h"
+#include "rhotrack/measurement.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+#define RHO_IMM_STATES 9
+
+/* A plot may be the target's where its squared Mahalanobis distance from either model's prediction is at most this. */
+#define RHO_IMM_GATE 30.0f
+
+/* What targets may do. rho_imm_model_default derives it from the largest acceleration. */
+struct rho_imm_model {
+    float quiet_density; /* white acceleration of the steady model, m^2/s^3: >= 0 */
+    float drive_density; /* white noise that drives a manoeuvre's acceleration, (m/s^2)^2/s: >= 0 */
+    float memory_s;      /* time in which an acceleration decays to 1/e: > 0 */
+    float sojourn_s;     /* mean time that a target keeps to a model: > 0 */
+    float speed_sigma_mps;  /* of the velocity of an axis that was measured once */
+    float accel_sigma_mps2; /* of the acceleration at the start */
+};
+
+/* What one interval does to every estimate, computed once. */
+struct rho_imm_step {
+    float dt_s;
+    float change; /* probability that the other model holds at its end */
+    float position_by_accel, velocity_by_accel, accel_by_accel;
+    float noise[RHO_TRIANGLE(3)]; /* of position, velocity, acceleration of an axis */
+    float quiet_density;
+};
+
+struct rho_imm {
+    struct rho_kalman steady;
+    float state[RHO_IMM_STATES]; /* of the manoeuvring model */
+    float covariance[RHO_TRIANGLE(RHO_IMM_STATES)];
+    float probability; /* of the manoeuvring model */
+    uint8_t is_coupled;
+};
+
+/* A plot opened up once for all that look at it. The sensor stays the caller's. */
+struct rho_imm_plot {
+    struct rho_measurement position;
+    float covariance[6]; /* of the position's noise */
+    uint32_t measures;
+    const struct rho_plot *plot;
+    const struct rho_sensor *sensor;
+};
+
+struct rho_imm_match {
+    float distance2;      /* squared Mahalanobis distance from the nearer model's prediction */
+    float log_likelihood; /* ln of the plot's density, over both models */
+    float probability;    /* of the manoeuvring model, if the plot is the target's */
+    uint8_t num_axes;     /* that count: 2, or 3 with height */
+    uint8_t has_velocity, has_range_rate; /* count, too */
+};
+
+/*
+ * Models for manoeuvres of accel_max: a drive of (0.68 accel_max)^2 /s remembered for 12.4 s, a sojourn of 8.1 s, quiet
+ * acceleration of 1 m^2/s^3; at the start, speed sd 700 m/s and acceleration sd accel_max.
+ */
+void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2);
+
+/* True where every field is finite and within its range. */
+int rho_imm_model_is_usable(const struct rho_imm_model *model);
+
+/*
+ * Fills *step for an interval, -1e5 .. 1e5 s. Backwards there is no noise and no change. Cost: about 500 instructions, and
+ * 100 for each doubling beyond memory_s / 2. Stack: 80 bytes.
+ */
+void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s);
+
+/* Both models start from an estimate, each as likely as the other; acceleration 0 with the model's sd. */
+void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
+                   const struct rho_kalman *estimate);
+
+/*
+ * Mixes the models and moves both on. Errors: VALUE (a result not finite, or beyond RHO_KALMAN_VARIANCE_MAX): then the
+ * object is of no more use. Cost: about 500 instructions, coupled 1 400. Stack: 200 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_imm_predict(struct rho_imm *imm,
+                                               const struct rho_imm_step *step);
+
+/* The same without mixing: to a plot's own time, or back from it. */
+RHO_MUST_CHECK enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step);
+
+/* Opens a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: the origin). Both stay the caller's. */
+void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
+                       const struct rho_sensor *sensor);
+
+/*
+ * Weighs a plot at the estimate's time: returns 1 and fills *match where it is in the gate of either model, else 0. Height,
+ * velocity and range rate count as far as both have them.
+ * Cost: about 250 instructions, coupled or with own covariance 500. Stack: 350 bytes.
+ */
+int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                  struct rho_imm_match *match);
+
+/*
+ * Updates both models with a plot that was weighed, and takes the match's probability. A first z opens the third axis.
+ * Errors: as rho_kalman_update; then the object is of no more use: work on a copy.
+ * Cost: about 400 instructions, coupled 4 500. Stack: 400 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_imm_update(struct rho_imm *imm,
+                                              const struct rho_imm_model *model,
+                                              const struct rho_imm_plot *seen,
+                                              const struct rho_imm_match *match);
+
+/*
+ * Updates both models with a bearing from a place, and their probabilities by how well they had predicted it. *gain_nat gets
+ * ln of the bearing's density in metres across the line of sight. An estimate nearer than a metre to the place has no
+ * bearing: nothing is done, *gain_nat is 0, RHO_OK. Errors: as rho_imm_update.
+ */
+RHO_MUST_CHECK enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m,
+                                                      float bearing_rad, float sigma_rad,
+                                                      float *gain_nat);
+
+/* The mean over both models and its covariance, with the spread between them; accel_mps2 (may be NULL) the same. */
+void rho_imm_estimate(const struct rho_imm *imm, struct rho_kalman *estimate, float accel_mps2[3]);
+
+#endif

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * linalg_sized: scalar updates and distances for states of any size up to RHO_LINALG_MAX.
+ */
+#include <float.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "rhotrack/approx.h"
+#include "rhotrack/linalg.h"
+
+/* As in linalg.c: a variance that an update may lower is first raised by sixteen units of rounding. */
+#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
+
+/* False for NaN. */
+static int is_finite(float v)
+{
+    return v >= -FLT_MAX && v <= FLT_MAX;
+}
+
+static int is_positive(float v)
+{
+    return v > 0.0f && v <= FLT_MAX;
+}
+
+/* 1 / (predicted + variance), or 0 where that is no number one can divide by. */
+static float inverse_of(float predicted, float variance)
+{
+    const float sum = predicted + variance;
+    const float inverse = 1.0f / sum;
+
+    return predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX ? inverse
+                                                                                        : 0.0f;
+}
+
+/* x += spread innovation / S; false, and nothing done, where a result is not finite. */
+static int move_state(int n, float *x, const float *spread, float innovation, float inverse)
+{
+    float next[RHO_LINALG_MAX], total = 0.0f;
+    const float step = innovation * inverse;
+    int i;
+
+    for (i = 0; i < n; ++i) {
+        next[i] = x[i] + spread[i] * step;
+        total += next[i];
+    }
+    if (!(is_finite(innovation * step) && is_finite(total))) {
+        return 0;
+    }
+    memcpy(x, next, (size_t)n * sizeof *x);
+    return 1;
+}
+
+/* p -= spread spread^T / S. A variance that is not coupled to what was measured needs no allowance. */
+static void lower(int n, float *p, const float *spread, float inverse)
+{
+    int i, j;
+
+    for (i = 0; i < n; ++i) {
+        const float gain = spread[i] * inverse;
+        const float taken = gain * spread[i];
+
+        for (j = 0; j < i; ++j) {
+            p[j] -= gain * spread[j];
+        }
+        p[i] = taken > 0.0f ? p[i] * ROUNDING_ALLOWANCE - taken : p[i];
+        p += i + 1;
+    }
+}
+
+static void take_row(int n, const float *p, int index, float *row)
+{
+    int i;
+
+    for (i = 0; i < n; ++i) {
+        row[i] = p[RHO_AT(i, index)];
+    }
+}
+
+enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float innovation,
+                                     float variance)
+{
+    float row[RHO_LINALG_MAX], inverse, kept;
+    int i;
+
+    if (x == NULL || p == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (n < 1 || n > RHO_LINALG_MAX) {
+        return RHO_ERROR_CAPACITY;
+    }
+    if (index < 0 || index >= n) {
+        return RHO_ERROR_VALUE;
+    }
+    take_row(n, p, index, row);
+    inverse = inverse_of(row[index], variance);
+    if (!(inverse > 0.0f)) {
+        return RHO_ERROR_SINGULAR;
+    }
+    if (!move_state(n, x, row, innovation, inverse)) {
+        return RHO_ERROR_VALUE;
+    }
+    kept = variance / (row[index] + variance);
+    lower(n, p, row, inverse);
+    /* The measured row is scaled, not differenced: no digit is lost. */
+    for (i = 0; i < n; ++i) {
+        p[RHO_AT(i, index)] = row[i] * kept;
+    }
+    return RHO_OK;
+}
+
+/* spread := p row; returns row . p row. */
+static float project(int n, const float *p, int num, const float *row, float *spread)
+{
+    float variance = 0.0f;
+    int i, j;
+
+    for (i = 0; i < n; ++i) {
+        float sum = 0.0f;
+
+        for (j = 0; j < num; ++j) {
+            sum += p[RHO_AT(i, j)] * row[j];
+        }
+        spread[i] = sum;
+        variance += i < num ? sum * row[i] : 0.0f;
+    }
+    return variance;
+}
+
+enum rho_status rho_linalg_update_along(int n, float *x, float *p, int num, const float *row,
+                                        float innovation, float variance)
+{
+    float spread[RHO_LINALG_MAX], inverse;
+
+    if (x == NULL || p == NULL || row == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (n < 1 || n > RHO_LINALG_MAX || num < 1 || num > n) {
+        return RHO_ERROR_CAPACITY;
+    }
+    inverse = inverse_of(project(n, p, num, row, spread), variance);
+    if (!(inverse > 0.0f)) {
+        return RHO_ERROR_SINGULAR;
+    }
+    if (!move_state(n, x, spread, innovation, inverse)) {
+        return RHO_ERROR_VALUE;
+    }
+    lower(n, p, spread, inverse);
+    return RHO_OK;
+}
+
+/* Column k of S = L D L^T leaves what lies right of it, and of d. False where the pivot is none. */
+static int eliminate(int n, int k, float *s, float *d)
+{
+    const float pivot = s[RHO_AT(k, k)];
+    const float inverse = 1.0f / pivot;
+    int i, j;
+
+    if (!is_positive(pivot)) {
+        return 0;
+    }
+    for (i = k + 1; i < n; ++i) {
+        const float factor = s[RHO_AT(i, k)] * inverse;
+
+        for (j = k + 1; j <= i; ++j) {
+            s[RHO_AT(i, j)] -= factor * s[RHO_AT(j, k)];
+        }
+        d[i] -= factor * d[k];
+    }
+    return 1;
+}
+
+/* Pivots are multiplied three at a time: their product stays a number for variances up to 10^12. */
+static float log_of_pivots(int n, const float *s)
+{
+    float sum = 0.0f, product = 1.0f;
+    int k;
+
+    for (k = 0; k < n; ++k) {
+        product *= s[RHO_AT(k, k)];
+        if (k % 3 == 2 || k == n - 1) {
+            sum += rho_log(product);
+            product = 1.0f;
+        }
+    }
+    return sum;
+}
+
+int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *distance2,
+                     float *log_det)
+{
+    float distance = 0.0f, logarithm;
+    int k;
+
+    if (n < 1 || n > RHO_LINALG_MAX || s == NULL || d == NULL || distance2 == NULL ||
+        log_det == NULL) {
+        return 0;
+    }
+    for (k = 0; k < n; ++k) {
+        if (!eliminate(n, k, s, d)) {
+            return 0;
+        }
+        distance += d[k] * d[k] / s[RHO_AT(k, k)];
+        if (!(distance <= distance2_max)) {
+            return 0;
+        }
+    }
+    logarithm = log_of_pivots(n, s);
+    if (!is_finite(logarithm)) {
+        return 0;
+    }
+    *distance2 = distance;
+    *log_det = logarithm;
+    return 1;
+}

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * hypotheses: the pool, its slots, prediction, and the mean over a slot. hypotheses_scan.c lets them grow by a scan's plots.
+ */
+#include "rhotrack/hypotheses.h"
+
+#include <string.h>
+
+#include "hypotheses_pool.h"
+#include "rhotrack/approx.h"
+
+#define POOL_MAGIC 0x4859504fu /* "HYPO" */
+
+/* Less likely ones do not show in the mean. */
+#define WEIGHT_SHOWN_MIN (-12.0f)
+
+/* ---- the pool --------------------------------------------------------------------------------- */
+
+int rho_hypotheses_is_ready(const struct rho_hypotheses *pool)
+{
+    return pool->magic == POOL_MAGIC;
+}
+
+int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    return rho_hypotheses_is_ready(pool) && slot < RHO_MAX_TRACKS && pool->num_of[slot] > 0;
+}
+
+uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool)
+{
+    return pool->free[--pool->num_free];
+}
+
+void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node)
+{
+    pool->free[pool->num_free++] = node;
+}
+
+/* The slot with the most hypotheses, of equals the first, but for one. */
+static uint16_t richest(const struct rho_hypotheses *pool, uint16_t but)
+{
+    uint16_t found = but;
+    for (uint16_t slot = 0; slot < RHO_MAX_TRACKS; slot++) {
+        if (slot != but && pool->num_of[slot] > (found == but ? 0 : pool->num_of[found])) {
+            found = slot;
+        }
+    }
+    return found;
+}
+
+unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted)
+{
+    unsigned own = slot < RHO_MAX_TRACKS ? pool->num_of[slot] : 0;
+    while (own + pool->num_free < wanted) {
+        uint16_t giver = richest(pool, slot);
+        unsigned most = giver == slot ? 0 : pool->num_of[giver];
+        pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
+        if (most < 2 || most <= own + pool->num_free) {
+            return own + pool->num_free;
+        }
+        pool->num_of[giver]--;
+        rho_hypotheses_release(pool, pool->node_of[giver][pool->num_of[giver]]);
+    }
+    return wanted;
+}
+
+enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
+                                    const struct rho_imm_model *model)
+{
+    if (!pool || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *pool) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!rho_imm_model_is_usable(model)) {
+        return RHO_ERROR_CONFIG;
+    }
+    struct rho_imm_model copy = *model;
+    memset(pool, 0, sizeof *pool);
+    pool->model = copy;
+    pool->num_free = RHO_MAX_HYPOTHESES;
+    for (unsigned i = 0; i < RHO_MAX_HYPOTHESES; i++) {
+        pool->free[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
+    }
+    rho_imm_step_open(&pool->step, model, 0.0f);
+    pool->magic = POOL_MAGIC;
+    return RHO_OK;
+}
+
+/* ---- slots ------------------------------------------------------------------------------------ */
+
+static int find_slot(const struct rho_hypotheses *pool, uint16_t *slot)
+{
+    for (uint16_t i = 0; i < RHO_MAX_TRACKS; i++) {
+        if (pool->num_of[i] == 0) {
+            *slot = i;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rho_kalman *estimate,
+                                    int64_t time_us, uint16_t *slot)
+{
+    if (!pool || !estimate || !slot) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_ready(pool)) {
+        return RHO_ERROR_STATE;
+    }
+    uint16_t found = 0;
+    if (!find_slot(pool, &found) || rho_hypotheses_make_room(pool, found, 1) < 1) {
+        return RHO_ERROR_CAPACITY;
+    }
+    uint16_t node = rho_hypotheses_allot(pool);
+    struct rho_hypothesis *first = &pool->nodes[node];
+    memset(first, 0, sizeof *first);
+    rho_imm_start(&first->imm, &pool->model, estimate);
+    first->time_us = time_us;
+    for (int i = 0; i < RHO_HYPOTHESES_MEMORY; i++) {
+        first->picks[i] = RHO_HYPOTHESES_MISS;
+    }
+    pool->node_of[found][0] = node;
+    pool->num_of[found] = 1;
+    *slot = found;
+    return RHO_OK;
+}
+
+void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
+{
+    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+        return;
+    }
+    for (unsigned i = pool->num_of[slot]; i > 0; i--) {
+        rho_hypotheses_release(pool, pool->node_of[slot][i - 1]);
+    }
+    pool->num_of[slot] = 0;
+}
+
+unsigned rho_hypotheses_count(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    return pool && rho_hypotheses_is_open(pool, slot) ? pool->num_of[slot] : 0;
+}
+
+const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool, uint16_t slot,
+                                               unsigned index)
+{
+    return index < rho_hypotheses_count(pool, slot) ? &pool->nodes[pool->node_of[slot][index]] : 0;
+}
+
+/* ---- predict ---------------------------------------------------------------------------------- */
+
+const struct rho_imm_step *rho_hypotheses_step(struct rho_hypotheses *pool, int64_t from_us,
+                                               int64_t to_us)
+{
+    float dt_s = rho_seconds_between(from_us, to_us);
+    if (dt_s < pool->step.dt_s || dt_s > pool->step.dt_s) {
+        rho_imm_step_open(&pool->step, &pool->model, dt_s);
+    }
+    return &pool->step;
+}
+
+enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, struct rho_imm *imm,
+                                    int64_t from_us, int64_t to_us)
+{
+    return from_us == to_us ? RHO_OK : rho_imm_move(imm, rho_hypotheses_step(pool, from_us, to_us));
+}
+
+/* Those that are left move up, and the best has weight 0 again. */
+static void close_ranks(struct rho_hypotheses *pool, uint16_t slot, unsigned num)
+{
+    pool->num_of[slot] = (uint8_t)num;
+    float best = num > 0 ? pool->nodes[pool->node_of[slot][0]].weight_nat : 0.0f;
+    for (unsigned i = 0; i < num; i++) {
+        pool->nodes[pool->node_of[slot][i]].weight_nat -= best;
+    }
+}
+
+enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
+{
+    if (!pool) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_open(pool, slot)) {
+        return RHO_ERROR_STATE;
+    }
+    unsigned left = 0;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        uint16_t node = pool->node_of[slot][i];
+        struct rho_hypothesis *at = &pool->nodes[node];
+        if (at->time_us != time_us &&
+            rho_imm_predict(&at->imm, rho_hypotheses_step(pool, at->time_us, time_us)) != RHO_OK) {
+            rho_hypotheses_release(pool, node);
+            continue;
+        }
+        at->time_us = time_us;
+        pool->node_of[slot][left++] = node;
+    }
+    close_ranks(pool, slot, left);
+    return left > 0 ? RHO_OK : RHO_ERROR_VALUE;
+}
+
+/* ---- the mean --------------------------------------------------------------------------------- */
+
+float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    float sum = 0.0f;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        sum += rho_exp(pool->nodes[pool->node_of[slot][i]].weight_nat);
+    }
+    return rho_log(sum);
+}
+
+/* The estimates so far and one more, each with its share; the spread between them goes into the covariance. */
+static void add_estimate(struct rho_hypotheses_estimate *sum, float sum_share,
+                         const struct rho_hypotheses_estimate *more, float share)
+{
+    const float part = share / (sum_share + share);
+    float way[RHO_KALMAN_STATES];
+    int place = 0;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        way[i] = more->kalman.state[i] - sum->kalman.state[i];
+        sum->kalman.state[i] += part * way[i];
+        for (int j = 0; j <= i; j++, place++) {
+            float *p = &sum->kalman.covariance[place];
+            *p += part * (more->kalman.covariance[place] - *p + (1.0f - part) * way[i] * way[j]);
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        sum->accel_mps2[i] += part * (more->accel_mps2[i] - sum->accel_mps2[i]);
+    }
+    sum->maneuver_probability += part * (more->maneuver_probability - sum->maneuver_probability);
+}
+
+/* One hypothesis at a time that need not be its own; 0 where it cannot be moved there. */
+static int estimate_one(struct rho_hypotheses *pool, const struct rho_hypothesis *at,
+                        int64_t time_us, struct rho_hypotheses_estimate *out)
+{
+    const struct rho_imm *imm = &at->imm;
+    if (at->time_us != time_us) {
+        pool->scratch = at->imm;
+        if (rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) != RHO_OK) {
+            return 0;
+        }
+        imm = &pool->scratch;
+    }
+    rho_imm_estimate(imm, &out->kalman, out->accel_mps2);
+    out->maneuver_probability = imm->probability;
+    return 1;
+}
+
+enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                                        struct rho_hypotheses_estimate *estimate)
+{
+    struct rho_hypotheses_estimate one;
+    float total = 0.0f;
+    if (!pool || !estimate) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_open(pool, slot)) {
+        return RHO_ERROR_STATE;
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        if (at->weight_nat < WEIGHT_SHOWN_MIN || !estimate_one(pool, at, time_us, &one)) {
+            continue;
+        }
+        float share = rho_exp(at->weight_nat);
+        if (total > 0.0f) {
+            add_estimate(estimate, total, &one, share);
+        } else {
+            *estimate = one;
+        }
+        total += share;
+    }
+    return total > 0.0f ? RHO_OK : RHO_ERROR_VALUE;
+}

@@ -1,0 +1,413 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * hypotheses_scan: hypotheses weigh the plots of a scan, and go on with the best of them.
+ */
+#include <string.h>
+
+#include "hypotheses_pool.h"
+#include "rhotrack/approx.h"
+
+/* Square root of the gate: how far, in standard deviations, a plot may be. */
+#define GATE_SIGMAS 5.4772256f
+
+/* ---- reach ------------------------------------------------------------------------------------ */
+
+struct span {
+    float min, max, variance_max;
+};
+
+static void widen(struct span *span, float value, float variance)
+{
+    span->min = value < span->min ? value : span->min;
+    span->max = value > span->max ? value : span->max;
+    span->variance_max = variance > span->variance_max ? variance : span->variance_max;
+}
+
+static void widen_all(struct span spans[4], const float *state, const float *covariance)
+{
+    static const uint8_t elements[4] = {0, 1, 3, 4};
+    for (int i = 0; i < 4; i++) {
+        widen(&spans[i], state[elements[i]], covariance[RHO_AT(elements[i], elements[i])]);
+    }
+}
+
+static float speed_of(const struct span *span)
+{
+    float speed = span->max > -span->min ? span->max : -span->min;
+    return speed + GATE_SIGMAS * rho_sqrt(span->variance_max);
+}
+
+static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
+                       struct rho_hypotheses_reach *reach)
+{
+    struct span spans[4];
+    for (int i = 0; i < 4; i++) {
+        spans[i] = (struct span){1e30f, -1e30f, 0.0f};
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
+        widen_all(spans, imm->steady.state, imm->steady.covariance);
+        widen_all(spans, imm->state, imm->covariance);
+    }
+    float x_m = GATE_SIGMAS * rho_sqrt(spans[0].variance_max);
+    float y_m = GATE_SIGMAS * rho_sqrt(spans[1].variance_max);
+    float vx_mps = speed_of(&spans[2]), vy_mps = speed_of(&spans[3]);
+    *reach = (struct rho_hypotheses_reach){
+        .x_min_m = spans[0].min - x_m,
+        .x_max_m = spans[0].max + x_m,
+        .y_min_m = spans[1].min - y_m,
+        .y_max_m = spans[1].max + y_m,
+        .speed_max_mps = vx_mps > vy_mps ? vx_mps : vy_mps,
+    };
+}
+
+void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
+                         struct rho_hypotheses_reach *reach)
+{
+    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+        return;
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        pool->nodes[pool->node_of[slot][i]].num_candidates = 0;
+    }
+    if (reach) {
+        fill_reach(pool, slot, reach);
+    }
+}
+
+int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot)
+{
+    float sigma_m = rho_plot_sigma_m(plot);
+    if (plot->sigma_up_m > sigma_m) {
+        sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
+    }
+    float offset_s = (float)plot->offset_us * 1e-6f;
+    float slack_m =
+        GATE_SIGMAS * sigma_m + reach->speed_max_mps * (offset_s < 0.0f ? -offset_s : offset_s);
+    return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
+           plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m;
+}
+
+/* ---- weigh ------------------------------------------------------------------------------------ */
+
+static float log_clutter(const struct rho_hypotheses_clutter *clutter,
+                         const struct rho_imm_match *match)
+{
+    return clutter->log_per_m2 + (match->num_axes > 2 ? clutter->log_per_m : 0.0f) +
+           (match->has_velocity ? (float)match->num_axes * clutter->log_per_mps : 0.0f) +
+           (match->has_range_rate ? clutter->log_per_range_rate : 0.0f);
+}
+
+/* Into the hypothesis' list of its best plots, of equals behind the earlier ones. */
+static void note_candidate(struct rho_hypothesis *at, int16_t row, float gain_nat,
+                           float probability)
+{
+    unsigned place = at->num_candidates;
+    while (place > 0 && at->gains_nat[place - 1] < gain_nat) {
+        place--;
+    }
+    if (place == RHO_HYPOTHESES_CHILDREN) {
+        return;
+    }
+    if (at->num_candidates < RHO_HYPOTHESES_CHILDREN) {
+        at->num_candidates++;
+    }
+    for (unsigned i = at->num_candidates - 1u; i > place; i--) {
+        at->rows[i] = at->rows[i - 1];
+        at->gains_nat[i] = at->gains_nat[i - 1];
+        at->probabilities[i] = at->probabilities[i - 1];
+    }
+    at->rows[place] = row;
+    at->gains_nat[place] = gain_nat;
+    at->probabilities[place] = probability;
+}
+
+/* At the plot's own time. */
+static int match_one(struct rho_hypotheses *pool, const struct rho_hypothesis *at,
+                     const struct rho_imm_plot *seen, int64_t time_us, struct rho_imm_match *match)
+{
+    if (at->time_us == time_us) {
+        return rho_imm_weigh(&at->imm, seen, match);
+    }
+    pool->scratch = at->imm;
+    return rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) == RHO_OK &&
+           rho_imm_weigh(&pool->scratch, seen, match);
+}
+
+int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
+                         const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
+                         float log_pd, const struct rho_hypotheses_clutter *clutter,
+                         float *gain_nat)
+{
+    struct rho_imm_match match;
+    int is_seen = 0;
+    if (!pool || !seen || !clutter || !gain_nat || !rho_hypotheses_is_open(pool, slot)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        if (!match_one(pool, at, seen, time_us, &match)) {
+            continue;
+        }
+        float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
+        note_candidate(at, row, gain, match.probability);
+        if (!is_seen || at->weight_nat + gain > *gain_nat) {
+            *gain_nat = at->weight_nat + gain;
+        }
+        is_seen = 1;
+    }
+    return is_seen;
+}
+
+/* ---- commit ----------------------------------------------------------------------------------- */
+
+/* In the order of weights; of equals the earlier parent, the earlier plot. */
+static unsigned insert_child(struct rho_hypotheses *pool, unsigned num,
+                             struct rho_hypotheses_child child)
+{
+    unsigned place = num;
+    for (; place > 0 && pool->children[place - 1].weight_nat < child.weight_nat; place--) {
+        pool->children[place] = pool->children[place - 1];
+    }
+    pool->children[place] = child;
+    return num + 1;
+}
+
+static int is_free(const struct rho_hypotheses_scan *scan, int16_t row)
+{
+    return !scan->claims || scan->claims[row] < 0 || scan->claims[row] == scan->own;
+}
+
+static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
+                              const struct rho_hypotheses_scan *scan)
+{
+    unsigned num = 0;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        for (unsigned k = 0; k < at->num_candidates; k++) {
+            if (is_free(scan, at->rows[k])) {
+                num = insert_child(pool, num,
+                                   (struct rho_hypotheses_child){at->weight_nat + at->gains_nat[k],
+                                                                 at->rows[k], (uint8_t)i,
+                                                                 (uint8_t)k});
+            }
+        }
+        num = insert_child(pool, num,
+                           (struct rho_hypotheses_child){at->weight_nat + scan->log_miss,
+                                                         RHO_HYPOTHESES_MISS, (uint8_t)i, 0});
+    }
+    return num;
+}
+
+/* The same plots in the last scans: only how it came there differs, and the better one tells that. */
+static int is_repeated(const struct rho_hypotheses *pool, uint16_t slot, unsigned num_kept,
+                       const struct rho_hypotheses_child *child)
+{
+    const int16_t *picks = pool->nodes[pool->node_of[slot][child->parent]].picks;
+    for (unsigned i = 0; i < num_kept; i++) {
+        const struct rho_hypotheses_child *kept = &pool->children[i];
+        const int16_t *others = pool->nodes[pool->node_of[slot][kept->parent]].picks;
+        if (kept->row == child->row &&
+            memcmp(picks + 1, others + 1, (RHO_HYPOTHESES_MEMORY - 1) * sizeof *picks) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Those that go on move to the front of the list. */
+static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot, unsigned num)
+{
+    unsigned kept = 0;
+    float least = pool->children[0].weight_nat + RHO_HYPOTHESES_WEIGHT_MIN;
+    for (unsigned i = 0; i < num && kept < RHO_HYPOTHESES_OF_TRACK; i++) {
+        struct rho_hypotheses_child child = pool->children[i];
+        if (child.weight_nat < least) {
+            break;
+        }
+        if (!is_repeated(pool, slot, kept, &child)) {
+            pool->children[kept++] = child;
+        }
+    }
+    return rho_hypotheses_make_room(pool, slot, kept);
+}
+
+/* A refused update leaves the filter as it was predicted. */
+static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                         const struct rho_imm_plot *seen, int64_t time_us, float probability,
+                         int16_t row)
+{
+    const struct rho_imm_match match = {.probability = probability};
+    pool->scratch = at->imm;
+    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
+        rho_imm_update(&at->imm, &pool->model, seen, &match) == RHO_OK) {
+        at->time_us = time_us;
+        return row;
+    }
+    at->imm = pool->scratch;
+    pool->updates_refused = rho_count(pool->updates_refused, 1);
+    return RHO_HYPOTHESES_MISS;
+}
+
+static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                 const struct rho_hypotheses_scan *scan, const struct rho_hypotheses_child *child)
+{
+    int16_t row = child->row;
+    if (row >= 0) {
+        const struct rho_plot *plot = &scan->plots[row];
+        struct rho_imm_plot seen;
+        rho_imm_open_plot(&seen, plot, scan->measures, scan->sensor);
+        row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us,
+                        at->probabilities[child->candidate], row);
+    }
+    memmove(at->picks, at->picks + 1, (RHO_HYPOTHESES_MEMORY - 1) * sizeof *at->picks);
+    at->picks[RHO_HYPOTHESES_MEMORY - 1] = row;
+    at->weight_nat = child->weight_nat - pool->children[0].weight_nat;
+}
+
+/* Parents without children give their nodes back; the others' last child takes the node, the others copies of it. */
+static void replace(struct rho_hypotheses *pool, uint16_t slot,
+                    const struct rho_hypotheses_scan *scan, unsigned num)
+{
+    uint8_t uses[RHO_HYPOTHESES_OF_TRACK] = {0};
+    uint16_t nodes[RHO_HYPOTHESES_OF_TRACK];
+    for (unsigned i = 0; i < num; i++) {
+        uses[pool->children[i].parent]++;
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        if (uses[i] == 0) {
+            rho_hypotheses_release(pool, pool->node_of[slot][i]);
+        }
+    }
+    for (unsigned i = 0; i < num; i++) {
+        const struct rho_hypotheses_child *child = &pool->children[i];
+        uint16_t parent = pool->node_of[slot][child->parent];
+        nodes[i] = parent;
+        if (--uses[child->parent] > 0) {
+            nodes[i] = rho_hypotheses_allot(pool);
+            pool->nodes[nodes[i]] = pool->nodes[parent];
+        }
+        grow(pool, &pool->nodes[nodes[i]], scan, child);
+    }
+    memcpy(pool->node_of[slot], nodes, num * sizeof nodes[0]);
+    pool->num_of[slot] = (uint8_t)num;
+}
+
+enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot,
+                                      const struct rho_hypotheses_scan *scan,
+                                      struct rho_hypotheses_outcome *outcome)
+{
+    if (!pool || !scan || !outcome) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_open(pool, slot)) {
+        return RHO_ERROR_STATE;
+    }
+    float before = rho_hypotheses_log_sum(pool, slot);
+    unsigned num = choose_children(pool, slot, bear_children(pool, slot, scan));
+    float best = pool->children[0].weight_nat;
+    replace(pool, slot, scan, num);
+    outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
+    outcome->gain_nat = best + rho_hypotheses_log_sum(pool, slot) - before;
+    return RHO_OK;
+}
+
+/* ---- what is known to be the target's ---------------------------------------------------------- */
+
+static enum rho_status take_sure(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                 const struct rho_imm_plot *seen, int64_t time_us)
+{
+    struct rho_imm_match match;
+    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+        return RHO_ERROR_VALUE;
+    }
+    at->time_us = time_us;
+    /* far from both predictions, neither model is the likelier one */
+    if (!rho_imm_weigh(&at->imm, seen, &match)) {
+        match.probability = at->imm.probability;
+    }
+    pool->scratch = at->imm;
+    enum rho_status status = rho_imm_update(&at->imm, &pool->model, seen, &match);
+    if (status != RHO_OK) {
+        at->imm = pool->scratch;
+    }
+    return status;
+}
+
+enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, uint16_t slot,
+                                    const struct rho_imm_plot *seen, int64_t time_us)
+{
+    enum rho_status status = RHO_ERROR_VALUE;
+    if (!pool || !seen) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_open(pool, slot)) {
+        return RHO_ERROR_STATE;
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        enum rho_status one = take_sure(pool, &pool->nodes[pool->node_of[slot][i]], seen, time_us);
+        status = status == RHO_OK ? RHO_OK : one;
+        pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
+    }
+    return status;
+}
+
+static enum rho_status take_bearing(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                    int64_t time_us, float x_m, float y_m, float bearing_rad,
+                                    float sigma_rad)
+{
+    float gain_nat = 0.0f;
+    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+        return RHO_ERROR_VALUE;
+    }
+    at->time_us = time_us;
+    pool->scratch = at->imm;
+    enum rho_status status =
+        rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, &gain_nat);
+    if (status != RHO_OK) {
+        at->imm = pool->scratch;
+        return status;
+    }
+    at->weight_nat += gain_nat;
+    return RHO_OK;
+}
+
+/* Weights have moved: the best is first again, and weighs 0. */
+static void order(struct rho_hypotheses *pool, uint16_t slot)
+{
+    uint16_t *nodes = pool->node_of[slot];
+    for (unsigned i = 1; i < pool->num_of[slot]; i++) {
+        uint16_t node = nodes[i];
+        unsigned place = i;
+        for (; place > 0 && pool->nodes[nodes[place - 1]].weight_nat < pool->nodes[node].weight_nat;
+             place--) {
+            nodes[place] = nodes[place - 1];
+        }
+        nodes[place] = node;
+    }
+    float best = pool->nodes[nodes[0]].weight_nat;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        pool->nodes[nodes[i]].weight_nat -= best;
+    }
+}
+
+enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool, uint16_t slot,
+                                            int64_t time_us, float x_m, float y_m,
+                                            float bearing_rad, float sigma_rad)
+{
+    enum rho_status status = RHO_ERROR_VALUE;
+    if (!pool) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_open(pool, slot)) {
+        return RHO_ERROR_STATE;
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        enum rho_status one = take_bearing(pool, &pool->nodes[pool->node_of[slot][i]], time_us, x_m,
+                                           y_m, bearing_rad, sigma_rad);
+        status = status == RHO_OK ? RHO_OK : one;
+        pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
+    }
+    order(pool, slot);
+    return status;
+}

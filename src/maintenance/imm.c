@@ -1,0 +1,428 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * imm: the models, what an interval does to them, mixing and prediction. imm_match.c weighs plots, imm_update.c takes them.
+ */
+#include "rhotrack/imm.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "imm_axes.h"
+#include "rhotrack/approx.h"
+
+/* A prediction's variances are raised by thirty-two units of rounding, as in kalman.c. */
+#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 524288.0f)
+
+#define STEP_MAX_S 1.0e5f
+
+/* ---- models ----------------------------------------------------------------------------------- */
+
+/* Measured: a step of 0.34 accel_max in a quarter of a second, which follows an onset within two plots. */
+#define DRIVE_SHARE 0.68f
+#define MEMORY_S 3.0f
+#define SOJOURN_S 4.0f
+#define QUIET_DENSITY 1.0f
+#define SPEED_SIGMA_MPS 700.0f
+
+void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2)
+{
+    float drive = DRIVE_SHARE * accel_max_mps2;
+    *model = (struct rho_imm_model){
+        .quiet_density = QUIET_DENSITY,
+        .drive_density = drive * drive,
+        .memory_s = MEMORY_S,
+        .sojourn_s = SOJOURN_S,
+        .speed_sigma_mps = SPEED_SIGMA_MPS,
+        .accel_sigma_mps2 = accel_max_mps2,
+    };
+}
+
+int rho_imm_model_is_usable(const struct rho_imm_model *model)
+{
+    return rho_is_within(model->quiet_density, 0.0f, 1e8f) &&
+           rho_is_within(model->drive_density, 0.0f, 1e8f) &&
+           rho_is_within(model->memory_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->sojourn_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->speed_sigma_mps, 1e-3f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f);
+}
+
+/* ---- what an interval does -------------------------------------------------------------------- */
+
+/* Weights and places of Gauss-Legendre quadrature with four points on 0 .. 1: exact to the seventh power. */
+static const float gauss_weight[4] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
+static const float gauss_place[4] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f};
+
+/*
+ * What a unit of acceleration is and has done after `t`, with x = t / memory up to 1/2 either way: e^-x, t (1 - e^-x) / x,
+ * t^2 (x - 1 + e^-x) / x^2. As series: the closed forms cancel where x is small.
+ */
+static void respond(float t_s, float memory_s, float out[3])
+{
+    float x = t_s / memory_s;
+    /* sum over k of (-x)^k / (k + 2)!, nested; the next term is below rounding for |x| <= 1/2 */
+    float rest = 1.0f / 40320.0f * -x + 1.0f / 5040.0f;
+    rest = rest * -x + 1.0f / 720.0f;
+    rest = rest * -x + 1.0f / 120.0f;
+    rest = rest * -x + 1.0f / 24.0f;
+    rest = rest * -x + 1.0f / 6.0f;
+    rest = rest * -x + 0.5f;
+    out[0] = t_s * t_s * rest;
+    out[1] = t_s * (1.0f - x * rest);
+    out[2] = 1.0f - x * (1.0f - x * rest);
+}
+
+static void open_short(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
+{
+    float response[3];
+    respond(dt_s, model->memory_s, response);
+    step->position_by_accel = response[0];
+    step->velocity_by_accel = response[1];
+    step->accel_by_accel = response[2];
+    memset(step->noise, 0, sizeof step->noise);
+    for (int k = 0; dt_s > 0.0f && k < 4; k++) {
+        float weight = gauss_weight[k] * dt_s * model->drive_density;
+        respond(gauss_place[k] * dt_s, model->memory_s, response);
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j <= i; j++) {
+                step->noise[RHO_AT(i, j)] += weight * response[i] * response[j];
+            }
+        }
+    }
+}
+
+/* One axis of the manoeuvring model without noise: F P F^T by rows. */
+static inline void carry(float p[6], float dt_s, const struct rho_imm_step *step)
+{
+    const float f = step->position_by_accel, g = step->velocity_by_accel, h = step->accel_by_accel;
+    const float pp = p[0] + dt_s * p[1] + f * p[3], pv = p[1] + dt_s * p[2] + f * p[4];
+    const float pa = p[3] + dt_s * p[4] + f * p[5];
+    const float vv = p[2] + g * p[4], va = p[4] + g * p[5];
+    p[0] = pp + dt_s * pv + f * pa;
+    p[1] = pv + g * pa;
+    p[2] = vv + g * va;
+    p[3] = h * pa;
+    p[4] = h * va;
+    p[5] = h * h * p[5];
+}
+
+/* Twice as long: the same again over what it has done. */
+static void double_step(struct rho_imm_step *step, float dt_s)
+{
+    float noise[6];
+    memcpy(noise, step->noise, sizeof noise);
+    carry(step->noise, dt_s, step);
+    for (int k = 0; k < 6; k++) {
+        step->noise[k] += noise[k];
+    }
+    step->position_by_accel +=
+        dt_s * step->velocity_by_accel + step->position_by_accel * step->accel_by_accel;
+    step->velocity_by_accel += step->velocity_by_accel * step->accel_by_accel;
+    step->accel_by_accel *= step->accel_by_accel;
+}
+
+void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
+{
+    float part_s = dt_s;
+    int doublings = 0;
+    while (doublings < 40 &&
+           !(part_s <= 0.5f * model->memory_s && part_s >= -0.5f * model->memory_s)) {
+        part_s *= 0.5f;
+        doublings++;
+    }
+    open_short(step, model, part_s);
+    for (; doublings > 0; doublings--) {
+        double_step(step, part_s);
+        part_s *= 2.0f;
+    }
+    step->dt_s = dt_s;
+    step->quiet_density = dt_s > 0.0f ? model->quiet_density : 0.0f;
+    step->change = dt_s > 0.0f ? 0.5f - 0.5f * rho_exp(-2.0f * dt_s / model->sojourn_s) : 0.0f;
+}
+
+/* ---- start ------------------------------------------------------------------------------------ */
+
+void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
+                   const struct rho_kalman *estimate)
+{
+    memset(imm, 0, sizeof *imm);
+    imm->steady = *estimate;
+    memcpy(imm->state, estimate->state, sizeof estimate->state);
+    memcpy(imm->covariance, estimate->covariance, sizeof estimate->covariance);
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        if (rho_kalman_is_open(estimate, axis)) {
+            imm->covariance[PLACE(axis, 2, axis, 2)] =
+                model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_KALMAN_VARIANCE_MIN;
+        }
+    }
+    for (int axis = 1; axis < NUM_AXES; axis++) {
+        for (int other = 0; other < axis; other++) {
+            for (int k = 0; k < 4; k++) {
+                float covariance = estimate->covariance[PLACE(axis, k / 2, other, k % 2)];
+                imm->is_coupled |= (uint8_t)(covariance > 0.0f || covariance < 0.0f);
+            }
+        }
+    }
+    imm->probability = 0.5f;
+}
+
+/* ---- mix -------------------------------------------------------------------------------------- */
+
+/* What goes into each model: shares of both, and of the square of the way between them. */
+struct mixing {
+    float own, other, between;
+};
+
+static inline void mix_at(struct rho_imm *imm, int place, float product,
+                          const struct mixing *steady, const struct mixing *manoeuvre)
+{
+    const float s = imm->steady.covariance[place], m = imm->covariance[place];
+    imm->steady.covariance[place] = steady->own * s + steady->other * m + steady->between * product;
+    imm->covariance[place] =
+        manoeuvre->own * m + manoeuvre->other * s + manoeuvre->between * product;
+}
+
+/* The acceleration is 0 in the steady model, and known to be. */
+static inline void mix_accel_at(struct rho_imm *imm, int place, float product,
+                                const struct mixing *manoeuvre)
+{
+    imm->covariance[place] = manoeuvre->own * imm->covariance[place] + manoeuvre->between * product;
+}
+
+static void mix_covariances(struct rho_imm *imm, const float way[9], const struct mixing *steady,
+                            const struct mixing *manoeuvre)
+{
+    int place = 0;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        for (int j = 0; j <= i; j++) {
+            mix_at(imm, place++, way[i] * way[j], steady, manoeuvre);
+        }
+    }
+    for (int i = RHO_KALMAN_STATES; i < RHO_IMM_STATES; i++) {
+        for (int j = 0; j <= i; j++) {
+            mix_accel_at(imm, place++, way[i] * way[j], manoeuvre);
+        }
+    }
+}
+
+static inline void mix_axis(struct rho_imm *imm, int axis, const float way[9],
+                            const struct mixing *steady, const struct mixing *manoeuvre)
+{
+    const float p = way[axis], v = way[3 + axis], a = way[6 + axis];
+    mix_at(imm, PLACE(axis, 0, axis, 0), p * p, steady, manoeuvre);
+    mix_at(imm, PLACE(axis, 1, axis, 0), v * p, steady, manoeuvre);
+    mix_at(imm, PLACE(axis, 1, axis, 1), v * v, steady, manoeuvre);
+    mix_accel_at(imm, PLACE(axis, 2, axis, 0), a * p, manoeuvre);
+    mix_accel_at(imm, PLACE(axis, 2, axis, 1), a * v, manoeuvre);
+    mix_accel_at(imm, PLACE(axis, 2, axis, 2), a * a, manoeuvre);
+}
+
+static void mix_states(struct rho_imm *imm, float way[9], float into_steady, float into_manoeuvre)
+{
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        way[i] = imm->state[i] - imm->steady.state[i];
+        imm->steady.state[i] += into_steady * way[i];
+        imm->state[i] -= into_manoeuvre * way[i];
+    }
+    for (int i = RHO_KALMAN_STATES; i < RHO_IMM_STATES; i++) {
+        way[i] = imm->state[i];
+        imm->state[i] -= into_manoeuvre * way[i];
+    }
+}
+
+/* (1 - probability, probability) moves on as a Markov chain; each model takes what comes from the other. */
+static void mix(struct rho_imm *imm, float change)
+{
+    const float was = imm->probability, is = was + change * (1.0f - 2.0f * was);
+    const float into_steady = was * change / (1.0f - is);    /* of what is steady now */
+    const float into_manoeuvre = (1.0f - was) * change / is; /* of what manoeuvres now */
+    const struct mixing steady = {1.0f - into_steady, into_steady,
+                                  into_steady * (1.0f - into_steady)};
+    const struct mixing manoeuvre = {1.0f - into_manoeuvre, into_manoeuvre,
+                                     into_manoeuvre * (1.0f - into_manoeuvre)};
+    float way[RHO_IMM_STATES];
+    mix_states(imm, way, into_steady, into_manoeuvre);
+    if (imm->is_coupled) {
+        mix_covariances(imm, way, &steady, &manoeuvre);
+    } else {
+        mix_axis(imm, 0, way, &steady, &manoeuvre);
+        mix_axis(imm, 1, way, &steady, &manoeuvre);
+        mix_axis(imm, 2, way, &steady, &manoeuvre);
+    }
+    imm->probability = is;
+}
+
+/* ---- predict ---------------------------------------------------------------------------------- */
+
+/* Variances of `num` derivatives; false for NaN. */
+static inline int is_usable(const float *p, int axis, int num)
+{
+    const uint8_t *at = axis_places[axis];
+    const float low = p[at[0]] < p[at[2]] ? p[at[0]] : p[at[2]];
+    const float high = p[at[0]] + p[at[2]];
+    return low >= 0.0f && high <= RHO_KALMAN_VARIANCE_MAX &&
+           (num < 3 || (p[at[5]] >= 0.0f && p[at[5]] <= RHO_KALMAN_VARIANCE_MAX));
+}
+
+static inline float raised(float variance)
+{
+    const float higher = variance * ROUNDING_ALLOWANCE;
+    return higher < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : higher;
+}
+
+/* F P F^T + Q of the manoeuvring model's axis. */
+static inline void move_axis(struct rho_imm *imm, int axis, const struct rho_imm_step *step)
+{
+    if (!is_open(imm, axis)) {
+        return;
+    }
+    const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
+                h = step->accel_by_accel;
+    struct axis at = take_manoeuvre(imm, axis);
+    const float pp = at.pp + dt * at.vp + f * at.ap, pv = at.vp + dt * at.vv + f * at.av;
+    const float pa = at.ap + dt * at.av + f * at.aa;
+    const float vv = at.vv + g * at.av, va = at.av + g * at.aa;
+    at.p += dt * at.v + f * at.a;
+    at.v += g * at.a;
+    at.a *= h;
+    at.pp = raised(pp + dt * pv + f * pa + step->noise[0]);
+    at.vp = pv + g * pa + step->noise[1];
+    at.vv = raised(vv + g * va + step->noise[2]);
+    at.ap = h * pa + step->noise[3];
+    at.av = h * va + step->noise[4];
+    at.aa = raised(h * h * at.aa + step->noise[5]);
+    put_manoeuvre(imm, axis, &at);
+}
+
+/* The same of the steady model, whose axes are independent; rho_kalman_predict moves them with what couples them. */
+static inline void move_steady_axis(struct rho_kalman *steady, int axis,
+                                    const struct rho_imm_step *step)
+{
+    struct axis at = take_steady(steady, axis);
+    const float dt = step->dt_s, q = step->quiet_density * dt;
+    if (!(at.pp > 0.0f)) {
+        return;
+    }
+    at.p += dt * at.v;
+    at.pp = raised(at.pp + dt * (2.0f * at.vp + dt * at.vv) + q * dt * dt * (1.0f / 3.0f));
+    at.vp += dt * at.vv + 0.5f * dt * q;
+    at.vv = raised(at.vv + q);
+    put_steady(steady, axis, &at);
+}
+
+/* Where the covariances of two axes lie: by derivative of the first, of the second. */
+static const uint8_t pair_places[NUM_AXES][9] = {
+#define PAIR(a, b)                                                                                 \
+    {                                                                                              \
+        PLACE(a, 0, b, 0), PLACE(a, 0, b, 1), PLACE(a, 0, b, 2), PLACE(a, 1, b, 0),                \
+            PLACE(a, 1, b, 1), PLACE(a, 1, b, 2), PLACE(a, 2, b, 0), PLACE(a, 2, b, 1),            \
+            PLACE(a, 2, b, 2)                                                                      \
+    }
+    PAIR(1, 0), PAIR(2, 0), PAIR(2, 1)
+#undef PAIR
+};
+
+/* F C F^T for the covariances of one axis with another: three columns, then three rows. */
+static inline void move_pair(float *p, const uint8_t at[9], const struct rho_imm_step *step)
+{
+    const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
+                h = step->accel_by_accel;
+    const float c00 = p[at[0]] + dt * p[at[3]] + f * p[at[6]];
+    const float c01 = p[at[1]] + dt * p[at[4]] + f * p[at[7]];
+    const float c02 = p[at[2]] + dt * p[at[5]] + f * p[at[8]];
+    const float c10 = p[at[3]] + g * p[at[6]], c11 = p[at[4]] + g * p[at[7]];
+    const float c12 = p[at[5]] + g * p[at[8]];
+    const float c20 = h * p[at[6]], c21 = h * p[at[7]], c22 = h * p[at[8]];
+    p[at[0]] = c00 + dt * c01 + f * c02;
+    p[at[1]] = c01 + g * c02;
+    p[at[2]] = h * c02;
+    p[at[3]] = c10 + dt * c11 + f * c12;
+    p[at[4]] = c11 + g * c12;
+    p[at[5]] = h * c12;
+    p[at[6]] = c20 + dt * c21 + f * c22;
+    p[at[7]] = c21 + g * c22;
+    p[at[8]] = h * c22;
+}
+
+static enum rho_status move_steady(struct rho_imm *imm, const struct rho_imm_step *step)
+{
+    struct rho_kalman *steady = &imm->steady;
+    if (imm->is_coupled) {
+        return rho_kalman_predict(steady, step->dt_s, step->quiet_density);
+    }
+    move_steady_axis(steady, 0, step);
+    move_steady_axis(steady, 1, step);
+    move_steady_axis(steady, 2, step);
+    return is_usable(steady->covariance, 0, 2) && is_usable(steady->covariance, 1, 2) &&
+                   is_usable(steady->covariance, 2, 2)
+               ? RHO_OK
+               : RHO_ERROR_VALUE;
+}
+
+static int is_finite_state(const struct rho_imm *imm)
+{
+    float total = 0.0f;
+    for (int i = 0; i < RHO_IMM_STATES; i++) {
+        total += imm->state[i] * 0.1f;
+    }
+    return total >= -FLT_MAX && total <= FLT_MAX;
+}
+
+enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step)
+{
+    if (!imm || !step) {
+        return RHO_ERROR_NULL;
+    }
+    if (!(step->dt_s >= -STEP_MAX_S && step->dt_s <= STEP_MAX_S)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (imm->is_coupled) {
+        move_pair(imm->covariance, pair_places[0], step);
+        if (is_open(imm, 2)) {
+            move_pair(imm->covariance, pair_places[1], step);
+            move_pair(imm->covariance, pair_places[2], step);
+        }
+    }
+    move_axis(imm, 0, step);
+    move_axis(imm, 1, step);
+    move_axis(imm, 2, step);
+    enum rho_status status = move_steady(imm, step);
+    if (status != RHO_OK) {
+        return status;
+    }
+    return is_finite_state(imm) && is_usable(imm->covariance, 0, 3) &&
+                   is_usable(imm->covariance, 1, 3) && is_usable(imm->covariance, 2, 3)
+               ? RHO_OK
+               : RHO_ERROR_VALUE;
+}
+
+enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
+{
+    if (!imm || !step) {
+        return RHO_ERROR_NULL;
+    }
+    if (step->change > 0.0f) {
+        mix(imm, step->change);
+    }
+    return rho_imm_move(imm, step);
+}
+
+/* ---- estimate --------------------------------------------------------------------------------- */
+
+void rho_imm_estimate(const struct rho_imm *imm, struct rho_kalman *estimate, float accel_mps2[3])
+{
+    const float m = imm->probability, s = 1.0f - m;
+    float way[RHO_KALMAN_STATES];
+    int place = 0;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        way[i] = imm->state[i] - imm->steady.state[i];
+        estimate->state[i] = imm->steady.state[i] + m * way[i];
+        for (int j = 0; j <= i; j++, place++) {
+            estimate->covariance[place] = s * imm->steady.covariance[place] +
+                                          m * imm->covariance[place] + s * m * way[i] * way[j];
+        }
+    }
+    for (int axis = 0; accel_mps2 && axis < NUM_AXES; axis++) {
+        accel_mps2[axis] = m * imm->state[2 * NUM_AXES + axis];
+    }
+}

@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * imm_update: both models take a plot, by scalar updates: axis by axis while the axes are independent, else by rows along
+ * the axes of the plot's noise.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "imm_axes.h"
+#include "rhotrack/approx.h"
+
+/* As in linalg.c. */
+#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
+
+static int is_finite(float v)
+{
+    return v >= -FLT_MAX && v <= FLT_MAX;
+}
+
+/* No variance of an open axis falls below the floor: it would look closed. */
+static float at_least(float variance)
+{
+    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
+}
+
+/* ---- independent axes ------------------------------------------------------------------------- */
+
+/* What an update divides by, and whether it may. */
+struct divisor {
+    float inverse, kept;
+    int is_usable;
+};
+
+static inline struct divisor divide_by(float predicted, float variance)
+{
+    const float sum = predicted + variance, inverse = 1.0f / sum;
+    return (struct divisor){inverse, variance * inverse,
+                            predicted >= 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX};
+}
+
+/* The position was measured. Its own row is scaled, not differenced: no digit is lost. */
+static inline int take_position(struct axis *at, float place_m, float variance)
+{
+    const struct divisor by = divide_by(at->pp, variance);
+    const float off = place_m - at->p, step = off * by.inverse;
+    const float gain_v = at->vp * by.inverse, gain_a = at->ap * by.inverse;
+    at->p += at->pp * step;
+    at->v += at->vp * step;
+    at->a += at->ap * step;
+    at->vv = at_least(at->vv * ROUNDING_ALLOWANCE - gain_v * at->vp);
+    at->av -= gain_a * at->vp;
+    at->aa = at->aa * ROUNDING_ALLOWANCE - gain_a * at->ap;
+    at->pp = at_least(at->pp * by.kept);
+    at->vp *= by.kept;
+    at->ap *= by.kept;
+    return by.is_usable && is_finite(off * step);
+}
+
+/* The velocity was. */
+static inline int take_velocity(struct axis *at, float speed_mps, float variance)
+{
+    const struct divisor by = divide_by(at->vv, variance);
+    const float off = speed_mps - at->v, step = off * by.inverse;
+    const float gain_p = at->vp * by.inverse, gain_a = at->av * by.inverse;
+    at->p += at->vp * step;
+    at->v += at->vv * step;
+    at->a += at->av * step;
+    at->pp = at_least(at->pp * ROUNDING_ALLOWANCE - gain_p * at->vp);
+    at->ap -= gain_a * at->vp;
+    at->aa = at->aa * ROUNDING_ALLOWANCE - gain_a * at->av;
+    at->vv = at_least(at->vv * by.kept);
+    at->vp *= by.kept;
+    at->av *= by.kept;
+    return by.is_usable && is_finite(off * step);
+}
+
+static float velocity_of(const struct rho_plot *plot, int axis)
+{
+    return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
+}
+
+static inline int take_axis(struct axis *at, int axis, const struct rho_imm_plot *seen)
+{
+    int good =
+        take_position(at, seen->position.place_m[axis], at_least(seen->position.variance_m2[0]));
+    if (seen->measures & RHO_MEASURES_VELOCITY) {
+        const float sigma_mps = seen->plot->sigma_mps;
+        good &= take_velocity(at, velocity_of(seen->plot, axis), at_least(sigma_mps * sigma_mps));
+    }
+    return good && is_finite(at->p + at->v + at->a);
+}
+
+static enum rho_status update_axes(struct rho_imm *imm, int num_axes,
+                                   const struct rho_imm_plot *seen)
+{
+    int good = 1;
+    for (int axis = 0; axis < num_axes; axis++) {
+        struct axis at = take_steady(&imm->steady, axis);
+        good &= take_axis(&at, axis, seen);
+        put_steady(&imm->steady, axis, &at);
+        at = take_manoeuvre(imm, axis);
+        good &= take_axis(&at, axis, seen);
+        at.aa = at_least(at.aa);
+        put_manoeuvre(imm, axis, &at);
+    }
+    return good ? RHO_OK : RHO_ERROR_SINGULAR;
+}
+
+/* ---- coupled axes ----------------------------------------------------------------------------- */
+
+static void keep_floors(struct rho_imm *imm)
+{
+    for (int i = 0; i < RHO_IMM_STATES; i++) {
+        float *variance = &imm->covariance[RHO_AT(i, i)];
+        if (*variance < RHO_KALMAN_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
+            *variance = RHO_KALMAN_VARIANCE_MIN;
+        }
+    }
+}
+
+static float dot(const float *row, const float *state)
+{
+    return row[0] * state[0] + row[1] * state[1] + row[2] * state[2];
+}
+
+/* A place along one direction: both models. */
+static enum rho_status update_along(struct rho_imm *imm, const float direction[3],
+                                    const float place_m[3], float variance)
+{
+    float row[RHO_KALMAN_STATES] = {direction[0], direction[1], direction[2], 0.0f, 0.0f, 0.0f};
+    float off_m[3], noise = at_least(variance);
+    for (int i = 0; i < 3; i++) {
+        off_m[i] = place_m[i] - imm->steady.state[i];
+    }
+    enum rho_status status =
+        rho_kalman_update_row(&imm->steady, row, dot(direction, off_m), noise, 0);
+    if (status != RHO_OK) {
+        return status;
+    }
+    for (int i = 0; i < 3; i++) {
+        off_m[i] = place_m[i] - imm->state[i];
+    }
+    return rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
+                                   dot(direction, off_m), noise);
+}
+
+/* One element of the state, the same in both models. */
+static enum rho_status update_element(struct rho_imm *imm, int element, float value, float variance)
+{
+    float noise = at_least(variance);
+    enum rho_status status = rho_kalman_update(&imm->steady, element, value, noise, 0);
+    return status == RHO_OK ? rho_linalg_update_at(RHO_IMM_STATES, imm->state, imm->covariance,
+                                                   element, value - imm->state[element], noise)
+                            : status;
+}
+
+/* Where only one of plot and estimate has heights, the plot counts as level, with the noise that it has there. */
+static enum rho_status update_directions(struct rho_imm *imm, int num_axes,
+                                         const struct rho_measurement *seen)
+{
+    const float ca = seen->cos_azimuth, sa = seen->sin_azimuth;
+    const int has_z = num_axes == NUM_AXES;
+    const float ce = has_z ? seen->cos_elevation : 1.0f, se = has_z ? seen->sin_elevation : 0.0f;
+    const float along[3] = {ce * ca, ce * sa, se}, cross[3] = {-sa, ca, 0.0f};
+    const float up[3] = {-se * ca, -se * sa, ce};
+    float variance = seen->variance_m2[0];
+    float place_m[3] = {seen->place_m[0], seen->place_m[1], seen->place_m[2]};
+    if (!has_z && seen->has_z) {
+        variance = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
+                   seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
+    }
+    enum rho_status status = update_along(imm, cross, place_m, seen->variance_m2[1]);
+    if (status == RHO_OK && has_z) {
+        status = update_along(imm, up, place_m, seen->variance_m2[2]);
+    }
+    return status == RHO_OK ? update_along(imm, along, place_m, variance) : status;
+}
+
+static enum rho_status update_velocity(struct rho_imm *imm, int num_axes,
+                                       const struct rho_plot *plot)
+{
+    enum rho_status status = RHO_OK;
+    for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
+        status = update_element(imm, NUM_AXES + axis, velocity_of(plot, axis),
+                                plot->sigma_mps * plot->sigma_mps);
+    }
+    return status;
+}
+
+/* Each model's own view of the rate, linearised where the place has just been found. */
+static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_imm_plot *seen)
+{
+    const float rate_mps = seen->plot->range_rate_mps;
+    const float variance =
+        at_least(seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps);
+    struct rho_kalman at;
+    struct rho_kalman_row rate;
+    memcpy(at.state, imm->state, sizeof at.state);
+    memcpy(at.covariance, imm->covariance, sizeof at.covariance);
+    enum rho_status status =
+        rho_kalman_update_range_rate(&imm->steady, seen->sensor, rate_mps, variance);
+    if (status != RHO_OK ||
+        !rho_kalman_see_range_rate(&at, seen->sensor, rate_mps, variance, &rate)) {
+        return status;
+    }
+    return rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, RHO_KALMAN_STATES,
+                                   rate.row, rate.innovation, rate.variance);
+}
+
+static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
+                                      const struct rho_imm_plot *seen)
+{
+    enum rho_status status = RHO_OK;
+    imm->is_coupled = 1;
+    if (!seen->position.is_isotropic) {
+        status = update_directions(imm, num_axes, &seen->position);
+    } else {
+        for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
+            status = update_element(imm, axis, seen->position.place_m[axis],
+                                    seen->position.variance_m2[0]);
+        }
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
+        status = update_velocity(imm, num_axes, seen->plot);
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status = update_range_rate(imm, seen);
+    }
+    keep_floors(imm);
+    return status;
+}
+
+/* ---- public ----------------------------------------------------------------------------------- */
+
+/* The third axis begins with what the plot says of it. */
+static enum rho_status open_height(struct rho_imm *imm, const struct rho_imm_model *model,
+                                   const struct rho_imm_plot *seen)
+{
+    const float noise = seen->position.is_isotropic ? seen->position.variance_m2[0]
+                                                    : seen->covariance[RHO_AT(2, 2)];
+    enum rho_status status =
+        rho_kalman_open_axis(&imm->steady, 2, seen->position.place_m[2], at_least(noise),
+                             model->speed_sigma_mps * model->speed_sigma_mps);
+    if (status != RHO_OK) {
+        return status;
+    }
+    imm->state[2] = seen->position.place_m[2];
+    imm->covariance[PLACE(2, 0, 2, 0)] = at_least(noise);
+    imm->covariance[PLACE(2, 1, 2, 1)] = model->speed_sigma_mps * model->speed_sigma_mps;
+    imm->covariance[PLACE(2, 2, 2, 2)] =
+        at_least(model->accel_sigma_mps2 * model->accel_sigma_mps2);
+    return RHO_OK;
+}
+
+enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *model,
+                               const struct rho_imm_plot *seen, const struct rho_imm_match *match)
+{
+    if (!imm || !model || !seen || !match) {
+        return RHO_ERROR_NULL;
+    }
+    const int opens = seen->position.has_z && !is_open(imm, 2);
+    const int num_axes = seen->position.has_z && !opens ? 3 : 2;
+    const int is_simple = !imm->is_coupled && seen->position.is_isotropic &&
+                          !(seen->measures & RHO_MEASURES_RANGE_RATE);
+    enum rho_status status =
+        is_simple ? update_axes(imm, num_axes, seen) : update_coupled(imm, num_axes, seen);
+    if (status == RHO_OK && opens) {
+        status = open_height(imm, model, seen);
+    }
+    imm->probability = match->probability;
+    return status;
+}
+
+enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m, float bearing_rad,
+                                       float sigma_rad, float *gain_nat)
+{
+    struct rho_kalman at;
+    struct rho_kalman_bearing views[2];
+    float variance[2], projected[RHO_KALMAN_STATES];
+    if (!imm || !gain_nat) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
+        return RHO_ERROR_VALUE;
+    }
+    memcpy(at.state, imm->state, sizeof at.state);
+    memcpy(at.covariance, imm->covariance, sizeof at.covariance);
+    *gain_nat = 0.0f;
+    if (!rho_kalman_see_bearing(&imm->steady, x_m, y_m, bearing_rad, sigma_rad, &views[0]) ||
+        !rho_kalman_see_bearing(&at, x_m, y_m, bearing_rad, sigma_rad, &views[1])) {
+        return RHO_OK;
+    }
+    variance[0] =
+        rho_linalg_project6(imm->steady.covariance, views[0].row, projected) + views[0].variance_m2;
+    variance[1] =
+        rho_linalg_project6(at.covariance, views[1].row, projected) + views[1].variance_m2;
+    imm->is_coupled = 1;
+    enum rho_status status =
+        rho_kalman_update_row(&imm->steady, views[0].row, views[0].off_m, views[0].variance_m2, 0);
+    if (status == RHO_OK) {
+        status = rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, 2,
+                                         views[1].row, views[1].off_m, views[1].variance_m2);
+    }
+    keep_floors(imm);
+    if (status == RHO_OK) {
+        const float offs_m[2] = {views[0].off_m, views[1].off_m};
+        rho_imm_judge_scalar(imm, offs_m, variance, gain_nat);
+    }
+    return status;
+}
