@@ -274,6 +274,25 @@ static void check_polar(enum maneuver_sensor sensor, size_t axes)
     }
 }
 
+/* 0.1 rad would shorten places by 0.005 of their range an angle; sd of the mean .01 / sqrt(looks) an angle. */
+static void polar_places_do_not_fall_short(void **state)
+{
+    (void)state;
+    struct maneuver_setting setting = quiet(MANEUVER_STRAIGHT, MANEUVER_PHYSICAL);
+    double along = 0.0, looks = RUNS * MANEUVER_SCANS;
+    setting.sensor = MANEUVER_POLAR_3D;
+    setting.sigma_rad = 0.1;
+    for (uint64_t run = 0; run < RUNS; run++) {
+        struct maneuver_scene scene = draw(&setting, run);
+        for (size_t scan = 0; scan < MANEUVER_SCANS; scan++) {
+            const double *is = scene.measured[scan], *of = scene.truth[scan];
+            double range_m = length(of);
+            along += (is[0] * of[0] + is[1] * of[1] + is[2] * of[2]) / (range_m * range_m) - 1.0;
+        }
+    }
+    assert_near(along / looks, 0.0, 4.0 * 0.0142 / sqrt(looks));
+}
+
 static void polar_noise_has_its_covariance(void **state)
 {
     (void)state;
@@ -484,6 +503,7 @@ int main(void)
         cmocka_unit_test(literal_noise_is_in_each_element),
         cmocka_unit_test(physical_noise_is_an_acceleration),
         cmocka_unit_test(targets_are_seen_as_often_as_they_should),
+        cmocka_unit_test(polar_places_do_not_fall_short),
         cmocka_unit_test(polar_noise_has_its_covariance),
         cmocka_unit_test(a_polar_target_without_heights_stays_level),
         cmocka_unit_test(the_clean_scans_hold_the_target_alone),
