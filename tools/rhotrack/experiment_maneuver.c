@@ -54,6 +54,17 @@ static void add_jobs(struct batch *batch, const struct maneuver_table *table)
     }
 }
 
+/* A case's first run has the memory of all. */
+static void batch_free(struct batch *batch)
+{
+    for (size_t i = 0; i < batch->num_jobs; i++) {
+        if (batch->jobs[i].run == 0) {
+            free(batch->jobs[i].outcomes);
+        }
+    }
+    free(batch->jobs);
+}
+
 /* ---- figures ---------------------------------------------------------------------------------------- */
 
 static int compare_doubles(const void *a, const void *b)
@@ -180,7 +191,6 @@ static struct job *table_fill(struct maneuver_table *table, struct job *jobs)
                 outcomes + method, imm_of(of, outcomes), table->runs[i], of->num_methods);
         }
         jobs += table->runs[i];
-        free(outcomes);
     }
     return jobs;
 }
@@ -214,7 +224,7 @@ struct maneuver_report *maneuver_report_make(uint64_t seed, size_t num_runs)
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
         jobs = table_fill(tables[i], jobs);
     }
-    free(batch.jobs);
+    batch_free(&batch);
     maneuver_judge(report);
     return report;
 }

@@ -77,7 +77,8 @@ struct maneuver_scene {
 void maneuver_scene_draw(struct maneuver_scene *scene, const struct maneuver_setting *of,
                          uint64_t seed, uint64_t stream, uint64_t run);
 
-/* A place within the beam around another. */
+/* The target is within the beam around a place; always where the beam looks at the truth or everywhere, or in the clean
+ * scans. */
 bool maneuver_is_in_beam(const struct maneuver_scene *scene, size_t scan, const double centre_m[3]);
 
 /* One scan with its plots, the target's at a random row. */

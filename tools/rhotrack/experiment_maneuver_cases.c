@@ -15,18 +15,18 @@
 
 #define HOUGH(text, estimates, forgetting, noise)                                                  \
     {                                                                                              \
-        .name = text, .gate = MAINTAIN_HOUGH, .has_input_estimation = estimates,                   \
-        .gamma = forgetting, .filter_noise = noise                                                 \
+        .name = (text), .gate = MAINTAIN_HOUGH, .has_input_estimation = (estimates),               \
+        .gamma = (forgetting), .filter_noise = (noise)                                             \
     }
 #define NEAREST(physical, forgetting)                                                              \
     {                                                                                              \
         .name = "nearest", .gate = MAINTAIN_NEAREST, .has_input_estimation = true,                 \
-        .has_physical_input = physical, .gamma = forgetting, .filter_noise = 1.0                   \
+        .has_physical_input = (physical), .gamma = (forgetting), .filter_noise = 1.0               \
     }
 #define BEST(text, pd)                                                                             \
     {                                                                                              \
-        .name = text, .gate = MAINTAIN_BEST, .has_input_estimation = true, .gamma = 1.0,           \
-        .filter_noise = 1.0, .assumed_pd = pd                                                      \
+        .name = (text), .gate = MAINTAIN_BEST, .has_input_estimation = true, .gamma = 1.0,         \
+        .filter_noise = 1.0, .assumed_pd = (pd)                                                    \
     }
 #define CLAIRVOYANT                                                                                \
     {                                                                                              \
@@ -66,7 +66,7 @@ static const struct maneuver_method noise_methods[] = {FILTERS(1.0), FILTERS(0.1
         [MANEUVER_CLOSED_PAPER] = {.name = "paper",                                                \
                                    .gate = MAINTAIN_HOUGH,                                         \
                                    .has_input_estimation = true,                                   \
-                                   .has_physical_input = physical,                                 \
+                                   .has_physical_input = (physical),                               \
                                    .gamma = 1.0,                                                   \
                                    .filter_noise = 1.0},                                           \
         [MANEUVER_CLOSED_NEAREST] = NEAREST(physical, 1.0),                                        \
@@ -92,8 +92,8 @@ static const struct maneuver_method pd_methods[MANEUVER_PDS] = {
     }
 #define PAPER_SETTING(path, count, variance)                                                       \
     {                                                                                              \
-        .profile = path, .pull_g = 10.0, .truth = MANEUVER_LITERAL, .noise = variance,             \
-        .sensor = MANEUVER_VELOCITIES, .sigma_m = 1.0, .sigma_mps = 1.0, .clutter = count,         \
+        .profile = (path), .pull_g = 10.0, .truth = MANEUVER_LITERAL, .noise = (variance),         \
+        .sensor = MANEUVER_VELOCITIES, .sigma_m = 1.0, .sigma_mps = 1.0, .clutter = (count),       \
         .pd = 1.0, .beam = MANEUVER_AT_TRUTH, .accel_max_g = USUAL_G                               \
     }
 #define PAPER(text, path, count, number)                                                           \
@@ -125,20 +125,21 @@ const struct maneuver_case maneuver_noise_case = {"pop-up, N 4, true Q 1e-4 I",
 
 #define CLOSED_SETTING(path, g, sigma, count, detection, width_g)                                  \
     {                                                                                              \
-        .profile = path, .pull_g = g, .truth = MANEUVER_PHYSICAL, .noise = 2.0,                    \
-        .sensor = MANEUVER_PLACES, .sigma_m = sigma, .clutter = count, .pd = detection,            \
-        .beam = MANEUVER_AT_PREDICTION, .accel_max_g = width_g                                     \
+        .profile = (path), .pull_g = (g), .truth = MANEUVER_PHYSICAL, .noise = 2.0,                \
+        .sensor = MANEUVER_PLACES, .sigma_m = (sigma), .clutter = (count), .pd = (detection),      \
+        .beam = MANEUVER_AT_PREDICTION, .accel_max_g = (width_g)                                   \
     }
 #define VELOCITY_SETTING(g, sigma, count, detection)                                               \
     {                                                                                              \
-        .profile = MANEUVER_WEAVE, .pull_g = g, .truth = MANEUVER_PHYSICAL, .noise = 2.0,          \
-        .sensor = MANEUVER_VELOCITIES, .sigma_m = sigma, .sigma_mps = sigma, .clutter = count,     \
-        .pd = detection, .beam = MANEUVER_AT_PREDICTION, .accel_max_g = USUAL_G                    \
+        .profile = MANEUVER_WEAVE, .pull_g = (g), .truth = MANEUVER_PHYSICAL, .noise = 2.0,        \
+        .sensor = MANEUVER_VELOCITIES, .sigma_m = (sigma), .sigma_mps = (sigma),                   \
+        .clutter = (count), .pd = (detection), .beam = MANEUVER_AT_PREDICTION,                     \
+        .accel_max_g = USUAL_G                                                                     \
     }
 #define POLAR_SETTING(kind, count)                                                                 \
     {                                                                                              \
         .profile = MANEUVER_WEAVE, .pull_g = 10.0, .truth = MANEUVER_PHYSICAL, .noise = 2.0,       \
-        .sensor = kind, .sigma_m = 15.0, .sigma_rad = 3e-3, .clutter = count, .pd = 0.9,           \
+        .sensor = (kind), .sigma_m = 15.0, .sigma_rad = 3e-3, .clutter = (count), .pd = 0.9,       \
         .beam = MANEUVER_ALL_ROUND, .accel_max_g = USUAL_G                                         \
     }
 #define WITH(setting, methods, ...)                                                                \

@@ -166,13 +166,18 @@ void maneuver_scene_draw(struct maneuver_scene *scene, const struct maneuver_set
     }
 }
 
+static bool is_always_seen(const struct maneuver_scene *scene, size_t scan)
+{
+    return scan < MANEUVER_CLEAN_SCANS || scene->of->beam != MANEUVER_AT_PREDICTION;
+}
+
 bool maneuver_is_in_beam(const struct maneuver_scene *scene, size_t scan, const double centre_m[3])
 {
     double off_m[3] = {0.0, 0.0, 0.0};
     for (unsigned i = 0; i < maneuver_axes(scene->of); i++) {
         off_m[i] = scene->truth[scan][i] - centre_m[i];
     }
-    return scene->of->beam == MANEUVER_ALL_ROUND || norm(off_m) <= scene->radius_m[scan];
+    return norm(off_m) <= scene->radius_m[scan] || is_always_seen(scene, scan);
 }
 
 /* ---- the target's plot ------------------------------------------------------------------------------ */
@@ -272,8 +277,7 @@ void maneuver_look_fill(struct maneuver_look *look, const struct maneuver_scene 
     struct random random = random_start(scene->seed, scene->stream + CLUTTER_STREAM,
                                         scene->run * MANEUVER_SCANS + scan);
     unsigned clutter = scan < MANEUVER_CLEAN_SCANS ? 0 : scene->of->clutter, count = 0;
-    bool is_seen = scan < MANEUVER_CLEAN_SCANS ||
-                   (scene->is_seen[scan] && maneuver_is_in_beam(scene, scan, centre_m));
+    bool is_seen = scene->is_seen[scan] && maneuver_is_in_beam(scene, scan, centre_m);
     unsigned row = (unsigned)random_below(&random, clutter + 1);
     for (unsigned i = 0; i < clutter; i++) {
         count += is_seen && i == row;

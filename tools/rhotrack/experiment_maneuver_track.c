@@ -182,15 +182,6 @@ static void effect_of_input(const struct maneuver_setting *of, double effect[2])
     effect[1] = t_s;
 }
 
-/* A target in the reference's own beam is seen. */
-static bool is_reference_fed(const struct maneuver_scene *scene, size_t scan,
-                             const double predicted_m[3])
-{
-    return scan < MANEUVER_CLEAN_SCANS ||
-           (scene->is_seen[scan] && (scene->of->beam == MANEUVER_AT_TRUTH ||
-                                     maneuver_is_in_beam(scene, scan, predicted_m)));
-}
-
 static void note_reference(struct maneuver_trace *trace, const struct maneuver_scene *scene,
                            size_t scan, const double mean[DOUBLE_STATES], bool is_fed)
 {
@@ -226,7 +217,7 @@ static void follow_clairvoyantly(struct maneuver_trace *trace, const struct mane
             shift[i + 3] = effect[1] * scene->input_mps2[scan - 1][i];
         }
         double_gaussian_predict(&track, &model, shift);
-        bool is_fed = is_reference_fed(scene, scan, track.mean);
+        bool is_fed = scene->is_seen[scan] && maneuver_is_in_beam(scene, scan, track.mean);
         trace->nis[scan] = reference_nis(&track, &measured, is_fed);
         if (is_fed) {
             double_gaussian_update(&track, &measured);
@@ -253,7 +244,7 @@ static void follow_by_true_imm(struct maneuver_trace *trace, const struct maneuv
         struct double_measured measured = maneuver_measured(scene, scan);
         double_imm_predict(&imm);
         double_imm_estimate(&imm, &estimate);
-        bool is_fed = is_reference_fed(scene, scan, estimate.mean);
+        bool is_fed = scene->is_seen[scan] && maneuver_is_in_beam(scene, scan, estimate.mean);
         trace->nis[scan] = reference_nis(&estimate, &measured, is_fed);
         if (is_fed) {
             double_imm_update(&imm, &measured);
