@@ -61,6 +61,13 @@ static void check_velocity(const struct maintaining *maintaining, const struct r
     }
 }
 
+static void warn_unused(const struct command_line *line, enum maintainer_gate gate)
+{
+    if (gate == MAINTAIN_BEST && line->no_input_estimation) {
+        fputs("rhotrack: --no-input-estimation says nothing to --gate best\n", stderr);
+    }
+}
+
 /* A literal input moves no place: where nothing else is measured it is never seen. */
 static void warn_blind(const struct command_line *line, enum maintainer_gate gate,
                        const struct rho_scan *first)
@@ -235,7 +242,8 @@ static void print_json(const struct maintaining *maintaining, const struct comma
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddStringToObject(object, "gate", parameters_value_text(&gate, maintaining->gate, word));
-    cJSON_AddBoolToObject(object, "input_estimation", !line->no_input_estimation);
+    cJSON_AddBoolToObject(object, "input_estimation",
+                          maintaining->gate != MAINTAIN_BEST && !line->no_input_estimation);
     cJSON_AddNumberToObject(object, "scans", (double)maintaining->scans);
     cJSON_AddNumberToObject(object, "plots", (double)counts->plots);
     cJSON_AddNumberToObject(object, "rows_skipped", (double)counts->rows_skipped);
@@ -270,6 +278,7 @@ int command_maintain(struct command_line *line)
     struct scan_reader_counts counts;
     struct output output;
 
+    warn_unused(line, maintaining.gate);
     maintaining.maintainer =
         maintainer_new(maintaining.gate, !line->no_input_estimation, &line->parameters);
     reader = open_reader(line);

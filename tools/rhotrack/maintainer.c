@@ -28,7 +28,8 @@ struct maintainer {
     int64_t input_us;       /* its time: of the last plot, its own */
     struct rho_input predicted;
     int64_t predicted_us;
-    bool is_predicted; /* the newest is `predicted` */
+    bool is_predicted;    /* the newest is `predicted` */
+    bool is_out_of_reach; /* no prediction to the scan's time: the track is to start again */
     /* estimated after the last plot and the one before */
     float newest_mps[AXES], before_mps[AXES];
     unsigned measurements;
@@ -151,6 +152,8 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
         return;
     }
     must_succeed(rho_input_start(&maintainer->input, &maintainer->config, &kalman), "start");
+    maintainer->is_predicted = false;
+    maintainer->measurements = 0;
     maintainer->input_us = time_us + plot->offset_us;
     maintainer->predicted = maintainer->input;
     maintainer->predicted_us = time_us;
@@ -171,13 +174,16 @@ static bool predict_to(const struct maintainer *maintainer, int64_t time_us,
 
 void maintainer_predict(struct maintainer *maintainer, int64_t time_us)
 {
+    bool was_out_of_reach = maintainer->is_out_of_reach;
+
     if (maintainer->best) {
-        maintainer_best_predict(maintainer->best, time_us);
-        return;
+        maintainer->is_out_of_reach = !maintainer_best_predict(maintainer->best, time_us);
+    } else {
+        maintainer->is_predicted = true;
+        maintainer->predicted_us = time_us;
+        maintainer->is_out_of_reach = !predict_to(maintainer, time_us, &maintainer->predicted);
     }
-    maintainer->is_predicted = true;
-    maintainer->predicted_us = time_us;
-    maintainer->refused += !predict_to(maintainer, time_us, &maintainer->predicted);
+    maintainer->refused += maintainer->is_out_of_reach && !was_out_of_reach;
 }
 
 void maintainer_where(const struct maintainer *maintainer, double place_m[3])
@@ -374,6 +380,32 @@ static int take(struct maintainer *maintainer, const struct rho_scan *scan,
     return is_taken ? row : -1;
 }
 
+/* After a gap so long that any place will do: from the plot nearest to where the track was last. */
+static int start_again(struct maintainer *maintainer, const struct rho_scan *scan,
+                       const struct rho_sensor *sensor)
+{
+    double last_m[AXES], least_m = INFINITY;
+    int chosen = -1;
+
+    maintainer_where(maintainer, last_m);
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+        double distance_m =
+            rho_measurement_is_valid(plot, scan->measures)
+                ? hypot((double)plot->x_m - last_m[0], (double)plot->y_m - last_m[1])
+                : INFINITY;
+
+        if (distance_m < least_m) {
+            least_m = distance_m;
+            chosen = (int)i;
+        }
+    }
+    if (chosen >= 0) {
+        maintainer_start(maintainer, scan->time_us, &scan->plots[chosen], scan->measures, sensor);
+    }
+    return chosen;
+}
+
 int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan,
                       const struct rho_sensor *sensor, double log_density, double pd,
                       struct random *random)
@@ -381,6 +413,9 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
     double place_m[AXES];
 
     keep_sensor(maintainer, sensor);
+    if (maintainer->is_out_of_reach) {
+        return start_again(maintainer, scan, sensor);
+    }
     if (!maintainer->best) {
         return take(maintainer, scan, sensor, choose(maintainer, scan, sensor, random));
     }
@@ -417,5 +452,5 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
 
 unsigned long maintainer_refused(const struct maintainer *maintainer)
 {
-    return maintainer->best ? maintainer_best_refused(maintainer->best) : maintainer->refused;
+    return maintainer->refused + (maintainer->best ? maintainer_best_refused(maintainer->best) : 0);
 }

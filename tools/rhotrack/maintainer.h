@@ -57,7 +57,7 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
 double maintainer_nis(const struct maintainer *maintainer, const struct rho_plot *plot,
                       uint32_t measures);
 
-/* Updates that were refused: the track coasted. */
+/* Updates that were refused: the track coasted; and predictions over gaps so long that it started again. */
 unsigned long maintainer_refused(const struct maintainer *maintainer);
 
 #endif

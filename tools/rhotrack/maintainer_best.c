@@ -52,29 +52,30 @@ void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_
     if (sensor) {
         best->sensor = *sensor;
     }
+    rho_hypotheses_close(&best->pool, best->slot); /* where it starts again */
     must_succeed(rho_hypotheses_open(&best->pool, kalman, time_us, &best->slot), "start");
     best->time_us = scan_us;
     estimate_now(best);
 }
 
-/* A prediction is refused only where nothing sensible could be said any more; a track that is never dropped ends here. */
-void maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
+bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
 {
-    enum rho_status status = rho_hypotheses_predict(&best->pool, best->slot, time_us);
-
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "the track's covariance has grown beyond all limits: %s",
-             rho_status_name(status));
+    if (rho_hypotheses_predict(&best->pool, best->slot, time_us) != RHO_OK) {
+        return false;
     }
     best->time_us = time_us;
     estimate_now(best);
+    return true;
 }
 
 void maintainer_best_where(const struct maintainer_best *best, double place_m[3])
 {
-    struct rho_kalman kalman;
+    const struct rho_hypothesis *heaviest = rho_hypotheses_at(&best->pool, best->slot, 0);
+    struct rho_kalman kalman = best->now.kalman; /* where none is left */
 
-    rho_imm_estimate(&rho_hypotheses_at(&best->pool, best->slot, 0)->imm, &kalman, NULL);
+    if (heaviest) {
+        rho_imm_estimate(&heaviest->imm, &kalman, NULL);
+    }
     for (int i = 0; i < 3; i++) {
         place_m[i] = (double)kalman.state[i];
     }

@@ -13,7 +13,8 @@ void maintainer_best_free(struct maintainer_best *best);
 size_t maintainer_best_bytes(void);
 void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
                            const struct rho_kalman *kalman, const struct rho_sensor *sensor);
-void maintainer_best_predict(struct maintainer_best *best, int64_t time_us);
+/* False where nothing sensible could be said any more: nothing is left but the last estimate, until a start. */
+bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us);
 void maintainer_best_where(const struct maintainer_best *best, double place_m[3]);
 int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *scan,
                            const struct rho_sensor *sensor, double log_density, double pd);

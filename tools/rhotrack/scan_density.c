@@ -163,7 +163,8 @@ static void add_scan(struct spread *spread, const struct rho_scan *scan, enum qu
 /* S: variances no less than the noise's, correlations as far as they are known. */
 static void covariance_of(const struct spread *spread, int axes, double covariance[AXES][AXES])
 {
-    double share = spread->freedom / (spread->freedom + axes + 1.0), sd[AXES], old[AXES];
+    double few = fmin(axes / spread->freedom, 1.0), share = 1.0 - few * few;
+    double sd[AXES], old[AXES];
 
     for (int i = 0; i < axes; i++) {
         double noise2 = spread->num_noise > 0.0 ? spread->noise2[i] / spread->num_noise : 0.0;
