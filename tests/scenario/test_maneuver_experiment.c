@@ -181,7 +181,8 @@ static void the_nearest_plot_is_the_targets(void **state)
     assert_near(is.rms_mps, 1.79, 0.1);
 }
 
-/* 500 runs, with Q = I: inside, 1.24 m in runs without wrong picks; with 1e-4 I: 614 m, none inside; gamma .5: 21 m. */
+/* 500 runs, with Q = I: inside, 1.24 m in runs without wrong picks; with 1e-4 I: 614 m, none inside; gamma .5: 21 m.
+ */
 static void method_two_fails_with_a_small_q_alone(void **state)
 {
     (void)state;
@@ -199,8 +200,8 @@ static void method_two_fails_with_a_small_q_alone(void **state)
     assert_at_most(forgets.rms_m, 60.0);
 }
 
-/* 500 runs: the paper's method loses 99.8 % at 10 g where targets are missed, 64 % where none is (nearest 100 %; sd of 40
- * runs 7.6 %), 21 % at 1 g (sd of 20 runs 9 %). */
+/* 500 runs: the paper's method loses 99.8 % at 10 g where targets are missed, 64 % where none is (nearest
+ * 100 %; sd of 40 runs 7.6 %), 21 % at 1 g (sd of 20 runs 9 %). */
 static void the_paper_loses_targets_that_are_missed(void **state)
 {
     (void)state;
@@ -236,8 +237,8 @@ static struct maneuver_summary of_default(const char *name, size_t runs)
     return summary;
 }
 
-/* Beside 500 runs: lost .4, 0, 8.2, 0, 0, 0 and .4 %; of 20 runs, one is 5 %. Errors over the IMM's: 1.052, 1.027, 1.409,
- * 1.008, 1.049, 1.034, 1.726, as scattered as wrong picks are. */
+/* Beside 500 runs: lost .4, 0, 8.2, 0, 0, 0 and .4 %; of 20 runs, one is 5 %. Errors over the IMM's: 1.052, 1.027,
+ * 1.409, 1.008, 1.049, 1.034, 1.726, as scattered as wrong picks are. */
 static void the_default_keeps_its_targets(void **state)
 {
     (void)state;

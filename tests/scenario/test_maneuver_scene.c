@@ -246,7 +246,8 @@ static void targets_are_seen_as_often_as_they_should(void **state)
     assert_near((double)seen / (RUNS * (MANEUVER_SCANS - MANEUVER_CLEAN_SCANS)), 0.7, 0.023);
 }
 
-/* d^2 of what a polar radar measures, with its true covariance, at its true place: n in the mean, sd sqrt(2 n / looks). */
+/* d^2 of what a polar radar measures, with its true covariance, at its true place: n in the mean, sd sqrt(2 n / looks).
+ */
 static void check_polar(enum maneuver_sensor sensor, size_t axes)
 {
     struct maneuver_setting setting = quiet(MANEUVER_WEAVE, MANEUVER_PHYSICAL);

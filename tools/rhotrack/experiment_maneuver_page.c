@@ -29,7 +29,9 @@ static void put_paper(struct page *page, const struct maneuver_report *report)
         "Method I: Hough gate and input estimation as printed; with gamma .5 the estimated input "
         "is forgotten by half a scan. II: no input estimation. III: a plot at random. Nearest: the "
         "nearest plot, gamma .5. Clairvoyant: knows the target's plots and its input, double "
-        "precision. Inside: share of the runs with every axis within the beam's radius. Wrong: "
+        "precision. Default: believes in physical motion, so that the paper's noise of 1 m and 1 "
+        "m/s a scan in a target's path is a surprise to it. Inside: share of the runs with every "
+        "axis within the beam's radius. Wrong: "
         "share of scans in which clutter was taken. Most: of all runs. Rms: 3-D, of all runs, "
         "after 2 s. Extreme: medians of the runs' extreme velocity errors.");
     put_table(page, maneuver_paper_grid(report));

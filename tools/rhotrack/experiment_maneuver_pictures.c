@@ -180,7 +180,7 @@ void maneuver_draw(const struct maneuver_picture *picture, uint64_t seed, const 
     fprintf(
         file,
         "set xlabel 'time (s)'\nset xrange [0:40]\n"
-        "set key outside top center horizontal samplen 2 width -1\nset datafile missing 'nan'\n");
+        "set key outside top center horizontal maxrows 1 samplen 2\nset datafile missing 'nan'\n");
     if (picture->drawn == MANEUVER_DRAW_USED) {
         fprintf(file, "set ylabel 'position of the plot taken (km)'\nplot %s\n", axes);
     } else {

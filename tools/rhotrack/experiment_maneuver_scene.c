@@ -118,8 +118,8 @@ static double elevation_of(const struct maneuver_setting *of, const double place
 }
 
 /*
- * The mean of what noisy angles say falls short by cos's mean, exp(-sigma^2 / 2) an angle: it is taken out again, in the
- * plane and of the height.
+ * The mean of what noisy angles say falls short by cos's mean, exp(-sigma^2 / 2) an angle: it is taken out again, in
+ * the plane and of the height.
  */
 static void measure_polar(const struct maneuver_setting *of, const double truth[6], double out[6],
                           struct random *random)

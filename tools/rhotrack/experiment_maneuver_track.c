@@ -90,8 +90,8 @@ static void note_library(struct maneuver_trace *trace, struct following *followi
 }
 
 /*
- * The gate of velocities in places alone: each plot gets the velocity that would have brought it from the last estimate,
- * known so badly that the filter learns nothing from it.
+ * The gate of velocities in places alone: each plot gets the velocity that would have brought it from the last
+ * estimate, known so badly that the filter learns nothing from it.
  */
 static void give_velocities(struct maneuver_look *look, const double previous_m[3])
 {
