@@ -22,6 +22,12 @@ static bool is_passive_method(const char *name)
     return strcmp(name, "passive") == 0 || strcmp(name, "passive-paper") == 0;
 }
 
+static bool knows_no_method(const char *name)
+{
+    (void)name;
+    return false;
+}
+
 static const struct {
     const char *name;
     int (*run)(const struct command_line *line);
@@ -32,9 +38,10 @@ static const struct {
     {"polar", experiment_polar, is_kernel, "method kernel"},
     {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
     {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
+    {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
 };
 
-#define NAMES "initiation, polar, false-alarms, passive"
+#define NAMES "initiation, polar, false-alarms, passive, maneuver"
 
 int command_experiment(struct command_line *line)
 {

@@ -10,5 +10,6 @@ int experiment_initiation(const struct command_line *line);
 int experiment_polar(const struct command_line *line);
 int experiment_false_alarms(const struct command_line *line);
 int experiment_passive(const struct command_line *line);
+int experiment_maneuver(const struct command_line *line);
 
 #endif
