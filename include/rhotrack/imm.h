@@ -77,7 +77,7 @@ struct rho_imm_match {
 };
 
 /*
- * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.83 accel_max that is
+ * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.8 accel_max that is
  * remembered for 0.35 v_max / accel_max, 3 s at least, a sojourn of 0.47 v_max / accel_max, 4 s at least, quiet acceleration
  * of 1 m^2/s^3 (less below 2 m/s^2); at the start, speed sd v_max and acceleration sd accel_max.
  */

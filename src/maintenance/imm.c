@@ -18,10 +18,10 @@
 /* ---- models ----------------------------------------------------------------------------------- */
 
 /*
- * Measured with targets that pull 1 to 30 g for 4 to 8 s: a standing acceleration of 0.83 accel_max, and times no shorter
+ * Measured with targets that pull 1 to 30 g for 4 to 8 s: a standing acceleration of 0.8 accel_max, and times no shorter
  * than these. Slower targets keep to a motion as long as it takes them to turn, a share of v_max / accel_max.
  */
-#define ACCEL_SHARE 0.83f
+#define ACCEL_SHARE 0.8f
 #define MEMORY_SHARE 0.35f
 #define MEMORY_MIN_S 3.0f
 #define SOJOURN_SHARE 0.47f
