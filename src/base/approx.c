@@ -232,3 +232,15 @@ float rho_sqrt(float v)
     half = ((exponent + EXPONENT_BIAS) >> 1) - (is_subnormal ? 12u : 0u);
     return float_of((half << EXPONENT_SHIFT) + (integer_root(m) - FRACTION_ONE));
 }
+
+/* From the exponent halved, and a guess of the rest, by three steps of Newton's method. */
+float rho_inverse_sqrt(float v)
+{
+    const float half = 0.5f * v;
+    float root = float_of(0x5f375a86u - (bits_of(v) >> 1));
+
+    root *= 1.5f - half * root * root;
+    root *= 1.5f - half * root * root;
+    root *= 1.5f - half * root * root;
+    return root;
+}

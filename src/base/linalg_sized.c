@@ -109,20 +109,25 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
     return RHO_OK;
 }
 
-/* spread := p row; returns row . p row. */
+/* spread := p row; returns row . p row. Rows of p beyond the first num begin with what the row meets. */
 static float project(int n, const float *p, int num, const float *row, float *spread)
 {
+    const float *at = p;
     float variance = 0.0f;
     int i, j;
 
     for (i = 0; i < n; ++i) {
         float sum = 0.0f;
 
-        for (j = 0; j < num; ++j) {
-            sum += p[RHO_AT(i, j)] * row[j];
+        for (j = 0; j < num && j <= i; ++j) {
+            sum += at[j] * row[j];
+        }
+        for (; j < num; ++j) {
+            sum += p[RHO_AT(j, i)] * row[j];
         }
         spread[i] = sum;
         variance += i < num ? sum * row[i] : 0.0f;
+        at += i + 1;
     }
     return variance;
 }

@@ -214,67 +214,93 @@ float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot)
     return rho_log(sum);
 }
 
-/* The estimates so far and one more, each with its share; the spread between them goes into the covariance. */
-static void add_estimate(struct rho_hypotheses_estimate *sum, float sum_share,
-                         const struct rho_hypotheses_estimate *more, float share)
+/* A hypothesis' filter at a time that need not be its own; NULL where it cannot be moved there. */
+static const struct rho_imm *filter_at(struct rho_hypotheses *pool, const struct rho_hypothesis *at,
+                                       int64_t time_us)
 {
-    const float part = share / (sum_share + share);
-    float way[RHO_KALMAN_STATES];
-    int place = 0;
-    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        way[i] = more->kalman.state[i] - sum->kalman.state[i];
-        sum->kalman.state[i] += part * way[i];
-        for (int j = 0; j <= i; j++, place++) {
-            float *p = &sum->kalman.covariance[place];
-            *p += part * (more->kalman.covariance[place] - *p + (1.0f - part) * way[i] * way[j]);
-        }
+    if (at->time_us == time_us) {
+        return &at->imm;
     }
-    for (int i = 0; i < 3; i++) {
-        sum->accel_mps2[i] += part * (more->accel_mps2[i] - sum->accel_mps2[i]);
-    }
-    sum->maneuver_probability += part * (more->maneuver_probability - sum->maneuver_probability);
+    pool->scratch = at->imm;
+    return rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
+               ? &pool->scratch
+               : 0;
 }
 
-/* One hypothesis at a time that need not be its own; 0 where it cannot be moved there. */
-static int estimate_one(struct rho_hypotheses *pool, const struct rho_hypothesis *at,
-                        int64_t time_us, struct rho_hypotheses_estimate *out)
+/* The mean of both models, with a share in the sum. */
+static void add_mean(const struct rho_imm *imm, float share,
+                     struct rho_hypotheses_estimate *estimate)
 {
-    const struct rho_imm *imm = &at->imm;
-    if (at->time_us != time_us) {
-        pool->scratch = at->imm;
-        if (rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) != RHO_OK) {
-            return 0;
-        }
-        imm = &pool->scratch;
+    const float m = share * imm->probability, s = share - m;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        estimate->kalman.state[i] += s * imm->steady.state[i] + m * imm->state[i];
     }
-    rho_imm_estimate(imm, &out->kalman, out->accel_mps2);
-    out->maneuver_probability = imm->probability;
-    return 1;
+    for (int i = 0; i < 3; i++) {
+        estimate->accel_mps2[i] += m * imm->state[RHO_KALMAN_STATES + i];
+    }
+    estimate->maneuver_probability += m;
+}
+
+/* A model's covariance and its way from the mean of all. */
+static void add_spread(const float *state, const float *covariance, float share,
+                       struct rho_kalman *kalman)
+{
+    float way[RHO_KALMAN_STATES];
+    float *out = kalman->covariance;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        way[i] = state[i] - kalman->state[i];
+        for (int j = 0; j <= i; j++) {
+            *out++ += share * (*covariance++ + way[i] * way[j]);
+        }
+    }
+}
+
+/* Shares of the hypotheses that can be seen at all; returns their sum. */
+static float share_out(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                       float shares[RHO_HYPOTHESES_OF_TRACK])
+{
+    float total = 0.0f;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        shares[i] = at->weight_nat >= WEIGHT_SHOWN_MIN && filter_at(pool, at, time_us)
+                        ? rho_exp(at->weight_nat)
+                        : 0.0f;
+        total += shares[i];
+    }
+    return total;
 }
 
 enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
                                         struct rho_hypotheses_estimate *estimate)
 {
-    struct rho_hypotheses_estimate one;
-    float total = 0.0f;
+    float shares[RHO_HYPOTHESES_OF_TRACK];
     if (!pool || !estimate) {
         return RHO_ERROR_NULL;
     }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        if (at->weight_nat < WEIGHT_SHOWN_MIN || !estimate_one(pool, at, time_us, &one)) {
-            continue;
-        }
-        float share = rho_exp(at->weight_nat);
-        if (total > 0.0f) {
-            add_estimate(estimate, total, &one, share);
-        } else {
-            *estimate = one;
-        }
-        total += share;
+    const unsigned num = pool->num_of[slot];
+    const float total = share_out(pool, slot, time_us, shares);
+    if (!(total > 0.0f)) {
+        return RHO_ERROR_VALUE;
     }
-    return total > 0.0f ? RHO_OK : RHO_ERROR_VALUE;
+    memset(estimate, 0, sizeof *estimate);
+    for (unsigned i = 0; i < num; i++) {
+        shares[i] /= total;
+        if (shares[i] > 0.0f) {
+            add_mean(filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us), shares[i],
+                     estimate);
+        }
+    }
+    for (unsigned i = 0; i < num; i++) {
+        if (shares[i] > 0.0f) {
+            const struct rho_imm *imm =
+                filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us);
+            const float m = shares[i] * imm->probability;
+            add_spread(imm->steady.state, imm->steady.covariance, shares[i] - m, &estimate->kalman);
+            add_spread(imm->state, imm->covariance, m, &estimate->kalman);
+        }
+    }
+    return RHO_OK;
 }

@@ -15,13 +15,15 @@
 /* What one model says of a plot. Both models' positions and velocities have the same places. */
 struct view {
     const float *state, *covariance;
-    float distance2, log_det;
+    float distance2;
+    float
+        root; /* of the inverse determinant of the innovation's covariance: what the density is in proportion to */
     int counts;
 };
 
 /* Isotropic noise has no frame: nothing to find it for. */
-static int open_isotropic(struct rho_measurement *out, const struct rho_plot *plot,
-                          uint32_t measures)
+static int open_isotropic(struct rho_measurement *out, float covariance[6],
+                          const struct rho_plot *plot, uint32_t measures)
 {
     const int has_z = (measures & RHO_MEASURES_Z) != 0;
     const float sigma_m = plot->sigma_range_m, variance = sigma_m * sigma_m;
@@ -35,6 +37,8 @@ static int open_isotropic(struct rho_measurement *out, const struct rho_plot *pl
                                     .variance_m2 = {variance, variance, variance},
                                     .has_z = has_z,
                                     .is_isotropic = 1};
+    memset(covariance, 0, 6 * sizeof *covariance);
+    covariance[RHO_AT(0, 0)] = covariance[RHO_AT(1, 1)] = covariance[RHO_AT(2, 2)] = variance;
     return 1;
 }
 
@@ -44,7 +48,7 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
     seen->measures = measures;
     seen->plot = plot;
     seen->sensor = sensor;
-    if (open_isotropic(&seen->position, plot, measures)) {
+    if (open_isotropic(&seen->position, seen->covariance, plot, measures)) {
         return;
     }
     rho_measurement_open(plot, measures, sensor, &seen->position);
@@ -72,9 +76,7 @@ static inline void view_places(struct view *view, const struct rho_imm_plot *see
         det *= sz;
     }
     view->counts = view->distance2 <= COUNTS_MAX && det > 0.0f;
-    if (view->counts) {
-        view->log_det = rho_log(det);
-    }
+    view->root = rho_inverse_sqrt(det);
 }
 
 /* Position and velocity of one axis: a distance, and the factor of the determinant. */
@@ -101,10 +103,8 @@ static void view_places_and_velocities(struct view *view, const struct rho_imm_p
         view->distance2 += axis_distance2(view, seen, axis, &det[axis]);
     }
     view->counts = view->distance2 <= COUNTS_MAX && det[0] > 0.0f && det[1] > 0.0f && det[2] > 0.0f;
-    if (view->counts) {
-        /* apart: the product of six variances may be no number */
-        view->log_det = rho_log(det[0] * det[1]) + rho_log(det[2]);
-    }
+    /* apart: the product of six variances may be no number */
+    view->root = rho_inverse_sqrt(det[0] * det[1]) * rho_inverse_sqrt(det[2]);
 }
 
 /* ---- coupled axes ----------------------------------------------------------------------------- */
@@ -119,14 +119,10 @@ struct innovation {
 static void add_position(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
                          struct innovation *out)
 {
-    const struct rho_measurement *position = &seen->position;
     for (int i = 0; i < num_axes; i++) {
-        out->d[i] = position->place_m[i] - view->state[i];
+        out->d[i] = seen->position.place_m[i] - view->state[i];
         for (int j = 0; j <= i; j++) {
-            float noise = !position->is_isotropic ? seen->covariance[RHO_AT(i, j)]
-                          : i == j                ? position->variance_m2[0]
-                                                  : 0.0f;
-            out->s[RHO_AT(i, j)] = view->covariance[RHO_AT(i, j)] + noise;
+            out->s[RHO_AT(i, j)] = view->covariance[RHO_AT(i, j)] + seen->covariance[RHO_AT(i, j)];
         }
     }
     out->num = num_axes;
@@ -175,10 +171,11 @@ static int add_range_rate(const struct view *view, const struct rho_imm_plot *se
 }
 
 /* A model that is in the sensor's own place has no range rate, and says nothing. */
-static void view_coupled(struct view *view, const struct rho_imm_plot *seen,
-                         const struct rho_imm_match *match)
+static void view_all(struct view *view, const struct rho_imm_plot *seen,
+                     const struct rho_imm_match *match)
 {
     struct innovation innovation;
+    float log_det = 0.0f;
     add_position(view, seen, match->num_axes, &innovation);
     if (match->has_velocity) {
         add_velocity(view, seen, match->num_axes, &innovation);
@@ -186,27 +183,49 @@ static void view_coupled(struct view *view, const struct rho_imm_plot *seen,
     view->counts = !match->has_range_rate ||
                    add_range_rate(view, seen, match->num_axes, match->has_velocity, &innovation);
     view->counts = view->counts && rho_linalg_match(innovation.num, innovation.s, innovation.d,
-                                                    COUNTS_MAX, &view->distance2, &view->log_det);
+                                                    COUNTS_MAX, &view->distance2, &log_det);
+    view->root = rho_exp(-0.5f * log_det);
+}
+
+/* Places alone: S = L D L^T by hand. */
+static inline void view_coupled_places(struct view *view, const struct rho_imm_plot *seen,
+                                       int has_z)
+{
+    const float *p = view->covariance, *r = seen->covariance;
+    const float s00 = p[0] + r[0], s10 = p[1] + r[1], l10 = s10 / s00;
+    const float s11 = p[2] + r[2] - l10 * s10;
+    const float d0 = seen->position.place_m[0] - view->state[0];
+    const float d1 = seen->position.place_m[1] - view->state[1] - l10 * d0;
+    float det = s00 * s11, least = s00 < s11 ? s00 : s11;
+    view->distance2 = d0 * d0 / s00 + d1 * d1 / s11;
+    if (has_z) {
+        const float s20 = p[3] + r[3], l20 = s20 / s00;
+        const float c21 = p[4] + r[4] - l20 * s10, l21 = c21 / s11;
+        const float s22 = p[5] + r[5] - l20 * s20 - l21 * c21;
+        const float d2 = seen->position.place_m[2] - view->state[2] - l20 * d0 - l21 * d1;
+        view->distance2 += d2 * d2 / s22;
+        det *= s22;
+        least = s22 < least ? s22 : least;
+    }
+    view->counts = view->distance2 <= COUNTS_MAX && least > 0.0f;
+    view->root = rho_inverse_sqrt(det);
 }
 
 /* ---- both models ------------------------------------------------------------------------------ */
 
-/*
- * -2 ln of a model's density but for the constant; the density over both is that of the better one, and the share of the
- * other beside it.
- */
+/* The nearer model's exponent is taken out of both densities, so that their sum is a number. */
 static void combine(const struct view views[2], float probability, int num_dimensions,
                     struct rho_imm_match *match)
 {
-    const float steady = views[0].distance2 + views[0].log_det;
-    const float manoeuvre = views[1].distance2 + views[1].log_det;
-    float least = steady, s = 1.0f - probability, m = 0.0f;
-    if (!views[0].counts || (views[1].counts && manoeuvre < steady)) {
-        least = manoeuvre;
-        m = probability;
-        s = views[0].counts ? s * rho_exp(0.5f * (manoeuvre - steady)) : 0.0f;
-    } else if (views[1].counts) {
-        m = probability * rho_exp(0.5f * (steady - manoeuvre));
+    const float least = match->distance2;
+    float s = 0.0f, m = 0.0f;
+    if (views[0].counts) {
+        s = (1.0f - probability) * views[0].root;
+        s = views[0].distance2 > least ? s * rho_exp(0.5f * (least - views[0].distance2)) : s;
+    }
+    if (views[1].counts) {
+        m = probability * views[1].root;
+        m = views[1].distance2 > least ? m * rho_exp(0.5f * (least - views[1].distance2)) : m;
     }
     match->probability = m / (s + m);
     match->log_likelihood = rho_log(s + m) - 0.5f * (least + (float)num_dimensions * LOG_TWO_PI);
@@ -227,14 +246,32 @@ void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float v
                           float *gain_nat)
 {
     struct view views[2] = {{0, 0, 0.0f, 0.0f, 1}, {0, 0, 0.0f, 0.0f, 1}};
-    struct rho_imm_match match = {.distance2 = 0.0f};
+    struct rho_imm_match match;
     for (int i = 0; i < 2; i++) {
         views[i].distance2 = off[i] * off[i] / variance[i];
-        views[i].log_det = rho_log(variance[i]);
+        views[i].root = rho_inverse_sqrt(variance[i]);
     }
+    match.distance2 =
+        views[0].distance2 < views[1].distance2 ? views[0].distance2 : views[1].distance2;
     combine(views, imm->probability, 1, &match);
     imm->probability = match.probability;
     *gain_nat = match.log_likelihood;
+}
+
+/* By the shortest way. */
+static inline void look(struct view *view, const struct rho_imm *imm,
+                        const struct rho_imm_plot *seen, const struct rho_imm_match *match)
+{
+    const int is_coupled = imm->is_coupled || !seen->position.is_isotropic;
+    if (match->has_range_rate || (is_coupled && match->has_velocity)) {
+        view_all(view, seen, match);
+    } else if (is_coupled) {
+        view_coupled_places(view, seen, match->num_axes > 2);
+    } else if (match->has_velocity) {
+        view_places_and_velocities(view, seen, match->num_axes);
+    } else {
+        view_places(view, seen, match->num_axes > 2);
+    }
 }
 
 int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
@@ -248,13 +285,7 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
     const int num_dimensions =
         (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate;
     for (int i = 0; i < 2; i++) {
-        if (imm->is_coupled || !seen->position.is_isotropic || match->has_range_rate) {
-            view_coupled(&views[i], seen, match);
-        } else if (match->has_velocity) {
-            view_places_and_velocities(&views[i], seen, match->num_axes);
-        } else {
-            view_places(&views[i], seen, match->num_axes > 2);
-        }
+        look(&views[i], imm, seen, match);
     }
     if (!is_in_gate(views, match)) {
         return 0;

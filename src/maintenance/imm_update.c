@@ -236,8 +236,7 @@ static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
 static enum rho_status open_height(struct rho_imm *imm, const struct rho_imm_model *model,
                                    const struct rho_imm_plot *seen)
 {
-    const float noise = seen->position.is_isotropic ? seen->position.variance_m2[0]
-                                                    : seen->covariance[RHO_AT(2, 2)];
+    const float noise = seen->covariance[RHO_AT(2, 2)];
     enum rho_status status =
         rho_kalman_open_axis(&imm->steady, 2, seen->position.place_m[2], at_least(noise),
                              model->speed_sigma_mps * model->speed_sigma_mps);
