@@ -34,7 +34,7 @@ struct rho_assignment {
     uint16_t num_pairs[RHO_MAX_TRACKS];
     int16_t row_column[RHO_MAX_TRACKS]; /* the answer */
     struct rho_assignment_pair pairs[RHO_MAX_TRACKS][RHO_MAX_GATE_PLOTS];
-    int16_t column_row[RHO_MAX_PLOTS];
+    int16_t column_row[RHO_MAX_PLOTS];  /* the answer by column: its row, or RHO_ASSIGNMENT_NONE */
     int16_t column_from[RHO_MAX_PLOTS]; /* scratch of a search: the row that reached it */
     int32_t column_price[RHO_MAX_PLOTS];
     int32_t column_distance[RHO_MAX_PLOTS];

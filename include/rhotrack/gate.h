@@ -2,6 +2,7 @@
 /*
  * gate: which plots may be a track's?
  *
+ * Hough clutter elimination: the plot whose velocity best continues the straight line of the last two estimates.
  * nearest: the squared Mahalanobis distance of the plot from the prediction at the plot's own time, with the
  * covariances of both, against a chi-square limit of 99.9 %. Two dimensions, and one more each where height and range
  * rate count.
@@ -36,14 +37,20 @@ struct rho_gate_hough {
 /*
  * Finds theta* in each of the planes: the cell (j - 1/2) theta_cell_rad, j = 1, 2, ..., in [0, pi), whose rho changed
  * least from the estimate before the last to the last; of equals the lowest.
- * Errors: NULL, VALUE (planes, cell not in 1e-3 .. pi/2, velocities not finite); *hough is unchanged.
+ * That cell is the nearest to the direction at right angles to the velocity's change: cells of any size cost the same.
+ * Directions within 1e-6 rad of the border of two cells count as on it.
+ * Errors: NULL, VALUE (planes, cell not in 1e-3 .. pi/2, velocities or their change not finite); *hough is unchanged.
+ * Cost: about 820 instructions for three planes. Stack: 100 bytes.
  * Source: the paper named in rhotrack/input.h, (20) to (28).
  */
 RHO_MUST_CHECK enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
                                                    float theta_cell_rad, const float before_mps[3],
                                                    const float newest_mps[3]);
 
-/* How far a plot with this velocity would change rho at theta*, summed over the planes, m/s. (29), (30). */
+/*
+ * How far a plot with this velocity would change rho at theta*, summed over the planes, m/s. (29), (30). NaN where the
+ * velocity is. Cost: about 45 instructions. Stack: 8 bytes.
+ */
 float rho_gate_hough_off(const struct rho_gate_hough *hough, const float velocity_mps[3]);
 
 /* ---- nearest ------------------------------------------------------------------------------------ */

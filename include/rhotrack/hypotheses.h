@@ -30,6 +30,8 @@
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
+#define RHO_HYPOTHESES_SLOTS                                                                       \
+    (RHO_MAX_TRACKS + 1) /* one more, for a track that is yet to get its place */
 #define RHO_HYPOTHESES_OF_TRACK 8
 #define RHO_HYPOTHESES_CHILDREN 3          /* plots of a scan that one hypothesis goes on with */
 #define RHO_HYPOTHESES_MEMORY 3            /* scans in which two hypotheses must differ */
@@ -62,10 +64,10 @@ struct rho_hypotheses {
     uint32_t hypotheses_cut; /* given up for want of room; saturates */
     uint16_t num_free;
     struct rho_imm_model model;
-    struct rho_imm_step step;       /* of the last interval: most tracks have the same one */
-    uint8_t num_of[RHO_MAX_TRACKS]; /* hypotheses of a slot; 0: nobody's */
-    uint16_t node_of[RHO_MAX_TRACKS][RHO_HYPOTHESES_OF_TRACK]; /* the best first */
-    uint16_t free[RHO_MAX_HYPOTHESES];
+    struct rho_imm_step step;             /* of the last interval: most tracks have the same one */
+    uint8_t num_of[RHO_HYPOTHESES_SLOTS]; /* hypotheses of a slot; 0: nobody's */
+    uint16_t node_of[RHO_HYPOTHESES_SLOTS][RHO_HYPOTHESES_OF_TRACK]; /* the best first */
+    uint16_t spare[RHO_MAX_HYPOTHESES];
     struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK * (RHO_HYPOTHESES_CHILDREN + 1)];
     struct rho_imm scratch;
     struct rho_hypothesis nodes[RHO_MAX_HYPOTHESES];
@@ -154,6 +156,9 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
                          const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
                          float log_pd, const struct rho_hypotheses_clutter *clutter,
                          float *gain_nat);
+
+/* True where any plot of this scan is in the gate. */
+int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t slot);
 
 /*
  * Ends the scan: the heaviest children of all hypotheses go on. Plots that scan->claims gives to other tracks are left out.

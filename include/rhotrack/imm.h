@@ -77,10 +77,11 @@ struct rho_imm_match {
 };
 
 /*
- * Models for manoeuvres of accel_max: a drive of (0.68 accel_max)^2 /s remembered for 12.4 s, a sojourn of 8.1 s, quiet
- * acceleration of 1 m^2/s^3; at the start, speed sd 700 m/s and acceleration sd accel_max.
+ * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.83 accel_max that is
+ * remembered for 0.35 v_max / accel_max, 3 s at least, a sojourn of 0.47 v_max / accel_max, 4 s at least, quiet acceleration
+ * of 1 m^2/s^3 (less below 2 m/s^2); at the start, speed sd v_max and acceleration sd accel_max.
  */
-void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2);
+void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps);
 
 /* True where every field is finite and within its range. */
 int rho_imm_model_is_usable(const struct rho_imm_model *model);

@@ -12,7 +12,9 @@
  * it is absent M, u and V start anew at each update, so that an onset shows in one scan; where it stops, M u goes into the
  * estimate and M V M^T into its covariance. The corrected estimate is x + M u with covariance P + M V M^T.
  *
- * A call that is refused leaves the object as it was, byte for byte. No pointers: a copy is a snapshot.
+ * A call that is refused leaves the object as it was, byte for byte. No pointers: a copy is a snapshot, of 220 bytes.
+ * Costs below are of three axes with inputs, first where noise and estimate couple no axes, then where they do. A scan of
+ * a position and a velocity with the Hough gate of five plots: 4770 instructions.
  *
  *     rho_input_predict(&input, &config, dt_s);
  *     rho_input_update_position(&input, &config, &measurement);      and what else the plot measures
@@ -63,7 +65,7 @@ struct rho_input {
 
 /*
  * Two-sided threshold of a standard normal: 0.95 gives 1.96. Absolute error <= 1e-3 for 0 .. .9999; NaN outside 0 .. 1,
- * exclusive of 1. Cost: a logarithm, a square root.
+ * exclusive of 1. Cost: a logarithm, a square root. Stack: 32 bytes.
  */
 float rho_input_threshold(float confidence);
 
@@ -75,7 +77,7 @@ int rho_input_is_usable(const struct rho_input_config *config);
 
 /*
  * Starts from an estimate, without input. Errors: NULL, CONFIG (not usable; the calls below do not look again).
- * Constant cost.
+ * Constant cost. Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_start(struct rho_input *input,
                                                const struct rho_input_config *config,
@@ -84,18 +86,22 @@ RHO_MUST_CHECK enum rho_status rho_input_start(struct rho_input *input,
 /*
  * Moves on by dt_s: the bare filter, N, forgetting. Back (dt_s < 0) there is neither noise nor forgetting, and dt_s 0
  * changes nothing. Errors: as rho_kalman_predict, also where an input that is present makes the result too uncertain.
+ * Cost: about 730 instructions with forgetting, 1050 coupled. Stack: 600 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_predict(struct rho_input *input,
                                                  const struct rho_input_config *config, float dt_s);
 
-/* One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update. */
+/*
+ * One scalar update of element 0 .. 5 of the state. Errors: as rho_kalman_update; VALUE where an input would be beyond
+ * 1e12. Cost: about 460 instructions, 880 coupled. Stack: 500 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_input_update(struct rho_input *input,
                                                 const struct rho_input_config *config, int element,
                                                 float value, float variance);
 
 /*
  * One scalar update: row . state was measured, `innovation` is its measured value minus that of the bare filter.
- * Errors: as rho_kalman_update_row.
+ * Errors: as rho_kalman_update_row, and above. Cost: about 1500 instructions. Stack: 520 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_row(struct rho_input *input,
                                                     const struct rho_input_config *config,
@@ -104,19 +110,25 @@ RHO_MUST_CHECK enum rho_status rho_input_update_row(struct rho_input *input,
 
 /*
  * Updates with a position, in the frame of its noise. Axes that are not open are opened as rho_kalman_update_position
- * does. Errors: as there.
+ * does. Errors: as there. Cost: an update an axis; where the noise is not isotropic, one by a row. Stack: 1050 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input,
                                                          const struct rho_input_config *config,
                                                          const struct rho_measurement *measurement);
 
-/* Updates with a range rate, linearised at the corrected estimate. Errors: as rho_kalman_update_range_rate. */
+/*
+ * Updates with a range rate, linearised at the corrected estimate. Errors: as rho_kalman_update_range_rate.
+ * Cost: the estimate, and an update by a row. Stack: 740 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_input_update_range_rate(struct rho_input *input,
                                                            const struct rho_input_config *config,
                                                            const struct rho_sensor *sensor,
                                                            float rate_mps, float variance);
 
-/* Updates with a bearing from a place, linearised at the corrected estimate. Errors: as rho_kalman_update_bearing. */
+/*
+ * Updates with a bearing from a place, linearised at the corrected estimate. Errors: as rho_kalman_update_bearing.
+ * Cost: as above. Stack: 760 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
                                                         const struct rho_input_config *config,
                                                         float x_m, float y_m, float bearing_rad,
@@ -125,16 +137,17 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
 /*
  * Tests each axis, starts anew where no input is present, and takes one that has stopped into the estimate. Once a scan,
  * after what the plot measures; a scan without a plot decides nothing. Where the inputs of axes are correlated the weakest
- * is judged first, and the others as they are without it.
+ * is judged first, and the others as they are without it. Cost: about 110 instructions, 300 where
+ * three inputs stop, 1500 where they are coupled. Stack: 100 bytes.
  */
 void rho_input_decide(struct rho_input *input, const struct rho_input_config *config);
 
-/* The corrected estimate, (14) to (18). Constant cost. */
+/* The corrected estimate, (14) to (18). Cost: about 260 instructions, 2100 coupled. Stack: 160 bytes. */
 void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate);
 
 /*
  * The same as a gate has to see it: an axis without input may have got one since the last plot, of 0 with variance V(0).
- * Constant cost.
+ * Cost and stack as above.
  */
 void rho_input_expect(const struct rho_input *input, struct rho_kalman *estimate);
 

@@ -50,7 +50,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
 /*
  * Adds noise of its own to each open axis: a step of the papers that state Q a step, whatever its interval.
  * Errors: NULL, VALUE (a variance negative or not finite, a result beyond RHO_KALMAN_VARIANCE_MAX); unchanged.
- * Constant cost. No stack.
+ * Cost: about 60 instructions. Stack: 16 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float velocity_variance);
@@ -59,7 +59,7 @@ rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float v
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0 (below
  * RHO_KALMAN_VARIANCE_MIN it counts as that). *nis (may be NULL) gets the normalised innovation squared. On an axis
  * that is not open nothing else changes. Errors: NULL, VALUE (element, value or variance, a result not finite),
- * SINGULAR (innovation variance not positive and finite); unchanged. Cost: about 330 instructions. Stack: 144 bytes.
+ * SINGULAR (innovation variance not positive and finite); unchanged. Cost: about 300 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element,
                                                  float value, float variance, float *nis);
@@ -67,7 +67,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int 
 /*
  * One scalar update: row . state was measured, `innovation` is its measured minus predicted value, `variance` its
  * noise.
- * Errors as above. Cost: about 480 instructions. Stack: 200 bytes.
+ * Errors as above. Cost: about 590 instructions. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
                                                      float innovation, float variance, float *nis);
@@ -77,6 +77,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, 
  * triangle. It is made diagonal once, R = L D L^T without a square root, and each row of L^-1 H is a scalar update.
  * Elements of an axis that is not open are left out. Errors: NULL, VALUE (num, an element, a value or covariance not
  * finite, a result), SINGULAR (R not positive definite, an innovation variance); unchanged.
+ * Cost: about 2700 instructions for 3 elements, 6250 for 6. Stack: 570 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,
                                                             const int elements[],
@@ -103,7 +104,7 @@ struct rho_kalman_row {
 
 /*
  * Fills *seen for a range rate with noise `variance`. Returns 0, and fills nothing, where the estimate is nearer than a
- * metre to the sensor. Cost: rho_measurement_range_rate, and a division. Stack: 80 bytes.
+ * metre to the sensor. Cost: rho_measurement_range_rate, and a division. Stack: 170 bytes.
  */
 int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
                               float rate_mps, float variance, struct rho_kalman_row *seen);

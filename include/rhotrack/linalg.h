@@ -48,14 +48,14 @@ RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[
  * innovation^2 / (p_ii + variance). No variance grows by more than 2^-20 of itself,
  * and a positive definite p stays so in spite of rounding, unless it is singular to within 10^-6 already.
  * Errors: NULL, VALUE (index, innovation or a result not finite), SINGULAR (variance not positive, p_ii negative, or
- * their sum not a number one can divide by); x, p and *nis untouched. Cost: about 280 instructions. Stack: 112 bytes.
+ * their sum not a number one can divide by); x, p and *nis untouched. Cost: about 240 instructions. Stack: 112 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index,
                                                   float innovation, float variance, float *nis);
 
 /*
  * The same for a measurement of row . x: row (6 floats) need not be a unit vector, and `innovation` is the measured
- * minus the predicted value. Errors as above. Cost: about 420 instructions. Stack: 144 bytes.
+ * minus the predicted value. Errors as above. Cost: about 530 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
                                                       float innovation, float variance, float *nis);

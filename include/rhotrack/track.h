@@ -18,6 +18,8 @@
 #include <stdint.h>
 
 #include "rhotrack/gate.h"
+#include "rhotrack/hypotheses.h"
+#include "rhotrack/input.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
@@ -39,6 +41,14 @@ enum rho_track_event {
     RHO_NUM_TRACK_EVENTS
 };
 
+/* What holds a track's estimate; it keeps to the one that it was started with. */
+enum rho_track_filter {
+    RHO_TRACK_KALMAN = 0, /* `kalman` alone: tracks of bearings, and without the two others */
+    RHO_TRACK_INPUT,      /* `input`: Kalman filter with input estimation */
+    RHO_TRACK_HYPOTHESES, /* a slot of the pool */
+    RHO_NUM_TRACK_FILTERS
+};
+
 struct rho_track {
     uint32_t track_id; /* 1, 2, ... in the order of starts; never used twice until 2^32 */
     uint8_t status;    /* enum rho_track_status */
@@ -50,7 +60,15 @@ struct rho_track {
     int32_t score_max_mnat; /* highest since the start */
     int64_t time_us;        /* of the estimate: a scan's, or the last claimed plot's own */
     int64_t updated_us;     /* of the last claimed plot, its own */
-    struct rho_kalman kalman;
+    uint8_t filter;         /* enum rho_track_filter */
+    uint16_t slot;          /* in the pool of hypotheses */
+    struct rho_kalman
+        kalman; /* the estimate; of hypotheses, since the last rho_track_settle, moved on roughly */
+    float accel_mps2[3];        /* estimated; 0 of a plain Kalman filter */
+    float maneuver_probability; /* of hypotheses; else 1 where an input is present, 0 where not */
+    float newest_mps[3],
+        before_mps[3]; /* velocity after the last update and the one before: the Hough gate's */
+    struct rho_input input;
 };
 
 /* Thresholds that a track's evidence is held against. */
@@ -68,10 +86,14 @@ const char *rho_track_status_name(enum rho_track_status status);
 enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                             enum rho_track_event event);
 
-/* What targets may do, as maintenance assumes it. */
+/* What targets may do, as maintenance assumes it, and who follows them. What is pointed to stays the caller's. */
 struct rho_track_model {
     float speed_sigma_mps; /* of the velocity on an axis that was measured once */
-    float noise_density;   /* white acceleration, m^2/s^3 (rho_kalman_predict) */
+    float
+        noise_density; /* white acceleration of a plain Kalman filter, m^2/s^3 (rho_kalman_predict) */
+    /* tracks are started with hypotheses where there is a pool, else with input estimation where it is configured */
+    struct rho_hypotheses *hypotheses;
+    const struct rho_input_config *input;
 };
 
 /* A plot, when it was seen, and by whom. */
@@ -85,15 +107,18 @@ struct rho_track_plot {
 };
 
 /*
- * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 2 plots: the first opens the filter, the
+ * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 1 plots: the first opens the filter, the
  * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is
  * that plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
- * Errors: NULL, VALUE (num_plots, numbers), SINGULAR; *track is unchanged. Cost: num_plots filter steps. Stack: 600
- * bytes.
+ * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses); *track is unchanged. Cost:
+ * num_plots filter steps. Stack: 600 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
                 unsigned num_plots, const struct rho_track_model *model, int32_t score_mnat);
+
+/* Gives back what the track holds outside of itself: its hypotheses. Before it is forgotten. */
+void rho_track_end(struct rho_track *track, const struct rho_track_model *model);
 
 /*
  * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later within its scan), it
@@ -113,6 +138,23 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
                                                 const struct rho_track_plot *plot,
                                                 const struct rho_track_model *model,
                                                 int32_t gain_mnat);
+
+/*
+ * A track of hypotheses takes a scan whose plots it has weighed (rho_hypotheses_commit): its best hypothesis' plot is
+ * claimed, if it has one, and the score changes by what all say. Then, or where the plot is refused, `plot` is -1.
+ * Errors: NULL, STATE (another filter).
+ */
+RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
+                                                const struct rho_hypotheses_scan *scan,
+                                                int32_t sensor_id,
+                                                const struct rho_track_model *model);
+
+/* At the end of a step: `kalman`, acceleration and manoeuvre as all hypotheses have them, at time_us. Other filters: nothing. */
+void rho_track_settle(struct rho_track *track, int64_t time_us,
+                      const struct rho_track_model *model);
+
+/* The prediction as a gate has to see it: an input may have begun since. */
+void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected);
 
 /* A bearing, when it was seen, and from where. */
 struct rho_track_bearing {

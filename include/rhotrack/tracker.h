@@ -27,12 +27,23 @@
 
 #include "rhotrack/assignment.h"
 #include "rhotrack/config.h"
+#include "rhotrack/gate.h"
+#include "rhotrack/hypotheses.h"
 #include "rhotrack/initiator.h"
+#include "rhotrack/input.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/status.h"
 #include "rhotrack/track.h"
 #include "rhotrack/types.h"
 #include "rhotrack/window.h"
+
+/* How tracks of plots choose theirs, and what follows the target. Tracks of bearings have a plain Kalman filter. */
+enum rho_tracker_gate {
+    RHO_TRACKER_BEST = 0, /* several hypotheses over two motion models: imm, hypotheses */
+    RHO_TRACKER_HOUGH, /* the paper: Hough clutter elimination among the plots in the gate, input estimation */
+    RHO_TRACKER_NEAREST, /* the likeliest plot in the gate, input estimation: least work and memory */
+    RHO_NUM_TRACKER_GATES
+};
 
 struct rho_tracker_config {
     float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
@@ -40,6 +51,11 @@ struct rho_tracker_config {
     float v_max_mps;
     float accel_max_mps2;     /* manoeuvres to follow: 0 .. 1000 */
     uint16_t coast_scans_max; /* misses in a row that end a track: 1 .. 255 */
+    uint8_t gate;             /* enum rho_tracker_gate */
+    /* gates hough and nearest: is_estimated 0 is a Kalman filter with white acceleration of half accel_max for 1 s */
+    struct rho_input_config input;
+    uint8_t planes;       /* hough: RHO_GATE_PLANE_... */
+    float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
 };
 
 /* Since init; all saturate. The fates' counters add up to plots_in. */
@@ -55,6 +71,7 @@ struct rho_tracker_counters {
     uint32_t gate_plots_dropped; /* RHO_MAX_GATE_PLOTS */
     uint32_t candidates_dropped; /* RHO_MAX_CANDIDATES */
     uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
+    uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
 };
 
 struct rho_tracker {
@@ -75,6 +92,7 @@ struct rho_tracker {
     struct rho_sensor sensors[RHO_MAX_SENSORS];
     struct rho_track tracks[RHO_MAX_TRACKS];
     struct rho_assignment assignment;
+    struct rho_hypotheses hypotheses; /* of the gate best */
 };
 
 /* One track as reported. */
@@ -90,6 +108,10 @@ struct rho_track_report {
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
     float sigma_m, sigma_mps; /* root mean variance over the measured axes */
+    float accel_mps2[3];
+    float
+        maneuver_probability; /* best: of the manoeuvring model; else 1 where an input is present, 0 where not */
+    uint16_t num_hypotheses; /* best; else 1 */
 };
 
 /* What one step did. Tracks in the order of their identities. */
@@ -105,7 +127,10 @@ struct rho_report {
     uint32_t ended[RHO_MAX_TRACKS];
 };
 
-/* pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5. Constant cost. */
+/*
+ * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5, gate best; hough and nearest without input estimation, planes
+ * xy, xz and yz, cells of 5 degrees. Constant cost.
+ */
 void rho_tracker_config_default(struct rho_tracker_config *config);
 
 /*

@@ -65,7 +65,7 @@ static int factor_row(int i, const float *a, float *l)
     return is_positive(pivot);
 }
 
-/* p := p - row row^T / s, off the diagonal. Written out: a loop would take twice the time. */
+/* p := p - row row^T / s, off the diagonal. Written out, as what follows: a loop would take twice the time. */
 static inline void lower_covariances(float p[21], const float row[6], const float gain[6])
 {
     p[RHO_AT(1, 0)] -= gain[1] * row[0];
@@ -224,20 +224,53 @@ enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *dist
 }
 
 /* What an update does to the state; false, and nothing done, where a result is not finite. */
-static int move_state(float x[6], const float gain[6], float innovation, float inverse)
+static inline int move_state(float x[6], const float gain[6], float innovation, float inverse)
 {
-    float next[6], total = 0.0f;
-    int j;
+    const float x0 = x[0] + gain[0] * innovation, x1 = x[1] + gain[1] * innovation;
+    const float x2 = x[2] + gain[2] * innovation, x3 = x[3] + gain[3] * innovation;
+    const float x4 = x[4] + gain[4] * innovation, x5 = x[5] + gain[5] * innovation;
 
-    for (j = 0; j < 6; ++j) {
-        next[j] = x[j] + gain[j] * innovation;
-        total += next[j];
-    }
-    if (!(is_finite(innovation * inverse * innovation) && is_finite(total))) {
+    if (!(is_finite(innovation * inverse * innovation) && is_finite(x0 + x1 + x2 + x3 + x4 + x5))) {
         return 0;
     }
-    memcpy(x, next, sizeof next);
+    x[0] = x0;
+    x[1] = x1;
+    x[2] = x2;
+    x[3] = x3;
+    x[4] = x4;
+    x[5] = x5;
     return 1;
+}
+
+/* Row i of a packed matrix, by where it lies. */
+static inline void read_row(float row[6], const float p[21], const uint8_t place[6])
+{
+    row[0] = p[place[0]];
+    row[1] = p[place[1]];
+    row[2] = p[place[2]];
+    row[3] = p[place[3]];
+    row[4] = p[place[4]];
+    row[5] = p[place[5]];
+}
+
+static inline void write_row(float p[21], const uint8_t place[6], const float row[6], float factor)
+{
+    p[place[0]] = row[0] * factor;
+    p[place[1]] = row[1] * factor;
+    p[place[2]] = row[2] * factor;
+    p[place[3]] = row[3] * factor;
+    p[place[4]] = row[4] * factor;
+    p[place[5]] = row[5] * factor;
+}
+
+static inline void scale_row(float scaled[6], const float row[6], float factor)
+{
+    scaled[0] = row[0] * factor;
+    scaled[1] = row[1] * factor;
+    scaled[2] = row[2] * factor;
+    scaled[3] = row[3] * factor;
+    scaled[4] = row[4] * factor;
+    scaled[5] = row[5] * factor;
 }
 
 enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
@@ -246,7 +279,6 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     float row[6], gain[6];
     float predicted, sum, inverse, kept;
     const uint8_t *place;
-    int j;
 
     if (x == NULL || p == NULL) {
         return RHO_ERROR_NULL;
@@ -261,10 +293,8 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    for (j = 0; j < 6; ++j) {
-        row[j] = p[place[j]];
-        gain[j] = row[j] * inverse;
-    }
+    read_row(row, p, place);
+    scale_row(gain, row, inverse);
     if (!move_state(x, gain, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
@@ -272,9 +302,7 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     lower_variances(p, row, gain);
     /* The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1. */
     kept = variance / sum;
-    for (j = 0; j < 6; ++j) {
-        p[place[j]] = row[j] * kept;
-    }
+    write_row(p, place, row, kept);
     if (nis != NULL) {
         *nis = innovation * inverse * innovation;
     }
@@ -304,7 +332,6 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
 {
     float projected[6], gain[6];
     float predicted, sum, inverse;
-    int j;
 
     if (x == NULL || p == NULL || row == NULL) {
         return RHO_ERROR_NULL;
@@ -315,9 +342,7 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    for (j = 0; j < 6; ++j) {
-        gain[j] = projected[j] * inverse;
-    }
+    scale_row(gain, projected, inverse);
     if (!move_state(x, gain, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }

@@ -44,9 +44,8 @@ static int32_t count_cells(float theta_cell_rad)
  * The cell whose centre is nearest to theta in [0, pi), on a circle of length pi: behind the last cell comes the first.
  * Between two borders it is the one that theta lies in.
  */
-static int32_t nearest_cell(float theta_rad, float theta_cell_rad)
+static int32_t nearest_cell(float theta_rad, float theta_cell_rad, int32_t num)
 {
-    const int32_t num = count_cells(theta_cell_rad);
     int32_t cell = (int32_t)(theta_rad / theta_cell_rad);
 
     if (cell >= num) {
@@ -67,7 +66,7 @@ static int32_t nearest_cell(float theta_rad, float theta_cell_rad)
  * rho changes by |d| |cos(theta - phi)| where the velocity changes by d in the direction phi: least at right angles to it,
  * and more the farther from there. All angles are alike where nothing changes.
  */
-static float best_theta(float da, float db, float theta_cell_rad)
+static float best_theta(float da, float db, float theta_cell_rad, int32_t num_cells)
 {
     float theta_rad;
 
@@ -81,7 +80,7 @@ static float best_theta(float da, float db, float theta_cell_rad)
     if (theta_rad >= RHO_PI) {
         theta_rad = 0.0f;
     }
-    return centre_rad(nearest_cell(theta_rad, theta_cell_rad), theta_cell_rad);
+    return centre_rad(nearest_cell(theta_rad, theta_cell_rad, num_cells), theta_cell_rad);
 }
 
 enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
@@ -103,12 +102,14 @@ enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes
             return RHO_ERROR_VALUE;
         }
     }
+    const int32_t num_cells = count_cells(theta_cell_rad);
     *hough = (struct rho_gate_hough){.planes = planes,
                                      .newest_mps = {newest_mps[0], newest_mps[1], newest_mps[2]}};
     for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {
         if (planes & (1u << plane)) {
             const uint8_t *axes = axes_of[plane];
-            float theta_rad = best_theta(change_mps[axes[0]], change_mps[axes[1]], theta_cell_rad);
+            float theta_rad =
+                best_theta(change_mps[axes[0]], change_mps[axes[1]], theta_cell_rad, num_cells);
             hough->cos_theta[plane] = rho_cos(theta_rad);
             hough->sin_theta[plane] = rho_sin(theta_rad);
         }
@@ -116,17 +117,18 @@ enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes
     return RHO_OK;
 }
 
+/* A plane that is not looked at has neither a cosine nor a sine. */
+static float off_in_plane(const struct rho_gate_hough *hough, int plane, float a_mps, float b_mps)
+{
+    return size_of(a_mps * hough->cos_theta[plane] + b_mps * hough->sin_theta[plane]);
+}
+
 float rho_gate_hough_off(const struct rho_gate_hough *hough, const float velocity_mps[3])
 {
-    float change_mps[3], off_mps = 0.0f;
+    const float x_mps = velocity_mps[0] - hough->newest_mps[0];
+    const float y_mps = velocity_mps[1] - hough->newest_mps[1];
+    const float z_mps = velocity_mps[2] - hough->newest_mps[2];
 
-    for (int i = 0; i < 3; i++) {
-        change_mps[i] = velocity_mps[i] - hough->newest_mps[i];
-    }
-    for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {
-        const uint8_t *axes = axes_of[plane];
-        off_mps += size_of(change_mps[axes[0]] * hough->cos_theta[plane] +
-                           change_mps[axes[1]] * hough->sin_theta[plane]);
-    }
-    return off_mps;
+    return off_in_plane(hough, 0, x_mps, y_mps) + off_in_plane(hough, 1, x_mps, z_mps) +
+           off_in_plane(hough, 2, y_mps, z_mps);
 }

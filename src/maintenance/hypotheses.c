@@ -23,24 +23,24 @@ int rho_hypotheses_is_ready(const struct rho_hypotheses *pool)
 
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
 {
-    return rho_hypotheses_is_ready(pool) && slot < RHO_MAX_TRACKS && pool->num_of[slot] > 0;
+    return rho_hypotheses_is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
 }
 
 uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool)
 {
-    return pool->free[--pool->num_free];
+    return pool->spare[--pool->num_free];
 }
 
 void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node)
 {
-    pool->free[pool->num_free++] = node;
+    pool->spare[pool->num_free++] = node;
 }
 
 /* The slot with the most hypotheses, of equals the first, but for one. */
 static uint16_t richest(const struct rho_hypotheses *pool, uint16_t but)
 {
     uint16_t found = but;
-    for (uint16_t slot = 0; slot < RHO_MAX_TRACKS; slot++) {
+    for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
         if (slot != but && pool->num_of[slot] > (found == but ? 0 : pool->num_of[found])) {
             found = slot;
         }
@@ -50,14 +50,15 @@ static uint16_t richest(const struct rho_hypotheses *pool, uint16_t but)
 
 unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted)
 {
-    unsigned own = slot < RHO_MAX_TRACKS ? pool->num_of[slot] : 0;
+    unsigned own = slot < RHO_HYPOTHESES_SLOTS ? pool->num_of[slot] : 0;
     while (own + pool->num_free < wanted) {
         uint16_t giver = richest(pool, slot);
         unsigned most = giver == slot ? 0 : pool->num_of[giver];
-        pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
         if (most < 2 || most <= own + pool->num_free) {
+            pool->hypotheses_cut = rho_count(pool->hypotheses_cut, wanted - own - pool->num_free);
             return own + pool->num_free;
         }
+        pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
         pool->num_of[giver]--;
         rho_hypotheses_release(pool, pool->node_of[giver][pool->num_of[giver]]);
     }
@@ -81,7 +82,7 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
     pool->model = copy;
     pool->num_free = RHO_MAX_HYPOTHESES;
     for (unsigned i = 0; i < RHO_MAX_HYPOTHESES; i++) {
-        pool->free[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
+        pool->spare[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
     }
     rho_imm_step_open(&pool->step, model, 0.0f);
     pool->magic = POOL_MAGIC;
@@ -92,7 +93,7 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
 
 static int find_slot(const struct rho_hypotheses *pool, uint16_t *slot)
 {
-    for (uint16_t i = 0; i < RHO_MAX_TRACKS; i++) {
+    for (uint16_t i = 0; i < RHO_HYPOTHESES_SLOTS; i++) {
         if (pool->num_of[i] == 0) {
             *slot = i;
             return 1;

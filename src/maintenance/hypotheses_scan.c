@@ -159,6 +159,15 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
     return is_seen;
 }
 
+int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    unsigned candidates = 0;
+    for (unsigned i = 0; i < rho_hypotheses_count(pool, slot); i++) {
+        candidates += pool->nodes[pool->node_of[slot][i]].num_candidates;
+    }
+    return candidates > 0;
+}
+
 /* ---- commit ----------------------------------------------------------------------------------- */
 
 /* In the order of weights; of equals the earlier parent, the earlier plot. */

@@ -17,24 +17,35 @@
 
 /* ---- models ----------------------------------------------------------------------------------- */
 
-/* Measured: a step of 0.34 accel_max in a quarter of a second, which follows an onset within two plots. */
-#define DRIVE_SHARE 0.68f
-#define MEMORY_S 3.0f
-#define SOJOURN_S 4.0f
-#define QUIET_DENSITY 1.0f
-#define SPEED_SIGMA_MPS 700.0f
+/*
+ * Measured with targets that pull 1 to 30 g for 4 to 8 s: a standing acceleration of 0.83 accel_max, and times no shorter
+ * than these. Slower targets keep to a motion as long as it takes them to turn, a share of v_max / accel_max.
+ */
+#define ACCEL_SHARE 0.83f
+#define MEMORY_SHARE 0.35f
+#define MEMORY_MIN_S 3.0f
+#define SOJOURN_SHARE 0.47f
+#define SOJOURN_MIN_S 4.0f
+#define TURN_MAX_S 1000.0f
 
-void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2)
+/* Steady targets are not quite; those that hardly manoeuvre are steadier still. */
+#define QUIET_DENSITY 1.0f
+#define QUIET_SHARE 0.5f
+
+void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps)
 {
-    float drive = DRIVE_SHARE * accel_max_mps2;
+    const float accel = ACCEL_SHARE * accel_max_mps2, quiet = QUIET_SHARE * accel_max_mps2;
+    const float turn_s =
+        accel_max_mps2 * TURN_MAX_S > v_max_mps ? v_max_mps / accel_max_mps2 : TURN_MAX_S;
+    const float memory_s = MEMORY_SHARE * turn_s, sojourn_s = SOJOURN_SHARE * turn_s;
     *model = (struct rho_imm_model){
-        .quiet_density = QUIET_DENSITY,
-        .drive_density = drive * drive,
-        .memory_s = MEMORY_S,
-        .sojourn_s = SOJOURN_S,
-        .speed_sigma_mps = SPEED_SIGMA_MPS,
+        .quiet_density = quiet * quiet < QUIET_DENSITY ? quiet * quiet : QUIET_DENSITY,
+        .memory_s = memory_s > MEMORY_MIN_S ? memory_s : MEMORY_MIN_S,
+        .sojourn_s = sojourn_s > SOJOURN_MIN_S ? sojourn_s : SOJOURN_MIN_S,
+        .speed_sigma_mps = v_max_mps,
         .accel_sigma_mps2 = accel_max_mps2,
     };
+    model->drive_density = 2.0f * accel * accel / model->memory_s;
 }
 
 int rho_imm_model_is_usable(const struct rho_imm_model *model)

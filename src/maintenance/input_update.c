@@ -1,19 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-/* What is measured updates the filter without input, and the inputs by what that leaves unexplained. */
+/* What a scalar tells updates the filter without input, and the inputs by what that leaves unexplained. */
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
 
+#include "input_columns.h"
 #include "rhotrack/input.h"
-
-#define NUM_AXES RHO_INPUT_AXES
-#define NUM_STATES RHO_KALMAN_STATES
 
 /* As in the filter: variances that something is taken off are raised by sixteen units of rounding. */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
 #define INPUT2_MAX 1.0e24f
-#define SENSITIVITY2_MAX 1.0e24f
+
+/* Of (s / S)^2 P_ii: no covariance with the element is larger than the root of P_ii times that of the largest variance. */
+#define MOVED2_MAX (SENSITIVITY2_MAX / RHO_KALMAN_VARIANCE_MAX)
+
+/* Where row i of a packed 6 x 6 matrix lies. */
+static const uint8_t row_places[NUM_STATES][NUM_STATES] = {
+    {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
+    {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
+};
+
+static float noise_of(float variance)
+{
+    return variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
+}
+
+static float at_least_floor(float variance)
+{
+    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
+}
+
+/* ---- any measurement ------------------------------------------------------------------------------ */
 
 /* A scalar measurement, and how it is seen: P h, h P h^T + R, and its derivatives by the inputs, H N. */
 struct sight {
@@ -27,21 +45,6 @@ struct sight {
     float by_input[NUM_AXES];
 };
 
-static int is_zero(float v)
-{
-    return !(v < 0.0f || v > 0.0f);
-}
-
-static float noise_of(float variance)
-{
-    return variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
-}
-
-static float at_least_floor(float variance)
-{
-    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
-}
-
 static enum rho_status update_bare(struct rho_kalman *bare, const struct sight *sight)
 {
     if (sight->row) {
@@ -49,8 +52,6 @@ static enum rho_status update_bare(struct rho_kalman *bare, const struct sight *
     }
     return rho_kalman_update(bare, sight->element, sight->value, sight->noise, NULL);
 }
-
-/* ---- recursive least squares, (11) and (12) --------------------------------------------------- */
 
 /* M = (I - K H) N, a column. False where it is too large, or NaN. */
 static int update_sensitivity(float m[NUM_STATES], const struct sight *sight, float by_input)
@@ -65,32 +66,7 @@ static int update_sensitivity(float m[NUM_STATES], const struct sight *sight, fl
     return size2 <= SENSITIVITY2_MAX;
 }
 
-/* The usual case: what was measured depends on the input of one axis, and that on no other's. */
-static enum rho_status update_one(struct rho_input *input, const struct sight *sight, int a)
-{
-    const float v = input->variance[RHO_AT(a, a)], s = sight->by_input[a];
-    const float variance = v * s * s + sight->variance;
-    const float rest = sight->off - s * input->input_mps2[a];
-    const float learned_mps2 = input->input_mps2[a] + v * s / variance * rest;
-    float column[NUM_STATES];
-    enum rho_status status;
-
-    memcpy(column, input->sensitivity[a], sizeof column);
-    if (!update_sensitivity(column, sight, s) || !(variance <= FLT_MAX) ||
-        !(learned_mps2 * learned_mps2 <= INPUT2_MAX)) {
-        return RHO_ERROR_VALUE;
-    }
-    status = update_bare(&input->bare, sight);
-    if (status == RHO_OK) {
-        memcpy(input->sensitivity[a], column, sizeof column);
-        input->input_mps2[a] = learned_mps2;
-        /* scaled, not differenced: no digit is lost */
-        input->variance[RHO_AT(a, a)] = at_least_floor(v * (sight->variance / variance));
-    }
-    return status;
-}
-
-/* V and u. False where they are too large, or NaN. */
+/* V and u, (11) and (12). False where they are too large, or NaN. */
 static int learn(struct rho_input *input, const struct sight *sight)
 {
     float *v = input->variance, *u = input->input_mps2, vs[NUM_AXES];
@@ -137,73 +113,88 @@ static enum rho_status update_all(struct rho_input *input, const struct sight *s
     return status;
 }
 
-/* Which input alone, correlated with no other, the measurement depends on; NUM_AXES: there is more to it. */
-static int only_axis(const struct rho_input *input, const float by_input[NUM_AXES])
-{
-    const int x = !is_zero(by_input[0]), y = !is_zero(by_input[1]), z = !is_zero(by_input[2]);
-    const int axis = x ? 0 : (y ? 1 : 2);
-    const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
-
-    if (x + y + z != 1 || !is_zero(input->variance[RHO_AT(axis, b)]) ||
-        !is_zero(input->variance[RHO_AT(axis, c)])) {
-        return NUM_AXES;
-    }
-    return axis;
-}
-
-static enum rho_status update(struct rho_input *input, const struct sight *sight)
-{
-    const float *s = sight->by_input;
-
-    if (is_zero(s[0]) && is_zero(s[1]) && is_zero(s[2])) {
-        return update_bare(&input->bare, sight);
-    }
-    const int axis = only_axis(input, s);
-    return axis < NUM_AXES ? update_one(input, sight, axis) : update_all(input, sight);
-}
-
-/* ---- scalar measurements ---------------------------------------------------------------------- */
-
-static enum rho_status update_element(struct rho_input *input, int element, float value,
-                                      float variance)
-{
-    const struct rho_kalman *bare = &input->bare;
-    struct sight sight;
-
-    sight.row = NULL;
-    sight.element = element;
-    sight.value = value;
-    sight.noise = variance;
-    for (int i = 0; i < NUM_STATES; i++) {
-        sight.projected[i] = bare->covariance[RHO_AT(element, i)];
-    }
-    for (int a = 0; a < NUM_AXES; a++) {
-        sight.by_input[a] = input->sensitivity[a][element];
-    }
-    sight.variance = sight.projected[element] + noise_of(variance);
-    sight.off = value - bare->state[element];
-    return update(input, &sight);
-}
-
 static enum rho_status update_row(struct rho_input *input, const float row[6], float innovation,
                                   float variance)
 {
-    struct sight sight;
+    struct sight sight = {.row = row, .noise = variance, .off = innovation};
 
-    sight.row = row;
-    sight.element = 0;
-    sight.value = 0.0f;
-    sight.noise = variance;
     sight.variance =
         noise_of(variance) + rho_linalg_project6(input->bare.covariance, row, sight.projected);
-    sight.off = innovation;
     for (int a = 0; a < NUM_AXES; a++) {
-        sight.by_input[a] = 0.0f;
         for (int i = 0; i < NUM_STATES; i++) {
             sight.by_input[a] += row[i] * input->sensitivity[a][i];
         }
     }
-    return update(input, &sight);
+    return update_all(input, &sight);
+}
+
+static enum rho_status update_coupled(struct rho_input *input, int element, float value,
+                                      float variance)
+{
+    struct sight sight = {.element = element,
+                          .value = value,
+                          .noise = variance,
+                          .off = value - input->bare.state[element]};
+
+    for (int i = 0; i < NUM_STATES; i++) {
+        sight.projected[i] = input->bare.covariance[row_places[element][i]];
+    }
+    sight.variance = noise_of(variance) + sight.projected[element];
+    for (int a = 0; a < NUM_AXES; a++) {
+        sight.by_input[a] = input->sensitivity[a][element];
+    }
+    return update_all(input, &sight);
+}
+
+/* ---- an element that depends on the input of its own axis ----------------------------------------- */
+
+/* True where an element depends on the input of its axis at most, and that on no other's: the usual case. */
+static int is_apart(const struct rho_input *input, int element, int axis)
+{
+    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
+    const int b = others[axis][0], c = others[axis][1];
+
+    return (bits_of(input->sensitivity[b][element]) | bits_of(input->sensitivity[c][element]) |
+            bits_of(input->variance[RHO_AT(1, 0)]) | bits_of(input->variance[RHO_AT(2, 0)]) |
+            bits_of(input->variance[RHO_AT(2, 1)])) == 0;
+}
+
+/* The same as update_all, (8) to (13), for one axis; written out, as a loop would take twice the time. */
+static enum rho_status update_axis(struct rho_input *input, int axis, int element, float value,
+                                   float variance)
+{
+    const float *p = input->bare.covariance;
+    const uint8_t *place = row_places[element];
+    float *m = input->sensitivity[axis];
+    const float s = m[element], v = input->variance[RHO_AT(axis, axis)];
+    const float bare = p[place[element]] + noise_of(variance), total = v * s * s + bare;
+    const float rest = value - input->bare.state[element] - s * input->input_mps2[axis];
+    const float learned_mps2 = input->input_mps2[axis] + v * s / total * rest;
+    const float factor = s / bare;
+
+    const float m0 = m[0] - factor * p[place[0]];
+    const float m1 = m[1] - factor * p[place[1]];
+    const float m2 = m[2] - factor * p[place[2]];
+    const float m3 = m[3] - factor * p[place[3]];
+    const float m4 = m[4] - factor * p[place[4]];
+    const float m5 = m[5] - factor * p[place[5]];
+    if (!(factor * factor * p[place[element]] <= MOVED2_MAX && total <= FLT_MAX &&
+          learned_mps2 * learned_mps2 <= INPUT2_MAX)) {
+        return RHO_ERROR_VALUE;
+    }
+    const enum rho_status status = rho_kalman_update(&input->bare, element, value, variance, NULL);
+    if (status == RHO_OK) {
+        m[0] = m0;
+        m[1] = m1;
+        m[2] = m2;
+        m[3] = m3;
+        m[4] = m4;
+        m[5] = m5;
+        input->input_mps2[axis] = learned_mps2;
+        /* scaled, not differenced: no digit is lost */
+        input->variance[RHO_AT(axis, axis)] = at_least_floor(v * (bare / total));
+    }
+    return status;
 }
 
 enum rho_status rho_input_update(struct rho_input *input, const struct rho_input_config *config,
@@ -215,10 +206,17 @@ enum rho_status rho_input_update(struct rho_input *input, const struct rho_input
     if (element < 0 || element >= NUM_STATES) {
         return RHO_ERROR_VALUE;
     }
+    const int axis = element < NUM_AXES ? element : element - NUM_AXES;
     if (!config->is_estimated) {
         return rho_kalman_update(&input->bare, element, value, variance, NULL);
     }
-    return update_element(input, element, value, variance);
+    if (!is_apart(input, element, axis)) {
+        return update_coupled(input, element, value, variance);
+    }
+    if (is_zero(input->sensitivity[axis][element])) { /* it says nothing of inputs */
+        return rho_kalman_update(&input->bare, element, value, variance, NULL);
+    }
+    return update_axis(input, axis, element, value, variance);
 }
 
 enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,
@@ -231,174 +229,4 @@ enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_i
         return rho_kalman_update_row(&input->bare, row, innovation, variance, NULL);
     }
     return update_row(input, row, innovation, variance);
-}
-
-/* ---- positions -------------------------------------------------------------------------------- */
-
-static enum rho_status measure_axis(struct rho_input *input, const struct rho_input_config *config,
-                                    int axis, float place_m, float variance)
-{
-    if (!rho_kalman_is_open(&input->bare, axis)) {
-        return rho_kalman_open_axis(&input->bare, axis, place_m, variance,
-                                    config->velocity_variance);
-    }
-    return update_element(input, axis, place_m, variance);
-}
-
-/* Along the line of sight, across it, and upwards: the noise of each is its own. */
-static enum rho_status measure_along(struct rho_input *input, const struct rho_measurement *seen,
-                                     int num_axes)
-{
-    const float ca = seen->cos_azimuth, sa = seen->sin_azimuth;
-    const int has_z = num_axes == NUM_AXES;
-    const float ce = has_z ? seen->cos_elevation : 1.0f, se = has_z ? seen->sin_elevation : 0.0f;
-    const float rows[NUM_AXES][NUM_STATES] = {
-        {ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
-    enum rho_status status = RHO_OK;
-
-    for (int k = 0; k < num_axes && status == RHO_OK; k++) {
-        float off_m = 0.0f;
-        for (int i = 0; i < num_axes; i++) {
-            off_m += rows[k][i] * (seen->place_m[i] - input->bare.state[i]);
-        }
-        status = update_row(input, rows[k], off_m, seen->variance_m2[k]);
-    }
-    return status;
-}
-
-/* The first axes, all open or all closed. */
-static enum rho_status measure_together(struct rho_input *input,
-                                        const struct rho_input_config *config,
-                                        const struct rho_measurement *seen, int num_axes)
-{
-    if (!rho_kalman_is_open(&input->bare, 0)) {
-        return rho_kalman_update_position(&input->bare, seen, config->velocity_variance);
-    }
-    return measure_along(input, seen, num_axes);
-}
-
-/* x and y were measured before and z was not, or the other way round: as the filter does. */
-static enum rho_status measure_apart(struct rho_input *input, const struct rho_input_config *config,
-                                     const struct rho_measurement *seen)
-{
-    struct rho_measurement level = *seen;
-    float covariance[6];
-    enum rho_status status;
-
-    rho_measurement_covariance(seen, covariance);
-    level.variance_m2[0] = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
-                           seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
-    level.has_z = 0;
-    status = measure_together(input, config, &level, 2);
-    if (status == RHO_OK) {
-        status = measure_axis(input, config, 2, seen->place_m[2], covariance[5]);
-    }
-    return status;
-}
-
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
-
-static enum rho_status update_position(struct rho_input *input,
-                                       const struct rho_input_config *config,
-                                       const struct rho_measurement *seen)
-{
-    const int num_axes = seen->has_z ? NUM_AXES : 2;
-    const int is_open = rho_kalman_is_open(&input->bare, 0);
-    enum rho_status status = RHO_OK;
-
-    for (int axis = 0; axis < num_axes; axis++) {
-        if (!is_finite(seen->place_m[axis])) {
-            return RHO_ERROR_VALUE;
-        }
-    }
-    if (seen->is_isotropic) {
-        for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
-            status =
-                measure_axis(input, config, axis, seen->place_m[axis], seen->variance_m2[axis]);
-        }
-        return status;
-    }
-    if (is_open != rho_kalman_is_open(&input->bare, 1)) {
-        return RHO_ERROR_VALUE;
-    }
-    if (seen->has_z && is_open != rho_kalman_is_open(&input->bare, 2)) {
-        return measure_apart(input, config, seen);
-    }
-    return measure_together(input, config, seen, num_axes);
-}
-
-enum rho_status rho_input_update_position(struct rho_input *input,
-                                          const struct rho_input_config *config,
-                                          const struct rho_measurement *measurement)
-{
-    enum rho_status status;
-
-    if (input == NULL || config == NULL || measurement == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    struct rho_input next = *input;
-    if (config->is_estimated) {
-        status = update_position(&next, config, measurement);
-    } else {
-        status = rho_kalman_update_position(&next.bare, measurement, config->velocity_variance);
-    }
-    if (status == RHO_OK) {
-        *input = next;
-    }
-    return status;
-}
-
-/* ---- range rates and bearings ----------------------------------------------------------------- */
-
-/* An innovation as the corrected estimate has it, as the filter without input would have it. */
-static float without_input(const struct rho_input *input, const struct rho_kalman *corrected,
-                           const float row[NUM_STATES], float innovation)
-{
-    for (int i = 0; i < NUM_STATES; i++) {
-        innovation += row[i] * (corrected->state[i] - input->bare.state[i]);
-    }
-    return innovation;
-}
-
-enum rho_status rho_input_update_range_rate(struct rho_input *input,
-                                            const struct rho_input_config *config,
-                                            const struct rho_sensor *sensor, float rate_mps,
-                                            float variance)
-{
-    struct rho_kalman corrected;
-    struct rho_kalman_row seen;
-
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    rho_input_estimate(input, &corrected);
-    if (!rho_kalman_see_range_rate(&corrected, sensor, rate_mps, variance, &seen)) {
-        return RHO_OK;
-    }
-    const float off_mps = without_input(input, &corrected, seen.row, seen.innovation);
-    return rho_input_update_row(input, config, seen.row, off_mps, seen.variance);
-}
-
-enum rho_status rho_input_update_bearing(struct rho_input *input,
-                                         const struct rho_input_config *config, float x_m,
-                                         float y_m, float bearing_rad, float sigma_rad)
-{
-    struct rho_kalman corrected;
-    struct rho_kalman_bearing seen;
-
-    if (input == NULL || config == NULL) {
-        return RHO_ERROR_NULL;
-    }
-    if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
-        return RHO_ERROR_VALUE;
-    }
-    rho_input_estimate(input, &corrected);
-    if (!rho_kalman_see_bearing(&corrected, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
-        return RHO_OK;
-    }
-    const float off_m = without_input(input, &corrected, seen.row, seen.off_m);
-    return rho_input_update_row(input, config, seen.row, off_m, seen.variance_m2);
 }

@@ -2,6 +2,7 @@
 /* Elements of the state that were measured with correlated noise. */
 #include <float.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "rhotrack/kalman.h"
 
@@ -96,23 +97,36 @@ static int open_white(const struct rho_kalman *kalman, int num, const int elemen
     return 1;
 }
 
-/* The offs are from the estimate as it was; by how much it has moved since comes off them. */
+/*
+ * By how much the estimate moves is found first, from nothing: rows that take large parts of some elements off others would
+ * see what a place far from the origin is rounded by.
+ */
 static enum rho_status update_all(struct rho_kalman *kalman, const struct white *white)
 {
-    const struct rho_kalman before = *kalman;
-    enum rho_status status = RHO_OK;
+    struct rho_kalman moved = *kalman;
+    float total = 0.0f;
 
-    for (int i = 0; i < white->num && status == RHO_OK; i++) {
+    memset(moved.state, 0, sizeof moved.state);
+    for (int i = 0; i < white->num; i++) {
         float off = white->off[i];
         for (int j = 0; j < RHO_KALMAN_STATES; j++) {
-            off -= white->row[i][j] * (kalman->state[j] - before.state[j]);
+            off -= white->row[i][j] * moved.state[j];
         }
-        status = rho_kalman_update_row(kalman, white->row[i], off, white->variance[i], NULL);
+        const enum rho_status status =
+            rho_kalman_update_row(&moved, white->row[i], off, white->variance[i], NULL);
+        if (status != RHO_OK) {
+            return status;
+        }
     }
-    if (status != RHO_OK) {
-        *kalman = before;
+    for (int j = 0; j < RHO_KALMAN_STATES; j++) {
+        moved.state[j] += kalman->state[j];
+        total += moved.state[j];
     }
-    return status;
+    if (!is_finite(total)) {
+        return RHO_ERROR_VALUE;
+    }
+    *kalman = moved;
+    return RHO_OK;
 }
 
 enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,

@@ -14,6 +14,8 @@
 #define ACCEL_SHARE 0.5f
 #define ACCEL_TIME_S 1.0f
 
+#define ALL_PLANES (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
+
 /* Memory of the smoothed clutter counts: ten scans. */
 #define CLUTTER_SMOOTHING 0.1f
 
@@ -87,6 +89,11 @@ static void begin(struct step *step)
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
+    if (tracker->config.gate == RHO_TRACKER_BEST) {
+        step->model.hypotheses = &tracker->hypotheses;
+    } else if (tracker->config.input.is_estimated) {
+        step->model.input = &tracker->config.input;
+    }
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
     tracker->time_us = step->time_us;
     tracker->has_time = 1;
@@ -99,8 +106,10 @@ static void report_track(const struct step *step, const struct rho_track *track,
 {
     int64_t age_us = step->time_us - track->updated_us;
     struct rho_track at = *track;
-    /* back from the plot's own time to the scan's, without noise: nothing to refuse */
-    (void)!rho_track_predict(&at, step->time_us, &step->model);
+    /* back from the plot's own time to the scan's, without noise: nothing to refuse; hypotheses are there already */
+    if (at.filter != RHO_TRACK_HYPOTHESES) {
+        (void)!rho_track_predict(&at, step->time_us, &step->model);
+    }
     *out = (struct rho_track_report){
         .track_id = track->track_id,
         .status = (enum rho_track_status)track->status,
@@ -114,7 +123,13 @@ static void report_track(const struct step *step, const struct rho_track *track,
         .score_nat = (float)track->score_mnat * 0.001f,
         .sigma_m = rho_track_sigma_m(&at),
         .sigma_mps = rho_track_sigma_mps(&at),
+        .maneuver_probability = at.maneuver_probability,
+        .num_hypotheses = 1,
     };
+    if (at.filter == RHO_TRACK_HYPOTHESES) {
+        out->num_hypotheses = (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, at.slot);
+    }
+    memcpy(out->accel_mps2, at.accel_mps2, sizeof out->accel_mps2);
     memcpy(out->state, at.kalman.state, sizeof out->state);
     memcpy(out->covariance, at.kalman.covariance, sizeof out->covariance);
 }
@@ -155,6 +170,8 @@ void rho_tracker_close(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     count_fates(step);
+    rho_tracker_settle(step);
+    tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
     step->report->num_tracks = tracker->num_tracks;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         report_track(step, &tracker->tracks[i], &step->report->tracks[i]);
@@ -170,7 +187,12 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .v_max_mps = 700.0f,
         .accel_max_mps2 = 30.0f,
         .coast_scans_max = 5,
+        .gate = RHO_TRACKER_BEST,
+        .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+        .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
     };
+    rho_input_config_default(&config->input);
+    config->input.is_estimated = 0;
 }
 
 static int is_usable(const struct rho_tracker_config *config)
@@ -178,7 +200,18 @@ static int is_usable(const struct rho_tracker_config *config)
     return rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) && config->coast_scans_max >= 1 &&
-           config->coast_scans_max <= UINT8_MAX;
+           config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
+           (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
+           rho_input_is_usable(&config->input) && config->planes > 0 &&
+           config->planes <= ALL_PLANES &&
+           rho_is_within(config->theta_cell_rad, 1e-3f, RHO_HALF_PI);
+}
+
+static enum rho_status open_hypotheses(struct rho_tracker *tracker)
+{
+    struct rho_imm_model model;
+    rho_imm_model_default(&model, tracker->config.accel_max_mps2, tracker->config.v_max_mps);
+    return rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
 }
 
 enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
@@ -193,12 +226,17 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     if (!is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
+    enum rho_status status;
     struct rho_tracker_config copy = *config;
     memset(tracker, 0, sizeof *tracker);
     tracker->config = copy;
     tracker->next_track_id = 1;
     tracker->looks_max = 1;
     tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
+    status = open_hypotheses(tracker);
+    if (status != RHO_OK) {
+        return status;
+    }
     tracker->magic = TRACKER_MAGIC;
     return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
 }

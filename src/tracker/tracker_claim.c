@@ -8,6 +8,11 @@
 /* The least area that clutter is spread over while few plots were seen. */
 #define CLUTTER_SIDE_MIN_M 1000.0f
 
+/* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the paper. */
+#define HOUGH_HITS_MIN 3
+/* More than any two velocities within the limits can differ, m/s for nat: only the order counts. */
+#define HOUGH_GAIN_MAX_NAT 80000.0f
+
 int32_t rho_tracker_mnat(float nat)
 {
     float mnat = nat * 1000.0f;
@@ -78,21 +83,123 @@ void rho_tracker_assign(struct step *step)
         rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
 }
 
+/* ---- what a Kalman filter's gate lets in ------------------------------------------------------- */
+
+/* The Hough gate's view of a track's plots: set up by the velocities of its last two estimates. */
+static int opens_hough(const struct step *step, const struct rho_track *track,
+                       struct rho_gate_hough *hough)
+{
+    const struct rho_tracker_config *config = &step->tracker->config;
+    uint8_t planes = config->planes;
+    if (!rho_kalman_is_open(&track->kalman, 2)) {
+        planes = RHO_GATE_PLANE_XY;
+    }
+    return config->gate == RHO_TRACKER_HOUGH && track->filter != RHO_TRACK_HYPOTHESES &&
+           track->hits >= HOUGH_HITS_MIN &&
+           rho_gate_hough_open(hough, planes, config->theta_cell_rad, track->before_mps,
+                               track->newest_mps) == RHO_OK;
+}
+
+/* A plot that measures no velocity has the one that brings a target there from where it was last seen. */
+static void velocity_of(const struct step *step, const struct rho_track *track,
+                        const struct rho_plot *plot, float velocity_mps[3])
+{
+    const float measured_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+    const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
+    const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
+    float dt_s = rho_seconds_between(track->updated_us, step->time_us + plot->offset_us);
+    for (int axis = 0; axis < 3; axis++) {
+        velocity_mps[axis] = track->newest_mps[axis];
+        if (axis == 2 && !has_z) {
+            continue;
+        }
+        if (step->scan->measures & RHO_MEASURES_VELOCITY) {
+            velocity_mps[axis] = measured_mps[axis];
+        } else if (dt_s > 0.0f) {
+            /* the prediction is where the newest velocity leads */
+            velocity_mps[axis] += (place_m[axis] - track->kalman.state[axis]) / dt_s;
+        }
+    }
+}
+
+/* Less of a way from the straight line is better; the constant keeps any better than none. */
+static float hough_gain(const struct step *step, const struct rho_track *track,
+                        const struct rho_gate_hough *hough, const struct rho_plot *plot)
+{
+    float velocity_mps[3];
+    velocity_of(step, track, plot, velocity_mps);
+    return HOUGH_GAIN_MAX_NAT - rho_gate_hough_off(hough, velocity_mps);
+}
+
+static void open_gate(const struct step *step, const struct rho_track *track, struct rho_gate *gate)
+{
+    struct rho_kalman expected;
+    rho_track_expect(track, &expected);
+    rho_gate_open(gate, &expected,
+                  track->filter == RHO_TRACK_INPUT ? step->model.input->noise_density
+                                                   : step->model.noise_density,
+                  step->sensor);
+}
+
 static void gate_plots(struct step *step, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
     struct rho_gate gate;
+    struct rho_gate_hough hough;
     struct rho_gate_result result;
     float log_density =
         rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
-    rho_gate_open(&gate, &track->kalman, step->model.noise_density, step->sensor);
+    int by_hough = opens_hough(step, track, &hough);
+    open_gate(step, track, &gate);
     for (uint32_t i = 0; i < step->num_gated; i++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
         if (step->report->fates[i] == RHO_FATE_HELD &&
-            rho_gate_test(&gate, &step->scan->plots[i], step->scan->measures, &result)) {
+            rho_gate_test(&gate, plot, step->scan->measures, &result)) {
             rho_tracker_offer(step, row, i,
-                              step->log_pd + log_ratio(step, &result, log_density) -
-                                  step->log_miss);
+                              by_hough ? hough_gain(step, track, &hough, plot)
+                                       : step->log_pd + log_ratio(step, &result, log_density) -
+                                             step->log_miss);
+        }
+    }
+}
+
+/* ---- what hypotheses let in --------------------------------------------------------------------- */
+
+static struct rho_hypotheses_clutter clutter_at(const struct step *step,
+                                                const struct rho_track *track)
+{
+    float log_per_mps = -rho_log(2.0f * step->tracker->config.v_max_mps);
+    return (struct rho_hypotheses_clutter){
+        .log_per_m2 =
+            rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1])),
+        .log_per_m = -rho_log(RHO_CLUTTER_HEIGHT_M),
+        .log_per_mps = log_per_mps,
+        .log_per_range_rate = log_per_mps,
+    };
+}
+
+/* A plot that is worth less than a miss is no better than none. */
+static void weigh_plots(struct step *step, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[row];
+    const struct rho_hypotheses_clutter clutter = clutter_at(step, track);
+    struct rho_hypotheses_reach reach;
+    struct rho_imm_plot seen;
+    float gain_nat;
+    rho_hypotheses_look(&tracker->hypotheses, track->slot, &reach);
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        if (step->report->fates[i] != RHO_FATE_HELD || !rho_hypotheses_reaches(&reach, plot)) {
+            continue;
+        }
+        rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);
+        if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
+                                 step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
+                                 &clutter, &gain_nat) &&
+            gain_nat > step->log_miss) {
+            rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
         }
     }
 }
@@ -103,7 +210,12 @@ void rho_tracker_claim(struct step *step)
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status != RHO_TRACK_FREE) {
+        if (tracker->tracks[row].status == RHO_TRACK_FREE) {
+            continue;
+        }
+        if (tracker->tracks[row].filter == RHO_TRACK_HYPOTHESES) {
+            weigh_plots(step, row);
+        } else {
             gate_plots(step, row);
         }
     }
@@ -116,7 +228,7 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
 {
     struct rho_gate gate;
     struct rho_gate_result result;
-    rho_gate_open(&gate, &track->kalman, step->model.noise_density, step->sensor);
+    open_gate(step, track, &gate);
     if (!rho_gate_test(&gate, &step->scan->plots[plot], step->scan->measures, &result)) {
         return 0;
     }
@@ -137,21 +249,68 @@ static struct rho_track_plot plot_of(const struct step *step, int row)
     };
 }
 
+static int claim_plot(struct step *step, struct rho_track *track, int plot)
+{
+    int32_t gain = gain_of(step, track, (uint32_t)plot);
+    struct rho_track_plot seen = plot_of(step, plot);
+    return rho_track_update(track, &seen, &step->model, gain) == RHO_OK;
+}
+
+/*
+ * Hypotheses go on with any plots of theirs that no other track got; the best one's is claimed. By the assignment's optimum
+ * that is the one assigned, or none.
+ */
+static void commit(struct step *step, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track *track = &tracker->tracks[row];
+    struct rho_assignment *assignment = &tracker->assignment;
+    uint32_t refused = tracker->hypotheses.updates_refused;
+    int is_looked_at =
+        rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad, track);
+    const struct rho_hypotheses_scan scan = {
+        .time_us = step->time_us,
+        .measures = step->scan->measures,
+        .plots = step->scan->plots,
+        .sensor = step->sensor,
+        .log_miss = is_looked_at ? step->log_miss : 0.0f,
+        .claims = assignment->column_row,
+        .own = (int16_t)row,
+    };
+    if (!is_looked_at && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
+        return;
+    }
+    /* the track is one of hypotheses: nothing to refuse */
+    (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);
+    refused = tracker->hypotheses.updates_refused - refused;
+    tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
+    if (track->plot >= 0) {
+        assignment->column_row[track->plot] = (int16_t)row;
+        step->report->fates[track->plot] = RHO_FATE_CLAIMED;
+    }
+}
+
 void rho_tracker_update(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         int plot = rho_assignment_column(&tracker->assignment, row);
-        if (plot == RHO_ASSIGNMENT_NONE) {
+        if (track->status != RHO_TRACK_FREE && track->filter == RHO_TRACK_HYPOTHESES) {
+            commit(step, row);
+        } else if (plot == RHO_ASSIGNMENT_NONE) {
             continue;
-        }
-        int32_t gain = gain_of(step, track, (uint32_t)plot);
-        struct rho_track_plot seen = plot_of(step, plot);
-        if (rho_track_update(track, &seen, &step->model, gain) == RHO_OK) {
+        } else if (claim_plot(step, track, plot)) {
             step->report->fates[plot] = RHO_FATE_CLAIMED;
         } else {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         }
+    }
+}
+
+void rho_tracker_settle(struct step *step)
+{
+    for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
+        rho_track_settle(&step->tracker->tracks[i], step->time_us, &step->model);
     }
 }

@@ -235,6 +235,7 @@ static void take_in(struct step *step)
     rho_tracker_set_pd(step); /* before any sensor is looked at */
     memset(step->report->fates, RHO_FATE_NO_ROOM, step->num_gated);
     rho_tracker_predict(step);
+    rho_tracker_settle(step); /* the gates of bearings look at the one estimate */
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         take_look(step, &frame->scans[i], first);
         first = rho_count(first, frame->scans[i].num_bearings);

@@ -19,6 +19,7 @@ void rho_tracker_end_track(struct step *step, struct rho_track *track, enum rho_
     if (was == RHO_TRACK_CONFIRMED || was == RHO_TRACK_COASTING) {
         report->ended[report->num_ended++] = track->track_id;
     }
+    rho_track_end(track, &step->model);
     track->status = RHO_TRACK_FREE;
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
@@ -79,7 +80,10 @@ void rho_tracker_age(struct step *step)
         if (step->scan && track->plot < 0 &&
             rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
                                   track)) {
-            rho_track_miss(track, rho_tracker_mnat(-step->log_miss));
+            /* what a miss says of a track of hypotheses is in its score already */
+            rho_track_miss(track, track->filter == RHO_TRACK_HYPOTHESES
+                                      ? 0
+                                      : rho_tracker_mnat(-step->log_miss));
         }
         judge(step, track, &limits);
         if (track->status != RHO_TRACK_FREE) {
@@ -92,8 +96,9 @@ void rho_tracker_age(struct step *step)
 /* ---- initiate --------------------------------------------------------------------------------- */
 
 /* Room for one more track: at the end, or that of the lowest tentative track below the score. */
-static int make_room(struct rho_tracker *tracker, int32_t score_mnat)
+static int make_room(struct step *step, int32_t score_mnat)
 {
+    struct rho_tracker *tracker = step->tracker;
     if (tracker->num_tracks < RHO_MAX_TRACKS) {
         return 1;
     }
@@ -109,6 +114,7 @@ static int make_room(struct rho_tracker *tracker, int32_t score_mnat)
     if (lowest == RHO_MAX_TRACKS) {
         return 0;
     }
+    rho_track_end(&tracker->tracks[lowest], &step->model);
     tracker->num_tracks--;
     tracker->counters.tracks_ended = rho_count(tracker->counters.tracks_ended, 1);
     memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
@@ -142,7 +148,8 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
                       const struct rho_track_limits *limits)
 {
     struct rho_tracker *tracker = step->tracker;
-    if (!make_room(tracker, track->score_mnat)) {
+    if (!make_room(step, track->score_mnat)) {
+        rho_track_end(track, &step->model);
         return 0;
     }
     judge(step, track, limits);

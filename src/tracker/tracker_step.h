@@ -82,6 +82,9 @@ void rho_tracker_assign(struct step *step);
 /* HELD inputs have nowhere to be held. */
 void rho_tracker_refuse_unclaimed(struct step *step);
 
+/* Tracks as the gate wants them: moved to the step's time, with all their hypotheses in one estimate. */
+void rho_tracker_settle(struct step *step);
+
 /* Thousandths of a nat, within the assignment's range. */
 int32_t rho_tracker_mnat(float nat);
 

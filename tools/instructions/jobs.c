@@ -6,7 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "rhotrack/gate.h"
 #include "rhotrack/initiator.h"
+#include "rhotrack/input.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/measurement.h"
 #include "rhotrack/tracker.h"
@@ -111,8 +113,82 @@ static int polar_job(void)
     return failed | must(rho_kalman_update_range_rate(&kalman, NULL, 100.0f, 1.0f));
 }
 
+/* ---- the paper's step: target and clutter of one scan, which the caller has put aside from the last ----- */
+
+#define PLOTS 5 /* the target's is the first */
+
+static struct rho_input_config input_config;
+static struct rho_input input;
+static float before_mps[3], newest_mps[3];
+static float seen[PLOTS][RHO_KALMAN_STATES];
+
+static int estimate_input(void)
+{
+    struct rho_kalman estimate;
+    rho_input_decide(&input, &input_config);
+    rho_input_estimate(&input, &estimate);
+    memcpy(before_mps, newest_mps, sizeof before_mps);
+    memcpy(newest_mps, &estimate.state[3], sizeof newest_mps);
+    return 0;
+}
+
+static int update_input(const float plot[RHO_KALMAN_STATES])
+{
+    int failed = 0;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        failed |= must(rho_input_update(&input, &input_config, i, plot[i], 1.0f));
+    }
+    return failed;
+}
+
+static int input_job(void)
+{
+    struct rho_gate_hough hough;
+    int best = 0;
+    int failed = must(rho_input_predict(&input, &input_config, 0.25f));
+    failed |=
+        must(rho_gate_hough_open(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+                                 0.0872664626f, before_mps, newest_mps));
+    float least = rho_gate_hough_off(&hough, &seen[0][3]);
+    for (int i = 1; i < PLOTS; i++) {
+        float off = rho_gate_hough_off(&hough, &seen[i][3]);
+        if (off < least) {
+            least = off;
+            best = i;
+        }
+    }
+    failed |= update_input(seen[best]);
+    return failed | estimate_input();
+}
+
+/* Three scans, of which the last begins a turn on all axes: the inputs of all three are present. */
+static int prepare_input(void)
+{
+    int failed = 0;
+    rho_input_config_default(&input_config);
+    rho_kalman_init(&kalman);
+    for (int axis = 0; axis < 3; axis++) {
+        failed |= must(rho_kalman_open_axis(&kalman, axis, 100.0f, 500.0f, 500.0f));
+    }
+    failed |= must(rho_input_start(&input, &input_config, &kalman));
+    for (int scan = 1; scan <= 4; scan++) {
+        float speed_mps = scan < 3 ? 0.0f : 20.0f * (float)(scan - 2);
+        for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+            seen[0][i] = i < 3 ? 100.0f : speed_mps;
+            for (int k = 1; k < PLOTS; k++) {
+                seen[k][i] = seen[0][i] + uniform(500.0f, 2000.0f);
+            }
+        }
+        if (scan < 4) {
+            failed |= must(rho_input_predict(&input, &input_config, 0.25f));
+            failed |= update_input(seen[0]) | estimate_input();
+        }
+    }
+    return failed | (input.present != 7);
+}
+
 static enum rho_search kind;
-static enum { SEARCH, AXES, POLAR } work;
+static enum { SEARCH, AXES, POLAR, INPUT } work;
 static int num_updates;
 
 /* Counted. */
@@ -123,6 +199,8 @@ __attribute__((noinline)) int job(void)
         return filter_job(num_updates);
     case POLAR:
         return polar_job();
+    case INPUT:
+        return input_job();
     default:
         return must(rho_initiator_search(&initiator, kind));
     }
@@ -136,6 +214,10 @@ static int prepare(const char *name)
         work = strcmp(name, "predict+polar") == 0 ? POLAR : AXES;
         num_updates = name[8] - '0';
         return prepare_filter();
+    }
+    if (strcmp(name, "input+hough") == 0) {
+        work = INPUT;
+        return prepare_input();
     }
     if (strstr(name, "isotropic")) {
         return prepare_window(SIGMA_M, 0, min_scans);

@@ -32,11 +32,8 @@ struct maintaining {
 /* --gate, else the parameter. */
 static enum maintainer_gate gate_of(struct command_line *line)
 {
-    char reason[PARAMETER_REASON_BYTES];
-
-    if (line->gate &&
-        !parameters_assign(&line->parameters, "gate", line->gate, SOURCE_SET, reason)) {
-        fail(EXIT_USAGE, "--%s", reason);
+    if (line->gate) {
+        parameters_set_gate(&line->parameters, line->gate);
     }
     return (enum maintainer_gate)line->parameters.value[PARAMETER_GATE];
 }
@@ -160,15 +157,17 @@ static void step(struct maintaining *maintaining, const struct rho_scan *scan,
     count_fates(maintaining, scan, row);
 }
 
-static void fill_row(struct maintaining *maintaining, struct maintainer_estimate *estimate)
+static void fill_row(struct maintaining *maintaining)
 {
     struct rho_track_report *track = &maintaining->track;
     struct rho_track sigmas = {.track_id = 1};
+    struct maintainer_estimate estimate;
 
-    maintainer_estimate(maintaining->maintainer, estimate);
-    memcpy(track->state, estimate->kalman.state, sizeof track->state);
-    memcpy(track->covariance, estimate->kalman.covariance, sizeof track->covariance);
-    sigmas.kalman = estimate->kalman;
+    maintainer_estimate(maintaining->maintainer, &estimate);
+    memcpy(track->state, estimate.kalman.state, sizeof track->state);
+    memcpy(track->covariance, estimate.kalman.covariance, sizeof track->covariance);
+    memcpy(track->accel_mps2, estimate.accel_mps2, sizeof track->accel_mps2);
+    sigmas.kalman = estimate.kalman;
     track->sigma_m = rho_track_sigma_m(&sigmas);
     track->sigma_mps = rho_track_sigma_mps(&sigmas);
 }
@@ -177,7 +176,6 @@ static void step_all(struct maintaining *maintaining, struct scan_reader *reader
                      const struct command_line *line, FILE *file)
 {
     struct progress progress = progress_start("scans", scan_reader_total(reader));
-    struct maintainer_estimate estimate;
     const struct rho_scan *scan;
 
     while ((scan = scan_reader_next(reader))) {
@@ -192,9 +190,8 @@ static void step_all(struct maintaining *maintaining, struct scan_reader *reader
             }
         }
         if (maintaining->is_started && file) {
-            fill_row(maintaining, &estimate);
-            tracks_write_row(file, scan->time_us, &maintaining->track, estimate.accel_mps2,
-                             line->covariance);
+            fill_row(maintaining);
+            tracks_write_row(file, scan->time_us, &maintaining->track, line->covariance);
         }
         progress_show(&progress, maintaining->scans);
     }

@@ -19,15 +19,16 @@ struct tracking {
     int64_t sum_us, max_us;
 };
 
-static void check_gate(const char *gate)
+/* --gate, else the parameter. */
+static void set_gate(struct command_line *line)
 {
-    if (!gate || !strcmp(gate, "nearest")) {
-        return;
+    if (line->gate) {
+        parameters_set_gate(&line->parameters, line->gate);
     }
-    if (!strcmp(gate, "best") || !strcmp(gate, "hough")) {
-        fail(EXIT_USAGE, "--gate %s is not in this version; there is: nearest", gate);
+    if (line->parameters.value[PARAMETER_GATE] >= RHO_NUM_TRACKER_GATES) {
+        fail(EXIT_USAGE, "gate none draws plots at random: that is for `maintain`; there are best, "
+                         "hough and nearest");
     }
-    fail(EXIT_USAGE, "unknown gate '%s'; there is: nearest", gate);
 }
 
 /* ---- Steps ---- */
@@ -215,7 +216,7 @@ int command_track(struct command_line *line)
     struct output output;
     struct tracking tracking = {.chain = chain_start()};
 
-    check_gate(line->gate);
+    set_gate(line);
     inputs = inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     open_chain(&tracking, inputs, &line->parameters);
     counts = inputs_counts(inputs);

@@ -23,8 +23,8 @@ struct maintainer_best *maintainer_best_new(const struct parameters *parameters)
     struct maintainer_best *best = must_calloc(1, sizeof *best);
     struct rho_imm_model model;
 
-    rho_imm_model_default(&model, (float)parameters->value[PARAMETER_ACCEL_MAX_MPS2]);
-    model.speed_sigma_mps = (float)parameters->value[PARAMETER_V_MAX_MPS];
+    rho_imm_model_default(&model, (float)parameters->value[PARAMETER_ACCEL_MAX_MPS2],
+                          (float)parameters->value[PARAMETER_V_MAX_MPS]);
     must_succeed(rho_hypotheses_init(&best->pool, sizeof best->pool, &model), "hypotheses");
     return best;
 }

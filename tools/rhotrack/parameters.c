@@ -440,6 +440,35 @@ void parameters_to_initiator(const struct parameters *parameters,
     }
 }
 
+void parameters_set_gate(struct parameters *parameters, const char *gate)
+{
+    char reason[PARAMETER_REASON_BYTES];
+
+    if (!parameters_assign(parameters, "gate", gate, SOURCE_SET, reason)) {
+        fail(EXIT_USAGE, "--%s", reason);
+    }
+}
+
+/* In the tracker the process noise follows the largest acceleration, unless one a scan is asked for. */
+static void parameters_to_input(const struct parameters *parameters,
+                                struct rho_input_config *config)
+{
+    const double *value = parameters->value;
+    float accel_mps2 = 0.5f * (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    if (getenv("IE")) {
+        config->is_estimated = 1;
+    }
+    if (getenv("IEN")) {
+        accel_mps2 = (float)atof(getenv("IEN")) * (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    }
+    config->model = getenv("IEL") ? 0 : RHO_INPUT_PHYSICAL;
+    config->gamma = getenv("IEG") ? (float)atof(getenv("IEG")) : (float)value[PARAMETER_GAMMA];
+    config->sigma_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    config->noise_density = accel_mps2 * accel_mps2;
+    config->noise_m = config->noise_mps = 0.0f;
+    config->velocity_variance = (float)(value[PARAMETER_V_MAX_MPS] * value[PARAMETER_V_MAX_MPS]);
+}
+
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config)
 {
     const double *value = parameters->value;
@@ -450,6 +479,10 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     config->accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
     config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
+    config->gate = (uint8_t)value[PARAMETER_GATE];
+    config->planes = (uint8_t)value[PARAMETER_PLANES];
+    config->theta_cell_rad = (float)(value[PARAMETER_GATE_THETA_DEG] * (3.141592653589793 / 180.0));
+    parameters_to_input(parameters, &config->input);
 }
 
 static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)

@@ -223,6 +223,9 @@ void parameters_check(const struct parameters *parameters);
 bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);
 
+/* The parameter gate from --gate; exit 2 where it is none. */
+void parameters_set_gate(struct parameters *parameters, const char *gate);
+
 /*
  * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher
  * precedence stays. Returns false and the reason.

@@ -38,7 +38,7 @@ void tracks_write_header(FILE *file, bool with_covariance)
 }
 
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
-                      const float accel_mps2[3], bool with_covariance)
+                      bool with_covariance)
 {
     write_time(file, time_us);
     fprintf(file, ",%" PRIu32 ",%s", track->track_id, rho_track_status_name(track->status));
@@ -46,7 +46,7 @@ void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report
         write_float(file, track->state[i]);
     }
     for (int i = 0; i < 3; i++) {
-        write_float(file, accel_mps2[i]);
+        write_float(file, track->accel_mps2[i]);
     }
     write_float(file, track->sigma_m);
     write_float(file, track->sigma_mps);
@@ -60,10 +60,8 @@ void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report
 
 void tracks_write_report(FILE *file, const struct rho_report *report, bool with_covariance)
 {
-    static const float accel_mps2[3] = {0.0f, 0.0f, 0.0f}; /* the tracker's filter has none */
-
     for (int i = 0; i < report->num_tracks; i++) {
-        tracks_write_row(file, report->time_us, &report->tracks[i], accel_mps2, with_covariance);
+        tracks_write_row(file, report->time_us, &report->tracks[i], with_covariance);
     }
 }
 

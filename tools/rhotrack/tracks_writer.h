@@ -21,7 +21,7 @@ void tracks_write_header(FILE *file, bool with_covariance);
 
 /* One row: a track's estimate at time_us. */
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
-                      const float accel_mps2[3], bool with_covariance);
+                      bool with_covariance);
 
 /* One row a track of the report. */
 void tracks_write_report(FILE *file, const struct rho_report *report, bool with_covariance);

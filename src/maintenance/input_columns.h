@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/* Columns of the sensitivities, and what they add to an estimate. Private to src/maintenance/input*.c. */
+#ifndef RHOTRACK_INPUT_COLUMNS_H
+#define RHOTRACK_INPUT_COLUMNS_H
+
+#include <stdint.h>
+#include <string.h>
+
+#include "rhotrack/input.h"
+
+#define NUM_AXES RHO_INPUT_AXES
+#define NUM_STATES RHO_KALMAN_STATES
+#define INPUT_ALL_PRESENT 7u
+
+/* Sensitivities grow no farther than that, so that their squares times any variance are finite. */
+#define SENSITIVITY2_MAX 1.0e24f
+
+/* What is added to a covariance carries some units of float32's rounding, and the variances get sixteen. */
+#define ROUNDING_SHARE (1.0f / 1048576.0f)
+
+static inline int is_in(uint32_t axes, int axis)
+{
+    return (axes >> axis & 1u) != 0;
+}
+
+static inline int is_zero(float v)
+{
+    return !(v < 0.0f || v > 0.0f);
+}
+
+/* The bits of a number but for its sign: none for zero. */
+static inline uint32_t bits_of(float v)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    return bits << 1;
+}
+
+/* What rounding may take off a variance that something is added to. */
+static inline float with_allowance(float added)
+{
+    return added + added * ROUNDING_SHARE;
+}
+
+/* True where a column has entries of its axis only, which is the usual case. */
+static inline int is_of_axis(const float m[NUM_STATES], int a)
+{
+    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
+    const int b = others[a][0], c = others[a][1];
+
+    return (bits_of(m[b]) | bits_of(m[c]) | bits_of(m[b + NUM_AXES]) | bits_of(m[c + NUM_AXES])) ==
+           0;
+}
+
+/* x := x + m u, p := p + v m m^T, m the column of this axis. */
+static inline void add_column(struct rho_kalman *kalman, const float m[NUM_STATES], int a, float u,
+                              float v)
+{
+    static const uint8_t places[NUM_AXES][3] = {{0, 6, 9}, {2, 11, 14}, {5, 17, 20}};
+    float *x = kalman->state, *p = kalman->covariance;
+
+    if (is_of_axis(m, a)) {
+        const float place = m[a], speed = m[a + NUM_AXES];
+
+        x[a] += place * u;
+        x[a + NUM_AXES] += speed * u;
+        p[places[a][0]] += with_allowance(v * place * place);
+        p[places[a][1]] += v * place * speed;
+        p[places[a][2]] += with_allowance(v * speed * speed);
+        return;
+    }
+    for (int i = 0; i < NUM_STATES; i++) {
+        const float scaled = v * m[i];
+        float *row = &p[RHO_TRIANGLE(i)];
+
+        x[i] += m[i] * u;
+        for (int j = 0; j < i; j++) {
+            row[j] += scaled * m[j];
+        }
+        row[i] += with_allowance(scaled * m[i]);
+    }
+}
+
+static inline int are_independent(const float v[RHO_TRIANGLE(NUM_AXES)])
+{
+    return (bits_of(v[RHO_AT(1, 0)]) | bits_of(v[RHO_AT(2, 0)]) | bits_of(v[RHO_AT(2, 1)])) == 0;
+}
+
+#endif

@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * track_filter: a track's estimate, by the filter that it was started with.
+ */
+#include "rhotrack/approx.h"
+#include "track_parts.h"
+
+#define SCORE_LIMIT_NAT 1.0e6f
+
+/* ---- a plain Kalman filter -------------------------------------------------------------------- */
+
+static enum rho_status measure_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
+                                        int has_z)
+{
+    float variance = plot->sigma_mps * plot->sigma_mps;
+    enum rho_status status = rho_kalman_update(kalman, 3, plot->vx_mps, variance, 0);
+    if (status == RHO_OK) {
+        status = rho_kalman_update(kalman, 4, plot->vy_mps, variance, 0);
+    }
+    if (status == RHO_OK && has_z) {
+        status = rho_kalman_update(kalman, 5, plot->vz_mps, variance, 0);
+    }
+    return status;
+}
+
+/* All that a plot measures, at its own time; the range rate last, for it is linearised where the position was found. */
+static enum rho_status measure(struct rho_kalman *kalman, const struct rho_track_plot *seen,
+                               const struct rho_track_model *model)
+{
+    const struct rho_plot *plot = &seen->plot;
+    struct rho_measurement measurement;
+    rho_measurement_open(plot, seen->measures, seen->sensor, &measurement);
+    enum rho_status status = rho_kalman_update_position(
+        kalman, &measurement, model->speed_sigma_mps * model->speed_sigma_mps);
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
+        status = measure_velocity(kalman, plot, measurement.has_z);
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status =
+            rho_kalman_update_range_rate(kalman, seen->sensor, plot->range_rate_mps,
+                                         plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
+    }
+    return status;
+}
+
+static enum rho_status take_by_kalman(struct rho_track *track, const struct rho_track_plot *seen,
+                                      const struct rho_track_model *model)
+{
+    struct rho_kalman kalman = track->kalman;
+    enum rho_status status = rho_kalman_predict(
+        &kalman, rho_seconds_between(track->time_us, seen->time_us), model->noise_density);
+    if (status == RHO_OK) {
+        status = measure(&kalman, seen, model);
+    }
+    if (status == RHO_OK) {
+        track->kalman = kalman;
+    }
+    return status;
+}
+
+/* ---- with input estimation -------------------------------------------------------------------- */
+
+/* What the filter knows comes to the track's estimate. */
+static void show_input(struct rho_track *track)
+{
+    rho_input_estimate(&track->input, &track->kalman);
+    for (int axis = 0; axis < 3; axis++) {
+        int is_present = (track->input.present >> axis & 1u) != 0;
+        track->accel_mps2[axis] = is_present ? track->input.input_mps2[axis] : 0.0f;
+    }
+    track->maneuver_probability = track->input.present ? 1.0f : 0.0f;
+}
+
+static enum rho_status measure_input(struct rho_input *input, const struct rho_track_plot *seen,
+                                     const struct rho_input_config *config)
+{
+    const struct rho_plot *plot = &seen->plot;
+    const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+    struct rho_measurement measurement;
+    rho_measurement_open(plot, seen->measures, seen->sensor, &measurement);
+    enum rho_status status = rho_input_update_position(input, config, &measurement);
+    int num_velocities = !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement.has_z ? 3 : 2;
+    for (int axis = 0; axis < num_velocities && status == RHO_OK; axis++) {
+        status = rho_input_update(input, config, 3 + axis, velocity_mps[axis],
+                                  plot->sigma_mps * plot->sigma_mps);
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status =
+            rho_input_update_range_rate(input, config, seen->sensor, plot->range_rate_mps,
+                                        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
+    }
+    return status;
+}
+
+static enum rho_status take_by_input(struct rho_track *track, const struct rho_track_plot *seen,
+                                     const struct rho_track_model *model)
+{
+    struct rho_input input = track->input;
+    enum rho_status status =
+        rho_input_predict(&input, model->input, rho_seconds_between(track->time_us, seen->time_us));
+    if (status == RHO_OK) {
+        status = measure_input(&input, seen, model->input);
+    }
+    if (status == RHO_OK) {
+        rho_input_decide(&input, model->input);
+        track->input = input;
+        show_input(track);
+    }
+    return status;
+}
+
+/* ---- hypotheses ------------------------------------------------------------------------------- */
+
+static enum rho_status take_by_hypotheses(struct rho_track *track,
+                                          const struct rho_track_plot *seen,
+                                          const struct rho_track_model *model)
+{
+    struct rho_imm_plot plot;
+    enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, seen->time_us);
+    if (status == RHO_OK) {
+        rho_imm_open_plot(&plot, &seen->plot, seen->measures, seen->sensor);
+        status = rho_hypotheses_take(model->hypotheses, track->slot, &plot, seen->time_us);
+    }
+    return status;
+}
+
+void rho_track_settle(struct rho_track *track, int64_t time_us, const struct rho_track_model *model)
+{
+    struct rho_hypotheses_estimate estimate;
+    if (track->filter != RHO_TRACK_HYPOTHESES ||
+        rho_hypotheses_estimate(model->hypotheses, track->slot, time_us, &estimate) != RHO_OK) {
+        return;
+    }
+    track->kalman = estimate.kalman;
+    track->time_us = time_us;
+    for (int axis = 0; axis < 3; axis++) {
+        track->accel_mps2[axis] = estimate.accel_mps2[axis];
+    }
+    track->maneuver_probability = estimate.maneuver_probability;
+}
+
+void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected)
+{
+    if (track->filter == RHO_TRACK_INPUT) {
+        rho_input_expect(&track->input, expected);
+    } else {
+        *expected = track->kalman;
+    }
+}
+
+/* ---- start and end ---------------------------------------------------------------------------- */
+
+static enum rho_status take(struct rho_track *track, const struct rho_track_plot *seen,
+                            const struct rho_track_model *model)
+{
+    switch (track->filter) {
+    case RHO_TRACK_HYPOTHESES:
+        return take_by_hypotheses(track, seen, model);
+    case RHO_TRACK_INPUT:
+        return take_by_input(track, seen, model);
+    default:
+        return take_by_kalman(track, seen, model);
+    }
+}
+
+/* The filter that the model asks for starts from what one plot tells. */
+static enum rho_status open_filter(struct rho_track *track, const struct rho_track_model *model)
+{
+    track->filter = RHO_TRACK_KALMAN;
+    if (model->hypotheses) {
+        track->filter = RHO_TRACK_HYPOTHESES;
+        return rho_hypotheses_open(model->hypotheses, &track->kalman, track->time_us, &track->slot);
+    }
+    if (model->input) {
+        track->filter = RHO_TRACK_INPUT;
+        return rho_input_start(&track->input, model->input, &track->kalman);
+    }
+    return RHO_OK;
+}
+
+static void note_velocity(struct rho_track *track)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        track->before_mps[axis] = track->newest_mps[axis];
+        track->newest_mps[axis] = track->kalman.state[3 + axis];
+    }
+}
+
+static enum rho_status run_filter(struct rho_track *track, const struct rho_track_plot *plots,
+                                  unsigned num_plots, const struct rho_track_model *model)
+{
+    enum rho_status status = RHO_OK;
+    note_velocity(track);
+    for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
+        status = take(track, &plots[i], model);
+        track->time_us = plots[i].time_us;
+        note_velocity(track);
+    }
+    rho_track_settle(track, track->time_us, model);
+    return status;
+}
+
+enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
+                                const struct rho_track_plot *plots, unsigned num_plots,
+                                const struct rho_track_model *model, int32_t score_mnat)
+{
+    if (!track || !plots || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (num_plots < 1) {
+        return RHO_ERROR_VALUE;
+    }
+    const struct rho_track_plot *last = &plots[num_plots - 1];
+    struct rho_track start = {
+        .track_id = track_id,
+        .status = RHO_TRACK_FREE,
+        .hits = (uint16_t)num_plots,
+        .plot = last->row,
+        .sensor_id = last->sensor_id,
+        .score_mnat = score_mnat,
+        .score_max_mnat = score_mnat,
+        .time_us = plots[0].time_us,
+        .updated_us = last->time_us,
+    };
+    rho_kalman_init(&start.kalman);
+    enum rho_status status = measure(&start.kalman, &plots[0], model);
+    if (status == RHO_OK) {
+        status = open_filter(&start, model);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    status = run_filter(&start, plots, num_plots, model);
+    if (status != RHO_OK) {
+        rho_track_end(&start, model);
+        return status;
+    }
+    rho_track_apply(&start, RHO_TRACK_START);
+    *track = start;
+    return RHO_OK;
+}
+
+enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
+                                         const struct rho_kalman *estimate, int64_t time_us,
+                                         int32_t sensor_id, uint16_t hits, int32_t score_mnat)
+{
+    if (!track || !estimate) {
+        return RHO_ERROR_NULL;
+    }
+    if (hits < 1 || !rho_kalman_is_open(estimate, 0) || !rho_kalman_is_open(estimate, 1)) {
+        return RHO_ERROR_VALUE;
+    }
+    struct rho_track start = {
+        .track_id = track_id,
+        .status = RHO_TRACK_FREE,
+        .hits = hits,
+        .plot = -1,
+        .sensor_id = sensor_id,
+        .score_mnat = score_mnat,
+        .score_max_mnat = score_mnat,
+        .time_us = time_us,
+        .updated_us = time_us,
+        .kalman = *estimate,
+    };
+    note_velocity(&start);
+    rho_track_apply(&start, RHO_TRACK_START);
+    *track = start;
+    return RHO_OK;
+}
+
+void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
+{
+    if (track->filter == RHO_TRACK_HYPOTHESES) {
+        rho_hypotheses_close(model->hypotheses, track->slot);
+    }
+}
+
+/* ---- predict and update ----------------------------------------------------------------------- */
+
+/* The estimate itself is only moved along for now: rho_track_settle finds it once a step. */
+static enum rho_status predict_hypotheses(struct rho_track *track, int64_t time_us,
+                                          const struct rho_track_model *model)
+{
+    enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, time_us);
+    return status == RHO_OK ? rho_kalman_predict(&track->kalman,
+                                                 rho_seconds_between(track->time_us, time_us), 0.0f)
+                            : status;
+}
+
+enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
+                                  const struct rho_track_model *model)
+{
+    enum rho_status status;
+    if (!track || !model) {
+        return RHO_ERROR_NULL;
+    }
+    float dt_s = rho_seconds_between(track->time_us, time_us);
+    if (track->filter == RHO_TRACK_HYPOTHESES) {
+        status = predict_hypotheses(track, time_us, model);
+    } else if (track->filter == RHO_TRACK_INPUT) {
+        status = rho_input_predict(&track->input, model->input, dt_s);
+        show_input(track);
+    } else {
+        status = rho_kalman_predict(&track->kalman, dt_s, model->noise_density);
+    }
+    if (status == RHO_OK) {
+        track->time_us = time_us;
+    }
+    return status;
+}
+
+static void take_sighting(struct rho_track *track, int64_t time_us, int32_t sensor_id, int16_t row)
+{
+    track->updated_us = time_us;
+    track->sensor_id = sensor_id;
+    track->plot = row;
+}
+
+enum rho_status rho_track_update(struct rho_track *track, const struct rho_track_plot *plot,
+                                 const struct rho_track_model *model, int32_t gain_mnat)
+{
+    if (!track || !plot || !model) {
+        return RHO_ERROR_NULL;
+    }
+    enum rho_status status = take(track, plot, model);
+    if (status != RHO_OK) {
+        return status;
+    }
+    track->time_us = plot->time_us;
+    note_velocity(track);
+    take_sighting(track, plot->time_us, plot->sensor_id, plot->row);
+    rho_track_count_hit(track);
+    rho_track_add_score(track, gain_mnat);
+    rho_track_apply(track, RHO_TRACK_UPDATE);
+    return RHO_OK;
+}
+
+enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypotheses_scan *scan,
+                                 int32_t sensor_id, const struct rho_track_model *model)
+{
+    struct rho_hypotheses_outcome outcome;
+    if (!track || !scan || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (track->filter != RHO_TRACK_HYPOTHESES) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = rho_hypotheses_commit(model->hypotheses, track->slot, scan, &outcome);
+    if (status != RHO_OK) {
+        return status;
+    }
+    rho_track_add_score(
+        track, (int32_t)(1000.0f * (outcome.gain_nat < -SCORE_LIMIT_NAT  ? -SCORE_LIMIT_NAT
+                                    : outcome.gain_nat > SCORE_LIMIT_NAT ? SCORE_LIMIT_NAT
+                                                                         : outcome.gain_nat)));
+    if (outcome.row >= 0) {
+        take_sighting(track, scan->time_us + scan->plots[outcome.row].offset_us, sensor_id,
+                      outcome.row);
+        rho_track_count_hit(track);
+        rho_track_apply(track, RHO_TRACK_UPDATE);
+    }
+    return RHO_OK;
+}
+
+/* ---- bearings --------------------------------------------------------------------------------- */
+
+static enum rho_status take_bearing_by_kalman(struct rho_track *track,
+                                              const struct rho_track_bearing *bearing,
+                                              const struct rho_track_model *model)
+{
+    struct rho_kalman kalman = track->kalman;
+    float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
+    enum rho_status status = rho_kalman_predict(&kalman, dt_s, model->noise_density);
+    if (status == RHO_OK) {
+        status = rho_kalman_update_bearing(&kalman, bearing->x_m, bearing->y_m,
+                                           bearing->bearing_rad, bearing->sigma_rad);
+    }
+    if (status == RHO_OK) {
+        track->kalman = kalman;
+    }
+    return status;
+}
+
+static enum rho_status take_bearing_by_input(struct rho_track *track,
+                                             const struct rho_track_bearing *bearing,
+                                             const struct rho_track_model *model)
+{
+    struct rho_input input = track->input;
+    float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
+    enum rho_status status = rho_input_predict(&input, model->input, dt_s);
+    if (status == RHO_OK) {
+        status = rho_input_update_bearing(&input, model->input, bearing->x_m, bearing->y_m,
+                                          bearing->bearing_rad, bearing->sigma_rad);
+    }
+    if (status == RHO_OK) {
+        rho_input_decide(&input, model->input);
+        track->input = input;
+        show_input(track);
+    }
+    return status;
+}
+
+static enum rho_status take_bearing(struct rho_track *track,
+                                    const struct rho_track_bearing *bearing,
+                                    const struct rho_track_model *model)
+{
+    if (track->filter == RHO_TRACK_INPUT) {
+        return take_bearing_by_input(track, bearing, model);
+    }
+    if (track->filter == RHO_TRACK_KALMAN) {
+        return take_bearing_by_kalman(track, bearing, model);
+    }
+    enum rho_status status =
+        rho_hypotheses_take_bearing(model->hypotheses, track->slot, bearing->time_us, bearing->x_m,
+                                    bearing->y_m, bearing->bearing_rad, bearing->sigma_rad);
+    /* the next sensor's gate is to be the narrower for it */
+    rho_track_settle(track, bearing->time_us, model);
+    return status;
+}
+
+enum rho_status rho_track_update_bearing(struct rho_track *track,
+                                         const struct rho_track_bearing *bearing,
+                                         const struct rho_track_model *model, int32_t gain_mnat)
+{
+    if (!track || !bearing || !model) {
+        return RHO_ERROR_NULL;
+    }
+    enum rho_status status = take_bearing(track, bearing, model);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (track->plot < 0) {
+        rho_track_count_hit(track);
+    }
+    track->time_us = bearing->time_us;
+    take_sighting(track, bearing->time_us, bearing->sensor_id, bearing->row);
+    rho_track_add_score(track, gain_mnat);
+    rho_track_apply(track, RHO_TRACK_UPDATE);
+    return RHO_OK;
+}
