@@ -42,7 +42,7 @@ run() { # variant, scenario: its files in output/SCENARIO
     fi
     if [ "$2" = popup ]; then
         files=tracks.csv # the last scans start no track
-        for method in hough nearest; do
+        for method in best hough nearest; do
             "$rhotrack" maintain "$data/plots.csv" --gate "$method" --covariance -o "$data/$method.csv" || return 1
             files+=" $method.csv"
         done

@@ -15,8 +15,8 @@
 #endif
 
 static const struct command commands[] = {
-    {"track", command_track, "INPUT... [-o OUTPUT] [--gate nearest]", 1, INT_MAX, "ogfcjksC",
-     "the main job: scans in, tracks out",
+    {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest]", 1, INT_MAX,
+     "ogfcjksC", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
