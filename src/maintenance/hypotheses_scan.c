@@ -70,6 +70,7 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         pool->nodes[pool->node_of[slot][i]].num_candidates = 0;
     }
+    pool->gate_slot = RHO_HYPOTHESES_SLOTS; /* nobody's: estimates have moved since */
     if (reach) {
         fill_reach(pool, slot, reach);
     }
@@ -134,6 +135,37 @@ static int match_one(struct rho_hypotheses *pool, const struct rho_hypothesis *a
            rho_imm_weigh(&pool->scratch, seen, match);
 }
 
+/* The gates of all the slot's hypotheses at one time, kept while plots of the same noise come. */
+static void open_gates(struct rho_hypotheses *pool, uint16_t slot, float variance_m2, int has_z,
+                       int64_t time_us)
+{
+    pool->gate_variance_m2 = variance_m2;
+    pool->gate_slot = slot;
+    pool->gate_has_z = (uint8_t)has_z;
+    pool->gate_is_usable = 1;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        pool->gate_is_usable = pool->gate_is_usable && at->time_us == time_us &&
+                               rho_imm_open_gate(&pool->gates[i], &at->imm, variance_m2, has_z);
+    }
+}
+
+/* True where the plot can be weighed in gates. All hypotheses are at the scan's time, and so must the plot be. */
+static int has_gates(struct rho_hypotheses *pool, uint16_t slot, const struct rho_imm_plot *seen,
+                     int64_t time_us)
+{
+    const float variance_m2 = seen->position.variance_m2[0];
+    if (!seen->position.is_isotropic || seen->plot->offset_us != 0 ||
+        (seen->measures & (RHO_MEASURES_VELOCITY | RHO_MEASURES_RANGE_RATE)) != 0) {
+        return 0;
+    }
+    if (pool->gate_slot != slot || pool->gate_has_z != seen->position.has_z ||
+        variance_m2 < pool->gate_variance_m2 || variance_m2 > pool->gate_variance_m2) {
+        open_gates(pool, slot, variance_m2, seen->position.has_z, time_us);
+    }
+    return pool->gate_is_usable;
+}
+
 int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
                          const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
                          float log_pd, const struct rho_hypotheses_clutter *clutter,
@@ -144,9 +176,11 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
     if (!pool || !seen || !clutter || !gain_nat || !rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
+    const int by_gates = has_gates(pool, slot, seen, time_us);
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        if (!match_one(pool, at, seen, time_us, &match)) {
+        if (!(by_gates ? rho_imm_weigh_in(&pool->gates[i], seen->position.place_m, &match)
+                       : match_one(pool, at, seen, time_us, &match))) {
             continue;
         }
         float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
@@ -216,8 +250,11 @@ static int is_repeated(const struct rho_hypotheses *pool, uint16_t slot, unsigne
     for (unsigned i = 0; i < num_kept; i++) {
         const struct rho_hypotheses_child *kept = &pool->children[i];
         const int16_t *others = pool->nodes[pool->node_of[slot][kept->parent]].picks;
-        if (kept->row == child->row &&
-            memcmp(picks + 1, others + 1, (RHO_HYPOTHESES_MEMORY - 1) * sizeof *picks) == 0) {
+        int differ = kept->row != child->row;
+        for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
+            differ |= picks[k] != others[k];
+        }
+        if (!differ) {
             return 1;
         }
     }
@@ -269,7 +306,9 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
         row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us,
                         at->probabilities[child->candidate], row);
     }
-    memmove(at->picks, at->picks + 1, (RHO_HYPOTHESES_MEMORY - 1) * sizeof *at->picks);
+    for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
+        at->picks[k - 1] = at->picks[k];
+    }
     at->picks[RHO_HYPOTHESES_MEMORY - 1] = row;
     at->weight_nat = child->weight_nat - pool->children[0].weight_nat;
 }

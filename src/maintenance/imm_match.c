@@ -213,47 +213,39 @@ static inline void view_coupled_places(struct view *view, const struct rho_imm_p
 
 /* ---- both models ------------------------------------------------------------------------------ */
 
-/* The nearer model's exponent is taken out of both densities, so that their sum is a number. */
-static void combine(const struct view views[2], float probability, int num_dimensions,
+/*
+ * Factors and distances of both models; the nearer one's exponent is taken out of both densities, so that their sum is a
+ * number.
+ */
+static void combine(const float factor[2], const float distance2[2], int num_dimensions,
                     struct rho_imm_match *match)
 {
-    const float least = match->distance2;
-    float s = 0.0f, m = 0.0f;
-    if (views[0].counts) {
-        s = (1.0f - probability) * views[0].root;
-        s = views[0].distance2 > least ? s * rho_exp(0.5f * (least - views[0].distance2)) : s;
-    }
-    if (views[1].counts) {
-        m = probability * views[1].root;
-        m = views[1].distance2 > least ? m * rho_exp(0.5f * (least - views[1].distance2)) : m;
+    float s = factor[0], m = factor[1];
+    if (distance2[0] <= distance2[1]) {
+        match->distance2 = distance2[0];
+        m *= rho_exp(0.5f * (distance2[0] - distance2[1]));
+    } else {
+        match->distance2 = distance2[1];
+        s *= rho_exp(0.5f * (distance2[1] - distance2[0]));
     }
     match->probability = m / (s + m);
-    match->log_likelihood = rho_log(s + m) - 0.5f * (least + (float)num_dimensions * LOG_TWO_PI);
+    match->log_likelihood =
+        rho_log(s + m) - 0.5f * (match->distance2 + (float)num_dimensions * LOG_TWO_PI);
 }
 
-static int is_in_gate(const struct view views[2], struct rho_imm_match *match)
+static int is_likelihood(float log_likelihood)
 {
-    match->distance2 = 2.0f * COUNTS_MAX;
-    for (int i = 0; i < 2; i++) {
-        if (views[i].counts && views[i].distance2 < match->distance2) {
-            match->distance2 = views[i].distance2;
-        }
-    }
-    return match->distance2 <= RHO_IMM_GATE;
+    return log_likelihood >= -1e6f && log_likelihood <= 1e6f;
 }
 
 void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float variance[2],
                           float *gain_nat)
 {
-    struct view views[2] = {{0, 0, 0.0f, 0.0f, 1}, {0, 0, 0.0f, 0.0f, 1}};
     struct rho_imm_match match;
-    for (int i = 0; i < 2; i++) {
-        views[i].distance2 = off[i] * off[i] / variance[i];
-        views[i].root = rho_inverse_sqrt(variance[i]);
-    }
-    match.distance2 =
-        views[0].distance2 < views[1].distance2 ? views[0].distance2 : views[1].distance2;
-    combine(views, imm->probability, 1, &match);
+    const float factor[2] = {(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
+                             imm->probability * rho_inverse_sqrt(variance[1])};
+    const float distance2[2] = {off[0] * off[0] / variance[0], off[1] * off[1] / variance[1]};
+    combine(factor, distance2, 1, &match);
     imm->probability = match.probability;
     *gain_nat = match.log_likelihood;
 }
@@ -287,9 +279,72 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
     for (int i = 0; i < 2; i++) {
         look(&views[i], imm, seen, match);
     }
-    if (!is_in_gate(views, match)) {
+    if (!(views[0].counts && views[0].distance2 <= RHO_IMM_GATE) &&
+        !(views[1].counts && views[1].distance2 <= RHO_IMM_GATE)) {
         return 0;
     }
-    combine(views, imm->probability, num_dimensions, match);
-    return match->log_likelihood >= -1e6f && match->log_likelihood <= 1e6f;
+    /* one that does not count is farther than all, and weighs nothing */
+    const float factor[2] = {views[0].counts ? (1.0f - imm->probability) * views[0].root : 0.0f,
+                             views[1].counts ? imm->probability * views[1].root : 0.0f};
+    const float distance2[2] = {views[0].counts ? views[0].distance2 : 2.0f * COUNTS_MAX,
+                                views[1].counts ? views[1].distance2 : 2.0f * COUNTS_MAX};
+    combine(factor, distance2, num_dimensions, match);
+    return is_likelihood(match->log_likelihood);
+}
+
+/* ---- many plots of one noise -------------------------------------------------------------------- */
+
+static void open_model(struct rho_imm_gate *gate, int model, const float *state,
+                       const float *covariance, float variance_m2, float share)
+{
+    float det = 1.0f;
+    for (int axis = 0; axis < gate->num_axes; axis++) {
+        const float s = covariance[RHO_AT(axis, axis)] + variance_m2;
+        gate->centre_m[model][axis] = state[axis];
+        gate->inverse[model][axis] = 1.0f / s;
+        det *= s;
+    }
+    gate->factor[model] = share * rho_inverse_sqrt(det);
+}
+
+int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
+                      int has_z)
+{
+    if (imm->is_coupled) {
+        return 0;
+    }
+    memset(gate, 0, sizeof *gate);
+    gate->num_axes = has_z && is_open(imm, 2) ? 3 : 2;
+    open_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
+               1.0f - imm->probability);
+    open_model(gate, 1, imm->state, imm->covariance, variance_m2, imm->probability);
+    return 1;
+}
+
+static inline float distance2_in(const struct rho_imm_gate *gate, int model, const float place_m[3])
+{
+    const float *centre_m = gate->centre_m[model], *inverse = gate->inverse[model];
+    const float dx = place_m[0] - centre_m[0], dy = place_m[1] - centre_m[1];
+    const float dz = place_m[2] - centre_m[2];
+    return dx * dx * inverse[0] + dy * dy * inverse[1] + dz * dz * inverse[2];
+}
+
+int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3],
+                     struct rho_imm_match *match)
+{
+    float distance2[2] = {distance2_in(gate, 0, place_m), distance2_in(gate, 1, place_m)};
+    float factor[2] = {gate->factor[0], gate->factor[1]};
+    if (!(distance2[0] <= RHO_IMM_GATE || distance2[1] <= RHO_IMM_GATE)) {
+        return 0;
+    }
+    for (int i = 0; i < 2; i++) {
+        if (!(distance2[i] <= COUNTS_MAX)) {
+            distance2[i] = 2.0f * COUNTS_MAX;
+            factor[i] = 0.0f;
+        }
+    }
+    match->num_axes = gate->num_axes;
+    match->has_velocity = match->has_range_rate = 0;
+    combine(factor, distance2, gate->num_axes, match);
+    return is_likelihood(match->log_likelihood);
 }
