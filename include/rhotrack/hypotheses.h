@@ -33,9 +33,11 @@
 #define RHO_HYPOTHESES_SLOTS                                                                       \
     (RHO_MAX_TRACKS + 1) /* one more, for a track that is yet to get its place */
 #define RHO_HYPOTHESES_OF_TRACK 8
-#define RHO_HYPOTHESES_CHILDREN 3          /* plots of a scan that one hypothesis goes on with */
-#define RHO_HYPOTHESES_MEMORY 3            /* scans in which two hypotheses must differ */
-#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f) /* beside the best one; less is given up */
+#define RHO_HYPOTHESES_CHILDREN 3 /* plots of a scan that one hypothesis goes on with */
+#define RHO_HYPOTHESES_MEMORY 3   /* scans in which two hypotheses must differ */
+/* Beside the best one, less is given up: of those that go on with a plot, of those that go on with a miss. */
+#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f)
+#define RHO_HYPOTHESES_MISS_MIN (-10.0f)
 #define RHO_HYPOTHESES_MISS (-1)
 
 struct rho_hypothesis {
@@ -47,6 +49,7 @@ struct rho_hypothesis {
     int16_t rows[RHO_HYPOTHESES_CHILDREN];
     float gains_nat[RHO_HYPOTHESES_CHILDREN];
     float probabilities[RHO_HYPOTHESES_CHILDREN]; /* of a manoeuvre, with that plot */
+    uint8_t jumps[RHO_HYPOTHESES_CHILDREN];       /* whether it takes a jump */
     uint8_t num_candidates;
 };
 

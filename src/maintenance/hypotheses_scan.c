@@ -23,12 +23,13 @@ static void widen(struct span *span, float value, float variance)
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-static void widen_all(struct span spans[4], const float *state, const float *covariance)
+static void widen_all(struct span spans[4], const float *state, const float *covariance,
+                      float jump_m2)
 {
-    static const uint8_t elements[4] = {0, 1, 3, 4};
-    for (int i = 0; i < 4; i++) {
-        widen(&spans[i], state[elements[i]], covariance[RHO_AT(elements[i], elements[i])]);
-    }
+    widen(&spans[0], state[0], covariance[RHO_AT(0, 0)] + jump_m2);
+    widen(&spans[1], state[1], covariance[RHO_AT(1, 1)] + jump_m2);
+    widen(&spans[2], state[3], covariance[RHO_AT(3, 3)]);
+    widen(&spans[3], state[4], covariance[RHO_AT(4, 4)]);
 }
 
 static float speed_of(const struct span *span)
@@ -46,8 +47,8 @@ static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        widen_all(spans, imm->steady.state, imm->steady.covariance);
-        widen_all(spans, imm->state, imm->covariance);
+        widen_all(spans, imm->steady.state, imm->steady.covariance, 0.0f);
+        widen_all(spans, imm->state, imm->covariance, rho_imm_jump_m2(imm));
     }
     float x_m = GATE_SIGMAS * rho_sqrt(spans[0].variance_max);
     float y_m = GATE_SIGMAS * rho_sqrt(spans[1].variance_max);
@@ -101,7 +102,7 @@ static float log_clutter(const struct rho_hypotheses_clutter *clutter,
 
 /* Into the hypothesis' list of its best plots, of equals behind the earlier ones. */
 static void note_candidate(struct rho_hypothesis *at, int16_t row, float gain_nat,
-                           float probability)
+                           const struct rho_imm_match *match)
 {
     unsigned place = at->num_candidates;
     while (place > 0 && at->gains_nat[place - 1] < gain_nat) {
@@ -117,10 +118,12 @@ static void note_candidate(struct rho_hypothesis *at, int16_t row, float gain_na
         at->rows[i] = at->rows[i - 1];
         at->gains_nat[i] = at->gains_nat[i - 1];
         at->probabilities[i] = at->probabilities[i - 1];
+        at->jumps[i] = at->jumps[i - 1];
     }
     at->rows[place] = row;
     at->gains_nat[place] = gain_nat;
-    at->probabilities[place] = probability;
+    at->probabilities[place] = match->probability;
+    at->jumps[place] = match->has_jumped;
 }
 
 /* At the plot's own time. */
@@ -184,7 +187,7 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
             continue;
         }
         float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
-        note_candidate(at, row, gain, match.probability);
+        note_candidate(at, row, gain, &match);
         if (!is_seen || at->weight_nat + gain > *gain_nat) {
             *gain_nat = at->weight_nat + gain;
         }
@@ -271,7 +274,9 @@ static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot, unsi
         if (child.weight_nat < least) {
             break;
         }
-        if (!is_repeated(pool, slot, kept, &child)) {
+        int is_hopeless = child.row == RHO_HYPOTHESES_MISS &&
+                          child.weight_nat < pool->children[0].weight_nat + RHO_HYPOTHESES_MISS_MIN;
+        if (!is_hopeless && !is_repeated(pool, slot, kept, &child)) {
             pool->children[kept++] = child;
         }
     }
@@ -280,13 +285,12 @@ static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot, unsi
 
 /* A refused update leaves the filter as it was predicted. */
 static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                         const struct rho_imm_plot *seen, int64_t time_us, float probability,
-                         int16_t row)
+                         const struct rho_imm_plot *seen, int64_t time_us,
+                         const struct rho_imm_match *match, int16_t row)
 {
-    const struct rho_imm_match match = {.probability = probability};
     pool->scratch = at->imm;
     if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
-        rho_imm_update(&at->imm, &pool->model, seen, &match) == RHO_OK) {
+        rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
         at->time_us = time_us;
         return row;
     }
@@ -301,10 +305,11 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     int16_t row = child->row;
     if (row >= 0) {
         const struct rho_plot *plot = &scan->plots[row];
+        const struct rho_imm_match match = {.probability = at->probabilities[child->candidate],
+                                            .has_jumped = at->jumps[child->candidate]};
         struct rho_imm_plot seen;
         rho_imm_open_plot(&seen, plot, scan->measures, scan->sensor);
-        row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us,
-                        at->probabilities[child->candidate], row);
+        row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us, &match, row);
     }
     for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
         at->picks[k - 1] = at->picks[k];
@@ -373,6 +378,7 @@ static enum rho_status take_sure(struct rho_hypotheses *pool, struct rho_hypothe
     /* far from both predictions, neither model is the likelier one */
     if (!rho_imm_weigh(&at->imm, seen, &match)) {
         match.probability = at->imm.probability;
+        match.has_jumped = 0;
     }
     pool->scratch = at->imm;
     enum rho_status status = rho_imm_update(&at->imm, &pool->model, seen, &match);
