@@ -40,16 +40,20 @@
 #define RHO_HYPOTHESES_MISS_MIN (-10.0f)
 #define RHO_HYPOTHESES_MISS (-1)
 
+/* A plot of the scan that is looked at, for one hypothesis. */
+struct rho_hypotheses_candidate {
+    float gain_nat;
+    float probability; /* of a manoeuvre, if it is the target's */
+    int16_t row;
+    uint8_t has_jumped;
+};
+
 struct rho_hypothesis {
     struct rho_imm imm;
     int64_t time_us;                      /* of the filter: a scan's, or the last plot's own */
     float weight_nat;                     /* 0: the best of its track */
     int16_t picks[RHO_HYPOTHESES_MEMORY]; /* rows of the last scans' plots, the newest last */
-    /* plots of the scan that is looked at: the best ones, in this order */
-    int16_t rows[RHO_HYPOTHESES_CHILDREN];
-    float gains_nat[RHO_HYPOTHESES_CHILDREN];
-    float probabilities[RHO_HYPOTHESES_CHILDREN]; /* of a manoeuvre, with that plot */
-    uint8_t jumps[RHO_HYPOTHESES_CHILDREN];       /* whether it takes a jump */
+    struct rho_hypotheses_candidate candidates[RHO_HYPOTHESES_CHILDREN]; /* the best one first */
     uint8_t num_candidates;
 };
 

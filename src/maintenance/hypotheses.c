@@ -12,7 +12,7 @@
 #define POOL_MAGIC 0x4859504fu /* "HYPO" */
 
 /* Less likely ones do not show in the mean. */
-#define WEIGHT_SHOWN_MIN (-12.0f)
+#define WEIGHT_SHOWN_MIN (-9.0f)
 
 /* ---- the pool --------------------------------------------------------------------------------- */
 

@@ -101,29 +101,19 @@ static float log_clutter(const struct rho_hypotheses_clutter *clutter,
 }
 
 /* Into the hypothesis' list of its best plots, of equals behind the earlier ones. */
-static void note_candidate(struct rho_hypothesis *at, int16_t row, float gain_nat,
-                           const struct rho_imm_match *match)
+static inline void note_candidate(struct rho_hypothesis *at,
+                                  struct rho_hypotheses_candidate candidate)
 {
     unsigned place = at->num_candidates;
-    while (place > 0 && at->gains_nat[place - 1] < gain_nat) {
-        place--;
-    }
-    if (place == RHO_HYPOTHESES_CHILDREN) {
+    if (place < RHO_HYPOTHESES_CHILDREN) {
+        at->num_candidates++;
+    } else if (!(candidate.gain_nat > at->candidates[--place].gain_nat)) {
         return;
     }
-    if (at->num_candidates < RHO_HYPOTHESES_CHILDREN) {
-        at->num_candidates++;
+    for (; place > 0 && at->candidates[place - 1].gain_nat < candidate.gain_nat; place--) {
+        at->candidates[place] = at->candidates[place - 1];
     }
-    for (unsigned i = at->num_candidates - 1u; i > place; i--) {
-        at->rows[i] = at->rows[i - 1];
-        at->gains_nat[i] = at->gains_nat[i - 1];
-        at->probabilities[i] = at->probabilities[i - 1];
-        at->jumps[i] = at->jumps[i - 1];
-    }
-    at->rows[place] = row;
-    at->gains_nat[place] = gain_nat;
-    at->probabilities[place] = match->probability;
-    at->jumps[place] = match->has_jumped;
+    at->candidates[place] = candidate;
 }
 
 /* At the plot's own time. */
@@ -175,6 +165,7 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
                          float *gain_nat)
 {
     struct rho_imm_match match;
+    float best = 0.0f;
     int is_seen = 0;
     if (!pool || !seen || !clutter || !gain_nat || !rho_hypotheses_is_open(pool, slot)) {
         return 0;
@@ -186,12 +177,14 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
                        : match_one(pool, at, seen, time_us, &match))) {
             continue;
         }
-        float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
-        note_candidate(at, row, gain, &match);
-        if (!is_seen || at->weight_nat + gain > *gain_nat) {
-            *gain_nat = at->weight_nat + gain;
-        }
+        const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
+        note_candidate(
+            at, (struct rho_hypotheses_candidate){gain, match.probability, row, match.has_jumped});
+        best = !is_seen || at->weight_nat + gain > best ? at->weight_nat + gain : best;
         is_seen = 1;
+    }
+    if (is_seen) {
+        *gain_nat = best;
     }
     return is_seen;
 }
@@ -224,23 +217,51 @@ static int is_free(const struct rho_hypotheses_scan *scan, int16_t row)
     return !scan->claims || scan->claims[row] < 0 || scan->claims[row] == scan->own;
 }
 
-static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
-                              const struct rho_hypotheses_scan *scan)
+/* The heaviest child's weight. */
+static float find_best(const struct rho_hypotheses *pool, uint16_t slot,
+                       const struct rho_hypotheses_scan *scan)
 {
-    unsigned num = 0;
+    float best = scan->log_miss; /* of the first hypothesis, whose weight is 0 */
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         for (unsigned k = 0; k < at->num_candidates; k++) {
-            if (is_free(scan, at->rows[k])) {
-                num = insert_child(pool, num,
-                                   (struct rho_hypotheses_child){at->weight_nat + at->gains_nat[k],
-                                                                 at->rows[k], (uint8_t)i,
-                                                                 (uint8_t)k});
+            float weight = at->weight_nat + at->candidates[k].gain_nat;
+            best = weight > best && is_free(scan, at->candidates[k].row) ? weight : best;
+        }
+    }
+    return best;
+}
+
+/* Where velocities count, too, any plot is far likelier than a miss: misses are kept as long as plots. */
+static float miss_min(const struct rho_hypotheses_scan *scan)
+{
+    return scan->measures & RHO_MEASURES_VELOCITY ? RHO_HYPOTHESES_WEIGHT_MIN
+                                                  : RHO_HYPOTHESES_MISS_MIN;
+}
+
+/* Those that are not too light, the heaviest first. */
+static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
+                              const struct rho_hypotheses_scan *scan)
+{
+    const float best = find_best(pool, slot, scan);
+    const float least = best + RHO_HYPOTHESES_WEIGHT_MIN, least_miss = best + miss_min(scan);
+    unsigned num = 0;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        struct rho_hypotheses_child child = {.parent = (uint8_t)i};
+        for (unsigned k = 0; k < at->num_candidates; k++) {
+            child.weight_nat = at->weight_nat + at->candidates[k].gain_nat;
+            child.row = at->candidates[k].row;
+            child.candidate = (uint8_t)k;
+            if (child.weight_nat >= least && is_free(scan, child.row)) {
+                num = insert_child(pool, num, child);
             }
         }
-        num = insert_child(pool, num,
-                           (struct rho_hypotheses_child){at->weight_nat + scan->log_miss,
-                                                         RHO_HYPOTHESES_MISS, (uint8_t)i, 0});
+        child.weight_nat = at->weight_nat + scan->log_miss;
+        child.row = RHO_HYPOTHESES_MISS;
+        if (child.weight_nat >= least_miss) {
+            num = insert_child(pool, num, child);
+        }
     }
     return num;
 }
@@ -268,15 +289,9 @@ static int is_repeated(const struct rho_hypotheses *pool, uint16_t slot, unsigne
 static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot, unsigned num)
 {
     unsigned kept = 0;
-    float least = pool->children[0].weight_nat + RHO_HYPOTHESES_WEIGHT_MIN;
     for (unsigned i = 0; i < num && kept < RHO_HYPOTHESES_OF_TRACK; i++) {
-        struct rho_hypotheses_child child = pool->children[i];
-        if (child.weight_nat < least) {
-            break;
-        }
-        int is_hopeless = child.row == RHO_HYPOTHESES_MISS &&
-                          child.weight_nat < pool->children[0].weight_nat + RHO_HYPOTHESES_MISS_MIN;
-        if (!is_hopeless && !is_repeated(pool, slot, kept, &child)) {
+        const struct rho_hypotheses_child child = pool->children[i];
+        if (!is_repeated(pool, slot, kept, &child)) {
             pool->children[kept++] = child;
         }
     }
@@ -305,8 +320,9 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     int16_t row = child->row;
     if (row >= 0) {
         const struct rho_plot *plot = &scan->plots[row];
-        const struct rho_imm_match match = {.probability = at->probabilities[child->candidate],
-                                            .has_jumped = at->jumps[child->candidate]};
+        const struct rho_hypotheses_candidate *chosen = &at->candidates[child->candidate];
+        const struct rho_imm_match match = {.probability = chosen->probability,
+                                            .has_jumped = chosen->has_jumped};
         struct rho_imm_plot seen;
         rho_imm_open_plot(&seen, plot, scan->measures, scan->sensor);
         row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us, &match, row);

@@ -223,18 +223,6 @@ static void mix_covariances(struct rho_imm *imm, const float way[9], const struc
     }
 }
 
-static inline void mix_axis(struct rho_imm *imm, int axis, const float way[9],
-                            const struct mixing *steady, const struct mixing *manoeuvre)
-{
-    const float p = way[axis], v = way[3 + axis], a = way[6 + axis];
-    mix_at(imm, PLACE(axis, 0, axis, 0), p * p, steady, manoeuvre);
-    mix_at(imm, PLACE(axis, 1, axis, 0), v * p, steady, manoeuvre);
-    mix_at(imm, PLACE(axis, 1, axis, 1), v * v, steady, manoeuvre);
-    mix_accel_at(imm, PLACE(axis, 2, axis, 0), a * p, manoeuvre);
-    mix_accel_at(imm, PLACE(axis, 2, axis, 1), a * v, manoeuvre);
-    mix_accel_at(imm, PLACE(axis, 2, axis, 2), a * a, manoeuvre);
-}
-
 static void mix_states(struct rho_imm *imm, float way[9], float into_steady, float into_manoeuvre)
 {
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
@@ -248,39 +236,61 @@ static void mix_states(struct rho_imm *imm, float way[9], float into_steady, flo
     }
 }
 
+/* What both models take from each other. */
+struct exchange {
+    float into_steady, into_manoeuvre; /* share of what is in a model now that was in the other */
+    struct mixing steady, manoeuvre;
+};
+
 /* (1 - probability, probability) moves on as a Markov chain; each model takes what comes from the other. */
-static void mix(struct rho_imm *imm, float change)
+static struct exchange change(struct rho_imm *imm, float share)
 {
-    const float was = imm->probability, is = was + change * (1.0f - 2.0f * was);
-    const float into_steady = was * change / (1.0f - is);    /* of what is steady now */
-    const float into_manoeuvre = (1.0f - was) * change / is; /* of what manoeuvres now */
-    const struct mixing steady = {1.0f - into_steady, into_steady,
-                                  into_steady * (1.0f - into_steady)};
-    const struct mixing manoeuvre = {1.0f - into_manoeuvre, into_manoeuvre,
-                                     into_manoeuvre * (1.0f - into_manoeuvre)};
-    float way[RHO_IMM_STATES];
-    mix_states(imm, way, into_steady, into_manoeuvre);
-    if (imm->is_coupled) {
-        mix_covariances(imm, way, &steady, &manoeuvre);
-    } else {
-        mix_axis(imm, 0, way, &steady, &manoeuvre);
-        mix_axis(imm, 1, way, &steady, &manoeuvre);
-        mix_axis(imm, 2, way, &steady, &manoeuvre);
-    }
+    const float was = imm->probability, is = was + share * (1.0f - 2.0f * was);
+    const float steady = was * share / (1.0f - is), manoeuvre = (1.0f - was) * share / is;
     imm->probability = is;
+    return (struct exchange){
+        .into_steady = steady,
+        .into_manoeuvre = manoeuvre,
+        .steady = {1.0f - steady, steady, steady * (1.0f - steady)},
+        .manoeuvre = {1.0f - manoeuvre, manoeuvre, manoeuvre * (1.0f - manoeuvre)},
+    };
+}
+
+static void mix_coupled(struct rho_imm *imm, const struct exchange *by)
+{
+    float way[RHO_IMM_STATES];
+    mix_states(imm, way, by->into_steady, by->into_manoeuvre);
+    mix_covariances(imm, way, &by->steady, &by->manoeuvre);
+}
+
+static inline float mixed(const struct mixing *by, float own, float other, float product)
+{
+    return by->own * own + by->other * other + by->between * product;
+}
+
+/* One axis of both. The acceleration is 0 in the steady model, and known to be. */
+static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, const struct exchange *by)
+{
+    const struct mixing *s = &by->steady, *m = &by->manoeuvre;
+    const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = manoeuvre->a;
+    const struct axis was = *steady;
+    steady->p += by->into_steady * p;
+    steady->v += by->into_steady * v;
+    steady->pp = mixed(s, was.pp, manoeuvre->pp, p * p);
+    steady->vp = mixed(s, was.vp, manoeuvre->vp, v * p);
+    steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
+    manoeuvre->p -= by->into_manoeuvre * p;
+    manoeuvre->v -= by->into_manoeuvre * v;
+    manoeuvre->a -= by->into_manoeuvre * a;
+    manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, p * p);
+    manoeuvre->vp = mixed(m, manoeuvre->vp, was.vp, v * p);
+    manoeuvre->vv = mixed(m, manoeuvre->vv, was.vv, v * v);
+    manoeuvre->ap = m->own * manoeuvre->ap + m->between * a * p;
+    manoeuvre->av = m->own * manoeuvre->av + m->between * a * v;
+    manoeuvre->aa = m->own * manoeuvre->aa + m->between * a * a;
 }
 
 /* ---- predict ---------------------------------------------------------------------------------- */
-
-/* Variances of `num` derivatives; false for NaN. */
-static inline int is_usable(const float *p, int axis, int num)
-{
-    const uint8_t *at = axis_places[axis];
-    const float low = p[at[0]] < p[at[2]] ? p[at[0]] : p[at[2]];
-    const float high = p[at[0]] + p[at[2]];
-    return low >= 0.0f && high <= RHO_KALMAN_VARIANCE_MAX &&
-           (num < 3 || (p[at[5]] >= 0.0f && p[at[5]] <= RHO_KALMAN_VARIANCE_MAX));
-}
 
 static inline float raised(float variance)
 {
@@ -289,43 +299,70 @@ static inline float raised(float variance)
 }
 
 /* F P F^T + Q of the manoeuvring model's axis. */
-static inline void move_axis(struct rho_imm *imm, int axis, const struct rho_imm_step *step)
+static inline void move_manoeuvre(struct axis *at, const struct rho_imm_step *step)
 {
-    if (!is_open(imm, axis)) {
-        return;
-    }
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
                 h = step->accel_by_accel;
-    struct axis at = take_manoeuvre(imm, axis);
-    const float pp = at.pp + dt * at.vp + f * at.ap, pv = at.vp + dt * at.vv + f * at.av;
-    const float pa = at.ap + dt * at.av + f * at.aa;
-    const float vv = at.vv + g * at.av, va = at.av + g * at.aa;
-    at.p += dt * at.v + f * at.a;
-    at.v += g * at.a;
-    at.a *= h;
-    at.pp = raised(pp + dt * pv + f * pa + step->noise[0]);
-    at.vp = pv + g * pa + step->noise[1];
-    at.vv = raised(vv + g * va + step->noise[2]);
-    at.ap = h * pa + step->noise[3];
-    at.av = h * va + step->noise[4];
-    at.aa = raised(h * h * at.aa + step->noise[5]);
-    put_manoeuvre(imm, axis, &at);
+    const float pp = at->pp + dt * at->vp + f * at->ap, pv = at->vp + dt * at->vv + f * at->av;
+    const float pa = at->ap + dt * at->av + f * at->aa;
+    const float vv = at->vv + g * at->av, va = at->av + g * at->aa;
+    at->p += dt * at->v + f * at->a;
+    at->v += g * at->a;
+    at->a *= h;
+    at->pp = raised(pp + dt * pv + f * pa + step->noise[0]);
+    at->vp = pv + g * pa + step->noise[1];
+    at->vv = raised(vv + g * va + step->noise[2]);
+    at->ap = h * pa + step->noise[3];
+    at->av = h * va + step->noise[4];
+    at->aa = raised(h * h * at->aa + step->noise[5]);
 }
 
 /* The same of the steady model, whose axes are independent; rho_kalman_predict moves them with what couples them. */
-static inline void move_steady_axis(struct rho_kalman *steady, int axis,
-                                    const struct rho_imm_step *step)
+static inline void move_steady(struct axis *at, const struct rho_imm_step *step)
 {
-    struct axis at = take_steady(steady, axis);
     const float dt = step->dt_s, q = step->quiet_density * dt;
-    if (!(at.pp > 0.0f)) {
-        return;
+    at->p += dt * at->v;
+    at->pp = raised(at->pp + dt * (2.0f * at->vp + dt * at->vv) + q * dt * dt * (1.0f / 3.0f));
+    at->vp += dt * at->vv + 0.5f * dt * q;
+    at->vv = raised(at->vv + q);
+}
+
+/* What is left is finite, and its variances within the limit. False for NaN. */
+static inline int is_sound(const struct axis *at)
+{
+    const float sum = at->pp + at->vv + at->aa, place = at->p + at->v + at->a;
+    return at->pp >= 0.0f && at->vv >= 0.0f && at->aa >= 0.0f && sum <= RHO_KALMAN_VARIANCE_MAX &&
+           place >= -FLT_MAX && place <= FLT_MAX;
+}
+
+/* Both models of an axis, mixed where there is an exchange. */
+static inline int predict_axis(struct rho_imm *imm, int axis, const struct exchange *by,
+                               const struct rho_imm_step *step)
+{
+    if (!is_open(imm, axis)) {
+        return 1;
     }
-    at.p += dt * at.v;
-    at.pp = raised(at.pp + dt * (2.0f * at.vp + dt * at.vv) + q * dt * dt * (1.0f / 3.0f));
-    at.vp += dt * at.vv + 0.5f * dt * q;
-    at.vv = raised(at.vv + q);
-    put_steady(steady, axis, &at);
+    struct axis steady = take_steady(&imm->steady, axis), manoeuvre = take_manoeuvre(imm, axis);
+    if (by) {
+        mix_axis(&steady, &manoeuvre, by);
+    }
+    move_steady(&steady, step);
+    move_manoeuvre(&manoeuvre, step);
+    put_steady(&imm->steady, axis, &steady);
+    put_manoeuvre(imm, axis, &manoeuvre);
+    return is_sound(&steady) && is_sound(&manoeuvre);
+}
+
+static inline int move_manoeuvre_axis(struct rho_imm *imm, int axis,
+                                      const struct rho_imm_step *step)
+{
+    if (!is_open(imm, axis)) {
+        return 1;
+    }
+    struct axis at = take_manoeuvre(imm, axis);
+    move_manoeuvre(&at, step);
+    put_manoeuvre(imm, axis, &at);
+    return is_sound(&at);
 }
 
 /* Where the covariances of two axes lie: by derivative of the first, of the second. */
@@ -362,32 +399,32 @@ static inline void move_pair(float *p, const uint8_t at[9], const struct rho_imm
     p[at[8]] = h * c22;
 }
 
-static enum rho_status move_steady(struct rho_imm *imm, const struct rho_imm_step *step)
+static int move_coupled(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    struct rho_kalman *steady = &imm->steady;
-    if (imm->is_coupled) {
-        return rho_kalman_predict(steady, step->dt_s, step->quiet_density);
+    move_pair(imm->covariance, pair_places[0], step);
+    if (is_open(imm, 2)) {
+        move_pair(imm->covariance, pair_places[1], step);
+        move_pair(imm->covariance, pair_places[2], step);
     }
-    move_steady_axis(steady, 0, step);
-    move_steady_axis(steady, 1, step);
-    move_steady_axis(steady, 2, step);
-    return is_usable(steady->covariance, 0, 2) && is_usable(steady->covariance, 1, 2) &&
-                   is_usable(steady->covariance, 2, 2)
-               ? RHO_OK
-               : RHO_ERROR_VALUE;
+    int good = move_manoeuvre_axis(imm, 0, step);
+    good &= move_manoeuvre_axis(imm, 1, step);
+    good &= move_manoeuvre_axis(imm, 2, step);
+    return rho_kalman_predict(&imm->steady, step->dt_s, step->quiet_density) == RHO_OK && good;
 }
 
-static int is_finite_state(const struct rho_imm *imm)
+static int move_axes(struct rho_imm *imm, const struct exchange *by,
+                     const struct rho_imm_step *step)
 {
-    float total = 0.0f;
-    for (int i = 0; i < RHO_IMM_STATES; i++) {
-        total += imm->state[i] * 0.1f;
-    }
-    return total >= -FLT_MAX && total <= FLT_MAX;
+    int good = predict_axis(imm, 0, by, step);
+    good &= predict_axis(imm, 1, by, step);
+    good &= predict_axis(imm, 2, by, step);
+    return good;
 }
 
-enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step)
+static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *step, float share)
 {
+    struct exchange by;
+    int good;
     if (!imm || !step) {
         return RHO_ERROR_NULL;
     }
@@ -397,35 +434,28 @@ enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *ste
     imm->coasted_s += step->dt_s;
     imm->jump_mps2 =
         imm->coasted_s > 0.0f && imm->coasted_s <= step->jump_time_s ? step->jump_mps2 : 0.0f;
+    if (share > 0.0f) {
+        by = change(imm, share);
+    }
     if (imm->is_coupled) {
-        move_pair(imm->covariance, pair_places[0], step);
-        if (is_open(imm, 2)) {
-            move_pair(imm->covariance, pair_places[1], step);
-            move_pair(imm->covariance, pair_places[2], step);
+        if (share > 0.0f) {
+            mix_coupled(imm, &by);
         }
+        good = move_coupled(imm, step);
+    } else {
+        good = move_axes(imm, share > 0.0f ? &by : 0, step);
     }
-    move_axis(imm, 0, step);
-    move_axis(imm, 1, step);
-    move_axis(imm, 2, step);
-    enum rho_status status = move_steady(imm, step);
-    if (status != RHO_OK) {
-        return status;
-    }
-    return is_finite_state(imm) && is_usable(imm->covariance, 0, 3) &&
-                   is_usable(imm->covariance, 1, 3) && is_usable(imm->covariance, 2, 3)
-               ? RHO_OK
-               : RHO_ERROR_VALUE;
+    return good ? RHO_OK : RHO_ERROR_VALUE;
+}
+
+enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step)
+{
+    return predict(imm, step, 0.0f);
 }
 
 enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    if (!imm || !step) {
-        return RHO_ERROR_NULL;
-    }
-    if (step->change > 0.0f) {
-        mix(imm, step->change);
-    }
-    return rho_imm_move(imm, step);
+    return predict(imm, step, step ? step->change : 0.0f);
 }
 
 /* ---- estimate --------------------------------------------------------------------------------- */
