@@ -36,8 +36,10 @@
 #define RHO_HYPOTHESES_CHILDREN 3 /* plots of a scan that one hypothesis goes on with */
 #define RHO_HYPOTHESES_MEMORY 3   /* scans in which two hypotheses must differ */
 /* Beside the best one, less is given up: of those that go on with a plot, of those that go on with a miss. */
-#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f)
-#define RHO_HYPOTHESES_MISS_MIN (-10.0f)
+#define RHO_HYPOTHESES_WEIGHT_MIN (-12.0f)
+#define RHO_HYPOTHESES_MISS_MIN (-8.0f)
+#define RHO_HYPOTHESES_MISS_MIN_VELOCITY                                                           \
+    (-20.0f) /* where velocities are measured: any plot is far likelier than a miss */
 #define RHO_HYPOTHESES_MISS (-1)
 
 /* A plot of the scan that is looked at, for one hypothesis. */

@@ -235,7 +235,7 @@ static float find_best(const struct rho_hypotheses *pool, uint16_t slot,
 /* Where velocities count, too, any plot is far likelier than a miss: misses are kept as long as plots. */
 static float miss_min(const struct rho_hypotheses_scan *scan)
 {
-    return scan->measures & RHO_MEASURES_VELOCITY ? RHO_HYPOTHESES_WEIGHT_MIN
+    return scan->measures & RHO_MEASURES_VELOCITY ? RHO_HYPOTHESES_MISS_MIN_VELOCITY
                                                   : RHO_HYPOTHESES_MISS_MIN;
 }
 

@@ -274,10 +274,12 @@ static inline void look(struct view *view, const struct rho_imm *imm,
 static int take_jump(float distance2, float factor, int num_dimensions, int is_in_gate,
                      struct rho_imm_match *match)
 {
-    float log_likelihood =
+    if (!(distance2 <= RHO_IMM_GATE)) {
+        return 0;
+    }
+    const float log_likelihood =
         rho_log(factor) - 0.5f * (distance2 + (float)num_dimensions * LOG_TWO_PI);
-    if (!(distance2 <= RHO_IMM_GATE) || !is_likelihood(log_likelihood) ||
-        (is_in_gate && log_likelihood <= match->log_likelihood)) {
+    if (!is_likelihood(log_likelihood) || (is_in_gate && log_likelihood <= match->log_likelihood)) {
         return 0;
     }
     match->distance2 = distance2;
