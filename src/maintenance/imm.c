@@ -244,9 +244,12 @@ static void mix_states(struct rho_imm *imm, float way[9], float into_steady, flo
 /* (1 - probability, probability) moves on as a Markov chain; each model takes what comes from the other. */
 static void mix(struct rho_imm *imm, float change)
 {
-    const float was = imm->probability, is = was + change * (1.0f - 2.0f * was);
-    const float into_steady = was * change / (1.0f - is);    /* of what is steady now */
-    const float into_manoeuvre = (1.0f - was) * change / is; /* of what manoeuvres now */
+    const float was = imm->probability, stay = 1.0f - change;
+    const float ends = was * change, begins = (1.0f - was) * change;
+    /* summed up, not taken off 1: nothing may cancel where a model is all but certain */
+    const float into_steady = ends / (ends + (1.0f - was) * stay); /* of what is steady now */
+    const float is = begins + was * stay;
+    const float into_manoeuvre = begins / is; /* of what manoeuvres now */
     const struct mixing steady = {1.0f - into_steady, into_steady,
                                   into_steady * (1.0f - into_steady)};
     const struct mixing manoeuvre = {1.0f - into_manoeuvre, into_manoeuvre,
