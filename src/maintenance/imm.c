@@ -245,8 +245,11 @@ struct exchange {
 /* (1 - probability, probability) moves on as a Markov chain; each model takes what comes from the other. */
 static struct exchange change(struct rho_imm *imm, float share)
 {
-    const float was = imm->probability, is = was + share * (1.0f - 2.0f * was);
-    const float steady = was * share / (1.0f - is), manoeuvre = (1.0f - was) * share / is;
+    const float was = imm->probability, stay = 1.0f - share;
+    const float ends = was * share, begins = (1.0f - was) * share;
+    /* summed up, not taken off 1: nothing may cancel where a model is all but certain */
+    const float steady = ends / (ends + (1.0f - was) * stay);
+    const float is = begins + was * stay, manoeuvre = begins / is;
     imm->probability = is;
     return (struct exchange){
         .into_steady = steady,
