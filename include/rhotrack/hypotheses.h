@@ -33,13 +33,9 @@
 #define RHO_HYPOTHESES_SLOTS                                                                       \
     (RHO_MAX_TRACKS + 1) /* one more, for a track that is yet to get its place */
 #define RHO_HYPOTHESES_OF_TRACK 8
-#define RHO_HYPOTHESES_CHILDREN 3 /* plots of a scan that one hypothesis goes on with */
-#define RHO_HYPOTHESES_MEMORY 3   /* scans in which two hypotheses must differ */
-/* Beside the best one, less is given up: of those that go on with a plot, of those that go on with a miss. */
-#define RHO_HYPOTHESES_WEIGHT_MIN (-12.0f)
-#define RHO_HYPOTHESES_MISS_MIN (-8.0f)
-#define RHO_HYPOTHESES_MISS_MIN_VELOCITY                                                           \
-    (-20.0f) /* where velocities are measured: any plot is far likelier than a miss */
+#define RHO_HYPOTHESES_CHILDREN 3          /* plots of a scan that one hypothesis goes on with */
+#define RHO_HYPOTHESES_MEMORY 3            /* scans in which two hypotheses must differ */
+#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f) /* beside the best one; less is given up */
 #define RHO_HYPOTHESES_MISS (-1)
 
 /* A plot of the scan that is looked at, for one hypothesis. */
@@ -47,7 +43,6 @@ struct rho_hypotheses_candidate {
     float gain_nat;
     float probability; /* of a manoeuvre, if it is the target's */
     int16_t row;
-    uint8_t has_jumped;
 };
 
 struct rho_hypothesis {

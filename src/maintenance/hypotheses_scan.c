@@ -23,11 +23,10 @@ static void widen(struct span *span, float value, float variance)
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-static void widen_all(struct span spans[4], const float *state, const float *covariance,
-                      float jump_m2)
+static void widen_all(struct span spans[4], const float *state, const float *covariance)
 {
-    widen(&spans[0], state[0], covariance[RHO_AT(0, 0)] + jump_m2);
-    widen(&spans[1], state[1], covariance[RHO_AT(1, 1)] + jump_m2);
+    widen(&spans[0], state[0], covariance[RHO_AT(0, 0)]);
+    widen(&spans[1], state[1], covariance[RHO_AT(1, 1)]);
     widen(&spans[2], state[3], covariance[RHO_AT(3, 3)]);
     widen(&spans[3], state[4], covariance[RHO_AT(4, 4)]);
 }
@@ -47,8 +46,8 @@ static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        widen_all(spans, imm->steady.state, imm->steady.covariance, 0.0f);
-        widen_all(spans, imm->state, imm->covariance, rho_imm_jump_m2(imm));
+        widen_all(spans, imm->steady.state, imm->steady.covariance);
+        widen_all(spans, imm->state, imm->covariance);
     }
     float x_m = GATE_SIGMAS * rho_sqrt(spans[0].variance_max);
     float y_m = GATE_SIGMAS * rho_sqrt(spans[1].variance_max);
@@ -178,8 +177,7 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
             continue;
         }
         const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
-        note_candidate(
-            at, (struct rho_hypotheses_candidate){gain, match.probability, row, match.has_jumped});
+        note_candidate(at, (struct rho_hypotheses_candidate){gain, match.probability, row});
         best = !is_seen || at->weight_nat + gain > best ? at->weight_nat + gain : best;
         is_seen = 1;
     }
@@ -232,19 +230,12 @@ static float find_best(const struct rho_hypotheses *pool, uint16_t slot,
     return best;
 }
 
-/* Where velocities count, too, any plot is far likelier than a miss: misses are kept as long as plots. */
-static float miss_min(const struct rho_hypotheses_scan *scan)
-{
-    return scan->measures & RHO_MEASURES_VELOCITY ? RHO_HYPOTHESES_MISS_MIN_VELOCITY
-                                                  : RHO_HYPOTHESES_MISS_MIN;
-}
-
 /* Those that are not too light, the heaviest first. */
 static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
                               const struct rho_hypotheses_scan *scan)
 {
     const float best = find_best(pool, slot, scan);
-    const float least = best + RHO_HYPOTHESES_WEIGHT_MIN, least_miss = best + miss_min(scan);
+    const float least = best + RHO_HYPOTHESES_WEIGHT_MIN;
     unsigned num = 0;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
@@ -259,7 +250,7 @@ static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
         }
         child.weight_nat = at->weight_nat + scan->log_miss;
         child.row = RHO_HYPOTHESES_MISS;
-        if (child.weight_nat >= least_miss) {
+        if (child.weight_nat >= least) {
             num = insert_child(pool, num, child);
         }
     }
@@ -321,8 +312,7 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     if (row >= 0) {
         const struct rho_plot *plot = &scan->plots[row];
         const struct rho_hypotheses_candidate *chosen = &at->candidates[child->candidate];
-        const struct rho_imm_match match = {.probability = chosen->probability,
-                                            .has_jumped = chosen->has_jumped};
+        const struct rho_imm_match match = {.probability = chosen->probability};
         struct rho_imm_plot seen;
         rho_imm_open_plot(&seen, plot, scan->measures, scan->sensor);
         row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us, &match, row);
@@ -394,7 +384,6 @@ static enum rho_status take_sure(struct rho_hypotheses *pool, struct rho_hypothe
     /* far from both predictions, neither model is the likelier one */
     if (!rho_imm_weigh(&at->imm, seen, &match)) {
         match.probability = at->imm.probability;
-        match.has_jumped = 0;
     }
     pool->scratch = at->imm;
     enum rho_status status = rho_imm_update(&at->imm, &pool->model, seen, &match);
