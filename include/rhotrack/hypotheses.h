@@ -93,7 +93,8 @@ struct rho_hypotheses_clutter {
 /* A box that plots outside of need not be weighed: grows with a plot's sigma and own time. */
 struct rho_hypotheses_reach {
     float x_min_m, x_max_m, y_min_m, y_max_m;
-    float speed_max_mps; /* of all hypotheses, with their uncertainty */
+    float z_min_m, z_max_m; /* of tracks with a height */
+    float speed_max_mps;    /* of all hypotheses, with their uncertainty */
 };
 
 /* A scan that a track commits itself to. */
@@ -152,8 +153,9 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *poo
 void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
                          struct rho_hypotheses_reach *reach);
 
-/* True where a plot may be in the gate of a hypothesis. Constant cost. */
-int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot);
+/* True where a plot of a scan that measures `measures` may be in the gate of a hypothesis. Constant cost. */
+int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
+                           uint32_t measures);
 
 /*
  * Weighs a plot of time_us, its own, with every hypothesis; each keeps its RHO_HYPOTHESES_CHILDREN best, of equals those that

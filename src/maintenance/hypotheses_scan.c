@@ -23,12 +23,15 @@ static void widen(struct span *span, float value, float variance)
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-static void widen_all(struct span spans[4], const float *state, const float *covariance)
+/* x, y, z and their speeds. */
+static void widen_all(struct span spans[6], const float *state, const float *covariance)
 {
     widen(&spans[0], state[0], covariance[RHO_AT(0, 0)]);
     widen(&spans[1], state[1], covariance[RHO_AT(1, 1)]);
-    widen(&spans[2], state[3], covariance[RHO_AT(3, 3)]);
-    widen(&spans[3], state[4], covariance[RHO_AT(4, 4)]);
+    widen(&spans[2], state[2], covariance[RHO_AT(2, 2)]);
+    widen(&spans[3], state[3], covariance[RHO_AT(3, 3)]);
+    widen(&spans[4], state[4], covariance[RHO_AT(4, 4)]);
+    widen(&spans[5], state[5], covariance[RHO_AT(5, 5)]);
 }
 
 static float speed_of(const struct span *span)
@@ -40,8 +43,9 @@ static float speed_of(const struct span *span)
 static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
                        struct rho_hypotheses_reach *reach)
 {
-    struct span spans[4];
-    for (int i = 0; i < 4; i++) {
+    struct span spans[6];
+    float far_m[3], fastest_mps = 0.0f;
+    for (int i = 0; i < 6; i++) {
         spans[i] = (struct span){1e30f, -1e30f, 0.0f};
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
@@ -49,15 +53,21 @@ static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
         widen_all(spans, imm->steady.state, imm->steady.covariance);
         widen_all(spans, imm->state, imm->covariance);
     }
-    float x_m = GATE_SIGMAS * rho_sqrt(spans[0].variance_max);
-    float y_m = GATE_SIGMAS * rho_sqrt(spans[1].variance_max);
-    float vx_mps = speed_of(&spans[2]), vy_mps = speed_of(&spans[3]);
+    for (int i = 0; i < 3; i++) {
+        const float speed_mps = speed_of(&spans[i + 3]);
+        far_m[i] = GATE_SIGMAS * rho_sqrt(spans[i].variance_max);
+        fastest_mps = speed_mps > fastest_mps ? speed_mps : fastest_mps;
+    }
+    /* a track without a height does not mind that of a plot */
+    far_m[2] = spans[2].variance_max > 0.0f ? far_m[2] : 1e30f;
     *reach = (struct rho_hypotheses_reach){
-        .x_min_m = spans[0].min - x_m,
-        .x_max_m = spans[0].max + x_m,
-        .y_min_m = spans[1].min - y_m,
-        .y_max_m = spans[1].max + y_m,
-        .speed_max_mps = vx_mps > vy_mps ? vx_mps : vy_mps,
+        .x_min_m = spans[0].min - far_m[0],
+        .x_max_m = spans[0].max + far_m[0],
+        .y_min_m = spans[1].min - far_m[1],
+        .y_max_m = spans[1].max + far_m[1],
+        .z_min_m = spans[2].min - far_m[2],
+        .z_max_m = spans[2].max + far_m[2],
+        .speed_max_mps = fastest_mps,
     };
 }
 
@@ -76,17 +86,20 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
     }
 }
 
-int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot)
+int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
+                           uint32_t measures)
 {
     float sigma_m = rho_plot_sigma_m(plot);
-    if (plot->sigma_up_m > sigma_m) {
+    if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
     float offset_s = (float)plot->offset_us * 1e-6f;
     float slack_m =
         GATE_SIGMAS * sigma_m + reach->speed_max_mps * (offset_s < 0.0f ? -offset_s : offset_s);
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
-           plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m;
+           plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&
+           (!(measures & RHO_MEASURES_Z) ||
+            (plot->z_m >= reach->z_min_m - slack_m && plot->z_m <= reach->z_max_m + slack_m));
 }
 
 /* ---- weigh ------------------------------------------------------------------------------------ */
