@@ -23,7 +23,7 @@ static void widen(struct span *span, float value, float variance)
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-static void widen_all(struct span spans[4], const float *state, const float *covariance,
+static void widen_all(struct span spans[6], const float *state, const float *covariance,
                       float jump_m2)
 {
     widen(&spans[0], state[0], covariance[RHO_AT(0, 0)] + jump_m2);
@@ -32,33 +32,39 @@ static void widen_all(struct span spans[4], const float *state, const float *cov
     widen(&spans[3], state[4], covariance[RHO_AT(4, 4)]);
 }
 
-static float speed_of(const struct span *span)
+/* Either way, with its uncertainty. */
+static float most_of(const struct span *span)
 {
-    float speed = span->max > -span->min ? span->max : -span->min;
-    return speed + GATE_SIGMAS * rho_sqrt(span->variance_max);
+    float most = span->max > -span->min ? span->max : -span->min;
+    return most + GATE_SIGMAS * rho_sqrt(span->variance_max);
 }
 
 static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
                        struct rho_hypotheses_reach *reach)
 {
-    struct span spans[4];
-    for (int i = 0; i < 4; i++) {
+    const float jump = pool->model.jump_mps2 * pool->model.jump_mps2;
+    struct span spans[6];
+    for (int i = 0; i < 6; i++) {
         spans[i] = (struct span){1e30f, -1e30f, 0.0f};
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
         widen_all(spans, imm->steady.state, imm->steady.covariance, 0.0f);
         widen_all(spans, imm->state, imm->covariance, rho_imm_jump_m2(imm));
+        widen(&spans[4], imm->state[6], imm->covariance[RHO_AT(6, 6)] + jump);
+        widen(&spans[5], imm->state[7], imm->covariance[RHO_AT(7, 7)] + jump);
     }
     float x_m = GATE_SIGMAS * rho_sqrt(spans[0].variance_max);
     float y_m = GATE_SIGMAS * rho_sqrt(spans[1].variance_max);
-    float vx_mps = speed_of(&spans[2]), vy_mps = speed_of(&spans[3]);
+    float vx_mps = most_of(&spans[2]), vy_mps = most_of(&spans[3]);
+    float ax_mps2 = most_of(&spans[4]), ay_mps2 = most_of(&spans[5]);
     *reach = (struct rho_hypotheses_reach){
         .x_min_m = spans[0].min - x_m,
         .x_max_m = spans[0].max + x_m,
         .y_min_m = spans[1].min - y_m,
         .y_max_m = spans[1].max + y_m,
         .speed_max_mps = vx_mps > vy_mps ? vx_mps : vy_mps,
+        .accel_max_mps2 = ax_mps2 > ay_mps2 ? ax_mps2 : ay_mps2,
     };
 }
 
@@ -83,9 +89,9 @@ int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struc
     if (plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
-    float offset_s = (float)plot->offset_us * 1e-6f;
-    float slack_m =
-        GATE_SIGMAS * sigma_m + reach->speed_max_mps * (offset_s < 0.0f ? -offset_s : offset_s);
+    float offset_s = (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f);
+    float slack_m = GATE_SIGMAS * sigma_m +
+                    offset_s * (reach->speed_max_mps + 0.5f * offset_s * reach->accel_max_mps2);
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
            plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m;
 }
@@ -383,14 +389,25 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
 
 /* ---- what is known to be the target's ---------------------------------------------------------- */
 
+/* A hypothesis to another time; where that cannot be it stays as it is. */
+static int carry(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
+{
+    pool->scratch = at->imm;
+    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+        at->imm = pool->scratch;
+        return 0;
+    }
+    at->time_us = time_us;
+    return 1;
+}
+
 static enum rho_status take_sure(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                  const struct rho_imm_plot *seen, int64_t time_us)
 {
     struct rho_imm_match match;
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (!carry(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
-    at->time_us = time_us;
     /* far from both predictions, neither model is the likelier one */
     if (!rho_imm_weigh(&at->imm, seen, &match)) {
         match.probability = at->imm.probability;
@@ -427,10 +444,9 @@ static enum rho_status take_bearing(struct rho_hypotheses *pool, struct rho_hypo
                                     float sigma_rad)
 {
     float gain_nat = 0.0f;
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (!carry(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
-    at->time_us = time_us;
     pool->scratch = at->imm;
     enum rho_status status =
         rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, &gain_nat);
