@@ -93,8 +93,8 @@ struct rho_hypotheses_clutter {
 /* A box that plots outside of need not be weighed: grows with a plot's sigma and own time. */
 struct rho_hypotheses_reach {
     float x_min_m, x_max_m, y_min_m, y_max_m;
-    float z_min_m, z_max_m; /* of tracks with a height */
-    float speed_max_mps;    /* of all hypotheses, with their uncertainty */
+    float z_min_m, z_max_m;              /* of tracks with a height */
+    float speed_max_mps, accel_max_mps2; /* of all hypotheses, with their uncertainty */
 };
 
 /* A scan that a track commits itself to. */
@@ -182,7 +182,8 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool
 
 /*
  * All hypotheses take a plot that is known to be the target's, at its own time. Errors: NULL, STATE (slot), and those of
- * rho_imm_update where no hypothesis could take it: then they are as they were predicted to its time.
+ * rho_imm_update where no hypothesis could take it: then they are as they were predicted to its time, or where they were if
+ * that is too far back.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, uint16_t slot,
                                                    const struct rho_imm_plot *seen,

@@ -23,51 +23,57 @@ static void widen(struct span *span, float value, float variance)
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-/* x, y, z and their speeds. */
-static void widen_all(struct span spans[6], const float *state, const float *covariance)
+/* Places, speeds and, of the manoeuvring model, accelerations: what the triangle's diagonal holds. */
+static void widen_all(struct span spans[RHO_IMM_STATES], const float *state,
+                      const float *covariance, int num)
 {
-    widen(&spans[0], state[0], covariance[RHO_AT(0, 0)]);
-    widen(&spans[1], state[1], covariance[RHO_AT(1, 1)]);
-    widen(&spans[2], state[2], covariance[RHO_AT(2, 2)]);
-    widen(&spans[3], state[3], covariance[RHO_AT(3, 3)]);
-    widen(&spans[4], state[4], covariance[RHO_AT(4, 4)]);
-    widen(&spans[5], state[5], covariance[RHO_AT(5, 5)]);
+    for (int i = 0; i < num; i++) {
+        widen(&spans[i], state[i], *covariance);
+        covariance += i + 2;
+    }
 }
 
-static float speed_of(const struct span *span)
+static float far_of(const struct span *span)
 {
-    float speed = span->max > -span->min ? span->max : -span->min;
-    return speed + GATE_SIGMAS * rho_sqrt(span->variance_max);
+    return GATE_SIGMAS * rho_sqrt(span->variance_max);
+}
+
+/* Either way on any axis, with its uncertainty. */
+static float most_of(const struct span spans[3])
+{
+    float most = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        const struct span *span = &spans[axis];
+        float one = (span->max > -span->min ? span->max : -span->min) + far_of(span);
+        most = one > most ? one : most;
+    }
+    return most;
 }
 
 static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
                        struct rho_hypotheses_reach *reach)
 {
-    struct span spans[6];
-    float far_m[3], fastest_mps = 0.0f;
-    for (int i = 0; i < 6; i++) {
+    struct span spans[RHO_IMM_STATES];
+    for (int i = 0; i < RHO_IMM_STATES; i++) {
         spans[i] = (struct span){1e30f, -1e30f, 0.0f};
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        widen_all(spans, imm->steady.state, imm->steady.covariance);
-        widen_all(spans, imm->state, imm->covariance);
-    }
-    for (int i = 0; i < 3; i++) {
-        const float speed_mps = speed_of(&spans[i + 3]);
-        far_m[i] = GATE_SIGMAS * rho_sqrt(spans[i].variance_max);
-        fastest_mps = speed_mps > fastest_mps ? speed_mps : fastest_mps;
+        widen_all(spans, imm->steady.state, imm->steady.covariance, RHO_KALMAN_STATES);
+        widen_all(spans, imm->state, imm->covariance, RHO_IMM_STATES);
     }
     /* a track without a height does not mind that of a plot */
-    far_m[2] = spans[2].variance_max > 0.0f ? far_m[2] : 1e30f;
+    const float x_m = far_of(&spans[0]), y_m = far_of(&spans[1]);
+    const float z_m = spans[2].variance_max > 0.0f ? far_of(&spans[2]) : 1e30f;
     *reach = (struct rho_hypotheses_reach){
-        .x_min_m = spans[0].min - far_m[0],
-        .x_max_m = spans[0].max + far_m[0],
-        .y_min_m = spans[1].min - far_m[1],
-        .y_max_m = spans[1].max + far_m[1],
-        .z_min_m = spans[2].min - far_m[2],
-        .z_max_m = spans[2].max + far_m[2],
-        .speed_max_mps = fastest_mps,
+        .x_min_m = spans[0].min - x_m,
+        .x_max_m = spans[0].max + x_m,
+        .y_min_m = spans[1].min - y_m,
+        .y_max_m = spans[1].max + y_m,
+        .z_min_m = spans[2].min - z_m,
+        .z_max_m = spans[2].max + z_m,
+        .speed_max_mps = most_of(&spans[3]),
+        .accel_max_mps2 = most_of(&spans[6]),
     };
 }
 
@@ -93,9 +99,9 @@ int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struc
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
-    float offset_s = (float)plot->offset_us * 1e-6f;
-    float slack_m =
-        GATE_SIGMAS * sigma_m + reach->speed_max_mps * (offset_s < 0.0f ? -offset_s : offset_s);
+    float offset_s = (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f);
+    float slack_m = GATE_SIGMAS * sigma_m +
+                    offset_s * (reach->speed_max_mps + 0.5f * offset_s * reach->accel_max_mps2);
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
            plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&
            (!(measures & RHO_MEASURES_Z) ||
@@ -386,14 +392,25 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
 
 /* ---- what is known to be the target's ---------------------------------------------------------- */
 
+/* A hypothesis to another time; where that cannot be it stays as it is. */
+static int carry(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
+{
+    pool->scratch = at->imm;
+    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+        at->imm = pool->scratch;
+        return 0;
+    }
+    at->time_us = time_us;
+    return 1;
+}
+
 static enum rho_status take_sure(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                  const struct rho_imm_plot *seen, int64_t time_us)
 {
     struct rho_imm_match match;
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (!carry(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
-    at->time_us = time_us;
     /* far from both predictions, neither model is the likelier one */
     if (!rho_imm_weigh(&at->imm, seen, &match)) {
         match.probability = at->imm.probability;
@@ -429,10 +446,9 @@ static enum rho_status take_bearing(struct rho_hypotheses *pool, struct rho_hypo
                                     float sigma_rad)
 {
     float gain_nat = 0.0f;
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (!carry(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
-    at->time_us = time_us;
     pool->scratch = at->imm;
     enum rho_status status =
         rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, &gain_nat);

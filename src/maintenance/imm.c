@@ -336,7 +336,7 @@ static inline int predict_axis(struct rho_imm *imm, int axis, const struct excha
                                const struct rho_imm_step *step)
 {
     if (!is_open(imm, axis)) {
-        return 1;
+        return imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
     }
     struct axis steady = take_steady(&imm->steady, axis), manoeuvre = take_manoeuvre(imm, axis);
     if (by) {
@@ -353,7 +353,7 @@ static inline int move_manoeuvre_axis(struct rho_imm *imm, int axis,
                                       const struct rho_imm_step *step)
 {
     if (!is_open(imm, axis)) {
-        return 1;
+        return imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
     }
     struct axis at = take_manoeuvre(imm, axis);
     move_manoeuvre(&at, step);

@@ -238,12 +238,20 @@ static int is_likelihood(float log_likelihood)
     return log_likelihood >= -1e6f && log_likelihood <= 1e6f;
 }
 
+/* Neither model is ruled out for good: rounding makes a probability 1, and the next plot may be the other's. */
+#define SHARE_MIN 1.0e-9f
+
+static inline float at_least(float share)
+{
+    return share > SHARE_MIN ? share : SHARE_MIN;
+}
+
 void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float variance[2],
                           float *gain_nat)
 {
     struct rho_imm_match match;
-    const float factor[2] = {(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
-                             imm->probability * rho_inverse_sqrt(variance[1])};
+    const float factor[2] = {at_least(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
+                             at_least(imm->probability) * rho_inverse_sqrt(variance[1])};
     const float distance2[2] = {off[0] * off[0] / variance[0], off[1] * off[1] / variance[1]};
     combine(factor, distance2, 1, &match);
     imm->probability = match.probability;
@@ -276,8 +284,8 @@ static int is_in_gate(const struct view views[2])
 static int weigh_models(const struct view views[2], float probability, int num_dimensions,
                         struct rho_imm_match *match)
 {
-    const float factor[2] = {views[0].counts ? (1.0f - probability) * views[0].root : 0.0f,
-                             views[1].counts ? probability * views[1].root : 0.0f};
+    const float factor[2] = {views[0].counts ? at_least(1.0f - probability) * views[0].root : 0.0f,
+                             views[1].counts ? at_least(probability) * views[1].root : 0.0f};
     const float distance2[2] = {views[0].counts ? views[0].distance2 : 2.0f * COUNTS_MAX,
                                 views[1].counts ? views[1].distance2 : 2.0f * COUNTS_MAX};
     if (!is_in_gate(views)) {
@@ -327,8 +335,8 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
     memset(gate, 0, sizeof *gate);
     gate->num_axes = has_z && is_open(imm, 2) ? 3 : 2;
     open_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
-               1.0f - imm->probability);
-    open_model(gate, 1, imm->state, imm->covariance, variance_m2, imm->probability);
+               at_least(1.0f - imm->probability));
+    open_model(gate, 1, imm->state, imm->covariance, variance_m2, at_least(imm->probability));
     return 1;
 }
 
