@@ -110,7 +110,8 @@ for gate in best hough nearest; do
     run track plots.csv --set gate=nearest --gate $gate
     check "gate $gate: --gate goes before the parameter" writes_same_as tracks.csv
     run track plots.csv --gate $gate --json
-    check "gate $gate: JSON" json stdout '(o["tracks_confirmed"], sum(o["fates"].values())) == (2, 24)'
+    check "gate $gate: JSON" json stdout '(o["tracks_confirmed"], sum(o["fates"].values()),
+        o["counters"]["hypotheses_cut"]) == (2, 24, 0)'
 done
 run track plots.csv
 cp stdout tracks.csv
