@@ -120,8 +120,9 @@ static double compare_with_the_filter(enum rho_tracker_gate by)
     double alone_m = sqrt(figures.alone2 / figures.rows),
            ratio = sqrt(figures.both2 / figures.ekf2);
     double both_m = sqrt(figures.both2 / figures.rows);
-    print_message("gate %d: a radar's track: rms %.0f m, with bearings %.0f m, %.4f of the filter's\n",
-                  (int)by, alone_m, both_m, ratio);
+    print_message(
+        "gate %d: a radar's track: rms %.0f m, with bearings %.0f m, %.4f of the filter's\n",
+        (int)by, alone_m, both_m, ratio);
     assert_true(both_m < 0.7 * alone_m);
     return ratio;
 }
@@ -134,7 +135,7 @@ static void bearings_make_a_radars_track_better(void **state)
     double best = compare_with_the_filter(RHO_TRACKER_BEST);
     assert_true(nearest > 0.97 && nearest < 1.05);
     assert_true(hough > 0.97 && hough < 1.05); /* with one plot in the gate there is no choice */
-    assert_true(best > 0.9 && best < 1.02);      /* 0.96: the targets fly straight, and it sees that */
+    assert_true(best > 0.9 && best < 1.02); /* 0.96: the targets fly straight, and it sees that */
 }
 
 static void a_track_from_bearings_takes_the_radars_plots(void **state)

@@ -34,7 +34,7 @@ static struct rho_report report, other_report;
 static struct rho_plot plots[PLOTS_MAX];
 static struct rho_sensor radar; /* that looks, as it is described to the tracker */
 static uint32_t num_plots, measures, seed;
-static uint8_t gate_used; /* enum rho_tracker_gate; the default's unless a test says otherwise */
+static uint8_t gate_used;  /* enum rho_tracker_gate; the default's unless a test says otherwise */
 static int garbage = 0xee; /* what reports hold before */
 static double sigma_range_m, sigma_azimuth_rad, sigma_rate_mps;
 static double noise;        /* 1: errors as the sigmas say; 0: none */
@@ -287,10 +287,9 @@ static void polar_plots_are_tracked_with_and_without_range_rate(void **state)
     for (int i = 0; i < 2; i++) {
         for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
             double without = follow(heights[i], (enum rho_tracker_gate)gate);
-            double with =
-                follow(heights[i] | RHO_MEASURES_RANGE_RATE, (enum rho_tracker_gate)gate);
-            print_message("gate %d: along the line of sight: %.2f, %.2f m/s\n", gate,
-                          sqrt(without), sqrt(with));
+            double with = follow(heights[i] | RHO_MEASURES_RANGE_RATE, (enum rho_tracker_gate)gate);
+            print_message("gate %d: along the line of sight: %.2f, %.2f m/s\n", gate, sqrt(without),
+                          sqrt(with));
             assert_true(with < 1.5);
             assert_true(without > (gate == RHO_TRACKER_BEST ? 6.0 : 10.0) * with);
         }
