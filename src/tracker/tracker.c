@@ -83,7 +83,8 @@ void rho_tracker_set_pd(struct step *step)
     step->log_miss = rho_log(1.0f - pd);
 }
 
-static void begin(struct step *step)
+/* What targets may do, and who follows them. */
+static void set_model(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
@@ -94,6 +95,11 @@ static void begin(struct step *step)
     } else if (tracker->config.input.is_estimated) {
         step->model.input = &tracker->config.input;
     }
+}
+
+static void begin(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
     tracker->time_us = step->time_us;
     tracker->has_time = 1;
@@ -106,8 +112,12 @@ static void report_track(const struct step *step, const struct rho_track *track,
 {
     int64_t age_us = step->time_us - track->updated_us;
     struct rho_track at = *track;
-    /* back from the plot's own time to the scan's, without noise: nothing to refuse; hypotheses are there already */
-    if (at.filter != RHO_TRACK_HYPOTHESES) {
+    /* hypotheses are at the scan's time, unless it is late: then their one estimate goes back, and they stay */
+    if (at.filter == RHO_TRACK_HYPOTHESES) {
+        at.filter = RHO_TRACK_KALMAN;
+    }
+    /* back from the plot's own time to the scan's, without noise: nothing to refuse */
+    if (at.time_us != step->time_us) {
         (void)!rho_track_predict(&at, step->time_us, &step->model);
     }
     *out = (struct rho_track_report){
@@ -126,7 +136,7 @@ static void report_track(const struct step *step, const struct rho_track *track,
         .maneuver_probability = at.maneuver_probability,
         .num_hypotheses = 1,
     };
-    if (at.filter == RHO_TRACK_HYPOTHESES) {
+    if (track->filter == RHO_TRACK_HYPOTHESES) {
         out->num_hypotheses = (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, at.slot);
     }
     memcpy(out->accel_mps2, at.accel_mps2, sizeof out->accel_mps2);
@@ -170,7 +180,6 @@ void rho_tracker_close(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     count_fates(step);
-    rho_tracker_settle(step);
     tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
     step->report->num_tracks = tracker->num_tracks;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -302,6 +311,7 @@ static void take_in(struct step *step)
     rho_tracker_update(step);
     rho_tracker_age(step);
     rho_tracker_initiate(step);
+    rho_tracker_settle(step);
     note_unclaimed(step);
 }
 
@@ -312,6 +322,7 @@ int rho_tracker_open(struct step *step)
     memset(report, 0, sizeof *report);
     report->time_us = step->time_us;
     report->num_plots = step->num_inputs;
+    set_model(step);
     if (rho_tracker_is_late(step->tracker, step->time_us)) {
         refuse_late(step);
         return 0;

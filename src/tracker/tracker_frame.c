@@ -243,6 +243,7 @@ static void take_in(struct step *step)
     count_misses(step);
     rho_tracker_age(step);
     rho_tracker_initiate_passive(step);
+    rho_tracker_settle(step);
 }
 
 /* ---- the step ----------------------------------------------------------------------------------- */

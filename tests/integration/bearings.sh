@@ -194,7 +194,8 @@ check 'JSON: one object' is_json stdout
 check 'JSON: frames, none misses a sensor' json stdout '(o["scans"], o["frames"], o["frames_incomplete"]) == (20, 20, 0)'
 check 'JSON: fates add up' json stdout 'o["fates"]["claimed"] > 60 and sum(o["fates"].values()) == o["plots"]'
 check 'JSON: what was held' json stdout '4 <= o["counters"]["plots_initiated"] <= o["fates"]["held"]'
-check 'JSON: the objects in use' json stdout '0 < o["state_bytes"] < 1000000'
+# a pool of 6 000 hypotheses of some 400 bytes, and 2 000 tracks; with the initiator of plots it were 7 million
+check 'JSON: the objects in use' json stdout '2400000 < o["state_bytes"] < 4200000'
 awk -F, '!($1 == "150.000000" && $2 == 2)' long/bearings.csv >incomplete.csv
 run track incomplete.csv --config long/scenario.ini -o tracks.csv
 check 'a frame that misses a sensor is counted' matches "$(cat stderr)" '* 0 no room, 1 frames miss a sensor; *'

@@ -47,9 +47,22 @@ refuse 'option with a value too many' 'track: --json takes no value' track --jso
 refuse 'no input' 'track: too few arguments*' track
 refuse 'one input too many' "initiate: 'b.csv' is one argument too many*" initiate plots.csv b.csv
 refuse 'config takes no arguments' "config: 'x' is one argument too many*" config x
-refuse 'gate of a later version' '--gate best is not in this version*' track plots.csv --gate best
-refuse 'hough gate of a later version' '--gate hough is not in this version*' track plots.csv --gate hough
-refuse 'unknown gate' "unknown gate 'x'*" track plots.csv --gate x
+refuse 'unknown gate' "--gate 'x' is not one of best|hough|nearest|none" track plots.csv --gate x
+refuse 'a gate by number' "--gate '1' is not one of best|hough|nearest|none" track plots.csv --gate 1
+refuse 'empty gate' "--gate '' is not one of best|hough|nearest|none" track plots.csv --gate ''
+refuse 'gate without its value' 'track: --gate needs a value' track plots.csv --gate
+refuse 'gate none' 'gate none draws plots at random: that is for `maintain`; there are best, hough and nearest' \
+    track plots.csv --gate none
+refuse 'gate none, as a parameter' 'gate none draws plots at random*' track plots.csv --set gate=none
+refuse 'unknown gate, as a parameter' "--set gate=x: gate 'x' is not one of best|hough|nearest|none" \
+    config --set gate=x
+refuse 'no plane' "--set planes=: planes '' is not one of xy|xz|yz, or several joined by +" config --set planes=
+refuse 'a plane that there is not' "--set planes=xy+yx: planes 'xy+yx' is not one of xy|xz|yz, or several joined by +" \
+    config --set planes=xy+yx
+refuse 'a cell beyond a quarter turn' '--set gate_theta_deg=91: gate_theta_deg 91 is outside 0.1 .. 90 deg' \
+    config --set gate_theta_deg=91
+refuse 'track decides on inputs by itself' 'track takes no --no-input-estimation*' \
+    track plots.csv --no-input-estimation
 refuse 'follow of a later version' '--follow is not in this version' track plots.csv --follow
 refuse 'unknown method' "no method 'passive-papers'; there are: kernel, ht, mht, iht, nht, passive, passive-paper" \
     initiate plots.csv --method passive-papers

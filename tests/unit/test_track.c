@@ -86,6 +86,30 @@ static void a_track_starts_on_its_plots(void **state)
     assert_in_range((int)(rho_track_sigma_mps(&track) * 10.0f), 10, 60);
 }
 
+/* It has the plot's noise, and no velocity but the model's. The second plot tells it. */
+static void one_plot_is_enough_for_a_start(void **state)
+{
+    (void)state;
+    struct rho_track_plot plots[2];
+    struct rho_track track;
+    line(plots, 2);
+    assert_int_equal(rho_track_start(&track, 7, plots, 1, &model, 300), RHO_OK);
+    assert_int_equal(track.status, RHO_TRACK_TENTATIVE);
+    assert_int_equal(track.hits, 1);
+    assert_int_equal(track.plot, 0);
+    assert_int_equal(track.filter, RHO_TRACK_KALMAN);
+    assert_float_equal(rho_track_sigma_m(&track), 10.0f, 1e-3f);
+    assert_float_equal(rho_track_sigma_mps(&track), 300.0f, 1e-2f);
+    assert_float_equal(track.kalman.state[3], 0.0f, 0.0f);
+    assert_int_equal(rho_track_predict(&track, plots[1].time_us, &model), RHO_OK);
+    assert_int_equal(rho_track_update(&track, &plots[1], &model, 0), RHO_OK);
+    /* 14 m of noise in 2 s; the prior of 300 m/s takes a thousandth */
+    assert_float_equal(track.kalman.state[3], 250.0f, 1.0f);
+    assert_float_equal(track.kalman.state[4], -50.0f, 1.0f);
+    assert_float_equal(rho_track_sigma_mps(&track), 7.16f, 0.1f);
+    assert_int_equal(track.hits, 2);
+}
+
 static void bad_starts_are_refused(void **state)
 {
     (void)state;
@@ -97,7 +121,7 @@ static void bad_starts_are_refused(void **state)
     assert_int_equal(rho_track_start(NULL, 1, plots, 5, &model, 0), RHO_ERROR_NULL);
     assert_int_equal(rho_track_start(&track, 1, NULL, 5, &model, 0), RHO_ERROR_NULL);
     assert_int_equal(rho_track_start(&track, 1, plots, 5, NULL, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_start(&track, 1, plots, 1, &model, 0), RHO_ERROR_VALUE);
+    assert_int_equal(rho_track_start(&track, 1, plots, 0, &model, 0), RHO_ERROR_VALUE);
     plots[2].plot.x_m = NAN;
     assert_int_not_equal(rho_track_start(&track, 1, plots, 5, &model, 0), RHO_OK);
     line(plots, 5);
@@ -274,6 +298,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_status_meets_every_event),
         cmocka_unit_test(a_track_starts_on_its_plots),
+        cmocka_unit_test(one_plot_is_enough_for_a_start),
         cmocka_unit_test(bad_starts_are_refused),
         cmocka_unit_test(an_update_moves_the_estimate_and_the_score),
         cmocka_unit_test(a_plot_s_own_time_counts),

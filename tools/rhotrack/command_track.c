@@ -164,6 +164,7 @@ static cJSON *counters_json(const struct rho_tracker_counters *counters)
     cJSON_AddNumberToObject(object, "gate_plots_dropped", counters->gate_plots_dropped);
     cJSON_AddNumberToObject(object, "candidates_dropped", counters->candidates_dropped);
     cJSON_AddNumberToObject(object, "updates_refused", counters->updates_refused);
+    cJSON_AddNumberToObject(object, "hypotheses_cut", counters->hypotheses_cut);
     return object;
 }
 

@@ -455,14 +455,8 @@ static void parameters_to_input(const struct parameters *parameters,
 {
     const double *value = parameters->value;
     float accel_mps2 = 0.5f * (float)value[PARAMETER_ACCEL_MAX_MPS2];
-    if (getenv("IE")) {
-        config->is_estimated = 1;
-    }
-    if (getenv("IEN")) {
-        accel_mps2 = (float)atof(getenv("IEN")) * (float)value[PARAMETER_ACCEL_MAX_MPS2];
-    }
-    config->model = getenv("IEL") ? 0 : RHO_INPUT_PHYSICAL;
-    config->gamma = getenv("IEG") ? (float)atof(getenv("IEG")) : (float)value[PARAMETER_GAMMA];
+    config->model = RHO_INPUT_PHYSICAL;
+    config->gamma = (float)value[PARAMETER_GAMMA];
     config->sigma_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
     config->noise_density = accel_mps2 * accel_mps2;
     config->noise_m = config->noise_mps = 0.0f;
