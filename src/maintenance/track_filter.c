@@ -349,6 +349,7 @@ enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypot
     if (status != RHO_OK) {
         return status;
     }
+    track->plot = -1;
     rho_track_add_score(
         track, (int32_t)(1000.0f * (outcome.gain_nat < -SCORE_LIMIT_NAT  ? -SCORE_LIMIT_NAT
                                     : outcome.gain_nat > SCORE_LIMIT_NAT ? SCORE_LIMIT_NAT

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+/* Hypotheses of which some have heights, bearings that leave one of them, plots at other times, tracks that claim nothing. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "rhotrack/hypotheses.h"
+#include "rhotrack/track.h"
+
+#define SCAN_US 1000000
+#define SIGMA_M 10.0f
+#define LOG_PD (-0.1f)
+#define LOG_MISS (-2.3f)
+
+static struct rho_hypotheses pool;
+/* as dense as makes a plot of the target worth about as much as a miss */
+static const struct rho_hypotheses_clutter clutter = {.log_per_m2 = -9.0f, .log_per_m = -9.0f};
+
+static struct rho_plot plot_at(float x_m, float y_m, float z_m)
+{
+    return (struct rho_plot){.x_m = x_m,
+                             .y_m = y_m,
+                             .z_m = z_m,
+                             .sigma_range_m = SIGMA_M,
+                             .sigma_cross_m = SIGMA_M,
+                             .sigma_up_m = SIGMA_M};
+}
+
+/* A level estimate in the origin that rests. */
+static struct rho_kalman resting(void)
+{
+    struct rho_kalman estimate;
+    rho_kalman_init(&estimate);
+    for (int axis = 0; axis < 2; axis++) {
+        assert_int_equal(rho_kalman_open_axis(&estimate, axis, 0.0f, 100.0f, 100.0f), RHO_OK);
+    }
+    return estimate;
+}
+
+static uint16_t opened(void)
+{
+    struct rho_imm_model model;
+    const struct rho_kalman estimate = resting();
+    uint16_t slot = 0;
+    rho_imm_model_default(&model, 10.0f, 300.0f);
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
+    assert_int_equal(rho_hypotheses_open(&pool, &estimate, 0, &slot), RHO_OK);
+    return slot;
+}
+
+/* Predicts, looks, and weighs a plot at the scan's time. */
+static int weighed(uint16_t slot, int scan, const struct rho_plot *plot, uint32_t measures,
+                   struct rho_hypotheses_reach *reach)
+{
+    struct rho_imm_plot seen;
+    float gain_nat = 0.0f;
+    const int64_t time_us = (int64_t)scan * SCAN_US;
+    assert_int_equal(rho_hypotheses_predict(&pool, slot, time_us), RHO_OK);
+    rho_hypotheses_look(&pool, slot, reach);
+    rho_imm_open_plot(&seen, plot, measures, NULL);
+    return rho_hypotheses_weigh(&pool, slot, &seen, time_us, 0, LOG_PD, &clutter, &gain_nat);
+}
+
+static void commit(uint16_t slot, int scan, const struct rho_plot *plot, uint32_t measures)
+{
+    const struct rho_hypotheses_scan at = {.time_us = (int64_t)scan * SCAN_US,
+                                           .measures = measures,
+                                           .plots = plot,
+                                           .log_miss = LOG_MISS};
+    struct rho_hypotheses_outcome outcome;
+    assert_int_equal(rho_hypotheses_commit(&pool, slot, &at, &outcome), RHO_OK);
+}
+
+/* ---- heights ---------------------------------------------------------------------------------- */
+
+/* The hypothesis that the first plot with a height was clutter has none: any height may be the target's. */
+static void a_hypothesis_without_height_minds_none(void **state)
+{
+    (void)state;
+    struct rho_hypotheses_reach reach;
+    const uint16_t slot = opened();
+    const struct rho_plot low = plot_at(2.0f, -3.0f, 500.0f), high = plot_at(0.0f, 4.0f, 90000.0f);
+    assert_int_equal(weighed(slot, 1, &low, RHO_MEASURES_Z, &reach), 1);
+    commit(slot, 1, &low, RHO_MEASURES_Z);
+    assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
+    assert_int_equal(weighed(slot, 2, &high, RHO_MEASURES_Z, &reach), 1);
+    assert_int_equal(rho_hypotheses_reaches(&reach, &high, RHO_MEASURES_Z), 1);
+}
+
+/* ---- bearings --------------------------------------------------------------------------------- */
+
+/* They say which of two places it is: the other one's hypothesis goes back to the pool. */
+static void bearings_give_up_what_they_rule_out(void **state)
+{
+    (void)state;
+    struct rho_hypotheses_reach reach;
+    const uint16_t slot = opened();
+    const struct rho_plot aside = plot_at(0.0f, 60.0f, 0.0f);
+    assert_int_equal(weighed(slot, 2, &aside, 0, &reach), 1);
+    commit(slot, 2, &aside, 0);
+    assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
+    for (int k = 0; k < 60; k++) {
+        const int64_t time_us = 2 * SCAN_US;
+        assert_int_equal(rho_hypotheses_take_bearing(&pool, slot, time_us, -5000.0f, 0.0f,
+                                                     60.0f / 5000.0f, 1e-3f),
+                         RHO_OK);
+    }
+    unsigned num = rho_hypotheses_count(&pool, slot);
+    for (unsigned i = 0; i < num; i++) {
+        assert_true(rho_hypotheses_at(&pool, slot, i)->weight_nat >= RHO_HYPOTHESES_WEIGHT_MIN);
+    }
+    assert_int_equal(num + pool.num_free, RHO_MAX_HYPOTHESES);
+}
+
+/* ---- times ------------------------------------------------------------------------------------ */
+
+/* A plot of its own time is weighed there, whichever came before it and wherever that time is said. */
+static void a_plot_is_weighed_at_its_time(void **state)
+{
+    (void)state;
+    struct rho_hypotheses_reach reach;
+    const struct rho_plot plot = plot_at(20.0f, 0.0f, 0.0f);
+    struct rho_imm_plot seen;
+    float first_nat = 0.0f, second_nat = 0.0f;
+    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    uint16_t slot = opened();
+    rho_hypotheses_look(&pool, slot, &reach);
+    assert_int_equal(
+        rho_hypotheses_weigh(&pool, slot, &seen, 4 * SCAN_US, 0, LOG_PD, &clutter, &first_nat), 1);
+    slot = opened();
+    assert_int_equal(weighed(slot, 0, &plot, 0, &reach), 1);
+    assert_int_equal(
+        rho_hypotheses_weigh(&pool, slot, &seen, 4 * SCAN_US, 1, LOG_PD, &clutter, &second_nat), 1);
+    assert_true(fabsf(first_nat - second_nat) < 1e-6f);
+}
+
+/* ---- claims ----------------------------------------------------------------------------------- */
+
+static void a_track_that_takes_no_plot_claims_none(void **state)
+{
+    (void)state;
+    struct rho_track track;
+    (void)opened();
+    const struct rho_track_model model = {
+        .speed_sigma_mps = 300.0f, .noise_density = 1.0f, .hypotheses = &pool};
+    const struct rho_track_plot start = {.plot = plot_at(0.0f, 0.0f, 0.0f), .row = 7};
+    const struct rho_hypotheses_scan scan = {.time_us = SCAN_US, .log_miss = LOG_MISS};
+    assert_int_equal(rho_track_start(&track, 1, &start, 1, &model, 0), RHO_OK);
+    assert_int_equal(track.plot, 7);
+    assert_int_equal(rho_track_predict(&track, SCAN_US, &model), RHO_OK);
+    rho_hypotheses_look(&pool, track.slot, NULL);
+    assert_int_equal(rho_track_commit(&track, &scan, 0, &model), RHO_OK);
+    assert_int_equal(track.plot, -1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_hypothesis_without_height_minds_none),
+        cmocka_unit_test(bearings_give_up_what_they_rule_out),
+        cmocka_unit_test(a_plot_is_weighed_at_its_time),
+        cmocka_unit_test(a_track_that_takes_no_plot_claims_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
