@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Hypotheses of which some have heights, bearings that leave one of them, plots at other times, tracks that claim nothing. */
+/* Hypotheses of which some have heights, bearings that leave one of them, plots at other times, claims of none. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,6 +10,7 @@
 
 #include "rhotrack/hypotheses.h"
 #include "rhotrack/track.h"
+#include "rhotrack/tracker.h"
 
 #define SCAN_US 1000000
 #define SIGMA_M 10.0f
@@ -152,6 +153,64 @@ static void a_track_that_takes_no_plot_claims_none(void **state)
     assert_int_equal(track.plot, -1);
 }
 
+static struct rho_tracker tracker;
+static struct rho_initiator initiator;
+static struct rho_report report;
+
+/* One track, along x with 200 m/s until 11 s. */
+static void follow(const struct rho_tracker_config *config)
+{
+    struct rho_initiator_config search;
+    rho_initiator_config_default(&search);
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, config), RHO_OK);
+    assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &search), RHO_OK);
+    for (int k = 0; k < 12; k++) {
+        const struct rho_plot plot = plot_at(200.0f * (float)k, 0.0f, 0.0f);
+        const struct rho_scan scan = {
+            .time_us = (int64_t)k * SCAN_US, .num_plots = 1, .plots = &plot};
+        assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+    }
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].plot, 0);
+}
+
+/* Its plots are another scan's: no row of theirs was claimed. */
+static void late_scans_claim_nothing(void **state)
+{
+    (void)state;
+    struct rho_tracker_config config;
+    rho_tracker_config_default(&config);
+    follow(&config);
+    const struct rho_scan late = {.time_us = 10 * SCAN_US};
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &late, &report), RHO_OK);
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].plot, -1);
+}
+
+/* An input may have begun since the last plot: it brings the target far out of what the filter knows without it. */
+static void bearings_meet_the_gate_of_an_input(void **state)
+{
+    (void)state;
+    struct rho_tracker_config config;
+    rho_tracker_config_default(&config);
+    config.gate = RHO_TRACKER_NEAREST;
+    config.accel_max_mps2 = 0.0f;
+    config.input.is_estimated = 1;
+    config.input.model = RHO_INPUT_PHYSICAL;
+    config.input.sigma_mps2 = 200.0f;
+    config.input.noise_m = config.input.noise_mps = 0.0f;
+    follow(&config);
+    const struct rho_bearing bearing = {.bearing_rad = 0.02f, .sigma_rad = 1e-4f};
+    const struct rho_bearing_scan scan = {.time_us = 12 * SCAN_US,
+                                          .sensor_id = 5,
+                                          .x_m = 2400.0f - 5000.0f,
+                                          .num_bearings = 1,
+                                          .bearings = &bearing};
+    const struct rho_frame frame = {.time_us = 12 * SCAN_US, .num_scans = 1, .scans = &scan};
+    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+    assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -159,6 +218,8 @@ int main(void)
         cmocka_unit_test(bearings_give_up_what_they_rule_out),
         cmocka_unit_test(a_plot_is_weighed_at_its_time),
         cmocka_unit_test(a_track_that_takes_no_plot_claims_none),
+        cmocka_unit_test(late_scans_claim_nothing),
+        cmocka_unit_test(bearings_meet_the_gate_of_an_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
