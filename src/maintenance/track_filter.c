@@ -272,6 +272,7 @@ void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
 {
     if (track->filter == RHO_TRACK_HYPOTHESES) {
         rho_hypotheses_close(model->hypotheses, track->slot);
+        track->slot = RHO_HYPOTHESES_SLOTS; /* none: it may be another's soon */
     }
 }
 

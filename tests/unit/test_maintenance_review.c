@@ -153,6 +153,24 @@ static void a_track_that_takes_no_plot_claims_none(void **state)
     assert_int_equal(track.plot, -1);
 }
 
+/* The slot is another track's by then. */
+static void a_track_ends_once(void **state)
+{
+    (void)state;
+    struct rho_track first, second;
+    struct rho_imm_model motion;
+    rho_imm_model_default(&motion, 10.0f, 300.0f);
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &motion), RHO_OK);
+    const struct rho_track_model model = {
+        .speed_sigma_mps = 300.0f, .noise_density = 1.0f, .hypotheses = &pool};
+    const struct rho_track_plot start = {.plot = plot_at(0.0f, 0.0f, 0.0f)};
+    assert_int_equal(rho_track_start(&first, 1, &start, 1, &model, 0), RHO_OK);
+    rho_track_end(&first, &model);
+    assert_int_equal(rho_track_start(&second, 2, &start, 1, &model, 0), RHO_OK);
+    rho_track_end(&first, &model);
+    assert_int_equal(rho_hypotheses_count(&pool, second.slot), 1);
+}
+
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
@@ -218,6 +236,7 @@ int main(void)
         cmocka_unit_test(bearings_give_up_what_they_rule_out),
         cmocka_unit_test(a_plot_is_weighed_at_its_time),
         cmocka_unit_test(a_track_that_takes_no_plot_claims_none),
+        cmocka_unit_test(a_track_ends_once),
         cmocka_unit_test(late_scans_claim_nothing),
         cmocka_unit_test(bearings_meet_the_gate_of_an_input),
     };
