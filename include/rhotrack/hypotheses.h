@@ -189,13 +189,19 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, 
                                                    const struct rho_imm_plot *seen,
                                                    int64_t time_us);
 
-/* The same with a bearing from a place: hypotheses' weights move by how well they had predicted it. */
+/*
+ * The same with a bearing from a place: hypotheses' weights move by how well they had predicted it, and those that are too
+ * light then are given up.
+ */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool,
                                                            uint16_t slot, int64_t time_us,
                                                            float x_m, float y_m, float bearing_rad,
                                                            float sigma_rad);
 
-/* The mean over all hypotheses, moved to time_us. Errors: NULL, STATE (slot). Cost: 600 instructions a hypothesis. */
+/*
+ * The mean over all hypotheses, moved to time_us. Errors: NULL, STATE (slot), VALUE (none can be moved there); *estimate is
+ * unchanged. Cost: 600 instructions a hypothesis.
+ */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot,
                                                        int64_t time_us,
                                                        struct rho_hypotheses_estimate *estimate);

@@ -122,7 +122,8 @@ void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
 
 /*
  * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later within its scan), it
- * goes back without noise. Errors: NULL, VALUE (a covariance beyond its limit); unchanged.
+ * goes back without noise. Errors: NULL, VALUE (a covariance beyond its limit); unchanged, but one of hypotheses may
+ * have lost them all: end it.
  */
 RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                                  const struct rho_track_model *model);

@@ -272,6 +272,7 @@ void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
 {
     if (track->filter == RHO_TRACK_HYPOTHESES) {
         rho_hypotheses_close(model->hypotheses, track->slot);
+        track->slot = RHO_HYPOTHESES_SLOTS; /* none: it may be another's soon */
     }
 }
 
@@ -349,6 +350,7 @@ enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypot
     if (status != RHO_OK) {
         return status;
     }
+    track->plot = -1;
     rho_track_add_score(
         track, (int32_t)(1000.0f * (outcome.gain_nat < -SCORE_LIMIT_NAT  ? -SCORE_LIMIT_NAT
                                     : outcome.gain_nat > SCORE_LIMIT_NAT ? SCORE_LIMIT_NAT

@@ -126,7 +126,7 @@ static void report_track(const struct step *step, const struct rho_track *track,
         .hits = track->hits,
         .misses = track->misses,
         .sensor_id = track->sensor_id,
-        .plot = track->plot,
+        .plot = rho_tracker_is_late(step->tracker, step->time_us) ? -1 : track->plot,
         .update_age_us = age_us < 0           ? 0
                          : age_us < INT32_MAX ? (int32_t)age_us
                                               : INT32_MAX,

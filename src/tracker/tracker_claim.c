@@ -131,7 +131,8 @@ static float hough_gain(const struct step *step, const struct rho_track *track,
     return HOUGH_GAIN_MAX_NAT - rho_gate_hough_off(hough, velocity_mps);
 }
 
-static void open_gate(const struct step *step, const struct rho_track *track, struct rho_gate *gate)
+void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
+                           struct rho_gate *gate)
 {
     struct rho_kalman expected;
     rho_track_expect(track, &expected);
@@ -151,7 +152,7 @@ static void gate_plots(struct step *step, unsigned row)
     float log_density =
         rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
     int by_hough = opens_hough(step, track, &hough);
-    open_gate(step, track, &gate);
+    rho_tracker_open_gate(step, track, &gate);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (step->report->fates[i] == RHO_FATE_HELD &&
@@ -229,7 +230,7 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
 {
     struct rho_gate gate;
     struct rho_gate_result result;
-    open_gate(step, track, &gate);
+    rho_tracker_open_gate(step, track, &gate);
     if (!rho_gate_test(&gate, &step->scan->plots[plot], step->scan->measures, &result)) {
         return 0;
     }

@@ -100,7 +100,7 @@ static int gain_of(const struct step *step, const struct look *look, const struc
     struct rho_bearing bearing = look->scan->bearings[i];
     /* an earlier look of the frame may have moved the track on a little */
     bearing.offset_us = (int32_t)(time_of(look, i) - track->time_us);
-    rho_gate_open(&gate, &track->kalman, step->model.noise_density, step->sensor);
+    rho_tracker_open_gate(step, track, &gate);
     if (!rho_gate_test_bearing(&gate, &bearing, look->scan->x_m, look->scan->y_m, &result)) {
         return 0;
     }

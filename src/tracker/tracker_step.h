@@ -72,6 +72,10 @@ uint32_t rho_tracker_num_held(const struct step *step, const struct rho_bearing_
                               uint32_t first);
 int rho_tracker_is_bearing(const struct rho_bearing *bearing);
 
+/* The gate of a track that one Kalman filter follows, as it expects the target. */
+void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
+                           struct rho_gate *gate);
+
 /* A pair for the assignment: its cost is minus what it gains over a miss. What is in the gate is always better than
  * none. */
 void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);

@@ -143,9 +143,10 @@ static void a_full_pool_refuses(void **state)
     before = one_more;
     assert_int_equal(rho_track_start(&one_more, 9, &plot, 1, &model, 0), RHO_ERROR_CAPACITY);
     assert_memory_equal(&one_more, &before, sizeof before);
+    const uint16_t slot = tracks[5].slot;
     rho_track_end(&tracks[5], &model);
     assert_int_equal(rho_track_start(&one_more, 9, &plot, 1, &model, 0), RHO_OK);
-    assert_int_equal(one_more.slot, tracks[5].slot);
+    assert_int_equal(one_more.slot, slot);
 }
 
 /* ---- commit and settle ------------------------------------------------------------------------ */
