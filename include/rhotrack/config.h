@@ -146,7 +146,7 @@
 #endif
 
 /* Hypotheses of all tracks together, up to eight a track: a quiet one needs one, one that manoeuvres in clutter eight. More
- * than RHO_MAX_TRACKS where the tracker's gate is `best`; 1 where it never is. RAM: 400 bytes each. 1 .. 65534. */
+ * than RHO_MAX_TRACKS where the tracker's gate is `best`; 1 where it never is. RAM: 410 bytes each. 1 .. 65534. */
 #ifndef RHO_MAX_HYPOTHESES
 #define RHO_MAX_HYPOTHESES RHO_CONFIG_PICK(96, 6000)
 #endif
@@ -270,7 +270,7 @@
                         RHO_RAM_LARGER(4 * RHO_MAX_RHO_CELLS,                                      \
                                        32 * RHO_MAX_CLASSIC_KERNELS + 2 * RHO_CLASSIC_CHAINS)) +   \
      128)
-#define RHO_RAM_HYPOTHESES_BYTES (400 * RHO_MAX_HYPOTHESES + 17 * (RHO_MAX_TRACKS + 1) + 1024)
+#define RHO_RAM_HYPOTHESES_BYTES (410 * RHO_MAX_HYPOTHESES + 17 * (RHO_MAX_TRACKS + 1) + 2048)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (480 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \
      RHO_RAM_HYPOTHESES_BYTES + 640)

@@ -33,13 +33,9 @@
 #define RHO_HYPOTHESES_SLOTS                                                                       \
     (RHO_MAX_TRACKS + 1) /* one more, for a track that is yet to get its place */
 #define RHO_HYPOTHESES_OF_TRACK 8
-#define RHO_HYPOTHESES_CHILDREN 3 /* plots of a scan that one hypothesis goes on with */
-#define RHO_HYPOTHESES_MEMORY 3   /* scans in which two hypotheses must differ */
-/* Beside the best one, less is given up: of those that go on with a plot, of those that go on with a miss. */
-#define RHO_HYPOTHESES_WEIGHT_MIN (-12.0f)
-#define RHO_HYPOTHESES_MISS_MIN (-8.0f)
-#define RHO_HYPOTHESES_MISS_MIN_VELOCITY                                                           \
-    (-20.0f) /* where velocities are measured: any plot is far likelier than a miss */
+#define RHO_HYPOTHESES_CHILDREN 3          /* plots of a scan that one hypothesis goes on with */
+#define RHO_HYPOTHESES_MEMORY 3            /* scans in which two hypotheses must differ */
+#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f) /* beside the best one; less is given up */
 #define RHO_HYPOTHESES_MISS (-1)
 
 /* A plot of the scan that is looked at, for one hypothesis. */
@@ -47,7 +43,6 @@ struct rho_hypotheses_candidate {
     float gain_nat;
     float probability; /* of a manoeuvre, if it is the target's */
     int16_t row;
-    uint8_t has_jumped;
 };
 
 struct rho_hypothesis {
@@ -98,7 +93,8 @@ struct rho_hypotheses_clutter {
 /* A box that plots outside of need not be weighed: grows with a plot's sigma and own time. */
 struct rho_hypotheses_reach {
     float x_min_m, x_max_m, y_min_m, y_max_m;
-    float speed_max_mps; /* of all hypotheses, with their uncertainty */
+    float z_min_m, z_max_m;              /* of tracks with a height */
+    float speed_max_mps, accel_max_mps2; /* of all hypotheses, with their uncertainty */
 };
 
 /* A scan that a track commits itself to. */
@@ -157,8 +153,9 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *poo
 void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
                          struct rho_hypotheses_reach *reach);
 
-/* True where a plot may be in the gate of a hypothesis. Constant cost. */
-int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot);
+/* True where a plot of a scan that measures `measures` may be in the gate of a hypothesis. Constant cost. */
+int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
+                           uint32_t measures);
 
 /*
  * Weighs a plot of time_us, its own, with every hypothesis; each keeps its RHO_HYPOTHESES_CHILDREN best, of equals those that
@@ -185,7 +182,8 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool
 
 /*
  * All hypotheses take a plot that is known to be the target's, at its own time. Errors: NULL, STATE (slot), and those of
- * rho_imm_update where no hypothesis could take it: then they are as they were predicted to its time.
+ * rho_imm_update where no hypothesis could take it: then they are as they were predicted to its time, or where they were if
+ * that is too far back.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, uint16_t slot,
                                                    const struct rho_imm_plot *seen,

@@ -9,10 +9,6 @@
  * two estimates are mixed by the probabilities of a change, and at each update the models' probabilities move by how well
  * they had predicted the plot.
  *
- * Where plots come fast, beside how long an acceleration keeps, a manoeuvre that begins or turns round at full strength leaves
- * the gate of both models at once. A plot out there may still be the target's: with a small share, by a jump of the
- * acceleration at the last plot. Where that explains a plot best, the manoeuvring model takes it with the jump's variance.
- *
  * While all noise was isotropic the axes are independent, and are kept so: three small filters a model (decoupled). The
  * first plot with noise of another form couples them for good.
  *
@@ -44,8 +40,6 @@ struct rho_imm_model {
     float sojourn_s;     /* mean time that a target keeps to a model: > 0 */
     float speed_sigma_mps;  /* of the velocity of an axis that was measured once */
     float accel_sigma_mps2; /* of the acceleration at the start */
-    float jump_mps2;        /* sd of a sudden change of it: >= 0 */
-    float jump_time_s;      /* after the last plot in which one is looked for: >= 0; 0: never */
 };
 
 /* What one interval does to every estimate, computed once. */
@@ -55,7 +49,6 @@ struct rho_imm_step {
     float position_by_accel, velocity_by_accel, accel_by_accel;
     float noise[RHO_TRIANGLE(3)]; /* of position, velocity, acceleration of an axis */
     float quiet_density;
-    float jump_mps2, jump_time_s;
 };
 
 struct rho_imm {
@@ -63,8 +56,6 @@ struct rho_imm {
     float state[RHO_IMM_STATES]; /* of the manoeuvring model */
     float covariance[RHO_TRIANGLE(RHO_IMM_STATES)];
     float probability; /* of the manoeuvring model */
-    float coasted_s;   /* since the last update */
-    float jump_mps2;   /* of a jump then; 0: too long ago */
     uint8_t is_coupled;
 };
 
@@ -83,14 +74,12 @@ struct rho_imm_match {
     float probability;    /* of the manoeuvring model, if the plot is the target's */
     uint8_t num_axes;     /* that count: 2, or 3 with height */
     uint8_t has_velocity, has_range_rate; /* count, too */
-    uint8_t has_jumped;                   /* a jump explains the plot best */
 };
 
 /*
  * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.8 accel_max that is
  * remembered for 0.35 v_max / accel_max, 3 s at least, a sojourn of 0.47 v_max / accel_max, 4 s at least, quiet acceleration
- * of 1 m^2/s^3 (less below 2 m/s^2); at the start, speed sd v_max and acceleration sd accel_max; jumps of accel_max within
- * a sixth of the memory.
+ * of 1 m^2/s^3 (less below 2 m/s^2); at the start, speed sd v_max and acceleration sd accel_max.
  */
 void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps);
 
@@ -129,15 +118,11 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
 int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
                   struct rho_imm_match *match);
 
-/* Variance that a jump adds to a place, m^2, with the manoeuvring model's; 0 where none is looked for. */
-float rho_imm_jump_m2(const struct rho_imm *imm);
-
 /* What weighing plots of one isotropic noise, places alone, has in common while the axes are independent. */
 struct rho_imm_gate {
     float centre_m[2][3]; /* of both models */
     float inverse[2][3];  /* of the innovations' variances; 0 where an axis does not count */
     float factor[2];      /* share of the model times the root of the inverse determinant */
-    float jump_inverse[3], jump_factor; /* the same of a jump; 0: none is looked for */
     uint8_t num_axes;
 };
 

@@ -23,42 +23,57 @@ static void widen(struct span *span, float value, float variance)
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-static void widen_all(struct span spans[4], const float *state, const float *covariance,
-                      float jump_m2)
+/* Places, speeds and, of the manoeuvring model, accelerations: what the triangle's diagonal holds. */
+static void widen_all(struct span spans[RHO_IMM_STATES], const float *state,
+                      const float *covariance, int num)
 {
-    widen(&spans[0], state[0], covariance[RHO_AT(0, 0)] + jump_m2);
-    widen(&spans[1], state[1], covariance[RHO_AT(1, 1)] + jump_m2);
-    widen(&spans[2], state[3], covariance[RHO_AT(3, 3)]);
-    widen(&spans[3], state[4], covariance[RHO_AT(4, 4)]);
+    for (int i = 0; i < num; i++) {
+        widen(&spans[i], state[i], *covariance);
+        covariance += i + 2;
+    }
 }
 
-static float speed_of(const struct span *span)
+static float far_of(const struct span *span)
 {
-    float speed = span->max > -span->min ? span->max : -span->min;
-    return speed + GATE_SIGMAS * rho_sqrt(span->variance_max);
+    return GATE_SIGMAS * rho_sqrt(span->variance_max);
+}
+
+/* Either way on any axis, with its uncertainty. */
+static float most_of(const struct span spans[3])
+{
+    float most = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        const struct span *span = &spans[axis];
+        float one = (span->max > -span->min ? span->max : -span->min) + far_of(span);
+        most = one > most ? one : most;
+    }
+    return most;
 }
 
 static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
                        struct rho_hypotheses_reach *reach)
 {
-    struct span spans[4];
-    for (int i = 0; i < 4; i++) {
+    struct span spans[RHO_IMM_STATES];
+    for (int i = 0; i < RHO_IMM_STATES; i++) {
         spans[i] = (struct span){1e30f, -1e30f, 0.0f};
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        widen_all(spans, imm->steady.state, imm->steady.covariance, 0.0f);
-        widen_all(spans, imm->state, imm->covariance, rho_imm_jump_m2(imm));
+        widen_all(spans, imm->steady.state, imm->steady.covariance, RHO_KALMAN_STATES);
+        widen_all(spans, imm->state, imm->covariance, RHO_IMM_STATES);
     }
-    float x_m = GATE_SIGMAS * rho_sqrt(spans[0].variance_max);
-    float y_m = GATE_SIGMAS * rho_sqrt(spans[1].variance_max);
-    float vx_mps = speed_of(&spans[2]), vy_mps = speed_of(&spans[3]);
+    /* a track without a height does not mind that of a plot */
+    const float x_m = far_of(&spans[0]), y_m = far_of(&spans[1]);
+    const float z_m = spans[2].variance_max > 0.0f ? far_of(&spans[2]) : 1e30f;
     *reach = (struct rho_hypotheses_reach){
         .x_min_m = spans[0].min - x_m,
         .x_max_m = spans[0].max + x_m,
         .y_min_m = spans[1].min - y_m,
         .y_max_m = spans[1].max + y_m,
-        .speed_max_mps = vx_mps > vy_mps ? vx_mps : vy_mps,
+        .z_min_m = spans[2].min - z_m,
+        .z_max_m = spans[2].max + z_m,
+        .speed_max_mps = most_of(&spans[3]),
+        .accel_max_mps2 = most_of(&spans[6]),
     };
 }
 
@@ -77,17 +92,20 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
     }
 }
 
-int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot)
+int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
+                           uint32_t measures)
 {
     float sigma_m = rho_plot_sigma_m(plot);
-    if (plot->sigma_up_m > sigma_m) {
+    if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
-    float offset_s = (float)plot->offset_us * 1e-6f;
-    float slack_m =
-        GATE_SIGMAS * sigma_m + reach->speed_max_mps * (offset_s < 0.0f ? -offset_s : offset_s);
+    float offset_s = (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f);
+    float slack_m = GATE_SIGMAS * sigma_m +
+                    offset_s * (reach->speed_max_mps + 0.5f * offset_s * reach->accel_max_mps2);
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
-           plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m;
+           plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&
+           (!(measures & RHO_MEASURES_Z) ||
+            (plot->z_m >= reach->z_min_m - slack_m && plot->z_m <= reach->z_max_m + slack_m));
 }
 
 /* ---- weigh ------------------------------------------------------------------------------------ */
@@ -178,8 +196,7 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
             continue;
         }
         const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
-        note_candidate(
-            at, (struct rho_hypotheses_candidate){gain, match.probability, row, match.has_jumped});
+        note_candidate(at, (struct rho_hypotheses_candidate){gain, match.probability, row});
         best = !is_seen || at->weight_nat + gain > best ? at->weight_nat + gain : best;
         is_seen = 1;
     }
@@ -232,19 +249,12 @@ static float find_best(const struct rho_hypotheses *pool, uint16_t slot,
     return best;
 }
 
-/* Where velocities count, too, any plot is far likelier than a miss: misses are kept as long as plots. */
-static float miss_min(const struct rho_hypotheses_scan *scan)
-{
-    return scan->measures & RHO_MEASURES_VELOCITY ? RHO_HYPOTHESES_MISS_MIN_VELOCITY
-                                                  : RHO_HYPOTHESES_MISS_MIN;
-}
-
 /* Those that are not too light, the heaviest first. */
 static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
                               const struct rho_hypotheses_scan *scan)
 {
     const float best = find_best(pool, slot, scan);
-    const float least = best + RHO_HYPOTHESES_WEIGHT_MIN, least_miss = best + miss_min(scan);
+    const float least = best + RHO_HYPOTHESES_WEIGHT_MIN;
     unsigned num = 0;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
@@ -259,7 +269,7 @@ static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
         }
         child.weight_nat = at->weight_nat + scan->log_miss;
         child.row = RHO_HYPOTHESES_MISS;
-        if (child.weight_nat >= least_miss) {
+        if (child.weight_nat >= least) {
             num = insert_child(pool, num, child);
         }
     }
@@ -321,8 +331,7 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     if (row >= 0) {
         const struct rho_plot *plot = &scan->plots[row];
         const struct rho_hypotheses_candidate *chosen = &at->candidates[child->candidate];
-        const struct rho_imm_match match = {.probability = chosen->probability,
-                                            .has_jumped = chosen->has_jumped};
+        const struct rho_imm_match match = {.probability = chosen->probability};
         struct rho_imm_plot seen;
         rho_imm_open_plot(&seen, plot, scan->measures, scan->sensor);
         row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us, &match, row);
@@ -383,18 +392,28 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
 
 /* ---- what is known to be the target's ---------------------------------------------------------- */
 
+/* A hypothesis to another time; where that cannot be it stays as it is. */
+static int carry(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
+{
+    pool->scratch = at->imm;
+    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+        at->imm = pool->scratch;
+        return 0;
+    }
+    at->time_us = time_us;
+    return 1;
+}
+
 static enum rho_status take_sure(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                  const struct rho_imm_plot *seen, int64_t time_us)
 {
     struct rho_imm_match match;
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (!carry(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
-    at->time_us = time_us;
     /* far from both predictions, neither model is the likelier one */
     if (!rho_imm_weigh(&at->imm, seen, &match)) {
         match.probability = at->imm.probability;
-        match.has_jumped = 0;
     }
     pool->scratch = at->imm;
     enum rho_status status = rho_imm_update(&at->imm, &pool->model, seen, &match);
@@ -427,10 +446,9 @@ static enum rho_status take_bearing(struct rho_hypotheses *pool, struct rho_hypo
                                     float sigma_rad)
 {
     float gain_nat = 0.0f;
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (!carry(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
-    at->time_us = time_us;
     pool->scratch = at->imm;
     enum rho_status status =
         rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, &gain_nat);

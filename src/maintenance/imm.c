@@ -27,7 +27,6 @@
 #define SOJOURN_SHARE 0.47f
 #define SOJOURN_MIN_S 4.0f
 #define TURN_MAX_S 1000.0f
-#define JUMP_TIME_SHARE (1.0f / 6.0f)
 
 /* Steady targets are not quite; those that hardly manoeuvre are steadier still. */
 #define QUIET_DENSITY 1.0f
@@ -45,9 +44,7 @@ void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, fl
         .sojourn_s = sojourn_s > SOJOURN_MIN_S ? sojourn_s : SOJOURN_MIN_S,
         .speed_sigma_mps = v_max_mps,
         .accel_sigma_mps2 = accel_max_mps2,
-        .jump_mps2 = accel_max_mps2,
     };
-    model->jump_time_s = JUMP_TIME_SHARE * model->memory_s;
     model->drive_density = 2.0f * accel * accel / model->memory_s;
 }
 
@@ -58,9 +55,7 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model)
            rho_is_within(model->memory_s, 1e-3f, 1e6f) &&
            rho_is_within(model->sojourn_s, 1e-3f, 1e6f) &&
            rho_is_within(model->speed_sigma_mps, 1e-3f, RHO_LIMIT_SPEED_MPS) &&
-           rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f) &&
-           rho_is_within(model->jump_mps2, 0.0f, 1e4f) &&
-           rho_is_within(model->jump_time_s, 0.0f, 1e6f);
+           rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f);
 }
 
 /* ---- what an interval does -------------------------------------------------------------------- */
@@ -153,8 +148,6 @@ void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *mo
     }
     step->dt_s = dt_s;
     step->quiet_density = dt_s > 0.0f ? model->quiet_density : 0.0f;
-    step->jump_mps2 = model->jump_mps2;
-    step->jump_time_s = model->jump_time_s;
     step->change = dt_s > 0.0f ? 0.5f - 0.5f * rho_exp(-2.0f * dt_s / model->sojourn_s) : 0.0f;
 }
 
@@ -343,7 +336,7 @@ static inline int predict_axis(struct rho_imm *imm, int axis, const struct excha
                                const struct rho_imm_step *step)
 {
     if (!is_open(imm, axis)) {
-        return 1;
+        return imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
     }
     struct axis steady = take_steady(&imm->steady, axis), manoeuvre = take_manoeuvre(imm, axis);
     if (by) {
@@ -360,7 +353,7 @@ static inline int move_manoeuvre_axis(struct rho_imm *imm, int axis,
                                       const struct rho_imm_step *step)
 {
     if (!is_open(imm, axis)) {
-        return 1;
+        return imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
     }
     struct axis at = take_manoeuvre(imm, axis);
     move_manoeuvre(&at, step);
@@ -434,9 +427,6 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
     if (!(step->dt_s >= -STEP_MAX_S && step->dt_s <= STEP_MAX_S)) {
         return RHO_ERROR_VALUE;
     }
-    imm->coasted_s += step->dt_s;
-    imm->jump_mps2 =
-        imm->coasted_s > 0.0f && imm->coasted_s <= step->jump_time_s ? step->jump_mps2 : 0.0f;
     if (share > 0.0f) {
         by = change(imm, share);
     }

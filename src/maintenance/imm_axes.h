@@ -85,14 +85,6 @@ static inline int is_open(const struct rho_imm *imm, int axis)
     return imm->covariance[RHO_AT(axis, axis)] > 0.0f;
 }
 
-/* What a jump of 1 m/s^2 has done since: to the place, the velocity, the acceleration. */
-static inline void jump_response(const struct rho_imm *imm, float response[3])
-{
-    response[0] = 0.5f * imm->coasted_s * imm->coasted_s;
-    response[1] = imm->coasted_s;
-    response[2] = 1.0f;
-}
-
 /* A scalar that both models had predicted, `off` and with so much variance: moves their probabilities. imm_match.c */
 void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float variance[2],
                           float *gain_nat);

@@ -12,10 +12,6 @@
 /* A model beyond the gate still counts beside one within it: its density may be the higher one, as it is narrower. */
 #define COUNTS_MAX (2.0f * RHO_IMM_GATE)
 
-/* Probability that a target jumped, and from which distance on one asks. */
-#define JUMP_SHARE 1.0e-2f
-#define JUMP_FROM 12.0f
-
 /* What one model says of a plot. Both models' positions and velocities have the same places. */
 struct view {
     const float *state, *covariance;
@@ -242,12 +238,20 @@ static int is_likelihood(float log_likelihood)
     return log_likelihood >= -1e6f && log_likelihood <= 1e6f;
 }
 
+/* Neither model is ruled out for good: rounding makes a probability 1, and the next plot may be the other's. */
+#define SHARE_MIN 1.0e-9f
+
+static inline float at_least(float share)
+{
+    return share > SHARE_MIN ? share : SHARE_MIN;
+}
+
 void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float variance[2],
                           float *gain_nat)
 {
     struct rho_imm_match match;
-    const float factor[2] = {(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
-                             imm->probability * rho_inverse_sqrt(variance[1])};
+    const float factor[2] = {at_least(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
+                             at_least(imm->probability) * rho_inverse_sqrt(variance[1])};
     const float distance2[2] = {off[0] * off[0] / variance[0], off[1] * off[1] / variance[1]};
     combine(factor, distance2, 1, &match);
     imm->probability = match.probability;
@@ -270,57 +274,6 @@ static inline void look(struct view *view, const struct rho_imm *imm,
     }
 }
 
-/* The better explanation counts; 0 where the jump is none. */
-static int take_jump(float distance2, float factor, int num_dimensions, int is_in_gate,
-                     struct rho_imm_match *match)
-{
-    if (!(distance2 <= RHO_IMM_GATE)) {
-        return 0;
-    }
-    const float log_likelihood =
-        rho_log(factor) - 0.5f * (distance2 + (float)num_dimensions * LOG_TWO_PI);
-    if (!is_likelihood(log_likelihood) || (is_in_gate && log_likelihood <= match->log_likelihood)) {
-        return 0;
-    }
-    match->distance2 = distance2;
-    match->log_likelihood = log_likelihood;
-    match->probability = 1.0f;
-    match->has_jumped = 1;
-    return 1;
-}
-
-/* Position and velocity with what a jump may have done to them. */
-static void add_jump(const struct rho_imm *imm, float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)])
-{
-    const float variance = imm->jump_mps2 * imm->jump_mps2;
-    float response[3];
-    jump_response(imm, response);
-    memcpy(covariance, imm->covariance, RHO_TRIANGLE(RHO_KALMAN_STATES) * sizeof *covariance);
-    for (int axis = 0; axis < NUM_AXES && is_open(imm, axis); axis++) {
-        covariance[axis_places[axis][0]] += variance * response[0] * response[0];
-        covariance[axis_places[axis][1]] += variance * response[0] * response[1];
-        covariance[axis_places[axis][2]] += variance * response[1] * response[1];
-    }
-}
-
-static int look_for_jump(const struct rho_imm *imm, const struct rho_imm_plot *seen,
-                         int num_dimensions, int is_in_gate, struct rho_imm_match *match)
-{
-    float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
-    struct view view = {imm->state, covariance, 0.0f, 0.0f, 0};
-    add_jump(imm, covariance);
-    look(&view, imm, seen, match);
-    return view.counts &&
-           take_jump(view.distance2, JUMP_SHARE * view.root, num_dimensions, is_in_gate, match);
-}
-
-float rho_imm_jump_m2(const struct rho_imm *imm)
-{
-    float response[3];
-    jump_response(imm, response);
-    return imm->jump_mps2 * imm->jump_mps2 * response[0] * response[0];
-}
-
 static int is_in_gate(const struct view views[2])
 {
     return (views[0].counts && views[0].distance2 <= RHO_IMM_GATE) ||
@@ -331,8 +284,8 @@ static int is_in_gate(const struct view views[2])
 static int weigh_models(const struct view views[2], float probability, int num_dimensions,
                         struct rho_imm_match *match)
 {
-    const float factor[2] = {views[0].counts ? (1.0f - probability) * views[0].root : 0.0f,
-                             views[1].counts ? probability * views[1].root : 0.0f};
+    const float factor[2] = {views[0].counts ? at_least(1.0f - probability) * views[0].root : 0.0f,
+                             views[1].counts ? at_least(probability) * views[1].root : 0.0f};
     const float distance2[2] = {views[0].counts ? views[0].distance2 : 2.0f * COUNTS_MAX,
                                 views[1].counts ? views[1].distance2 : 2.0f * COUNTS_MAX};
     if (!is_in_gate(views)) {
@@ -350,17 +303,12 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
     match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;
-    match->has_jumped = 0;
     const int num_dimensions =
         (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate;
     for (int i = 0; i < 2; i++) {
         look(&views[i], imm, seen, match);
     }
-    const int is_near = weigh_models(views, imm->probability, num_dimensions, match);
-    if (imm->jump_mps2 > 0.0f && !(is_near && match->distance2 <= JUMP_FROM)) {
-        return look_for_jump(imm, seen, num_dimensions, is_near, match) || is_near;
-    }
-    return is_near;
+    return weigh_models(views, imm->probability, num_dimensions, match);
 }
 
 /* ---- many plots of one noise -------------------------------------------------------------------- */
@@ -378,21 +326,6 @@ static void open_model(struct rho_imm_gate *gate, int model, const float *state,
     gate->factor[model] = share * rho_inverse_sqrt(det);
 }
 
-static void open_jump(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2)
-{
-    const float jump_m2 = rho_imm_jump_m2(imm);
-    float det = 1.0f;
-    if (!(jump_m2 > 0.0f)) {
-        return;
-    }
-    for (int axis = 0; axis < gate->num_axes; axis++) {
-        const float s = imm->covariance[RHO_AT(axis, axis)] + variance_m2 + jump_m2;
-        gate->jump_inverse[axis] = 1.0f / s;
-        det *= s;
-    }
-    gate->jump_factor = JUMP_SHARE * rho_inverse_sqrt(det);
-}
-
 int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
                       int has_z)
 {
@@ -402,9 +335,8 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
     memset(gate, 0, sizeof *gate);
     gate->num_axes = has_z && is_open(imm, 2) ? 3 : 2;
     open_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
-               1.0f - imm->probability);
-    open_model(gate, 1, imm->state, imm->covariance, variance_m2, imm->probability);
-    open_jump(gate, imm, variance_m2);
+               at_least(1.0f - imm->probability));
+    open_model(gate, 1, imm->state, imm->covariance, variance_m2, at_least(imm->probability));
     return 1;
 }
 
@@ -416,8 +348,8 @@ static inline float distance2_in(const float centre_m[3], const float inverse[3]
     return dx * dx * inverse[0] + dy * dy * inverse[1] + dz * dz * inverse[2];
 }
 
-static int weigh_models_in(const struct rho_imm_gate *gate, const float place_m[3],
-                           struct rho_imm_match *match)
+int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3],
+                     struct rho_imm_match *match)
 {
     float distance2[2], factor[2] = {gate->factor[0], gate->factor[1]};
     for (int i = 0; i < 2; i++) {
@@ -432,20 +364,8 @@ static int weigh_models_in(const struct rho_imm_gate *gate, const float place_m[
             factor[i] = 0.0f;
         }
     }
+    match->num_axes = gate->num_axes;
+    match->has_velocity = match->has_range_rate = 0;
     combine(factor, distance2, gate->num_axes, match);
     return is_likelihood(match->log_likelihood);
-}
-
-int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3],
-                     struct rho_imm_match *match)
-{
-    const int is_near = weigh_models_in(gate, place_m, match);
-    match->num_axes = gate->num_axes;
-    match->has_velocity = match->has_range_rate = match->has_jumped = 0;
-    if (gate->jump_factor > 0.0f && !(is_near && match->distance2 <= JUMP_FROM)) {
-        return take_jump(distance2_in(gate->centre_m[1], gate->jump_inverse, place_m),
-                         gate->jump_factor, gate->num_axes, is_near, match) ||
-               is_near;
-    }
-    return is_near;
 }

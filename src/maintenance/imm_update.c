@@ -251,21 +251,6 @@ static enum rho_status open_height(struct rho_imm *imm, const struct rho_imm_mod
     return RHO_OK;
 }
 
-/* The manoeuvring model takes the plot with what the jump may have done. */
-static void jump(struct rho_imm *imm)
-{
-    static const uint8_t row[6] = {0, 1, 1, 2, 2, 2}, column[6] = {0, 0, 1, 0, 1, 2};
-    const float variance = imm->jump_mps2 * imm->jump_mps2;
-    float response[3];
-    jump_response(imm, response);
-    for (int axis = 0; axis < NUM_AXES && is_open(imm, axis); axis++) {
-        for (int k = 0; k < 6; k++) {
-            imm->covariance[axis_places[axis][k]] +=
-                variance * response[row[k]] * response[column[k]];
-        }
-    }
-}
-
 enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *model,
                                const struct rho_imm_plot *seen, const struct rho_imm_match *match)
 {
@@ -276,16 +261,12 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
     const int num_axes = seen->position.has_z && !opens ? 3 : 2;
     const int is_simple = !imm->is_coupled && seen->position.is_isotropic &&
                           !(seen->measures & RHO_MEASURES_RANGE_RATE);
-    if (match->has_jumped) {
-        jump(imm);
-    }
     enum rho_status status =
         is_simple ? update_axes(imm, num_axes, seen) : update_coupled(imm, num_axes, seen);
     if (status == RHO_OK && opens) {
         status = open_height(imm, model, seen);
     }
     imm->probability = match->probability;
-    imm->coasted_s = imm->jump_mps2 = 0.0f;
     return status;
 }
 
@@ -313,7 +294,6 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
     variance[1] =
         rho_linalg_project6(at.covariance, views[1].row, projected) + views[1].variance_m2;
     imm->is_coupled = 1;
-    imm->coasted_s = imm->jump_mps2 = 0.0f;
     enum rho_status status =
         rho_kalman_update_row(&imm->steady, views[0].row, views[0].off_m, views[0].variance_m2, 0);
     if (status == RHO_OK) {

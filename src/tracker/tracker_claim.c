@@ -194,8 +194,9 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
     rho_hypotheses_look(&tracker->hypotheses, track->slot, &reach);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
-        if (step->report->fates[i] != RHO_FATE_HELD || !rho_hypotheses_reaches(&reach, plot) ||
-            (claims && claims[i] >= 0 && claims[i] != (int)row)) {
+        if (step->report->fates[i] != RHO_FATE_HELD ||
+            (claims && claims[i] >= 0 && claims[i] != (int)row) ||
+            !rho_hypotheses_reaches(&reach, plot, step->scan->measures)) {
             continue;
         }
         rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);

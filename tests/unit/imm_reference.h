@@ -484,6 +484,7 @@ static inline void reference_add_range_rate(const struct reference *r, const str
 
 struct reference_match {
     double distance2[2], log_likelihood, probability;
+    double nearest2; /* of both models */
 };
 
 static inline void reference_judge(double probability, const double log_density[2],
@@ -497,6 +498,21 @@ static inline void reference_judge(double probability, const double log_density[
     match->probability = manoeuvre / (steady + manoeuvre);
 }
 
+static inline double reference_view(const struct reference *r, const struct wide_model *m,
+                                    const struct reference_plot *seen, double *distance2)
+{
+    struct wide_rows z = {.num = 0};
+
+    reference_add_place(r, m, seen, &z);
+    if (seen->measures & RHO_MEASURES_VELOCITY) {
+        reference_add_velocity(m, seen, &z);
+    }
+    if (seen->measures & RHO_MEASURES_RANGE_RATE) {
+        reference_add_range_rate(r, m, seen, &z);
+    }
+    return wide_log_density(m, &z, distance2);
+}
+
 static inline struct reference_match reference_weigh(const struct reference *r,
                                                      const struct reference_plot *seen)
 {
@@ -504,19 +520,10 @@ static inline struct reference_match reference_weigh(const struct reference *r,
     double log_density[2];
 
     for (int which = 0; which < 2; ++which) {
-        const struct wide_model *m = &r->models[which];
-        struct wide_rows z = {.num = 0};
-
-        reference_add_place(r, m, seen, &z);
-        if (seen->measures & RHO_MEASURES_VELOCITY) {
-            reference_add_velocity(m, seen, &z);
-        }
-        if (seen->measures & RHO_MEASURES_RANGE_RATE) {
-            reference_add_range_rate(r, m, seen, &z);
-        }
-        log_density[which] = wide_log_density(m, &z, &match.distance2[which]);
+        log_density[which] = reference_view(r, &r->models[which], seen, &match.distance2[which]);
     }
     reference_judge(r->probability, log_density, &match);
+    match.nearest2 = fmin(match.distance2[0], match.distance2[1]);
     return match;
 }
 

@@ -84,6 +84,8 @@
       "passive, passive-paper: which crossings of bearings are left out as ghosts")                \
     X(GATE, "gate", "-", 0, 0, 3, 1, 1,                                                            \
       "how tracks choose their plots; --gate goes before it; none: maintain alone")                \
+    X(INPUT_ESTIMATION, "input_estimation", "-", 0, 0, 1, 1, 1,                                    \
+      "track: 1: hough and nearest estimate inputs, as maintain does")                             \
     X(GAMMA, "gamma", "-", 1, 0.01, 1, 0, 1,                                                       \
       "hough, nearest: forgetting of the estimated input a scan; 1: none")                         \
     X(INPUT_MODEL, "input_model", "-", 0, 0, 1, 1, 1,                                              \
@@ -252,6 +254,9 @@ const char *parameters_source_name(enum parameter_source source);
 
 /* The table with unit, default, range, value and text (command `config`). */
 void parameters_print(const struct parameters *parameters, FILE *out);
+
+/* True where anything was said of this sensor. */
+bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id);
 
 /* A sensor's own value, or otherwise the value for all. */
 double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,

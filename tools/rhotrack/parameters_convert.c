@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/* parameters_convert: the library's configs from parameters. */
+#include "common.h"
+#include "parameters.h"
+
+void parameters_to_initiator(const struct parameters *parameters,
+                             struct rho_initiator_config *config)
+{
+    const double *value = parameters->value;
+
+    parameters_check(parameters);
+    rho_initiator_config_default(config);
+    config->scans = (uint16_t)value[PARAMETER_SCANS];
+    config->min_scans = (uint16_t)value[PARAMETER_MIN_SCANS];
+    config->v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
+    config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    config->pd = (float)value[PARAMETER_PD];
+    config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
+    config->false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
+    if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT)) {
+        config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
+        config->false_tracks_per_hour = 0.0f;
+    }
+    config->area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
+    if (config->area_is_fixed) {
+        config->area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
+        config->area.x_max_m = (float)value[PARAMETER_AREA_X_MAX_M];
+        config->area.y_min_m = (float)value[PARAMETER_AREA_Y_MIN_M];
+        config->area.y_max_m = (float)value[PARAMETER_AREA_Y_MAX_M];
+    }
+}
+
+/* In the tracker the process noise follows the largest acceleration, unless one a scan is asked for. */
+static void parameters_to_input(const struct parameters *parameters,
+                                struct rho_input_config *config)
+{
+    const double *value = parameters->value;
+    float accel_mps2 = 0.5f * (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    bool has_own_noise = parameters_is_set(parameters, PARAMETER_FILTER_NOISE_M) ||
+                         parameters_is_set(parameters, PARAMETER_FILTER_NOISE_MPS);
+
+    config->is_estimated = value[PARAMETER_INPUT_ESTIMATION] > 0.0;
+    config->model = value[PARAMETER_INPUT_MODEL] > 0.0 ? RHO_INPUT_PHYSICAL : RHO_INPUT_LITERAL;
+    config->gamma = (float)value[PARAMETER_GAMMA];
+    config->sigma_mps2 = (float)value[PARAMETER_INPUT_SIGMA_MPS2];
+    config->threshold = rho_input_threshold((float)value[PARAMETER_ONSET_CONFIDENCE]);
+    config->noise_density = has_own_noise ? 0.0f : accel_mps2 * accel_mps2;
+    config->noise_m = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_M] : 0.0f;
+    config->noise_mps = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_MPS] : 0.0f;
+    config->velocity_variance = (float)(value[PARAMETER_V_MAX_MPS] * value[PARAMETER_V_MAX_MPS]);
+}
+
+void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config)
+{
+    const double *value = parameters->value;
+
+    parameters_check(parameters);
+    rho_tracker_config_default(config);
+    config->pd = (float)value[PARAMETER_PD];
+    config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    config->accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
+    config->gate = (uint8_t)value[PARAMETER_GATE];
+    config->planes = (uint8_t)value[PARAMETER_PLANES];
+    config->theta_cell_rad = (float)(value[PARAMETER_GATE_THETA_DEG] * (3.141592653589793 / 180.0));
+    parameters_to_input(parameters, &config->input);
+}
+
+static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)
+{
+    return parameters->source[id] > SOURCE_DEFAULT;
+}
+
+void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
+                              struct rho_sensor *sensor)
+{
+    const double *value = parameters->value;
+    double range_max_m = is_asked_for(parameters, PARAMETER_RANGE_MAX_M)
+                             ? value[PARAMETER_RANGE_MAX_M]
+                             : 2.0 * (double)RHO_LIMIT_POSITION_M;
+
+#define OF_SENSOR(id, otherwise) (float)parameters_of_sensor(parameters, sensor_id, id, otherwise)
+    *sensor = (struct rho_sensor){
+        .sensor_id = sensor_id,
+        .x_m = OF_SENSOR(SENSOR_X_M, 0),
+        .y_m = OF_SENSOR(SENSOR_Y_M, 0),
+        .z_m = OF_SENSOR(SENSOR_Z_M, 0),
+        .pd = OF_SENSOR(SENSOR_PD, value[PARAMETER_PD]),
+        .range_min_m = OF_SENSOR(SENSOR_RANGE_MIN_M, value[PARAMETER_RANGE_MIN_M]),
+        .range_max_m = OF_SENSOR(SENSOR_RANGE_MAX_M, range_max_m),
+        .sector_from_rad = OF_SENSOR(SENSOR_SECTOR_FROM_RAD, 0),
+        .sector_to_rad = OF_SENSOR(SENSOR_SECTOR_TO_RAD, 0),
+        .range_bias_m = OF_SENSOR(SENSOR_RANGE_BIAS_M, 0),
+        .azimuth_bias_rad = OF_SENSOR(SENSOR_AZIMUTH_BIAS_RAD, 0),
+        .time_bias_s = OF_SENSOR(SENSOR_TIME_BIAS_S, 0),
+    };
+#undef OF_SENSOR
+}
+
+bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
+                          struct rho_sensor *sensor)
+{
+    if (!parameters_has_sensor(parameters, sensor_id) &&
+        !is_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
+        !is_asked_for(parameters, PARAMETER_RANGE_MAX_M)) {
+        return false;
+    }
+    parameters_to_any_sensor(parameters, sensor_id, sensor);
+    return true;
+}
