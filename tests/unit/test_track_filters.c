@@ -297,6 +297,28 @@ static void every_filter_takes_plots_by_hand(void **state)
     }
 }
 
+/* Velocity and range rate with 1 m/s: what four places alone tell to some 4 m/s. */
+static void every_filter_takes_all_that_a_plot_measures(void **state)
+{
+    static const uint32_t kinds[] = {0, RHO_MEASURES_VELOCITY, RHO_MEASURES_RANGE_RATE};
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        for (int kind = 0; kind < 3; kind++) {
+            start_with((enum rho_track_filter)filter);
+            struct rho_track track = started();
+            struct rho_track_plot plot = seen(4);
+            plot.measures = kinds[kind];
+            plot.plot.vx_mps = plot.plot.range_rate_mps = 200.0f; /* it comes from the sensor */
+            plot.plot.sigma_mps = plot.plot.sigma_range_rate_mps = 1.0f;
+            assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update(&track, &plot, &model, 0), RHO_OK);
+            rho_track_settle(&track, plot.time_us, &model);
+            assert_int_equal(track.kalman.covariance[RHO_AT(3, 3)]<1.5f, kind> 0);
+            assert_int_equal(track.kalman.covariance[RHO_AT(4, 4)] < 1.5f, kind == 1);
+        }
+    }
+}
+
 static void refused_updates_leave_every_filter_going(void **state)
 {
     (void)state;
@@ -432,6 +454,7 @@ int main(void)
         cmocka_unit_test(settling_brings_the_estimate),
         cmocka_unit_test(a_closed_slot_settles_nothing),
         cmocka_unit_test(every_filter_takes_plots_by_hand),
+        cmocka_unit_test(every_filter_takes_all_that_a_plot_measures),
         cmocka_unit_test(refused_updates_leave_every_filter_going),
         cmocka_unit_test(only_inputs_widen_the_gate),
         cmocka_unit_test(a_bearing_narrows_every_filter_at_once),

@@ -5,6 +5,7 @@
 static struct rho_tracker tracker_then;
 static struct rho_initiator initiator_then;
 static struct rho_report report_then;
+static double interval_s = 1.0; /* of the scans */
 
 static void keep(void)
 {
@@ -24,6 +25,7 @@ static void go_back(void)
 static void fly_alone(uint8_t gate, uint32_t measures, int k)
 {
     draw(gate, 77);
+    scene.interval_s = interval_s;
     scene.measures = measures;
     scene.num_targets = 1;
     scene.target[0] = (struct target){-5000.0, 4000.0, 3000.0, 200.0, -0.4, 0.0, 0.0, 0.0};
@@ -173,6 +175,59 @@ static void a_look_elsewhere_changes_no_evidence(void **state)
     }
 }
 
+/*
+ * Where the sensor looked is asked of where the target is by now: in four seconds it went from azimuth 2.5 rad to 2.4. The
+ * sector ends between.
+ */
+static void looks_follow_the_prediction(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        fly_alone((uint8_t)gate, 0, 15);
+        struct target last = target_at(&scene.target[0], 14.0);
+        struct target next = target_at(&scene.target[0], 18.0);
+        double from_rad = atan2(last.y_m, last.x_m), to_rad = atan2(next.y_m, next.x_m);
+        struct rho_scan scan = scan_at(18);
+        scan.sector_from_rad = (float)((from_rad + to_rad) / 2.0);
+        scan.sector_to_rad = (float)(from_rad + 0.5);
+        assert_true(to_rad < from_rad - 0.05);
+        num_plots = 0;
+        take_scan(&scan, &initiator);
+        assert_int_equal(report.tracks[0].misses, 0);
+        scan.time_us += 1;
+        scan.sector_to_rad = scan.sector_from_rad;
+        scan.sector_from_rad = (float)(to_rad - 0.5);
+        take_scan(&scan, &initiator);
+        assert_int_equal(report.tracks[0].misses, 1);
+    }
+}
+
+/*
+ * A bearing 10 s after the last plot, of a target that may pull 30 m/s^2: 0.05 rad off, 300 m, it may still be the
+ * target's, but 0.05 rad off right after it may not.
+ */
+static void a_frame_s_gates_are_as_wide_as_targets_may_pull(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2 * RHO_NUM_TRACKER_GATES; i++) {
+        const int late_s = i % 2 ? 10 : 0;
+        fly_alone((uint8_t)(i / 2), 0, 15);
+        struct target at = target_at(&scene.target[0], 14.0 + late_s);
+        const float x_m = (float)at.x_m, y_m = (float)at.y_m - 6000.0f;
+        const struct rho_bearing bearing = {.bearing_rad = 1.5707963f + 0.05f, .sigma_rad = 1e-3f};
+        const struct rho_bearing_scan look_up = {.time_us = 1000000 * (14 + late_s),
+                                                 .sensor_id = 5,
+                                                 .x_m = x_m,
+                                                 .y_m = y_m,
+                                                 .num_bearings = 1,
+                                                 .bearings = &bearing};
+        const struct rho_frame frame = {
+            .time_us = look_up.time_us, .num_scans = 1, .scans = &look_up};
+        assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+        assert_int_equal(report.fates[0], late_s ? RHO_FATE_CLAIMED : RHO_FATE_NO_ROOM);
+    }
+}
+
 /* ---- the Hough gate --------------------------------------------------------------------------- */
 
 /* (20) to (30) of the paper, plane by plane, by a search through all cells. */
@@ -209,7 +264,7 @@ static void velocity_of(const struct rho_plot *plot, const double expected_m[3],
         velocity_mps[axis] = scene.measures & RHO_MEASURES_VELOCITY
                                  ? (double)measured_mps[axis]
                                  : (double)track->newest_mps[axis] +
-                                       ((double)place_m[axis] - expected_m[axis]) / 1.0;
+                                       ((double)place_m[axis] - expected_m[axis]) / interval_s;
     }
 }
 
@@ -222,7 +277,7 @@ static int choose(int k)
     struct rho_scan scan = scan_at(k);
     keep();
     for (int axis = 0; axis < 3; axis++) {
-        expected_m[axis] = (double)at[axis] + (double)at[3 + axis];
+        expected_m[axis] = (double)at[axis] + interval_s * (double)at[3 + axis];
     }
     num_plots = 0;
     for (int i = 0; i < 5; i++) {
@@ -253,6 +308,7 @@ static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
     static const uint32_t kinds[] = {0, RHO_MEASURES_Z, RHO_MEASURES_VELOCITY,
                                      RHO_MEASURES_Z | RHO_MEASURES_VELOCITY};
     (void)state;
+    interval_s = 2.0;
     for (unsigned kind = 0; kind < 4; kind++) {
         int told = 0;
         fly_alone(RHO_TRACKER_HOUGH, kinds[kind], 12);
@@ -265,6 +321,7 @@ static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
         }
         assert_true(told > 190);
     }
+    interval_s = 1.0;
 }
 
 int main(void)
@@ -274,6 +331,8 @@ int main(void)
         cmocka_unit_test(what_is_measured_beside_the_place_is_worth_more),
         cmocka_unit_test(without_an_initiator_strangers_are_clutter),
         cmocka_unit_test(a_look_elsewhere_changes_no_evidence),
+        cmocka_unit_test(looks_follow_the_prediction),
+        cmocka_unit_test(a_frame_s_gates_are_as_wide_as_targets_may_pull),
         cmocka_unit_test(the_hough_gate_takes_the_plot_that_goes_on_straight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
