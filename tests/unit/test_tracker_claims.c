@@ -203,8 +203,8 @@ static void looks_follow_the_prediction(void **state)
 }
 
 /*
- * A bearing 10 s after the last plot, of a target that may pull 30 m/s^2: 0.05 rad off, 300 m, it may still be the
- * target's, but 0.05 rad off right after it may not.
+ * A bearing 10 s after the last plot, of a target that may pull 30 m/s^2: 0.1 rad off, 600 m, it may still be the
+ * target's, but 0.1 rad off right after it may not.
  */
 static void a_frame_s_gates_are_as_wide_as_targets_may_pull(void **state)
 {
@@ -214,7 +214,7 @@ static void a_frame_s_gates_are_as_wide_as_targets_may_pull(void **state)
         fly_alone((uint8_t)(i / 2), 0, 15);
         struct target at = target_at(&scene.target[0], 14.0 + late_s);
         const float x_m = (float)at.x_m, y_m = (float)at.y_m - 6000.0f;
-        const struct rho_bearing bearing = {.bearing_rad = 1.5707963f + 0.05f, .sigma_rad = 1e-3f};
+        const struct rho_bearing bearing = {.bearing_rad = 1.5707963f + 0.1f, .sigma_rad = 1e-3f};
         const struct rho_bearing_scan look_up = {.time_us = 1000000 * (14 + late_s),
                                                  .sensor_id = 5,
                                                  .x_m = x_m,
