@@ -180,8 +180,11 @@ static struct rho_hypotheses_clutter clutter_at(const struct step *step,
     };
 }
 
-/* A plot that is worth less than a miss is no better than none. */
-static void weigh_plots(struct step *step, unsigned row)
+/*
+ * Without claims, plots are offered to the assignment: one that is worth less than a miss is no better than none. With
+ * them, those that others got are left out.
+ */
+static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
@@ -193,6 +196,7 @@ static void weigh_plots(struct step *step, unsigned row)
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (step->report->fates[i] != RHO_FATE_HELD ||
+            (claims && claims[i] >= 0 && claims[i] != (int)row) ||
             !rho_hypotheses_reaches(&reach, plot, step->scan->measures)) {
             continue;
         }
@@ -200,7 +204,7 @@ static void weigh_plots(struct step *step, unsigned row)
         if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
                                  step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
                                  &clutter, &gain_nat) &&
-            gain_nat > step->log_miss) {
+            !claims && gain_nat > step->log_miss) {
             rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
         }
     }
@@ -216,7 +220,7 @@ void rho_tracker_claim(struct step *step)
             continue;
         }
         if (tracker->tracks[row].filter == RHO_TRACK_HYPOTHESES) {
-            weigh_plots(step, row);
+            weigh_plots(step, row, 0);
         } else {
             gate_plots(step, row);
         }
@@ -258,6 +262,26 @@ static int claim_plot(struct step *step, struct rho_track *track, int plot)
     return rho_track_update(track, &seen, &step->model, gain) == RHO_OK;
 }
 
+/* A hypothesis has a list of its best plots only: where others got some of these, there may be more that it could go on
+ * with, even the one that is assigned to the track. */
+static int lacks_plots(const struct step *step, unsigned row)
+{
+    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
+    const int16_t *claims = step->tracker->assignment.column_row;
+    const uint16_t slot = step->tracker->tracks[row].slot;
+    for (unsigned i = 0; i < rho_hypotheses_count(pool, slot); i++) {
+        const struct rho_hypothesis *at = rho_hypotheses_at(pool, slot, i);
+        for (unsigned k = 0;
+             at->num_candidates == RHO_HYPOTHESES_CHILDREN && k < RHO_HYPOTHESES_CHILDREN; k++) {
+            int claim = claims[at->candidates[k].row];
+            if (claim >= 0 && claim != (int)row) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
 /*
  * Hypotheses go on with any plots of theirs that no other track got; the best one's is claimed. By the assignment's optimum
  * that is the one assigned, or none.
@@ -281,6 +305,9 @@ static void commit(struct step *step, unsigned row)
     };
     if (!is_looked_at && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
+    }
+    if (lacks_plots(step, row)) {
+        weigh_plots(step, row, assignment->column_row);
     }
     /* the track is one of hypotheses: nothing to refuse */
     (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);
