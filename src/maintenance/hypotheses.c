@@ -273,7 +273,7 @@ static float share_out(struct rho_hypotheses *pool, uint16_t slot, int64_t time_
 enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
                                         struct rho_hypotheses_estimate *estimate)
 {
-    float shares[RHO_HYPOTHESES_OF_TRACK];
+    float shares[RHO_HYPOTHESES_OF_TRACK] = {0.0f};
     if (!pool || !estimate) {
         return RHO_ERROR_NULL;
     }
