@@ -180,28 +180,78 @@ static struct rho_hypotheses_clutter clutter_at(const struct step *step,
     };
 }
 
+/* Begins a scan of a track, or begins it again. */
+struct weighing {
+    struct rho_track *track;
+    struct rho_hypotheses_clutter clutter;
+    struct rho_hypotheses_reach reach;
+};
+
+static struct weighing open_weighing(struct step *step, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct weighing weighing = {.track = &tracker->tracks[row]};
+    weighing.clutter = clutter_at(step, weighing.track);
+    rho_hypotheses_look(&tracker->hypotheses, weighing.track->slot, &weighing.reach);
+    return weighing;
+}
+
+static int weigh_plot(struct step *step, const struct weighing *weighing, uint32_t i,
+                      float *gain_nat)
+{
+    const struct rho_plot *plot = &step->scan->plots[i];
+    struct rho_imm_plot seen;
+    if (step->report->fates[i] != RHO_FATE_HELD ||
+        !rho_hypotheses_reaches(&weighing->reach, plot, step->scan->measures)) {
+        return 0;
+    }
+    rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);
+    return rho_hypotheses_weigh(&step->tracker->hypotheses, weighing->track->slot, &seen,
+                                step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
+                                &weighing->clutter, gain_nat);
+}
+
 /* A plot that is worth less than a miss is no better than none. */
 static void weigh_plots(struct step *step, unsigned row)
 {
-    struct rho_tracker *tracker = step->tracker;
-    const struct rho_track *track = &tracker->tracks[row];
-    const struct rho_hypotheses_clutter clutter = clutter_at(step, track);
-    struct rho_hypotheses_reach reach;
-    struct rho_imm_plot seen;
+    const struct weighing weighing = open_weighing(step, row);
     float gain_nat;
-    rho_hypotheses_look(&tracker->hypotheses, track->slot, &reach);
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        const struct rho_plot *plot = &step->scan->plots[i];
-        if (step->report->fates[i] != RHO_FATE_HELD ||
-            !rho_hypotheses_reaches(&reach, plot, step->scan->measures)) {
-            continue;
-        }
-        rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);
-        if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
-                                 step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
-                                 &clutter, &gain_nat) &&
-            gain_nat > step->log_miss) {
+        if (weigh_plot(step, &weighing, i, &gain_nat) && gain_nat > step->log_miss) {
             rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
+        }
+    }
+}
+
+static int is_left(const struct rho_assignment *assignment, unsigned row, int plot)
+{
+    return assignment->column_row[plot] == RHO_ASSIGNMENT_NONE ||
+           assignment->column_row[plot] == (int16_t)row;
+}
+
+/* A hypothesis may have left out plots for the sake of some that went to others. */
+static int has_lost_plots(const struct rho_tracker *tracker, unsigned row)
+{
+    const uint16_t slot = tracker->tracks[row].slot;
+    int has_lost = 0;
+    for (unsigned i = 0; i < rho_hypotheses_count(&tracker->hypotheses, slot); i++) {
+        const struct rho_hypothesis *at = rho_hypotheses_at(&tracker->hypotheses, slot, i);
+        for (unsigned k = 0;
+             at->num_candidates == RHO_HYPOTHESES_CHILDREN && k < at->num_candidates; k++) {
+            has_lost |= !is_left(&tracker->assignment, row, at->candidates[k].row);
+        }
+    }
+    return has_lost;
+}
+
+/* Side by side with others, all that a track's hypotheses go on with may be theirs: they choose among what is left. */
+static void weigh_what_is_left(struct step *step, unsigned row)
+{
+    const struct weighing weighing = open_weighing(step, row);
+    float gain_nat;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (is_left(&step->tracker->assignment, row, (int)i)) {
+            (void)weigh_plot(step, &weighing, i, &gain_nat);
         }
     }
 }
@@ -279,6 +329,9 @@ static void commit(struct step *step, unsigned row)
         .claims = assignment->column_row,
         .own = (int16_t)row,
     };
+    if (has_lost_plots(tracker, row)) {
+        weigh_what_is_left(step, row);
+    }
     if (!is_looked_at && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
     }
