@@ -10,6 +10,8 @@ build=${BUILD:-build} most=1.5 failed=0
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/jobs" tools/instructions/jobs.c "$build/librhotrack.a"
+${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/maintain" tools/instructions/maintain.c \
+    "$build/librhotrack.a"
 ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o "$folder/hough" \
     tools/instructions/hough.c "$build/workstation/librhotrack.a"
 
@@ -44,6 +46,24 @@ awk -v most="$most" '{count[NR] = $1} END {
     ratio = count[2] / count[1]
     printf "own covariances over isotropic: %.2f (at most %s)\n", ratio, most
     exit ratio > most }' "$folder/batch-isotropic" "$folder/batch-own" || failed=1
+
+default() { # plots, 1 for noise of its own, text, at most
+    local bar=''
+    count=$(instructions maintain "$1" "$2")
+    read -r scans hypotheses gated <"$folder/stdout"
+    count=$((count / scans))
+    [ -z "${4-}" ] || bar="  (at most $4)"
+    printf '%-62s %12s%s  %s hypotheses\n' "$3, $gated in the gate" "$count" "$bar" "$hypotheses"
+    [ -z "${4-}" ] || [ "$count" -le "$4" ] || failed=1
+}
+
+printf '\nthe default, a track and scan: positions in 3-D, mean over 100 scans\n'
+default 1 0 'isotropic noise, the target alone'
+default 4 0 'isotropic noise'
+default 10 0 'isotropic noise' 60000
+default 1 1 'noise of its own, the target alone'
+default 4 1 'noise of its own'
+default 10 1 'noise of its own'
 
 votes() { # points: a row with and without pruning
     local plain pruned

@@ -21,25 +21,36 @@ else
 fi
 flags="-std=c99 -Os -ffp-contract=off -Iinclude $machine"
 
-# A passive search with these capacities and a profile's others: bytes at most.
-fit() { # name, sensors, scans, bearings, bytes, flags
+# An object with a profile's capacities, and those that the flags set: bytes at most.
+fit() { # module, object, text, bytes, flags...
+    local module=$1 object=$2 text=$3 most=$4 bytes verdict=ok
+    shift 4
     # shellcheck disable=SC2086 # words on purpose
-    printf '#include "rhotrack/passive.h"\nchar rho_sizeof_passive[sizeof(struct rho_passive)];\n' |
-        ${prefix}gcc $flags $6 ${SIZE_FLAGS:-} -DRHO_MAX_PASSIVE_SENSORS="$2" -DRHO_MAX_PASSIVE_SCANS="$3" \
-            -DRHO_MAX_BEARINGS="$4" -fno-common -x c -c -o "$folder/fit.o" -
+    printf '#include "rhotrack/%s.h"\nchar rho_sizeof[sizeof(struct rho_%s)];\n' "$module" "$object" |
+        ${prefix}gcc $flags ${SIZE_FLAGS:-} "$@" -fno-common -x c -c -o "$folder/fit.o" -
     read -r _ bytes _ < <(${prefix}nm -S "$folder/fit.o")
     bytes=$((16#$bytes))
-    verdict=ok
-    [ "$bytes" -le "$5" ] || { verdict=MISSED; missed=1; }
-    printf '%-46s %9d %9d  %s\n' "$1, $2 sensors, $3 scans, $4 bearings" "$bytes" "$5" "$verdict"
+    [ "$bytes" -le "$most" ] || { verdict=MISSED; missed=1; }
+    printf '%-66s %9d %9d  %s\n' "struct rho_$object, $text" "$bytes" "$most" "$verdict"
+}
+
+passive() { # profile, bytes, sensors, scans, bearings, flags...
+    local text="$1, $3 sensors, $4 scans, $5 bearings" most=$2
+    local capacities=(-DRHO_MAX_PASSIVE_SENSORS="$3" -DRHO_MAX_PASSIVE_SCANS="$4" -DRHO_MAX_BEARINGS="$5")
+    shift 5
+    fit passive passive "$text" "$most" "${capacities[@]}" "$@"
 }
 
 bars() {
     missed=''
-    printf '%-46s %9s %9s\n' 'struct rho_passive' bytes 'at most'
-    fit embedded 2 8 8 $((48 * 1024)) ''
-    fit workstation 4 16 16 $((90 * 1024)) -DRHO_PROFILE_WORKSTATION
-    [ -z "$missed" ] || { echo 'size: struct rho_passive is larger than it may be'; exit 1; }
+    printf '%-66s %9s %9s\n' 'what must fit' bytes 'at most'
+    passive embedded $((48 * 1024)) 2 8 8
+    passive workstation $((90 * 1024)) 4 16 16 -DRHO_PROFILE_WORKSTATION
+    fit kalman kalman 'state and covariance' 108
+    fit track track 'in any of its modes' 512
+    fit hypotheses hypothesis 'two models and its plots' 512
+    fit hypotheses hypotheses 'a pool of 96 for 32 tracks' $((48 * 1024)) -DRHO_MAX_HYPOTHESES=96 -DRHO_MAX_TRACKS=32
+    [ -z "$missed" ] || { echo 'size: an object is larger than it may be'; exit 1; }
 }
 
 if [ "${1:-}" = --bars ]; then
@@ -72,7 +83,8 @@ row 'all' $(${prefix}size -t "$folder"/*.o | tail -n 1 | awk '{print $1, $2, $3}
     for header in include/rhotrack/*.h; do
         echo "#include \"rhotrack/$(basename "$header")\""
     done
-    for object in accumulator classic window initiator frames ghost_matrix passive passive_paper assignment tracker report; do
+    for object in accumulator classic window initiator frames ghost_matrix passive passive_paper kalman input \
+        imm hypothesis hypotheses assignment tracker report; do
         echo "char rho_sizeof_$object[sizeof(struct rho_$object)];"
     done
     # HT on 4 x 2.5 km at 5 m x 1 mrad: the object, a window of plots with their times, and 128 peaks

@@ -61,7 +61,9 @@ struct rho_track {
     int64_t time_us;        /* of the estimate: a scan's, or the last claimed plot's own */
     int64_t updated_us;     /* of the last claimed plot, its own */
     uint8_t filter;         /* enum rho_track_filter */
-    uint16_t slot;          /* in the pool of hypotheses */
+    uint8_t
+        is_undecided; /* input: bearings were taken since it was decided which inputs there are */
+    uint16_t slot;    /* in the pool of hypotheses */
     struct rho_kalman
         kalman; /* the estimate; of hypotheses, since the last rho_track_settle, moved on roughly */
     float accel_mps2[3];        /* estimated; 0 of a plain Kalman filter */
@@ -150,7 +152,10 @@ RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
                                                 int32_t sensor_id,
                                                 const struct rho_track_model *model);
 
-/* At the end of a step: `kalman`, acceleration and manoeuvre as all hypotheses have them, at time_us. Other filters: nothing. */
+/*
+ * At the end of a step: `kalman`, acceleration and manoeuvre as all hypotheses have them, at time_us. With input estimation,
+ * what the step's bearings tell together of inputs is decided. Else nothing.
+ */
 void rho_track_settle(struct rho_track *track, int64_t time_us,
                       const struct rho_track_model *model);
 
@@ -177,7 +182,8 @@ RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track,
 
 /*
  * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of several sensors in one
- * step count as one hit: the first, while plot is -1. gain_mnat is added to the score.
+ * step count as one hit: the first, while plot is -1. gain_mnat is added to the score. Inputs are decided on by
+ * rho_track_settle.
  * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: two predictions and an update. Stack: 450 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,

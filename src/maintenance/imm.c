@@ -102,49 +102,58 @@ static void open_short(struct rho_imm_step *step, const struct rho_imm_model *mo
     }
 }
 
-/* One axis of the manoeuvring model without noise: F P F^T by rows. */
-static inline void carry(float p[6], float dt_s, const struct rho_imm_step *step)
+/* F P F^T of the manoeuvring model's axis. */
+static inline void carry(struct axis *at, const struct rho_imm_step *step)
 {
-    const float f = step->position_by_accel, g = step->velocity_by_accel, h = step->accel_by_accel;
-    const float pp = p[0] + dt_s * p[1] + f * p[3], pv = p[1] + dt_s * p[2] + f * p[4];
-    const float pa = p[3] + dt_s * p[4] + f * p[5];
-    const float vv = p[2] + g * p[4], va = p[4] + g * p[5];
-    p[0] = pp + dt_s * pv + f * pa;
-    p[1] = pv + g * pa;
-    p[2] = vv + g * va;
-    p[3] = h * pa;
-    p[4] = h * va;
-    p[5] = h * h * p[5];
+    const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
+                h = step->accel_by_accel;
+    const float pp = at->pp + dt * at->vp + f * at->ap, pv = at->vp + dt * at->vv + f * at->av;
+    const float pa = at->ap + dt * at->av + f * at->aa;
+    const float vv = at->vv + g * at->av, va = at->av + g * at->aa;
+    at->pp = pp + dt * pv + f * pa;
+    at->vp = pv + g * pa;
+    at->vv = vv + g * va;
+    at->ap = h * pa;
+    at->av = h * va;
+    at->aa = h * h * at->aa;
 }
 
 /* Twice as long: the same again over what it has done. */
-static void double_step(struct rho_imm_step *step, float dt_s)
+static void double_step(struct rho_imm_step *step)
 {
-    float noise[6];
-    memcpy(noise, step->noise, sizeof noise);
-    carry(step->noise, dt_s, step);
-    for (int k = 0; k < 6; k++) {
-        step->noise[k] += noise[k];
-    }
+    float *noise = step->noise;
+    struct axis at = {.pp = noise[0],
+                      .vp = noise[1],
+                      .vv = noise[2],
+                      .ap = noise[3],
+                      .av = noise[4],
+                      .aa = noise[5]};
+    carry(&at, step);
+    noise[0] += at.pp;
+    noise[1] += at.vp;
+    noise[2] += at.vv;
+    noise[3] += at.ap;
+    noise[4] += at.av;
+    noise[5] += at.aa;
     step->position_by_accel +=
-        dt_s * step->velocity_by_accel + step->position_by_accel * step->accel_by_accel;
+        step->dt_s * step->velocity_by_accel + step->position_by_accel * step->accel_by_accel;
     step->velocity_by_accel += step->velocity_by_accel * step->accel_by_accel;
     step->accel_by_accel *= step->accel_by_accel;
+    step->dt_s *= 2.0f;
 }
 
 void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
 {
-    float part_s = dt_s;
     int doublings = 0;
+    step->dt_s = dt_s;
     while (doublings < 40 &&
-           !(part_s <= 0.5f * model->memory_s && part_s >= -0.5f * model->memory_s)) {
-        part_s *= 0.5f;
+           !(step->dt_s <= 0.5f * model->memory_s && step->dt_s >= -0.5f * model->memory_s)) {
+        step->dt_s *= 0.5f;
         doublings++;
     }
-    open_short(step, model, part_s);
+    open_short(step, model, step->dt_s);
     for (; doublings > 0; doublings--) {
-        double_step(step, part_s);
-        part_s *= 2.0f;
+        double_step(step);
     }
     step->dt_s = dt_s;
     step->quiet_density = dt_s > 0.0f ? model->quiet_density : 0.0f;
@@ -294,23 +303,19 @@ static inline float raised(float variance)
     return higher < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : higher;
 }
 
-/* F P F^T + Q of the manoeuvring model's axis. */
+/* F x, F P F^T + Q of the manoeuvring model's axis. */
 static inline void move_manoeuvre(struct axis *at, const struct rho_imm_step *step)
 {
-    const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
-                h = step->accel_by_accel;
-    const float pp = at->pp + dt * at->vp + f * at->ap, pv = at->vp + dt * at->vv + f * at->av;
-    const float pa = at->ap + dt * at->av + f * at->aa;
-    const float vv = at->vv + g * at->av, va = at->av + g * at->aa;
-    at->p += dt * at->v + f * at->a;
-    at->v += g * at->a;
-    at->a *= h;
-    at->pp = raised(pp + dt * pv + f * pa + step->noise[0]);
-    at->vp = pv + g * pa + step->noise[1];
-    at->vv = raised(vv + g * va + step->noise[2]);
-    at->ap = h * pa + step->noise[3];
-    at->av = h * va + step->noise[4];
-    at->aa = raised(h * h * at->aa + step->noise[5]);
+    at->p += step->dt_s * at->v + step->position_by_accel * at->a;
+    at->v += step->velocity_by_accel * at->a;
+    at->a *= step->accel_by_accel;
+    carry(at, step);
+    at->pp = raised(at->pp + step->noise[0]);
+    at->vp += step->noise[1];
+    at->vv = raised(at->vv + step->noise[2]);
+    at->ap += step->noise[3];
+    at->av += step->noise[4];
+    at->aa = raised(at->aa + step->noise[5]);
 }
 
 /* The same of the steady model, whose axes are independent; rho_kalman_predict moves them with what couples them. */

@@ -85,6 +85,11 @@ static inline int is_open(const struct rho_imm *imm, int axis)
     return imm->covariance[RHO_AT(axis, axis)] > 0.0f;
 }
 
+static inline float velocity_of(const struct rho_plot *plot, int axis)
+{
+    return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
+}
+
 /* A scalar that both models had predicted, `off` and with so much variance: moves their probabilities. imm_match.c */
 void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float variance[2],
                           float *gain_nat);

@@ -57,11 +57,6 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
 
 /* ---- independent axes ------------------------------------------------------------------------- */
 
-static float velocity_of(const struct rho_plot *plot, int axis)
-{
-    return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
-}
-
 static inline void view_places(struct view *view, const struct rho_imm_plot *seen, int has_z)
 {
     const float *p = view->covariance, noise = seen->position.variance_m2[0];

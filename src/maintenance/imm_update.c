@@ -74,11 +74,6 @@ static inline int take_velocity(struct axis *at, float speed_mps, float variance
     return by.is_usable && is_finite(off * step);
 }
 
-static float velocity_of(const struct rho_plot *plot, int axis)
-{
-    return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
-}
-
 static inline int take_axis(struct axis *at, int axis, const struct rho_imm_plot *seen)
 {
     int good =

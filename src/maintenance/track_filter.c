@@ -104,9 +104,20 @@ static enum rho_status take_by_input(struct rho_track *track, const struct rho_t
     if (status == RHO_OK) {
         rho_input_decide(&input, model->input);
         track->input = input;
+        track->is_undecided = 0;
         show_input(track);
     }
     return status;
+}
+
+/* A bearing alone is blind along its line: only those of all sensors say whether there is an input. */
+static void decide_on_bearings(struct rho_track *track, const struct rho_track_model *model)
+{
+    if (track->filter == RHO_TRACK_INPUT && track->is_undecided && model->input) {
+        rho_input_decide(&track->input, model->input);
+        show_input(track);
+        track->is_undecided = 0;
+    }
 }
 
 /* ---- hypotheses ------------------------------------------------------------------------------- */
@@ -127,6 +138,7 @@ static enum rho_status take_by_hypotheses(struct rho_track *track,
 void rho_track_settle(struct rho_track *track, int64_t time_us, const struct rho_track_model *model)
 {
     struct rho_hypotheses_estimate estimate;
+    decide_on_bearings(track, model);
     if (track->filter != RHO_TRACK_HYPOTHESES ||
         rho_hypotheses_estimate(model->hypotheses, track->slot, time_us, &estimate) != RHO_OK) {
         return;
@@ -178,10 +190,13 @@ static enum rho_status open_filter(struct rho_track *track, const struct rho_tra
     return RHO_OK;
 }
 
-static void note_velocity(struct rho_track *track)
+/* After a hit; another sensor's in the same step only tells the newest one better. */
+static void note_velocity(struct rho_track *track, int is_first)
 {
     for (int axis = 0; axis < 3; axis++) {
-        track->before_mps[axis] = track->newest_mps[axis];
+        if (is_first) {
+            track->before_mps[axis] = track->newest_mps[axis];
+        }
         track->newest_mps[axis] = track->kalman.state[3 + axis];
     }
 }
@@ -190,11 +205,11 @@ static enum rho_status run_filter(struct rho_track *track, const struct rho_trac
                                   unsigned num_plots, const struct rho_track_model *model)
 {
     enum rho_status status = RHO_OK;
-    note_velocity(track);
+    note_velocity(track, 1);
     for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
         status = take(track, &plots[i], model);
         track->time_us = plots[i].time_us;
-        note_velocity(track);
+        note_velocity(track, 1);
     }
     rho_track_settle(track, track->time_us, model);
     return status;
@@ -262,7 +277,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
         .updated_us = time_us,
         .kalman = *estimate,
     };
-    note_velocity(&start);
+    note_velocity(&start, 1);
     rho_track_apply(&start, RHO_TRACK_START);
     *track = start;
     return RHO_OK;
@@ -328,7 +343,7 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
         return status;
     }
     track->time_us = plot->time_us;
-    note_velocity(track);
+    note_velocity(track, 1);
     take_sighting(track, plot->time_us, plot->sensor_id, plot->row);
     rho_track_count_hit(track);
     rho_track_add_score(track, gain_mnat);
@@ -395,8 +410,8 @@ static enum rho_status take_bearing_by_input(struct rho_track *track,
                                           bearing->bearing_rad, bearing->sigma_rad);
     }
     if (status == RHO_OK) {
-        rho_input_decide(&input, model->input);
         track->input = input;
+        track->is_undecided = 1;
         show_input(track);
     }
     return status;
@@ -431,6 +446,7 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
     if (status != RHO_OK) {
         return status;
     }
+    note_velocity(track, track->plot < 0);
     if (track->plot < 0) {
         rho_track_count_hit(track);
     }

@@ -180,78 +180,32 @@ static struct rho_hypotheses_clutter clutter_at(const struct step *step,
     };
 }
 
-/* Begins a scan of a track, or begins it again. */
-struct weighing {
-    struct rho_track *track;
-    struct rho_hypotheses_clutter clutter;
-    struct rho_hypotheses_reach reach;
-};
-
-static struct weighing open_weighing(struct step *step, unsigned row)
+/*
+ * Without claims, plots are offered to the assignment: one that is worth less than a miss is no better than none. With
+ * them, those that others got are left out.
+ */
+static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct weighing weighing = {.track = &tracker->tracks[row]};
-    weighing.clutter = clutter_at(step, weighing.track);
-    rho_hypotheses_look(&tracker->hypotheses, weighing.track->slot, &weighing.reach);
-    return weighing;
-}
-
-static int weigh_plot(struct step *step, const struct weighing *weighing, uint32_t i,
-                      float *gain_nat)
-{
-    const struct rho_plot *plot = &step->scan->plots[i];
+    const struct rho_track *track = &tracker->tracks[row];
+    const struct rho_hypotheses_clutter clutter = clutter_at(step, track);
+    struct rho_hypotheses_reach reach;
     struct rho_imm_plot seen;
-    if (step->report->fates[i] != RHO_FATE_HELD ||
-        !rho_hypotheses_reaches(&weighing->reach, plot, step->scan->measures)) {
-        return 0;
-    }
-    rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);
-    return rho_hypotheses_weigh(&step->tracker->hypotheses, weighing->track->slot, &seen,
-                                step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
-                                &weighing->clutter, gain_nat);
-}
-
-/* A plot that is worth less than a miss is no better than none. */
-static void weigh_plots(struct step *step, unsigned row)
-{
-    const struct weighing weighing = open_weighing(step, row);
     float gain_nat;
+    rho_hypotheses_look(&tracker->hypotheses, track->slot, &reach);
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (weigh_plot(step, &weighing, i, &gain_nat) && gain_nat > step->log_miss) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        if (step->report->fates[i] != RHO_FATE_HELD ||
+            (claims && claims[i] >= 0 && claims[i] != (int)row) ||
+            !rho_hypotheses_reaches(&reach, plot, step->scan->measures)) {
+            continue;
+        }
+        rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);
+        if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
+                                 step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
+                                 &clutter, &gain_nat) &&
+            !claims && gain_nat > step->log_miss) {
             rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
-        }
-    }
-}
-
-static int is_left(const struct rho_assignment *assignment, unsigned row, int plot)
-{
-    return assignment->column_row[plot] == RHO_ASSIGNMENT_NONE ||
-           assignment->column_row[plot] == (int16_t)row;
-}
-
-/* A hypothesis may have left out plots for the sake of some that went to others. */
-static int has_lost_plots(const struct rho_tracker *tracker, unsigned row)
-{
-    const uint16_t slot = tracker->tracks[row].slot;
-    int has_lost = 0;
-    for (unsigned i = 0; i < rho_hypotheses_count(&tracker->hypotheses, slot); i++) {
-        const struct rho_hypothesis *at = rho_hypotheses_at(&tracker->hypotheses, slot, i);
-        for (unsigned k = 0;
-             at->num_candidates == RHO_HYPOTHESES_CHILDREN && k < at->num_candidates; k++) {
-            has_lost |= !is_left(&tracker->assignment, row, at->candidates[k].row);
-        }
-    }
-    return has_lost;
-}
-
-/* Side by side with others, all that a track's hypotheses go on with may be theirs: they choose among what is left. */
-static void weigh_what_is_left(struct step *step, unsigned row)
-{
-    const struct weighing weighing = open_weighing(step, row);
-    float gain_nat;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (is_left(&step->tracker->assignment, row, (int)i)) {
-            (void)weigh_plot(step, &weighing, i, &gain_nat);
         }
     }
 }
@@ -266,7 +220,7 @@ void rho_tracker_claim(struct step *step)
             continue;
         }
         if (tracker->tracks[row].filter == RHO_TRACK_HYPOTHESES) {
-            weigh_plots(step, row);
+            weigh_plots(step, row, 0);
         } else {
             gate_plots(step, row);
         }
@@ -308,6 +262,26 @@ static int claim_plot(struct step *step, struct rho_track *track, int plot)
     return rho_track_update(track, &seen, &step->model, gain) == RHO_OK;
 }
 
+/* A hypothesis has a list of its best plots only: where others got some of these, there may be more that it could go on
+ * with, even the one that is assigned to the track. */
+static int lacks_plots(const struct step *step, unsigned row)
+{
+    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
+    const int16_t *claims = step->tracker->assignment.column_row;
+    const uint16_t slot = step->tracker->tracks[row].slot;
+    for (unsigned i = 0; i < rho_hypotheses_count(pool, slot); i++) {
+        const struct rho_hypothesis *at = rho_hypotheses_at(pool, slot, i);
+        for (unsigned k = 0;
+             at->num_candidates == RHO_HYPOTHESES_CHILDREN && k < RHO_HYPOTHESES_CHILDREN; k++) {
+            int claim = claims[at->candidates[k].row];
+            if (claim >= 0 && claim != (int)row) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
 /*
  * Hypotheses go on with any plots of theirs that no other track got; the best one's is claimed. By the assignment's optimum
  * that is the one assigned, or none.
@@ -329,11 +303,11 @@ static void commit(struct step *step, unsigned row)
         .claims = assignment->column_row,
         .own = (int16_t)row,
     };
-    if (has_lost_plots(tracker, row)) {
-        weigh_what_is_left(step, row);
-    }
     if (!is_looked_at && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
+    }
+    if (lacks_plots(step, row)) {
+        weigh_plots(step, row, assignment->column_row);
     }
     /* the track is one of hypotheses: nothing to refuse */
     (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);

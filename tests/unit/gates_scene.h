@@ -314,6 +314,11 @@ static inline void check_tracks(void)
         for (int axis = 0; axis < 3; axis++) {
             assert_true(fabsf(track->accel_mps2[axis]) < 10.0f * config.accel_max_mps2 + 1.0f);
         }
+        /* without hypotheses a manoeuvre is an input, and an input shows */
+        float pull =
+            fabsf(track->accel_mps2[0]) + fabsf(track->accel_mps2[1]) + fabsf(track->accel_mps2[2]);
+        assert_true(config.gate == RHO_TRACKER_BEST ||
+                    (pull > 0.0f) == (track->maneuver_probability > 0.0f));
         for (int e = 0; e < RHO_KALMAN_STATES; e++) {
             assert_true(isfinite(track->state[e]));
             assert_true(track->covariance[RHO_AT(e, e)] >= 0.0f);
@@ -355,26 +360,37 @@ static inline void begin(void)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &initiation), RHO_OK);
 }
 
-static inline void step(int k)
+/* A scan of what is in plots[], with or without the initiator. */
+static inline void take_scan(struct rho_scan *scan, struct rho_initiator *starter)
 {
-    double t_s = scene.interval_s * k;
-    look(k, t_s);
-    struct rho_scan scan = {.time_us = llround(t_s * 1e6), .measures = scene.measures};
-    if (scene.num_sectors > 0) {
-        look_at_sector(k, &scan);
-    }
-    scan.num_plots = num_plots;
-    scan.plots = plots;
+    scan->num_plots = num_plots;
+    scan->plots = plots;
     num_before = tracker.num_tracks;
     for (unsigned i = 0; i < num_before; i++) {
         ids_before[i] = tracker.tracks[i].track_id;
     }
     memset(&report, 0xee, sizeof report);
-    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+    assert_int_equal(rho_tracker_step(&tracker, starter, scan, &report), RHO_OK);
     check_claims();
     check_fates();
     check_pool();
     check_tracks();
+}
+
+static inline struct rho_scan scan_at(int k)
+{
+    return (struct rho_scan){.time_us = llround(scene.interval_s * k * 1e6),
+                             .measures = scene.measures};
+}
+
+static inline void step(int k)
+{
+    struct rho_scan scan = scan_at(k);
+    look(k, scene.interval_s * k);
+    if (scene.num_sectors > 0) {
+        look_at_sector(k, &scan);
+    }
+    take_scan(&scan, &initiator);
 }
 
 /* ---- who follows whom ------------------------------------------------------------------------- */

@@ -186,9 +186,6 @@ static inline double model_scan(struct model_track *track, const struct rho_hypo
     struct model_child kept[RHO_HYPOTHESES_OF_TRACK];
     struct model_answer next[RHO_HYPOTHESES_OF_TRACK];
     const double before = model_log_sum(track);
-    const double miss_min = scan->measures & RHO_MEASURES_VELOCITY
-                                ? RHO_HYPOTHESES_MISS_MIN_VELOCITY
-                                : RHO_HYPOTHESES_MISS_MIN;
     int num = 0, num_kept = 0;
 
     for (int i = 0; i < track->num; ++i) {
@@ -206,9 +203,7 @@ static inline double model_scan(struct model_track *track, const struct rho_hypo
     }
     model_sort(children, num);
     for (int i = 0; i < num && num_kept < RHO_HYPOTHESES_OF_TRACK; ++i) {
-        const double least = children[i].row < 0 ? miss_min : RHO_HYPOTHESES_WEIGHT_MIN;
-
-        if (children[i].weight >= children[0].weight + least &&
+        if (children[i].weight >= children[0].weight + (double)RHO_HYPOTHESES_WEIGHT_MIN &&
             !model_is_repeated(track, kept, num_kept, &children[i])) {
             kept[num_kept++] = children[i];
         }

@@ -245,14 +245,9 @@ static inline void singer_noise(double dt, double memory, double q[3][3])
 struct reference {
     struct wide_model models[2];
     double probability; /* of the manoeuvring model */
-    double coasted;     /* s since the last update */
     int has_z;
     int is_apart; /* no covariances between axes */
 };
-
-/* A jump has this share, and is looked for where neither model's squared distance is at most this. */
-#define REFERENCE_JUMP_SHARE 0.01
-#define REFERENCE_JUMP_FROM 12.0
 
 static inline struct wide_step
 reference_step(const struct reference *r, const struct rho_imm_model *model, double dt, int which)
@@ -297,7 +292,6 @@ static inline void reference_move(struct reference *r, const struct rho_imm_mode
 
         wide_predict(&r->models[which], &step);
     }
-    r->coasted += dt;
 }
 
 static inline struct wide_model reference_mean(const struct wide_model models[2],
@@ -490,10 +484,7 @@ static inline void reference_add_range_rate(const struct reference *r, const str
 
 struct reference_match {
     double distance2[2], log_likelihood, probability;
-    double nearest2; /* of what explains the plot */
-    double
-        margin; /* how far the decision about a jump is from the other one: nats, or squared distance */
-    int is_in_gate, has_jumped;
+    double nearest2; /* of both models */
 };
 
 static inline void reference_judge(double probability, const double log_density[2],
@@ -505,23 +496,6 @@ static inline void reference_judge(double probability, const double log_density[
 
     match->log_likelihood = best + log(steady + manoeuvre);
     match->probability = manoeuvre / (steady + manoeuvre);
-}
-
-/* What a change of the acceleration at the last update has done since, beside the model's noise. */
-static inline int reference_jump(const struct reference *r, const struct rho_imm_model *model,
-                                 struct wide_model *m)
-{
-    const double t = r->coasted, response[3] = {0.5 * t * t, t, 1.0};
-
-    if (!(t > 0.0 && t <= model->jump_time_s && model->jump_mps2 > 0.0f)) {
-        return 0;
-    }
-    for (int i = 0; i < WIDE; ++i) {
-        for (int j = i % 3; j < WIDE && (i % 3 < 2 || r->has_z); j += 3) {
-            m->p[i][j] += pow(model->jump_mps2, 2) * response[i / 3] * response[j / 3];
-        }
-    }
-    return 1;
 }
 
 static inline double reference_view(const struct reference *r, const struct wide_model *m,
@@ -540,50 +514,27 @@ static inline double reference_view(const struct reference *r, const struct wide
 }
 
 static inline struct reference_match reference_weigh(const struct reference *r,
-                                                     const struct rho_imm_model *model,
                                                      const struct reference_plot *seen)
 {
-    struct reference_match match = {.margin = INFINITY};
-    struct wide_model jumped = r->models[MANOEUVRE];
-    double log_density[2], distance2;
+    struct reference_match match;
+    double log_density[2];
 
     for (int which = 0; which < 2; ++which) {
         log_density[which] = reference_view(r, &r->models[which], seen, &match.distance2[which]);
     }
     reference_judge(r->probability, log_density, &match);
     match.nearest2 = fmin(match.distance2[0], match.distance2[1]);
-    match.is_in_gate = match.nearest2 <= RHO_IMM_GATE;
-    if (!reference_jump(r, model, &jumped)) {
-        return match;
-    }
-    const double with_jump =
-        log(REFERENCE_JUMP_SHARE) + reference_view(r, &jumped, seen, &distance2);
-    if (match.is_in_gate) {
-        match.margin = fmin(fabs(match.nearest2 - REFERENCE_JUMP_FROM),
-                            fabs(with_jump - match.log_likelihood));
-    }
-    if (distance2 <= RHO_IMM_GATE && match.nearest2 > REFERENCE_JUMP_FROM &&
-        (!match.is_in_gate || with_jump > match.log_likelihood)) {
-        match.nearest2 = distance2;
-        match.log_likelihood = with_jump;
-        match.probability = 1.0;
-        match.is_in_gate = match.has_jumped = 1;
-    }
     return match;
 }
 
 /* Place and velocity at once, and then the range rate, linearised where these have led; a first height at last. */
 static inline void reference_update(struct reference *r, const struct rho_imm_model *model,
-                                    const struct reference_plot *seen, double probability,
-                                    int has_jumped)
+                                    const struct reference_plot *seen, double probability)
 {
     const int opens = !r->has_z && (seen->measures & RHO_MEASURES_Z);
 
     r->is_apart =
         r->is_apart && reference_is_isotropic(seen) && !(seen->measures & RHO_MEASURES_RANGE_RATE);
-    if (has_jumped) {
-        reference_jump(r, model, &r->models[MANOEUVRE]);
-    }
     for (int which = 0; which < 2; ++which) {
         struct wide_model *m = &r->models[which];
         struct wide_rows z = {.num = 0}, rate = {.num = 0};
@@ -609,7 +560,6 @@ static inline void reference_update(struct reference *r, const struct rho_imm_mo
     }
     r->has_z = r->has_z || opens;
     r->probability = probability;
-    r->coasted = 0.0;
 }
 
 /*
@@ -644,7 +594,6 @@ static inline double reference_bearing(struct reference *r, double x, double y, 
     wide_update(&r->models[1], &z[1]);
     r->is_apart = 0;
     r->probability = match.probability;
-    r->coasted = 0.0;
     return match.log_likelihood;
 }
 
@@ -654,7 +603,6 @@ static inline double reference_bearing(struct reference *r, double x, double y, 
 static inline struct reference reference_of(const struct rho_imm *imm)
 {
     struct reference r = {.probability = imm->probability,
-                          .coasted = imm->coasted_s,
                           .has_z = imm->covariance[RHO_AT(2, 2)] > 0.0f,
                           .is_apart = !imm->is_coupled};
 

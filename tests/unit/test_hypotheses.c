@@ -27,20 +27,25 @@ struct scene {
     double offset_s;  /* plots have own times, so much either way */
     double pd, dt_s;
     int num_clutter;
-    double twins; /* share of clutter that is there twice */
+    double twins;    /* share of clutter that is there twice */
+    int is_mixed;    /* each plot has a sigma of its own, and not all have own times */
+    double violence; /* times the model's acceleration */
 };
 
 static const struct scene scenes[] = {
-    {"clear", 0, 2, 0.0, 0.0, 0.95, 1.0, 0, 0.0},
-    {"level", 0, 2, 0.0, 0.0, 0.9, 1.0, 6, 0.0},
-    {"in space", RHO_MEASURES_Z, 3, 0.0, 0.0, 0.9, 1.0, 10, 0.0},
-    {"dense", 0, 2, 0.0, 0.0, 0.7, 2.0, 25, 0.0},
-    {"ties", 0, 2, 0.0, 0.0, 0.8, 1.0, 8, 0.5},
-    {"velocities", RHO_MEASURES_Z | RHO_MEASURES_VELOCITY, 3, 0.0, 0.0, 0.8, 1.0, 12, 0.0},
-    {"ellipses", 0, 2, 0.5, 0.0, 0.9, 1.0, 6, 0.1},
-    {"range rates", RHO_MEASURES_RANGE_RATE, 2, 0.3, 0.0, 0.9, 1.0, 12, 0.0},
-    {"own times", 0, 2, 0.0, 0.4, 0.9, 1.0, 6, 0.1},
-    {"own times, ellipses", RHO_MEASURES_Z, 3, 0.5, 0.4, 0.9, 1.0, 10, 0.0},
+    {"clear", 0, 2, 0.0, 0.0, 0.95, 1.0, 0, 0.0, 0, 1.0},
+    {"level", 0, 2, 0.0, 0.0, 0.9, 1.0, 6, 0.0, 0, 1.0},
+    {"in space", RHO_MEASURES_Z, 3, 0.0, 0.0, 0.9, 1.0, 10, 0.0, 0, 1.0},
+    {"dense", 0, 2, 0.0, 0.0, 0.7, 2.0, 25, 0.0, 0, 1.0},
+    {"ties", 0, 2, 0.0, 0.0, 0.8, 1.0, 8, 0.5, 0, 1.0},
+    {"velocities", RHO_MEASURES_Z | RHO_MEASURES_VELOCITY, 3, 0.0, 0.0, 0.8, 1.0, 12, 0.0, 0, 1.0},
+    {"ellipses", 0, 2, 0.5, 0.0, 0.9, 1.0, 6, 0.1, 0, 1.0},
+    {"range rates", RHO_MEASURES_RANGE_RATE, 2, 0.3, 0.0, 0.9, 1.0, 12, 0.0, 0, 1.0},
+    {"own times", 0, 2, 0.0, 0.4, 0.9, 1.0, 6, 0.1, 0, 1.0},
+    {"own times, ellipses", RHO_MEASURES_Z, 3, 0.5, 0.4, 0.9, 1.0, 10, 0.0, 0, 1.0},
+    {"sigmas", 0, 2, 0.0, 0.0, 0.9, 1.0, 12, 0.1, 1, 1.0},
+    {"own times now and then", RHO_MEASURES_Z, 3, 0.2, 0.3, 0.9, 1.0, 12, 0.1, 1, 1.0},
+    {"violent", 0, 2, 0.0, 0.0, 0.9, 0.4, 6, 0.0, 0, 8.0},
 };
 
 struct target {
@@ -84,11 +89,14 @@ static struct rho_plot some_plot(const struct scene *scene, const struct target 
                                  int is_clutter)
 {
     const int has_own = uniform(0.0, 1.0) < scene->own_share;
-    const double offset_s = uniform(-scene->offset_s, scene->offset_s);
+    const int is_late = !scene->is_mixed || uniform(0.0, 1.0) < 0.5;
+    const double offset_s = is_late ? uniform(-scene->offset_s, scene->offset_s) : 0.0;
+    const double plot_sigma =
+        SIGMA_M * (scene->is_mixed ? (double)(1 + (int)uniform(0.0, 3.0)) : 1.0);
     double at[3], v[3], range2 = 0.0, rate = 0.0;
 
     for (int i = 0; i < 3; ++i) {
-        const double sigma = is_clutter ? AROUND_M : SIGMA_M;
+        const double sigma = is_clutter ? AROUND_M : plot_sigma;
         const double sigma_v = is_clutter ? AROUND_MPS : SIGMA_MPS;
 
         at[i] = target->x[i] + offset_s * target->x[3 + i] +
@@ -107,9 +115,9 @@ static struct rho_plot some_plot(const struct scene *scene, const struct target 
                              .vy_mps = (float)v[1],
                              .vz_mps = (float)v[2],
                              .range_rate_mps = (float)rate,
-                             .sigma_range_m = (float)SIGMA_M,
-                             .sigma_cross_m = (float)(SIGMA_M * (has_own ? 3.0 : 1.0)),
-                             .sigma_up_m = (float)SIGMA_M,
+                             .sigma_range_m = (float)plot_sigma,
+                             .sigma_cross_m = (float)(plot_sigma * (has_own ? 3.0 : 1.0)),
+                             .sigma_up_m = (float)plot_sigma,
                              .sigma_mps = (float)SIGMA_MPS,
                              .sigma_range_rate_mps = (float)SIGMA_MPS};
 }
@@ -299,7 +307,7 @@ static int weigh_all(struct rho_hypotheses *of, uint16_t slot,
         const int is_near =
             rho_hypotheses_weigh(of, slot, &seen, scan->time_us + scan->plots[row].offset_us,
                                  (int16_t)row, LOG_PD(pd), clutter, &gain_nat);
-        assert_true(!is_near || rho_hypotheses_reaches(&reach, &scan->plots[row]));
+        assert_true(!is_near || rho_hypotheses_reaches(&reach, &scan->plots[row], scan->measures));
         num += is_near;
     }
     assert_int_equal(rho_hypotheses_has_candidates(of, slot), num > 0);
@@ -326,7 +334,7 @@ static void follow(const struct scene *scene, int num_scans)
         const int64_t time_us = (int64_t)(1e6 * scene->dt_s * k);
         struct rho_hypotheses_outcome outcome;
 
-        fly(&target, scene->dt_s, model.accel_sigma_mps2);
+        fly(&target, scene->dt_s, scene->violence * model.accel_sigma_mps2);
         const int num_plots = some_plots(scene, &target, plots);
         const struct rho_hypotheses_scan scan = {.time_us = time_us,
                                                  .measures = scene->measures,
@@ -385,7 +393,7 @@ static void plots_of_others_are_left_out_by_the_plain_rules(void **state)
             int16_t claims[MODEL_PLOTS];
             struct rho_hypotheses_outcome outcome;
 
-            fly(&target, scene->dt_s, model.accel_sigma_mps2);
+            fly(&target, scene->dt_s, scene->violence * model.accel_sigma_mps2);
             const int num_plots = some_plots(scene, &target, plots);
             for (int row = 0; row < num_plots; ++row) {
                 claims[row] = (int16_t)(uniform(0.0, 5.0) - 1.0);

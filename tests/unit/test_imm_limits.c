@@ -160,8 +160,6 @@ static void the_default_follows_what_targets_may_do(void **state)
         assert_float_equal(0.5 * model.drive_density * model.memory_s, pow(0.8 * a, 2),
                            1e-5 * a * a);
         assert_float_equal(model.quiet_density, fmin(1.0, 0.25 * a * a), 1e-6);
-        assert_true(model.jump_mps2 == (float)a);
-        assert_float_equal(model.jump_time_s, model.memory_s / 6.0, 1e-6 * model.memory_s);
         assert_true(model.speed_sigma_mps == (float)v && model.accel_sigma_mps2 == (float)a);
     }
 }
@@ -174,18 +172,17 @@ static void models_out_of_their_ranges_are_not_usable(void **state)
     (void)state;
     assert_true(rho_imm_model_is_usable(&good));
     for (size_t k = 0; k < NUM(bad); ++k) {
-        for (int field = 0; field < 8; ++field) {
+        for (int field = 0; field < 6; ++field) {
             struct rho_imm_model model = good;
-            float *const fields[8] = {&model.quiet_density,   &model.drive_density,
+            float *const fields[6] = {&model.quiet_density,   &model.drive_density,
                                       &model.memory_s,        &model.sojourn_s,
-                                      &model.speed_sigma_mps, &model.accel_sigma_mps2,
-                                      &model.jump_mps2,       &model.jump_time_s};
+                                      &model.speed_sigma_mps, &model.accel_sigma_mps2};
 
             *fields[field] = bad[k];
             assert_false(rho_imm_model_is_usable(&model));
             *fields[field] =
                 0.0f; /* none of a density or an acceleration is fine, no time or speed is not */
-            assert_int_equal(rho_imm_model_is_usable(&model), field < 2 || field >= 5);
+            assert_int_equal(rho_imm_model_is_usable(&model), field < 2 || field == 5);
         }
     }
 }
@@ -433,6 +430,37 @@ static void a_plot_that_is_no_number_is_in_no_gate_and_no_update(void **state)
     }
 }
 
+/* An estimate that is none takes no plot, coupled or not. */
+static void what_is_no_estimate_takes_no_plot(void **state)
+{
+    static const float bad_states[] = {NAN, INFINITY, -INFINITY};
+    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
+    const struct rho_plot plot = plot_at(1000.0f, 2000.0f, 3000.0f, 10.0f);
+
+    (void)state;
+    for (int n = 0; n < 2; ++n) {
+        for (int i = 0; i < 2; ++i) { /* a height that is none is opened */
+            struct rho_imm imm = started(&model, 3, 100.0f);
+
+            imm.is_coupled = (uint8_t)n;
+            imm.covariance[RHO_AT(i, i)] = -50.0f;
+            assert_int_not_equal(take(&imm, &model, &plot, RHO_MEASURES_Z), RHO_OK);
+            imm = started(&model, 3, 100.0f);
+            imm.is_coupled = (uint8_t)n;
+            imm.steady.covariance[RHO_AT(i, i)] = -50.0f;
+            const enum rho_status status = take(&imm, &model, &plot, RHO_MEASURES_Z);
+            assert_true(status != RHO_OK || n == 1); /* the update of another axis lifts it */
+        }
+        for (size_t k = 0; k < NUM(bad_states) * RHO_IMM_STATES; ++k) {
+            struct rho_imm imm = started(&model, 3, 100.0f);
+
+            imm.is_coupled = (uint8_t)n;
+            imm.state[k % RHO_IMM_STATES] = bad_states[k / RHO_IMM_STATES];
+            assert_int_not_equal(take(&imm, &model, &plot, RHO_MEASURES_Z), RHO_OK);
+        }
+    }
+}
+
 static void pointers_and_bearings_are_checked(void **state)
 {
     const struct rho_imm_model model = some_model(100.0f, 1000.0f);
@@ -504,7 +532,7 @@ static void a_plot_is_in_the_gate_of_either_model(void **state)
     }
 }
 
-/* A jump leaves no doubt of a manoeuvre; the next plot, or a bearing of the same time, says that there is none. */
+/* Rounding leaves no doubt of a manoeuvre; the next plot, or a bearing of the same time, says that there is none. */
 static void a_model_that_was_ruled_out_comes_back(void **state)
 {
     const struct rho_imm_model model = some_model(100.0f, 1000.0f);
@@ -569,6 +597,7 @@ int main(void)
         cmocka_unit_test(what_grows_beyond_the_limit_is_refused),
         cmocka_unit_test(what_is_no_number_is_refused),
         cmocka_unit_test(a_plot_that_is_no_number_is_in_no_gate_and_no_update),
+        cmocka_unit_test(what_is_no_estimate_takes_no_plot),
         cmocka_unit_test(pointers_and_bearings_are_checked),
         cmocka_unit_test(a_plot_is_in_the_gate_of_either_model),
         cmocka_unit_test(a_model_that_was_ruled_out_comes_back),

@@ -298,6 +298,28 @@ static void every_filter_takes_plots_by_hand(void **state)
     }
 }
 
+/* Velocity and range rate with 1 m/s: what four places alone tell to some 4 m/s. */
+static void every_filter_takes_all_that_a_plot_measures(void **state)
+{
+    static const uint32_t kinds[] = {0, RHO_MEASURES_VELOCITY, RHO_MEASURES_RANGE_RATE};
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        for (int kind = 0; kind < 3; kind++) {
+            start_with((enum rho_track_filter)filter);
+            struct rho_track track = started();
+            struct rho_track_plot plot = seen(4);
+            plot.measures = kinds[kind];
+            plot.plot.vx_mps = plot.plot.range_rate_mps = 200.0f; /* it comes from the sensor */
+            plot.plot.sigma_mps = plot.plot.sigma_range_rate_mps = 1.0f;
+            assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update(&track, &plot, &model, 0), RHO_OK);
+            rho_track_settle(&track, plot.time_us, &model);
+            assert_int_equal(track.kalman.covariance[RHO_AT(3, 3)]<1.5f, kind> 0);
+            assert_int_equal(track.kalman.covariance[RHO_AT(4, 4)] < 1.5f, kind == 1);
+        }
+    }
+}
+
 static void refused_updates_leave_every_filter_going(void **state)
 {
     (void)state;
@@ -339,6 +361,88 @@ static void only_inputs_widen_the_gate(void **state)
     }
 }
 
+/* ---- bearings --------------------------------------------------------------------------------- */
+
+/* What a sensor at (x, y) sees of the target at scan k, with 0.5 mrad. */
+static struct rho_track_bearing bearing_from(float x_m, float y_m, int k)
+{
+    const struct rho_plot at = seen(k).plot;
+    return (struct rho_track_bearing){.time_us = (int64_t)SCAN_US * k,
+                                      .sensor_id = 4,
+                                      .x_m = x_m,
+                                      .y_m = y_m,
+                                      .bearing_rad = atan2f(at.y_m - y_m, at.x_m - x_m),
+                                      .sigma_rad = 5e-4f,
+                                      .row = 1};
+}
+
+/* Seen along y from 5 km: 2.5 m across, at once, so that the next sensor's gate is the narrower. */
+static void a_bearing_narrows_every_filter_at_once(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        struct rho_track_bearing bearing = bearing_from(800.0f, -5000.0f, 4);
+        assert_int_equal(rho_track_predict(&track, bearing.time_us, &model), RHO_OK);
+        rho_track_settle(&track, bearing.time_us, &model);
+        assert_true(track.kalman.covariance[RHO_AT(0, 0)] > 20.0f);
+        assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 0), RHO_OK);
+        assert_true(track.kalman.covariance[RHO_AT(0, 0)] < 6.3f);
+        assert_float_equal(track.kalman.state[0], 800.0f, 3.0f);
+    }
+}
+
+/* A hit by a bearing is an update as one by a plot: of both in one step it is the last that counts. */
+static void velocities_of_the_last_two_hits_are_kept(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_TRACK_HYPOTHESES; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        float before_mps = track.kalman.state[4];
+        for (int k = 4; k < 9; k++) {
+            struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
+            struct rho_track_bearing east = bearing_from(7000.0f, 300.0f, k);
+            track.plot = -1;
+            assert_int_equal(rho_track_predict(&track, south.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &south, &model, 0), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &east, &model, 0), RHO_OK);
+            assert_float_equal(track.newest_mps[1], track.kalman.state[4], 0.0f);
+            assert_float_equal(track.before_mps[1], before_mps, 0.0f);
+            before_mps = track.kalman.state[4];
+        }
+        assert_int_equal(track.hits, 9);
+    }
+}
+
+/*
+ * Two sensors at once. What the first tells must not be decided on alone: where it sees no input there is none as yet, and
+ * the second, at the same time, could not see one any more: 43 m behind, instead of 0.01 m.
+ */
+static void bearings_show_a_turn_too(void **state)
+{
+    static const float least[RHO_NUM_TRACK_FILTERS] = {0.0f, 1.0f, 0.6f};
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        for (int k = 4; k < 14; k++) {
+            struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
+            struct rho_track_bearing east = bearing_from(7000.0f, 300.0f, k);
+            track.plot = -1;
+            assert_int_equal(rho_track_predict(&track, south.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &south, &model, 0), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &east, &model, 0), RHO_OK);
+            rho_track_settle(&track, south.time_us, &model);
+        }
+        assert_float_equal(track.kalman.state[1], 15.0f * 81.0f, 5.0f);
+        assert_float_equal(track.kalman.state[4], 270.0f, 20.0f);
+        assert_true(track.maneuver_probability >= least[filter]);
+        assert_true(filter == RHO_TRACK_KALMAN || track.accel_mps2[1] > 12.0f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -351,8 +455,12 @@ int main(void)
         cmocka_unit_test(settling_brings_the_estimate),
         cmocka_unit_test(a_closed_slot_settles_nothing),
         cmocka_unit_test(every_filter_takes_plots_by_hand),
+        cmocka_unit_test(every_filter_takes_all_that_a_plot_measures),
         cmocka_unit_test(refused_updates_leave_every_filter_going),
         cmocka_unit_test(only_inputs_widen_the_gate),
+        cmocka_unit_test(a_bearing_narrows_every_filter_at_once),
+        cmocka_unit_test(velocities_of_the_last_two_hits_are_kept),
+        cmocka_unit_test(bearings_show_a_turn_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

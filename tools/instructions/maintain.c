@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * maintain: the default's step of one track, for tools/instructions.sh to count the instructions of: a target that flies
+ * straight, and clutter uniform in its gate, each scan the same number of plots. What is counted runs inside job().
+ *
+ * Arguments: plots in the gate, the target's among them; 0 for isotropic noise, 1 for noise along a line of sight.
+ * Prints the scans that were counted, the hypotheses and the plots that were in a gate, a scan.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "rhotrack/approx.h"
+#include "rhotrack/hypotheses.h"
+
+#define SCANS 100
+#define PLOTS_MAX 32
+#define INTERVAL_US 250000
+#define SIGMA_M 10.0f
+#define GATE_M 85.0f /* 5.5 standard deviations of the innovation */
+#define PD 0.9f
+
+static struct rho_hypotheses pool;
+static struct rho_plot plots[PLOTS_MAX];
+static struct rho_hypotheses_clutter clutter;
+static struct rho_hypotheses_estimate estimate;
+static uint16_t slot;
+static int num_plots, num_in_gate, num_hypotheses;
+
+static float uniform(float low, float high)
+{
+    static uint32_t state = 1;
+    state = state * 1664525u + 1013904223u;
+    return low + (high - low) * (float)(state >> 8) / 16777216.0f;
+}
+
+/* Nearly normal, by the sum of twelve. */
+static float normal(float sigma)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < 12; i++) {
+        sum += uniform(-0.5f, 0.5f);
+    }
+    return sigma * sum;
+}
+
+static void draw_in_ball(float radius, float out[3])
+{
+    float size2;
+    do {
+        size2 = 0.0f;
+        for (int i = 0; i < 3; i++) {
+            out[i] = uniform(-1.0f, 1.0f);
+            size2 += out[i] * out[i];
+        }
+    } while (size2 > 1.0f);
+    for (int i = 0; i < 3; i++) {
+        out[i] *= radius;
+    }
+}
+
+static void draw_scan(int scan, float sigma_cross_m)
+{
+    const float t_s = 0.25f * (float)scan;
+    const float target_m[3] = {50000.0f - 600.0f * t_s, 35000.0f - 500.0f * t_s, 300.0f};
+    for (int i = 0; i < num_plots; i++) {
+        float off_m[3] = {0.0f, 0.0f, 0.0f};
+        for (int axis = 0; i == 0 && axis < 3; axis++) {
+            off_m[axis] = normal(SIGMA_M);
+        }
+        if (i > 0) {
+            draw_in_ball(GATE_M, off_m);
+        }
+        plots[i] = (struct rho_plot){.x_m = target_m[0] + off_m[0],
+                                     .y_m = target_m[1] + off_m[1],
+                                     .z_m = target_m[2] + off_m[2],
+                                     .sigma_range_m = SIGMA_M,
+                                     .sigma_cross_m = sigma_cross_m,
+                                     .sigma_up_m = sigma_cross_m};
+    }
+}
+
+/* Counted: a whole step, from the prediction to the estimate that is reported. */
+__attribute__((noinline)) int job(int64_t time_us)
+{
+    const struct rho_hypotheses_scan scan = {.time_us = time_us,
+                                             .measures = RHO_MEASURES_Z,
+                                             .plots = plots,
+                                             .log_miss = rho_log(1.0f - PD)};
+    struct rho_hypotheses_reach reach;
+    struct rho_hypotheses_outcome outcome;
+    struct rho_imm_plot seen;
+    float gain_nat;
+    int failed = rho_hypotheses_predict(&pool, slot, time_us) != RHO_OK;
+    rho_hypotheses_look(&pool, slot, &reach);
+    for (int i = 0; i < num_plots; i++) {
+        if (rho_hypotheses_reaches(&reach, &plots[i], RHO_MEASURES_Z)) {
+            rho_imm_open_plot(&seen, &plots[i], RHO_MEASURES_Z, NULL);
+            num_in_gate += rho_hypotheses_weigh(&pool, slot, &seen, time_us, (int16_t)i,
+                                                rho_log(PD), &clutter, &gain_nat);
+        }
+    }
+    failed |= rho_hypotheses_commit(&pool, slot, &scan, &outcome) != RHO_OK;
+    return failed | (rho_hypotheses_estimate(&pool, slot, time_us, &estimate) != RHO_OK);
+}
+
+static int start(void)
+{
+    const float place_m[3] = {50000.0f, 35000.0f, 300.0f}, speed_mps[3] = {-600.0f, -500.0f, 0.0f};
+    struct rho_imm_model model;
+    struct rho_kalman kalman;
+    int failed = 0;
+    rho_kalman_init(&kalman);
+    for (int axis = 0; axis < 3; axis++) {
+        failed |= rho_kalman_open_axis(&kalman, axis, place_m[axis], SIGMA_M * SIGMA_M, 1e4f);
+        kalman.state[3 + axis] = speed_mps[axis];
+    }
+    rho_imm_model_default(&model, 118.0f, 1000.0f);
+    failed |= rho_hypotheses_init(&pool, sizeof pool, &model);
+    return failed | (rho_hypotheses_open(&pool, &kalman, 0, &slot) != RHO_OK);
+}
+
+int main(int argc, char **argv)
+{
+    num_plots = argc == 3 ? atoi(argv[1]) : 0;
+    if (num_plots < 1 || num_plots > PLOTS_MAX) {
+        fprintf(stderr, "maintain: give 1 .. %d plots, and 0 or 1\n", PLOTS_MAX);
+        return 2;
+    }
+    const float volume_m3 = 4.0f / 3.0f * RHO_PI * GATE_M * GATE_M * GATE_M;
+    clutter.log_per_m2 = rho_log((num_plots > 1 ? (float)num_plots - 1.0f : 0.1f) / volume_m3);
+    int failed = start();
+    for (int scan = 1; scan <= SCANS && !failed; scan++) {
+        draw_scan(scan, atoi(argv[2]) ? 1.2f * SIGMA_M : SIGMA_M);
+        failed |= job((int64_t)INTERVAL_US * scan);
+        num_hypotheses += (int)rho_hypotheses_count(&pool, slot);
+    }
+    printf("%d %.2f %.2f\n", SCANS, (double)num_hypotheses / SCANS, (double)num_in_gate / SCANS);
+    return failed;
+}
