@@ -205,6 +205,50 @@ static void late_scans_claim_nothing(void **state)
     assert_int_equal(report.tracks[0].plot, -1);
 }
 
+#define NUM_ABREAST 6
+
+/* Fixed numbers, -1 .. 1. */
+static float drawn(void)
+{
+    static uint32_t seed = 1;
+    seed = seed * 1103515245u + 12345u;
+    return (float)(seed >> 16 & 1023u) / 512.0f - 1.0f;
+}
+
+static void step_abreast(int k, float gap_m)
+{
+    struct rho_plot plots[NUM_ABREAST];
+    for (int i = 0; i < NUM_ABREAST; i++) {
+        const float x_m = 30.0f * drawn(), y_m = 30.0f * drawn();
+        plots[i] = plot_at(200.0f * (float)k + x_m, gap_m * (float)i + y_m, 0.0f);
+        plots[i].sigma_range_m = plots[i].sigma_cross_m = 30.0f;
+    }
+    const struct rho_scan scan = {
+        .time_us = (int64_t)k * SCAN_US, .num_plots = NUM_ABREAST, .plots = plots};
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+}
+
+/* As many plots as targets, all in each other's gates: what a hypothesis liked better is others', and each gets one. */
+static void targets_abreast_all_get_a_plot(void **state)
+{
+    (void)state;
+    struct rho_tracker_config config;
+    struct rho_initiator_config search;
+    unsigned missed = 0;
+    rho_tracker_config_default(&config);
+    rho_initiator_config_default(&search);
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+    assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &search), RHO_OK);
+    for (int k = 0; k < 60; k++) {
+        step_abreast(k, k < 15 ? 400.0f - 26.0f * (float)k : 10.0f);
+        for (unsigned i = 0; k >= 15 && i < report.num_tracks; i++) {
+            missed += report.tracks[i].plot < 0;
+        }
+    }
+    assert_int_equal(report.num_tracks, NUM_ABREAST);
+    assert_int_equal(missed, 0);
+}
+
 /* An input may have begun since the last plot: it brings the target far out of what the filter knows without it. */
 static void bearings_meet_the_gate_of_an_input(void **state)
 {
@@ -238,6 +282,7 @@ int main(void)
         cmocka_unit_test(a_track_that_takes_no_plot_claims_none),
         cmocka_unit_test(a_track_ends_once),
         cmocka_unit_test(late_scans_claim_nothing),
+        cmocka_unit_test(targets_abreast_all_get_a_plot),
         cmocka_unit_test(bearings_meet_the_gate_of_an_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
