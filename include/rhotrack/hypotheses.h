@@ -95,6 +95,7 @@ struct rho_hypotheses_reach {
     float x_min_m, x_max_m, y_min_m, y_max_m;
     float z_min_m, z_max_m;              /* of tracks with a height */
     float speed_max_mps, accel_max_mps2; /* of all hypotheses, with their uncertainty */
+    float quiet_density, drive_density;  /* noise up to a plot's own time */
 };
 
 /* A scan that a track commits itself to. */
@@ -144,7 +145,8 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 
 /*
  * Moves all hypotheses of a slot to time_us. One that cannot be moved on is given up. Errors: NULL, STATE (slot), VALUE
- * (none is left: the slot is closed). Cost: rho_imm_predict each.
+ * (none is left: the slot is closed). Cost: rho_imm_predict each, and rho_imm_step_open wherever the interval is another
+ * than the last one asked for: once a scan, but for hypotheses that took a plot at its own time.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
                                                       int64_t time_us);

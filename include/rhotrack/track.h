@@ -68,8 +68,9 @@ struct rho_track {
         kalman; /* the estimate; of hypotheses, since the last rho_track_settle, moved on roughly */
     float accel_mps2[3];        /* estimated; 0 of a plain Kalman filter */
     float maneuver_probability; /* of hypotheses; else 1 where an input is present, 0 where not */
-    float newest_mps[3],
-        before_mps[3]; /* velocity after the last update and the one before: the Hough gate's */
+    /* velocity after the last update and the one before, and how many there were (saturates): the Hough gate's */
+    float newest_mps[3], before_mps[3];
+    uint8_t num_velocities;
     struct rho_input input;
 };
 
@@ -134,7 +135,8 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
  * Updates with a plot: predicts to its own time, and takes its position, velocity and range rate, as far as measured,
  * by scalar updates; a first z opens the third axis. The estimate stays at the plot's time. gain_mnat is added to the
  * score.
- * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: a prediction where the plot has an own time, and 2 to 7
+ * Errors: NULL, VALUE, SINGULAR: the track is unchanged; but hypotheses have moved to the plot's time, or are lost where
+ * that was refused. Cost: a prediction where the plot has an own time, and 2 to 7
  * scalar updates. Stack: 550 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
@@ -184,7 +186,7 @@ RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track,
  * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of several sensors in one
  * step count as one hit: the first, while plot is -1. gain_mnat is added to the score. Inputs are decided on by
  * rho_track_settle.
- * Errors: NULL, VALUE, SINGULAR: the track is unchanged. Cost: two predictions and an update. Stack: 450 bytes.
+ * Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its hypotheses. Cost: two predictions and an update. Stack: 450 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
                                                         const struct rho_track_bearing *bearing,

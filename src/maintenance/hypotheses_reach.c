@@ -72,6 +72,8 @@ static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
         .z_max_m = spans[2].max + z_m,
         .speed_max_mps = most_of(&spans[3]),
         .accel_max_mps2 = most_of(&spans[6]),
+        .quiet_density = pool->model.quiet_density,
+        .drive_density = pool->model.drive_density,
     };
 }
 
@@ -90,6 +92,20 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
     }
 }
 
+/* How far a target may come until a plot's own time, by what it does now and by noise. */
+static float drift_m(const struct rho_hypotheses_reach *reach, int32_t offset_us)
+{
+    if (offset_us == 0) {
+        return 0.0f;
+    }
+    const float t_s = (float)offset_us * (offset_us < 0 ? -1e-6f : 1e-6f);
+    const float noise_m2 =
+        t_s * t_s * t_s *
+        (reach->quiet_density * (1.0f / 3.0f) + reach->drive_density * t_s * t_s * (1.0f / 20.0f));
+    return t_s * (reach->speed_max_mps + 0.5f * t_s * reach->accel_max_mps2) +
+           GATE_SIGMAS * rho_sqrt(noise_m2);
+}
+
 int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
                            uint32_t measures)
 {
@@ -97,9 +113,7 @@ int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struc
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
-    float offset_s = (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f);
-    float slack_m = GATE_SIGMAS * sigma_m +
-                    offset_s * (reach->speed_max_mps + 0.5f * offset_s * reach->accel_max_mps2);
+    float slack_m = GATE_SIGMAS * sigma_m + drift_m(reach, plot->offset_us);
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
            plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&
            (!(measures & RHO_MEASURES_Z) ||

@@ -223,9 +223,11 @@ static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     return RHO_HYPOTHESES_MISS;
 }
 
+/* One whose update is refused has what a miss weighs. Weights are still those of the scan, the best one's included. */
 static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                  const struct rho_hypotheses_scan *scan, const struct rho_hypotheses_child *child)
 {
+    const float as_miss = at->weight_nat + scan->log_miss;
     int16_t row = child->row;
     if (row >= 0) {
         const struct rho_plot *plot = &scan->plots[row];
@@ -239,7 +241,7 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
         at->picks[k - 1] = at->picks[k];
     }
     at->picks[RHO_HYPOTHESES_MEMORY - 1] = row;
-    at->weight_nat = child->weight_nat - pool->children[0].weight_nat;
+    at->weight_nat = row == child->row ? child->weight_nat : as_miss;
 }
 
 /* Parents without children give their nodes back; the others' last child takes the node, the others copies of it. */
@@ -270,6 +272,31 @@ static void replace(struct rho_hypotheses *pool, uint16_t slot,
     pool->num_of[slot] = (uint8_t)num;
 }
 
+/* The best is first and weighs 0, and those too light beside it are given up. Returns what the best weighed. */
+static float order(struct rho_hypotheses *pool, uint16_t slot)
+{
+    uint16_t *nodes = pool->node_of[slot];
+    for (unsigned i = 1; i < pool->num_of[slot]; i++) {
+        uint16_t node = nodes[i];
+        unsigned place = i;
+        for (; place > 0 && pool->nodes[nodes[place - 1]].weight_nat < pool->nodes[node].weight_nat;
+             place--) {
+            nodes[place] = nodes[place - 1];
+        }
+        nodes[place] = node;
+    }
+    float best = pool->nodes[nodes[0]].weight_nat;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        pool->nodes[nodes[i]].weight_nat -= best;
+    }
+    for (unsigned i = pool->num_of[slot] - 1u;
+         pool->nodes[nodes[i]].weight_nat < RHO_HYPOTHESES_WEIGHT_MIN; i--) {
+        rho_hypotheses_release(pool, nodes[i]);
+        pool->num_of[slot] = (uint8_t)i;
+    }
+    return best;
+}
+
 enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot,
                                       const struct rho_hypotheses_scan *scan,
                                       struct rho_hypotheses_outcome *outcome)
@@ -282,8 +309,8 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
     }
     float before = rho_hypotheses_log_sum(pool, slot);
     unsigned num = choose_children(pool, slot, bear_children(pool, slot, scan));
-    float best = pool->children[0].weight_nat;
     replace(pool, slot, scan, num);
+    float best = order(pool, slot);
     outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
     outcome->gain_nat = best + rho_hypotheses_log_sum(pool, slot) - before;
     return RHO_OK;
@@ -342,44 +369,35 @@ enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, uint16_t slot,
 
 static enum rho_status take_bearing(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                     int64_t time_us, float x_m, float y_m, float bearing_rad,
-                                    float sigma_rad)
+                                    float sigma_rad, float *gain_nat)
 {
-    float gain_nat = 0.0f;
+    *gain_nat = 0.0f;
     if (!carry(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
     pool->scratch = at->imm;
     enum rho_status status =
-        rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, &gain_nat);
+        rho_imm_update_bearing(&at->imm, x_m, y_m, bearing_rad, sigma_rad, gain_nat);
     if (status != RHO_OK) {
         at->imm = pool->scratch;
-        return status;
+        *gain_nat = 0.0f;
     }
-    at->weight_nat += gain_nat;
-    return RHO_OK;
+    return status;
 }
 
-/* Weights have moved: the best is first again and weighs 0, and those too light beside it are given up. */
-static void order(struct rho_hypotheses *pool, uint16_t slot)
+/* A hypothesis that the bearing said nothing to (gain 0) is not the better for it: it gets the least of the others. */
+static void add_gains(struct rho_hypotheses *pool, uint16_t slot,
+                      const float gains_nat[RHO_HYPOTHESES_OF_TRACK])
 {
-    uint16_t *nodes = pool->node_of[slot];
-    for (unsigned i = 1; i < pool->num_of[slot]; i++) {
-        uint16_t node = nodes[i];
-        unsigned place = i;
-        for (; place > 0 && pool->nodes[nodes[place - 1]].weight_nat < pool->nodes[node].weight_nat;
-             place--) {
-            nodes[place] = nodes[place - 1];
-        }
-        nodes[place] = node;
-    }
-    float best = pool->nodes[nodes[0]].weight_nat;
+    float least = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        pool->nodes[nodes[i]].weight_nat -= best;
+        const int is_said = gains_nat[i] < 0.0f || gains_nat[i] > 0.0f;
+        least = is_said && (!(least < 0.0f || least > 0.0f) || gains_nat[i] < least) ? gains_nat[i]
+                                                                                     : least;
     }
-    for (unsigned i = pool->num_of[slot] - 1u;
-         pool->nodes[nodes[i]].weight_nat < RHO_HYPOTHESES_WEIGHT_MIN; i--) {
-        rho_hypotheses_release(pool, nodes[i]);
-        pool->num_of[slot] = (uint8_t)i;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const int is_said = gains_nat[i] < 0.0f || gains_nat[i] > 0.0f;
+        pool->nodes[pool->node_of[slot][i]].weight_nat += is_said ? gains_nat[i] : least;
     }
 }
 
@@ -388,6 +406,7 @@ enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool, uint16_
                                             float bearing_rad, float sigma_rad)
 {
     enum rho_status status = RHO_ERROR_VALUE;
+    float gains_nat[RHO_HYPOTHESES_OF_TRACK];
     if (!pool) {
         return RHO_ERROR_NULL;
     }
@@ -396,10 +415,11 @@ enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool, uint16_
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         enum rho_status one = take_bearing(pool, &pool->nodes[pool->node_of[slot][i]], time_us, x_m,
-                                           y_m, bearing_rad, sigma_rad);
+                                           y_m, bearing_rad, sigma_rad, &gains_nat[i]);
         status = status == RHO_OK ? RHO_OK : one;
         pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
     }
-    order(pool, slot);
+    add_gains(pool, slot, gains_nat);
+    (void)order(pool, slot);
     return status;
 }

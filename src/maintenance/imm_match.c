@@ -99,7 +99,7 @@ static void view_places_and_velocities(struct view *view, const struct rho_imm_p
     }
     view->counts = view->distance2 <= COUNTS_MAX && det[0] > 0.0f && det[1] > 0.0f && det[2] > 0.0f;
     /* apart: the product of six variances may be no number */
-    view->root = rho_inverse_sqrt(det[0] * det[1]) * rho_inverse_sqrt(det[2]);
+    view->root = rho_inverse_sqrt(det[0]) * rho_inverse_sqrt(det[1]) * rho_inverse_sqrt(det[2]);
 }
 
 /* ---- coupled axes ----------------------------------------------------------------------------- */
@@ -236,7 +236,7 @@ static int is_likelihood(float log_likelihood)
 /* Neither model is ruled out for good: rounding makes a probability 1, and the next plot may be the other's. */
 #define SHARE_MIN 1.0e-9f
 
-static inline float at_least(float share)
+static inline float believable(float share)
 {
     return share > SHARE_MIN ? share : SHARE_MIN;
 }
@@ -245,8 +245,8 @@ void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float v
                           float *gain_nat)
 {
     struct rho_imm_match match;
-    const float factor[2] = {at_least(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
-                             at_least(imm->probability) * rho_inverse_sqrt(variance[1])};
+    const float factor[2] = {believable(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
+                             believable(imm->probability) * rho_inverse_sqrt(variance[1])};
     const float distance2[2] = {off[0] * off[0] / variance[0], off[1] * off[1] / variance[1]};
     combine(factor, distance2, 1, &match);
     imm->probability = match.probability;
@@ -279,8 +279,9 @@ static int is_in_gate(const struct view views[2])
 static int weigh_models(const struct view views[2], float probability, int num_dimensions,
                         struct rho_imm_match *match)
 {
-    const float factor[2] = {views[0].counts ? at_least(1.0f - probability) * views[0].root : 0.0f,
-                             views[1].counts ? at_least(probability) * views[1].root : 0.0f};
+    const float factor[2] = {views[0].counts ? believable(1.0f - probability) * views[0].root
+                                             : 0.0f,
+                             views[1].counts ? believable(probability) * views[1].root : 0.0f};
     const float distance2[2] = {views[0].counts ? views[0].distance2 : 2.0f * COUNTS_MAX,
                                 views[1].counts ? views[1].distance2 : 2.0f * COUNTS_MAX};
     if (!is_in_gate(views)) {
@@ -330,8 +331,8 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
     memset(gate, 0, sizeof *gate);
     gate->num_axes = has_z && is_open(imm, 2) ? 3 : 2;
     open_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
-               at_least(1.0f - imm->probability));
-    open_model(gate, 1, imm->state, imm->covariance, variance_m2, at_least(imm->probability));
+               believable(1.0f - imm->probability));
+    open_model(gate, 1, imm->state, imm->covariance, variance_m2, believable(imm->probability));
     return 1;
 }
 

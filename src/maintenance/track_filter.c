@@ -193,6 +193,9 @@ static enum rho_status open_filter(struct rho_track *track, const struct rho_tra
 /* After a hit; another sensor's in the same step only tells the newest one better. */
 static void note_velocity(struct rho_track *track, int is_first)
 {
+    if (is_first && track->num_velocities < UINT8_MAX) {
+        track->num_velocities++;
+    }
     for (int axis = 0; axis < 3; axis++) {
         if (is_first) {
             track->before_mps[axis] = track->newest_mps[axis];
@@ -450,7 +453,9 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
     if (track->plot < 0) {
         rho_track_count_hit(track);
     }
-    track->time_us = bearing->time_us;
+    if (track->filter != RHO_TRACK_HYPOTHESES) { /* these have settled there */
+        track->time_us = bearing->time_us;
+    }
     take_sighting(track, bearing->time_us, bearing->sensor_id, bearing->row);
     rho_track_add_score(track, gain_mnat);
     rho_track_apply(track, RHO_TRACK_UPDATE);

@@ -9,7 +9,7 @@
 #define CLUTTER_SIDE_MIN_M 1000.0f
 
 /* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the paper. */
-#define HOUGH_HITS_MIN 3
+#define HOUGH_VELOCITIES_MIN 3
 /* More than any two velocities within the limits can differ, m/s for nat: only the order counts. */
 #define HOUGH_GAIN_MAX_NAT 80000.0f
 
@@ -95,7 +95,7 @@ static int opens_hough(const struct step *step, const struct rho_track *track,
         planes = RHO_GATE_PLANE_XY;
     }
     return config->gate == RHO_TRACKER_HOUGH && track->filter != RHO_TRACK_HYPOTHESES &&
-           track->hits >= HOUGH_HITS_MIN &&
+           track->num_velocities >= HOUGH_VELOCITIES_MIN &&
            rho_gate_hough_open(hough, planes, config->theta_cell_rad, track->before_mps,
                                track->newest_mps) == RHO_OK;
 }
@@ -180,6 +180,15 @@ static struct rho_hypotheses_clutter clutter_at(const struct step *step,
     };
 }
 
+/* A miss says nothing of a target where the sensor did not look. */
+static float log_miss_of(const struct step *step, const struct rho_track *track)
+{
+    return rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
+                                 track)
+               ? step->log_miss
+               : 0.0f;
+}
+
 /*
  * Without claims, plots are offered to the assignment: one that is worth less than a miss is no better than none. With
  * them, those that others got are left out.
@@ -188,6 +197,7 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
+    const float log_miss = log_miss_of(step, track);
     const struct rho_hypotheses_clutter clutter = clutter_at(step, track);
     struct rho_hypotheses_reach reach;
     struct rho_imm_plot seen;
@@ -204,8 +214,8 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
         if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
                                  step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
                                  &clutter, &gain_nat) &&
-            !claims && gain_nat > step->log_miss) {
-            rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
+            !claims && gain_nat > log_miss) {
+            rho_tracker_offer(step, row, i, gain_nat - log_miss);
         }
     }
 }
@@ -292,18 +302,18 @@ static void commit(struct step *step, unsigned row)
     struct rho_track *track = &tracker->tracks[row];
     struct rho_assignment *assignment = &tracker->assignment;
     uint32_t refused = tracker->hypotheses.updates_refused;
-    int is_looked_at =
-        rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad, track);
+    const float log_miss = log_miss_of(step, track);
+    const int assigned = rho_assignment_column(assignment, row);
     const struct rho_hypotheses_scan scan = {
         .time_us = step->time_us,
         .measures = step->scan->measures,
         .plots = step->scan->plots,
         .sensor = step->sensor,
-        .log_miss = is_looked_at ? step->log_miss : 0.0f,
+        .log_miss = log_miss,
         .claims = assignment->column_row,
         .own = (int16_t)row,
     };
-    if (!is_looked_at && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
+    if (!(log_miss < 0.0f) && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
     }
     if (lacks_plots(step, row)) {
@@ -313,6 +323,9 @@ static void commit(struct step *step, unsigned row)
     (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);
     refused = tracker->hypotheses.updates_refused - refused;
     tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
+    if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {
+        assignment->column_row[assigned] = RHO_ASSIGNMENT_NONE; /* not taken after all */
+    }
     if (track->plot >= 0) {
         assignment->column_row[track->plot] = (int16_t)row;
         step->report->fates[track->plot] = RHO_FATE_CLAIMED;

@@ -85,8 +85,10 @@ static void count_fates(struct maintaining *maintaining, const struct rho_scan *
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         bool is_valid = rho_measurement_is_valid(&scan->plots[i], scan->measures);
         enum rho_fate fate = (int64_t)i == row ? RHO_FATE_CLAIMED
-                             : is_valid        ? RHO_FATE_HELD
-                                               : RHO_FATE_INVALID;
+                             : !is_valid       ? RHO_FATE_INVALID
+                             : i > MAINTAINER_ROW_MAX && maintaining->gate == MAINTAIN_BEST
+                                 ? RHO_FATE_NO_ROOM
+                                 : RHO_FATE_HELD;
 
         maintaining->fates[fate]++;
     }

@@ -14,6 +14,8 @@
 #include "rhotrack/kalman.h"
 #include "rhotrack/types.h"
 
+#define MAINTAINER_ROW_MAX INT16_MAX /* best does not look at plots behind this row of a scan */
+
 enum maintainer_gate { MAINTAIN_BEST, MAINTAIN_HOUGH, MAINTAIN_NEAREST, MAINTAIN_NONE };
 
 struct maintainer; /* opaque: the library's objects, sized once */

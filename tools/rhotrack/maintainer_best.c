@@ -90,7 +90,7 @@ static void weigh_all(struct maintainer_best *best, const struct rho_scan *scan,
     float log_pd = (float)log(pd), gain_nat;
 
     rho_hypotheses_look(&best->pool, best->slot, &reach);
-    for (uint32_t i = 0; i < scan->num_plots && i <= INT16_MAX; i++) {
+    for (uint32_t i = 0; i < scan->num_plots && i <= MAINTAINER_ROW_MAX; i++) {
         const struct rho_plot *plot = &scan->plots[i];
         struct rho_imm_plot seen;
 

@@ -112,6 +112,31 @@ static void bearings_give_up_what_they_rule_out(void **state)
     assert_true(rho_hypotheses_at(&pool, slot, 0)->imm.steady.state[1] < 0.0f);
 }
 
+/* A hypothesis in the sensor's own place has no bearing: that is no reason to believe it. */
+static void a_bearing_that_says_nothing_makes_no_hypothesis_the_better(void **state)
+{
+    (void)state;
+    struct rho_hypotheses_reach reach;
+    const struct rho_plot plot = plot_at(50.0f, 0.0f, 0.0f);
+    const uint16_t slot = opened();
+    assert_int_equal(weighed(slot, 1, &plot, 0, &reach), 1);
+    commit(slot, 1, &plot, 0);
+    assert_int_equal(rho_hypotheses_predict(&pool, slot, 2 * SCAN_US), RHO_OK);
+    assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
+    const struct rho_hypothesis best = *rho_hypotheses_at(&pool, slot, 0);
+    const struct rho_hypothesis other = *rho_hypotheses_at(&pool, slot, 1);
+    const float *at_m = other.imm.steady.state;
+    const float bearing_rad =
+        atan2f(best.imm.steady.state[1] - at_m[1], best.imm.steady.state[0] - at_m[0]);
+    assert_true(other.weight_nat > -2.5f); /* less than what the bearing takes */
+    assert_int_equal(
+        rho_hypotheses_take_bearing(&pool, slot, 2 * SCAN_US, at_m[0], at_m[1], bearing_rad, 1.0f),
+        RHO_OK);
+    assert_int_equal(rho_hypotheses_at(&pool, slot, 0)->picks[RHO_HYPOTHESES_MEMORY - 1],
+                     best.picks[RHO_HYPOTHESES_MEMORY - 1]);
+    assert_float_equal(rho_hypotheses_at(&pool, slot, 1)->weight_nat, other.weight_nat, 1e-5);
+}
+
 /* ---- times ------------------------------------------------------------------------------------ */
 
 /* A plot of its own time is weighed there, whichever came before it and wherever that time is said. */
@@ -278,6 +303,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_hypothesis_without_height_minds_none),
         cmocka_unit_test(bearings_give_up_what_they_rule_out),
+        cmocka_unit_test(a_bearing_that_says_nothing_makes_no_hypothesis_the_better),
         cmocka_unit_test(a_plot_is_weighed_at_its_time),
         cmocka_unit_test(a_track_that_takes_no_plot_claims_none),
         cmocka_unit_test(a_track_ends_once),
