@@ -43,8 +43,8 @@ enum rho_input_model {
 };
 
 struct rho_input_config {
-    uint8_t is_estimated; /* 0: a plain Kalman filter */
-    uint8_t model;        /* enum rho_input_model */
+    uint16_t is_estimated; /* 0: a plain Kalman filter */
+    uint16_t model;        /* enum rho_input_model */
     float sigma_mps2; /* sd of the input before it was estimated, the root of V(0): 1e-3 .. 1e5 */
     float threshold;  /* sigmas from which on an input is present: > 0 */
     float gamma; /* forgetting: V / gamma at each prediction, V(0) at most; 1: none. > 0 .. 1 */

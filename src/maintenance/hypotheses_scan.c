@@ -406,7 +406,7 @@ enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool, uint16_
                                             float bearing_rad, float sigma_rad)
 {
     enum rho_status status = RHO_ERROR_VALUE;
-    float gains_nat[RHO_HYPOTHESES_OF_TRACK];
+    float gains_nat[RHO_HYPOTHESES_OF_TRACK] = {0.0f};
     if (!pool) {
         return RHO_ERROR_NULL;
     }
