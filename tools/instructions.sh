@@ -47,19 +47,20 @@ awk -v most="$most" '{count[NR] = $1} END {
     printf "own covariances over isotropic: %.2f (at most %s)\n", ratio, most
     exit ratio > most }' "$folder/batch-isotropic" "$folder/batch-own" || failed=1
 
-default() { # plots, 1 for noise of its own, text, at most
+default() { # plots, 1 for noise of its own, text, at most, wanted but not reached
     local bar=''
     count=$(instructions maintain "$1" "$2")
     read -r scans hypotheses gated <"$folder/stdout"
     count=$((count / scans))
     [ -z "${4-}" ] || bar="  (at most $4)"
+    [ -z "${5-}" ] || [ "$count" -le "$5" ] || bar="  (wanted: $5, missed)"
     printf '%-62s %12s%s  %s hypotheses\n' "$3, $gated in the gate" "$count" "$bar" "$hypotheses"
     [ -z "${4-}" ] || [ "$count" -le "$4" ] || failed=1
 }
 
 printf '\nthe default, a track and scan: positions in 3-D, mean over 100 scans\n'
 default 1 0 'isotropic noise, the target alone'
-default 4 0 'isotropic noise'
+default 4 0 'isotropic noise' '' 30000
 default 10 0 'isotropic noise' 60000
 default 1 1 'noise of its own, the target alone'
 default 4 1 'noise of its own'
