@@ -16,14 +16,14 @@
 
 /* ---- the pool --------------------------------------------------------------------------------- */
 
-int rho_hypotheses_is_ready(const struct rho_hypotheses *pool)
+static int is_ready(const struct rho_hypotheses *pool)
 {
     return pool->magic == POOL_MAGIC;
 }
 
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
 {
-    return rho_hypotheses_is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
+    return is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
 }
 
 uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool)
@@ -108,7 +108,7 @@ enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rh
     if (!pool || !estimate || !slot) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_hypotheses_is_ready(pool)) {
+    if (!is_ready(pool)) {
         return RHO_ERROR_STATE;
     }
     uint16_t found = 0;
@@ -153,8 +153,9 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 
 /* ---- predict ---------------------------------------------------------------------------------- */
 
-const struct rho_imm_step *rho_hypotheses_step(struct rho_hypotheses *pool, int64_t from_us,
-                                               int64_t to_us)
+/* The step of an interval, kept until another one is asked for. */
+static const struct rho_imm_step *find_step(struct rho_hypotheses *pool, int64_t from_us,
+                                            int64_t to_us)
 {
     float dt_s = rho_seconds_between(from_us, to_us);
     if (dt_s < pool->step.dt_s || dt_s > pool->step.dt_s) {
@@ -166,17 +167,28 @@ const struct rho_imm_step *rho_hypotheses_step(struct rho_hypotheses *pool, int6
 enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, struct rho_imm *imm,
                                     int64_t from_us, int64_t to_us)
 {
-    return from_us == to_us ? RHO_OK : rho_imm_move(imm, rho_hypotheses_step(pool, from_us, to_us));
+    return from_us == to_us ? RHO_OK : rho_imm_move(imm, find_step(pool, from_us, to_us));
 }
 
-/* Those that are left move up, and the best has weight 0 again. */
-static void close_ranks(struct rho_hypotheses *pool, uint16_t slot, unsigned num)
+const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
+                                               const struct rho_hypothesis *at, int64_t time_us)
 {
-    pool->num_of[slot] = (uint8_t)num;
-    float best = num > 0 ? pool->nodes[pool->node_of[slot][0]].weight_nat : 0.0f;
-    for (unsigned i = 0; i < num; i++) {
+    if (at->time_us == time_us) {
+        return &at->imm;
+    }
+    pool->scratch = at->imm;
+    return rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
+               ? &pool->scratch
+               : 0;
+}
+
+float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot)
+{
+    const float best = pool->nodes[pool->node_of[slot][0]].weight_nat;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         pool->nodes[pool->node_of[slot][i]].weight_nat -= best;
     }
+    return best;
 }
 
 enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
@@ -192,15 +204,19 @@ enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slo
         uint16_t node = pool->node_of[slot][i];
         struct rho_hypothesis *at = &pool->nodes[node];
         if (at->time_us != time_us &&
-            rho_imm_predict(&at->imm, rho_hypotheses_step(pool, at->time_us, time_us)) != RHO_OK) {
+            rho_imm_predict(&at->imm, find_step(pool, at->time_us, time_us)) != RHO_OK) {
             rho_hypotheses_release(pool, node);
             continue;
         }
         at->time_us = time_us;
         pool->node_of[slot][left++] = node;
     }
-    close_ranks(pool, slot, left);
-    return left > 0 ? RHO_OK : RHO_ERROR_VALUE;
+    pool->num_of[slot] = (uint8_t)left;
+    if (left == 0) {
+        return RHO_ERROR_VALUE;
+    }
+    (void)rho_hypotheses_rebase(pool, slot);
+    return RHO_OK;
 }
 
 /* ---- the mean --------------------------------------------------------------------------------- */
@@ -212,19 +228,6 @@ float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot)
         sum += rho_exp(pool->nodes[pool->node_of[slot][i]].weight_nat);
     }
     return rho_log(sum);
-}
-
-/* A hypothesis' filter at a time that need not be its own; NULL where it cannot be moved there. */
-static const struct rho_imm *filter_at(struct rho_hypotheses *pool, const struct rho_hypothesis *at,
-                                       int64_t time_us)
-{
-    if (at->time_us == time_us) {
-        return &at->imm;
-    }
-    pool->scratch = at->imm;
-    return rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
-               ? &pool->scratch
-               : 0;
 }
 
 /* The mean of both models, with a share in the sum. */
@@ -262,9 +265,10 @@ static float share_out(struct rho_hypotheses *pool, uint16_t slot, int64_t time_
     float total = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        shares[i] = at->weight_nat >= WEIGHT_SHOWN_MIN && filter_at(pool, at, time_us)
-                        ? rho_exp(at->weight_nat)
-                        : 0.0f;
+        shares[i] =
+            at->weight_nat >= WEIGHT_SHOWN_MIN && rho_hypotheses_filter_at(pool, at, time_us)
+                ? rho_exp(at->weight_nat)
+                : 0.0f;
         total += shares[i];
     }
     return total;
@@ -289,14 +293,14 @@ enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t sl
     for (unsigned i = 0; i < num; i++) {
         shares[i] /= total;
         if (shares[i] > 0.0f) {
-            add_mean(filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us), shares[i],
-                     estimate);
+            add_mean(rho_hypotheses_filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us),
+                     shares[i], estimate);
         }
     }
     for (unsigned i = 0; i < num; i++) {
         if (shares[i] > 0.0f) {
             const struct rho_imm *imm =
-                filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us);
+                rho_hypotheses_filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us);
             const float m = shares[i] * imm->probability;
             add_spread(imm->steady.state, imm->steady.covariance, shares[i] - m, &estimate->kalman);
             add_spread(imm->state, imm->covariance, m, &estimate->kalman);

@@ -8,7 +8,6 @@
 #include "rhotrack/hypotheses.h"
 
 /* hypotheses.c */
-int rho_hypotheses_is_ready(const struct rho_hypotheses *pool);
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot);
 
 /* A node of the pool; there must be one. */
@@ -22,9 +21,12 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
 enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, struct rho_imm *imm,
                                     int64_t from_us, int64_t to_us);
 
-/* The step of an interval, kept until another one is asked for. */
-const struct rho_imm_step *rho_hypotheses_step(struct rho_hypotheses *pool, int64_t from_us,
-                                               int64_t to_us);
+/* A hypothesis' filter at a time that need not be its own, there in the pool's scratch; NULL where it cannot be moved. */
+const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
+                                               const struct rho_hypothesis *at, int64_t time_us);
+
+/* The best, which is the slot's first, weighs 0 again. Returns what it weighed. */
+float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot);
 
 /* ln of the sum of e^weight over a slot's hypotheses. */
 float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot);

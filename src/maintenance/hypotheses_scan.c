@@ -37,12 +37,8 @@ static inline void note_candidate(struct rho_hypothesis *at,
 static int match_one(struct rho_hypotheses *pool, const struct rho_hypothesis *at,
                      const struct rho_imm_plot *seen, int64_t time_us, struct rho_imm_match *match)
 {
-    if (at->time_us == time_us) {
-        return rho_imm_weigh(&at->imm, seen, match);
-    }
-    pool->scratch = at->imm;
-    return rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) == RHO_OK &&
-           rho_imm_weigh(&pool->scratch, seen, match);
+    const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
+    return imm && rho_imm_weigh(imm, seen, match);
 }
 
 /* The gates of all the slot's hypotheses at one time, kept while plots of the same noise come. */
@@ -285,10 +281,7 @@ static float order(struct rho_hypotheses *pool, uint16_t slot)
         }
         nodes[place] = node;
     }
-    float best = pool->nodes[nodes[0]].weight_nat;
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        pool->nodes[nodes[i]].weight_nat -= best;
-    }
+    const float best = rho_hypotheses_rebase(pool, slot);
     for (unsigned i = pool->num_of[slot] - 1u;
          pool->nodes[nodes[i]].weight_nat < RHO_HYPOTHESES_WEIGHT_MIN; i--) {
         rho_hypotheses_release(pool, nodes[i]);
@@ -385,19 +378,25 @@ static enum rho_status take_bearing(struct rho_hypotheses *pool, struct rho_hypo
     return status;
 }
 
-/* A hypothesis that the bearing said nothing to (gain 0) is not the better for it: it gets the least of the others. */
+/* A bearing that said nothing to a hypothesis has left its gain at 0. */
+static int is_said(float gain_nat)
+{
+    return gain_nat < 0.0f || gain_nat > 0.0f;
+}
+
+/* One that it said nothing to is not the better for it: it gets the least of the others. */
 static void add_gains(struct rho_hypotheses *pool, uint16_t slot,
                       const float gains_nat[RHO_HYPOTHESES_OF_TRACK])
 {
     float least = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        const int is_said = gains_nat[i] < 0.0f || gains_nat[i] > 0.0f;
-        least = is_said && (!(least < 0.0f || least > 0.0f) || gains_nat[i] < least) ? gains_nat[i]
-                                                                                     : least;
+        if (is_said(gains_nat[i]) && (!is_said(least) || gains_nat[i] < least)) {
+            least = gains_nat[i];
+        }
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        const int is_said = gains_nat[i] < 0.0f || gains_nat[i] > 0.0f;
-        pool->nodes[pool->node_of[slot][i]].weight_nat += is_said ? gains_nat[i] : least;
+        pool->nodes[pool->node_of[slot][i]].weight_nat +=
+            is_said(gains_nat[i]) ? gains_nat[i] : least;
     }
 }
 

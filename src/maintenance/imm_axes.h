@@ -8,6 +8,8 @@
 #ifndef RHOTRACK_IMM_AXES_H
 #define RHOTRACK_IMM_AXES_H
 
+#include <string.h>
+
 #include "rhotrack/imm.h"
 
 #define NUM_AXES 3
@@ -78,6 +80,13 @@ static inline void put_manoeuvre(struct rho_imm *imm, int axis, const struct axi
     imm->covariance[at[3]] = in->ap;
     imm->covariance[at[4]] = in->av;
     imm->covariance[at[5]] = in->aa;
+}
+
+/* Positions and velocities of a model: the first states, and the first elements of the covariance. */
+static inline void take_leading(struct rho_kalman *to, const float *state, const float *covariance)
+{
+    memcpy(to->state, state, sizeof to->state);
+    memcpy(to->covariance, covariance, sizeof to->covariance);
 }
 
 static inline int is_open(const struct rho_imm *imm, int axis)

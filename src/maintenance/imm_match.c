@@ -148,8 +148,7 @@ static int add_range_rate(const struct view *view, const struct rho_imm_plot *se
     struct rho_kalman at;
     struct rho_kalman_row rate;
     float projected[RHO_KALMAN_STATES], *row = &out->s[RHO_TRIANGLE(out->num)];
-    memcpy(at.state, view->state, sizeof at.state);
-    memcpy(at.covariance, view->covariance, sizeof at.covariance);
+    take_leading(&at, view->state, view->covariance);
     if (!rho_kalman_see_range_rate(&at, seen->sensor, plot->range_rate_mps,
                                    plot->sigma_range_rate_mps * plot->sigma_range_rate_mps,
                                    &rate)) {

@@ -4,7 +4,6 @@
  * the axes of the plot's noise.
  */
 #include <float.h>
-#include <string.h>
 
 #include "imm_axes.h"
 #include "rhotrack/approx.h"
@@ -190,8 +189,7 @@ static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_i
         at_least(seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps);
     struct rho_kalman at;
     struct rho_kalman_row rate;
-    memcpy(at.state, imm->state, sizeof at.state);
-    memcpy(at.covariance, imm->covariance, sizeof at.covariance);
+    take_leading(&at, imm->state, imm->covariance);
     enum rho_status status =
         rho_kalman_update_range_rate(&imm->steady, seen->sensor, rate_mps, variance);
     if (status != RHO_OK ||
@@ -277,8 +275,7 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
     if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
-    memcpy(at.state, imm->state, sizeof at.state);
-    memcpy(at.covariance, imm->covariance, sizeof at.covariance);
+    take_leading(&at, imm->state, imm->covariance);
     *gain_nat = 0.0f;
     if (!rho_kalman_see_bearing(&imm->steady, x_m, y_m, bearing_rad, sigma_rad, &views[0]) ||
         !rho_kalman_see_bearing(&at, x_m, y_m, bearing_rad, sigma_rad, &views[1])) {
