@@ -62,13 +62,13 @@ jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib bench-opencv test-programs test demo layers poison size instructions examples determinism lint format \
+.PHONY: all lib codegen bench-opencv test-programs test demo layers poison size instructions examples determinism lint format \
         format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
 
 ## Build the program (build/rhotrack) and the library (build/librhotrack.a); the default
-all: $(program) lib
+all: $(program) lib $(BUILD)/codegen.checked
 
 ## Build the library alone, embedded profile
 lib: $(library)
@@ -86,6 +86,15 @@ $(BUILD)/embedded/%.o: %.c Makefile
 
 $(BUILD)/workstation/%.o: %.c Makefile
 	$(call compile,$(library_flags) -DRHO_PROFILE_WORKSTATION) $(LIBRARY_CFLAGS) -c -o $@ $<
+
+# What tools/codegen writes is checked in, and must be what it would write.
+$(BUILD)/codegen.checked: $(wildcard lcm_types/* tools/codegen/*.py) include/rhotrack/message.h \
+                          src/wire/message.c src/wire/message_names.c
+	@mkdir -p $(@D) && tools/codegen/codegen.py --check && touch $@
+
+## Write the LCM codec from lcm_types/
+codegen:
+	@tools/codegen/codegen.py
 
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)

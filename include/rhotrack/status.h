@@ -24,6 +24,11 @@ enum rho_status {
     RHO_ERROR_CAPACITY, /* more than a RHO_MAX_... allows */
     RHO_ERROR_SINGULAR, /* a matrix is not positive definite */
     RHO_ERROR_STATE,    /* the object was never initialised, or has nothing of what is asked for */
+    /* of bytes that should be a message: */
+    RHO_ERROR_SHORT,    /* they end too early */
+    RHO_ERROR_TYPE,     /* another message, or another version of it: the fingerprint differs */
+    RHO_ERROR_COUNT,    /* a list's count is negative, or more than the message may hold */
+    RHO_ERROR_TRAILING, /* they go on behind its end */
     RHO_NUM_STATUS      /* count of the values above, not an outcome */
 };
 

@@ -11,6 +11,10 @@ static const char status_names[RHO_NUM_STATUS][9] = {
     [RHO_ERROR_CAPACITY] = "capacity",
     [RHO_ERROR_SINGULAR] = "singular",
     [RHO_ERROR_STATE] = "state",
+    [RHO_ERROR_SHORT] = "short",
+    [RHO_ERROR_TYPE] = "type",
+    [RHO_ERROR_COUNT] = "count",
+    [RHO_ERROR_TRAILING] = "trailing",
 };
 
 const char *rho_status_name(enum rho_status status)

@@ -21,7 +21,11 @@ static void every_status_has_its_name(void **state)
     assert_string_equal(rho_status_name(RHO_ERROR_CAPACITY), "capacity");
     assert_string_equal(rho_status_name(RHO_ERROR_SINGULAR), "singular");
     assert_string_equal(rho_status_name(RHO_ERROR_STATE), "state");
-    assert_int_equal(RHO_NUM_STATUS, 8);
+    assert_string_equal(rho_status_name(RHO_ERROR_SHORT), "short");
+    assert_string_equal(rho_status_name(RHO_ERROR_TYPE), "type");
+    assert_string_equal(rho_status_name(RHO_ERROR_COUNT), "count");
+    assert_string_equal(rho_status_name(RHO_ERROR_TRAILING), "trailing");
+    assert_int_equal(RHO_NUM_STATUS, 12);
 }
 
 static void names_differ(void **state)

@@ -1,0 +1,511 @@
+/* SPDX-License-Identifier: MIT */
+/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
+/* clang-format off */
+/*
+ * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, nothing that is kept.
+ *
+ * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in their order, big endian,
+ * without gaps. Fields have the names, units and ranges of lcm_types/; capacities are RHO_MESSAGE_<STRUCT>_MAX_<LIST>,
+ * the longest message RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fits one datagram.
+ *
+ * For each struct S:
+ *   rho_message_S_encode    struct to bytes. Errors: NULL, COUNT (of the list: negative, or beyond its MAX), CAPACITY (of
+ *                           the buffer); nothing is written. Values are not looked at: validate does that.
+ *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another fingerprint), COUNT, TRAILING;
+ *                           *message is unchanged. Elements beyond the list's count are unchanged in any case.
+ *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors: NULL, COUNT, VALUE;
+ *                           *place (may be NULL) tells which member, and rho_message_S_field its name.
+ * and where S ends with a list, to write it without a copy of the list:
+ *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the buffer. Errors: NULL,
+ *                           CAPACITY.
+ *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another struct), CAPACITY (of
+ *                           the buffer or the list); the message so far stays whole.
+ *   rho_message_end         how long it is; the writer is empty then.
+ *
+ * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent of one another.
+ * Cost: proportional to the bytes, about 4 instructions a byte (Cortex-M4F). Stack: 120 bytes.
+ */
+#ifndef RHOTRACK_MESSAGE_H
+#define RHOTRACK_MESSAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/status.h"
+
+enum rho_message_type {
+    RHO_MESSAGE_TYPE_PEAK = 0,
+    RHO_MESSAGE_TYPE_PLOT,
+    RHO_MESSAGE_TYPE_POLAR_PLOT,
+    RHO_MESSAGE_TYPE_STATUS,
+    RHO_MESSAGE_TYPE_TRACK,
+    RHO_MESSAGE_TYPE_TRUTH,
+    RHO_MESSAGE_TYPE_BEARING_SCAN,
+    RHO_MESSAGE_TYPE_PEAK_LIST,
+    RHO_MESSAGE_TYPE_PLOT_SCAN,
+    RHO_MESSAGE_TYPE_POLAR_SCAN,
+    RHO_MESSAGE_TYPE_TRACK_LIST,
+    RHO_MESSAGE_TYPE_TRUTH_LIST,
+    RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */
+};
+
+/* A member that validate refuses. */
+struct rho_message_place {
+    uint16_t offset; /* in its struct */
+    int16_t element; /* of the list; -1: before it */
+};
+
+/* A message that is being written; the buffer is the caller's, and holds a whole message at any time. */
+struct rho_message_writer {
+    uint8_t *buffer;
+    size_t capacity, size; /* bytes; size: so far */
+    uint64_t fingerprint;
+    uint16_t count; /* elements so far */
+};
+
+/* Which message this is by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
+enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size);
+
+/* The fingerprint; 0 for any other value. Name as in lcm_types/ ("plot_scan_t"); "unknown" for any other value. */
+uint64_t rho_message_fingerprint(enum rho_message_type type);
+const char *rho_message_type_name(enum rho_message_type type);
+
+/* The length of what was begun and added. Errors: NULL, STATE (not begun). Constant cost. */
+RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
+
+/* ---- peak_t: One line that initiation found: x cos(theta) + y sin(theta) = rho. ---- */
+
+#define RHO_MESSAGE_PEAK_FINGERPRINT UINT64_C(0xef4db77f70fed866)
+#define RHO_MESSAGE_PEAK_MAX_SIZE 28u
+
+struct rho_message_peak {
+    float rho_m; /* signed, m */
+    float theta_rad; /* rad; 0 .. 3.1415927 */
+    float speed_mps; /* along the line, m/s; 0 .. 1e6 */
+    float score_nat; /* logarithm of the likelihood that it is a target against clutter */
+    int16_t scans_hit; /* scans of the window that voted for it; 0 .. 32767 */
+    int16_t sensor_pairs; /* pairs of sensors that confirm it; 0 for plots; 0 .. 32767 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_peak_encode(
+    const struct rho_message_peak *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_peak_decode(
+    const uint8_t *data, size_t size, struct rho_message_peak *message);
+RHO_MUST_CHECK enum rho_status rho_message_peak_validate(
+    const struct rho_message_peak *message, struct rho_message_place *place);
+const char *rho_message_peak_field(const struct rho_message_place *place);
+
+/* ---- plot_t: One plot of a plot_scan_t: a place, and what else its kind says. What is not measured is 0. ---- */
+
+#define RHO_MESSAGE_PLOT_FINGERPRINT UINT64_C(0x788ad26d7448d55b)
+#define RHO_MESSAGE_PLOT_MAX_SIZE 48u
+
+struct rho_message_plot {
+    int32_t dt_us; /* own time after the scan's utime, us; -60000000 .. 60000000 */
+    float x_m; /* east, m; -2e6 .. 2e6 */
+    float y_m; /* north, m; -2e6 .. 2e6 */
+    float z_m; /* up, m; -2e6 .. 2e6 */
+    float vx_mps; /* velocity, m/s; -2e4 .. 2e4 */
+    float vy_mps; /* -2e4 .. 2e4 */
+    float vz_mps; /* -2e4 .. 2e4 */
+    float sigma_m; /* sd of the noise, each axis, m; 0: not said; 0 .. 1e5 */
+    float sigma_mps; /* sd of the velocity's noise, each axis, m/s; 0: not said; 0 .. 1e5 */
+    float snr_db; /* 0 where unknown; passed on, not used; -1000 .. 1000 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_plot_encode(
+    const struct rho_message_plot *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_plot_decode(
+    const uint8_t *data, size_t size, struct rho_message_plot *message);
+RHO_MUST_CHECK enum rho_status rho_message_plot_validate(
+    const struct rho_message_plot *message, struct rho_message_place *place);
+const char *rho_message_plot_field(const struct rho_message_place *place);
+
+/* ---- polar_plot_t: One plot of a polar_scan_t, as the radar measures it. What is not measured is 0. ---- */
+
+#define RHO_MESSAGE_POLAR_PLOT_FINGERPRINT UINT64_C(0x5482c658708a4062)
+#define RHO_MESSAGE_POLAR_PLOT_MAX_SIZE 32u
+
+struct rho_message_polar_plot {
+    int32_t dt_us; /* own time after the scan's utime, us; -60000000 .. 60000000 */
+    float range_m; /* slant range; without elevation it counts as ground range, m; 0 .. 2e6 */
+    float azimuth_rad; /* counter-clockwise from +x (east), rad; -3.1415927 .. 3.1415927 */
+    float elevation_rad; /* up from the horizontal, rad; -1.5707964 .. 1.5707964 */
+    float range_rate_mps; /* positive: receding, m/s; -2e4 .. 2e4 */
+    float snr_db; /* 0 where unknown; passed on, not used; -1000 .. 1000 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_polar_plot_encode(
+    const struct rho_message_polar_plot *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_polar_plot_decode(
+    const uint8_t *data, size_t size, struct rho_message_polar_plot *message);
+RHO_MUST_CHECK enum rho_status rho_message_polar_plot_validate(
+    const struct rho_message_polar_plot *message, struct rho_message_place *place);
+const char *rho_message_polar_plot_field(const struct rho_message_place *place);
+
+/* ---- status_t: How a tracker is doing: once a second, also when nothing comes. Channel RHO_STATUS. ---- */
+/* Counters count since the start and stay at 2147483647. */
+
+#define RHO_MESSAGE_STATUS_CHANNEL "RHO_STATUS"
+#define RHO_MESSAGE_STATUS_FINGERPRINT UINT64_C(0xa49e27d2cd6c4484)
+#define RHO_MESSAGE_STATUS_MAX_SIZE 146u
+
+struct rho_message_status {
+    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int32_t scans_accepted; /* taken for a step, whole or not; 0 .. 2147483647 */
+    int32_t scans_late; /* older than one of the same sensor that was taken before; 0 .. 2147483647 */
+    int32_t scans_duplicate; /* scans or parts of them that were there already; 0 .. 2147483647 */
+    int32_t scans_lost; /* numbers that were skipped; one that comes after all is late, too; 0 .. 2147483647 */
+    int32_t scans_bad; /* good messages that contradict the sensor's earlier ones or each other; 0 .. 2147483647 */
+    int32_t messages_bad; /* not a message of this type: length, count, values, sensor; 0 .. 2147483647 */
+    int32_t messages_wrong_type; /* another fingerprint: another version, or something else; 0 .. 2147483647 */
+    int32_t messages_flooded; /* beyond what one channel may send in a second; 0 .. 2147483647 */
+    int32_t frames_incomplete; /* of bearings, a sensor is missing in them; 0 .. 2147483647 */
+    int32_t scans_incomplete; /* stepped with parts missing; 0 .. 2147483647 */
+    int32_t fragments_refused; /* datagrams of messages in fragments, or no LCM at all; 0 .. 2147483647 */
+    int32_t clock_jumps; /* scans whose time is far off the common clock; 0 .. 2147483647 */
+    int32_t sensor_restarts; /* sensors whose numbers began anew; 0 .. 2147483647 */
+    int32_t plots_in; /* 0 .. 2147483647 */
+    int32_t plots_claimed; /* updated a track; 0 .. 2147483647 */
+    int32_t plots_held; /* kept for initiation; 0 .. 2147483647 */
+    int32_t plots_initiated; /* of the held: started a track; 0 .. 2147483647 */
+    int32_t plots_clutter; /* of the held: left the window unused; 0 .. 2147483647 */
+    int32_t inputs_stale; /* older than what was stepped; 0 .. 2147483647 */
+    int32_t inputs_invalid; /* not finite, or beyond the limits; 0 .. 2147483647 */
+    int32_t inputs_no_room; /* beyond a capacity; 0 .. 2147483647 */
+    int32_t bearings_in; /* of plots_in; 0 .. 2147483647 */
+    int32_t ghosts_pruned; /* bearings whose crossings are all false; 0 .. 2147483647 */
+    int16_t tracks_tentative; /* 0 .. 32767 */
+    int16_t tracks_confirmed; /* 0 .. 32767 */
+    int16_t tracks_coasting; /* 0 .. 32767 */
+    float step_us; /* mean since the last status, us; 0 .. 1e12 */
+    float step_max_us; /* longest since the last status, us; 0 .. 1e12 */
+    float clutter_per_km2; /* mean over the area, a scan; 0 .. 1e12 */
+    int32_t origin_lat_1e7deg; /* of the local frame; all three 0: not said; -900000000 .. 900000000 */
+    int32_t origin_lon_1e7deg; /* -1800000000 .. 1800000000 */
+    int32_t origin_alt_mm;
+};
+RHO_MUST_CHECK enum rho_status rho_message_status_encode(
+    const struct rho_message_status *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_status_decode(
+    const uint8_t *data, size_t size, struct rho_message_status *message);
+RHO_MUST_CHECK enum rho_status rho_message_status_validate(
+    const struct rho_message_status *message, struct rho_message_place *place);
+const char *rho_message_status_field(const struct rho_message_place *place);
+
+/* ---- track_t: One track of a track_list_t, at the list's time. ---- */
+
+#define RHO_MESSAGE_TRACK_FINGERPRINT UINT64_C(0x07ff66dc5ae8b2bd)
+#define RHO_MESSAGE_TRACK_MAX_SIZE 153u
+#define RHO_MESSAGE_TRACK_TENTATIVE 1
+#define RHO_MESSAGE_TRACK_CONFIRMED 2
+#define RHO_MESSAGE_TRACK_COASTING 3
+#define RHO_MESSAGE_TRACK_DELETED 4
+
+struct rho_message_track {
+    int32_t track_id; /* never used twice between two restarts */
+    int8_t status; /* DELETED: this list names it for the last time; one of TENTATIVE, CONFIRMED, COASTING, DELETED */
+    int16_t hits; /* looks that updated it; stays at 32767; 0 .. 32767 */
+    int16_t misses; /* looks that did not; stays at 32767; 0 .. 32767 */
+    int16_t sensor_id; /* of the last update */
+    int16_t plot; /* row of the update in this scan, from 0; -1: none; -1 .. 32767 */
+    int32_t update_age_us; /* the list's time after the last update's own, us; 0 .. 2147483647 */
+    float x_m; /* east, m */
+    float y_m; /* north, m */
+    float z_m; /* up, m; 0 where not measured */
+    float vx_mps; /* velocity, m/s */
+    float vy_mps;
+    float vz_mps;
+    float ax_mps2; /* acceleration, m/s^2; 0 where not estimated */
+    float ay_mps2;
+    float az_mps2;
+    float score_nat; /* logarithm of the likelihood that it is a target against clutter */
+    float maneuver_probability; /* 0 .. 1 */
+    float covariance[21]; /* of x y z vx vy vz: lower triangle, row by row: xx, yx, yy, zx, ... */
+};
+RHO_MUST_CHECK enum rho_status rho_message_track_encode(
+    const struct rho_message_track *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_track_decode(
+    const uint8_t *data, size_t size, struct rho_message_track *message);
+RHO_MUST_CHECK enum rho_status rho_message_track_validate(
+    const struct rho_message_track *message, struct rho_message_place *place);
+const char *rho_message_track_field(const struct rho_message_place *place);
+
+/* ---- truth_t: One target of a truth_list_t, at the list's time. ---- */
+
+#define RHO_MESSAGE_TRUTH_FINGERPRINT UINT64_C(0xa0d66a7393c5ab26)
+#define RHO_MESSAGE_TRUTH_MAX_SIZE 36u
+
+struct rho_message_truth {
+    int32_t target_id;
+    float x_m; /* east, m; -2e6 .. 2e6 */
+    float y_m; /* north, m; -2e6 .. 2e6 */
+    float z_m; /* up, m; -2e6 .. 2e6 */
+    float vx_mps; /* velocity, m/s; -2e4 .. 2e4 */
+    float vy_mps; /* -2e4 .. 2e4 */
+    float vz_mps; /* -2e4 .. 2e4 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_truth_encode(
+    const struct rho_message_truth *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_truth_decode(
+    const uint8_t *data, size_t size, struct rho_message_truth *message);
+RHO_MUST_CHECK enum rho_status rho_message_truth_validate(
+    const struct rho_message_truth *message, struct rho_message_place *place);
+const char *rho_message_truth_field(const struct rho_message_place *place);
+
+/* ---- bearing_scan_t: Bearings of one look of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. ---- */
+
+#define RHO_MESSAGE_BEARING_SCAN_CHANNEL "RHO_BEARINGS_" /* and the sensor's number */
+#define RHO_MESSAGE_BEARING_SCAN_FINGERPRINT UINT64_C(0x66d140164191753b)
+#define RHO_MESSAGE_BEARING_SCAN_MAX_SIZE 1064u
+#define RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD 256
+
+struct rho_message_bearing_scan {
+    int64_t utime; /* time of measurement, us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
+    int32_t epoch; /* the sender's boot number: another one after each restart */
+    int16_t sensor_id; /* the number in the channel's name */
+    float sensor_x_m; /* the sensor's place, the same at every look, m; -2e6 .. 2e6 */
+    float sensor_y_m; /* -2e6 .. 2e6 */
+    float sigma_rad; /* sd of the noise, rad; 0: not said; 0 .. 0.5 */
+    int16_t num_bearings;
+    float bearing_rad[RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD]; /* to the targets, counter-clockwise from +x (east), rad; -3.1415927 .. 3.1415927 */
+};
+
+struct rho_message_bearing_scan_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t sensor_id;
+    float sensor_x_m;
+    float sensor_y_m;
+    float sigma_rad;
+};
+RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_encode(
+    const struct rho_message_bearing_scan *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_bearing_scan *message);
+RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_validate(
+    const struct rho_message_bearing_scan *message, struct rho_message_place *place);
+const char *rho_message_bearing_scan_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_bearing_scan_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
+    struct rho_message_writer *writer, const float *bearing_rad);
+
+/* ---- peak_list_t: The best candidates of the last search for new tracks, best first. Channel RHO_PEAKS. ---- */
+
+#define RHO_MESSAGE_PEAK_LIST_CHANNEL "RHO_PEAKS"
+#define RHO_MESSAGE_PEAK_LIST_FINGERPRINT UINT64_C(0x68f79b7c84f4d541)
+#define RHO_MESSAGE_PEAK_LIST_MAX_SIZE 982u
+#define RHO_MESSAGE_PEAK_LIST_MAX_PEAKS 48
+
+struct rho_message_peak_list {
+    int64_t utime; /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
+    int16_t num_peaks;
+    struct rho_message_peak peaks[RHO_MESSAGE_PEAK_LIST_MAX_PEAKS];
+};
+
+struct rho_message_peak_list_head {
+    int64_t utime;
+    int32_t scan;
+};
+RHO_MUST_CHECK enum rho_status rho_message_peak_list_encode(
+    const struct rho_message_peak_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_peak_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_peak_list *message);
+RHO_MUST_CHECK enum rho_status rho_message_peak_list_validate(
+    const struct rho_message_peak_list *message, struct rho_message_place *place);
+const char *rho_message_peak_list_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_peak_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_peak_list_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_peak_list_add(
+    struct rho_message_writer *writer, const struct rho_message_peak *peak);
+
+/* ---- plot_scan_t: Plots of one look of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>. ---- */
+
+#define RHO_MESSAGE_PLOT_SCAN_CHANNEL "RHO_PLOTS_" /* and the sensor's number */
+#define RHO_MESSAGE_PLOT_SCAN_FINGERPRINT UINT64_C(0x0ec35bb85bc4cbde)
+#define RHO_MESSAGE_PLOT_SCAN_MAX_SIZE 1401u
+#define RHO_MESSAGE_PLOT_SCAN_POSITION_2D 2
+#define RHO_MESSAGE_PLOT_SCAN_POSITION_3D 3
+#define RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D 4
+#define RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D 6
+#define RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS 34
+
+struct rho_message_plot_scan {
+    int64_t utime; /* time of measurement, us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
+    int32_t epoch; /* the sender's boot number: another one after each restart */
+    int16_t sensor_id; /* the number in the channel's name */
+    int8_t kind; /* what the plots measure; one of POSITION_2D, POSITION_3D, POSITION_VELOCITY_2D, POSITION_VELOCITY_3D */
+    int16_t part; /* which part of the scan this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the scan; 1 .. 32767 */
+    float sector_from_rad; /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    float sector_to_rad; /* to here; both 0: the whole circle; -6.2831855 .. 6.2831855 */
+    int16_t num_plots; /* in this part */
+    struct rho_message_plot plots[RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS];
+};
+
+struct rho_message_plot_scan_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t sensor_id;
+    int8_t kind;
+    int16_t part;
+    int16_t num_parts;
+    float sector_from_rad;
+    float sector_to_rad;
+};
+RHO_MUST_CHECK enum rho_status rho_message_plot_scan_encode(
+    const struct rho_message_plot_scan *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_plot_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_plot_scan *message);
+RHO_MUST_CHECK enum rho_status rho_message_plot_scan_validate(
+    const struct rho_message_plot_scan *message, struct rho_message_place *place);
+const char *rho_message_plot_scan_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_plot_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_plot_scan_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_plot_scan_add(
+    struct rho_message_writer *writer, const struct rho_message_plot *plot);
+
+/* ---- polar_scan_t: Polar plots of one look of one radar, or a part of them. Channel RHO_POLAR_<sensor_id>. ---- */
+
+#define RHO_MESSAGE_POLAR_SCAN_CHANNEL "RHO_POLAR_" /* and the sensor's number */
+#define RHO_MESSAGE_POLAR_SCAN_FINGERPRINT UINT64_C(0x0570bdbf57d4a221)
+#define RHO_MESSAGE_POLAR_SCAN_MAX_SIZE 1366u
+#define RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS 54
+
+struct rho_message_polar_scan {
+    int64_t utime; /* time of measurement, us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
+    int32_t epoch; /* the sender's boot number: another one after each restart */
+    int16_t sensor_id; /* the number in the channel's name */
+    int8_t has_elevation; /* 1: the plots' elevations count; 0 .. 1 */
+    int8_t has_range_rate; /* 1: the plots' range rates count; 0 .. 1 */
+    int16_t part; /* which part of the scan this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the scan; 1 .. 32767 */
+    float sensor_x_m; /* the radar's place, m; -2e6 .. 2e6 */
+    float sensor_y_m; /* -2e6 .. 2e6 */
+    float sensor_z_m; /* -2e6 .. 2e6 */
+    float sigma_range_m; /* sd of the noise, m; 0: not said; 0 .. 1e5 */
+    float sigma_azimuth_rad; /* rad; 0: not said; 0 .. 0.5 */
+    float sigma_elevation_rad; /* rad; 0: not said; 0 .. 0.5 */
+    float sigma_range_rate_mps; /* m/s; 0: not said; 0 .. 1e5 */
+    float sector_from_rad; /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    float sector_to_rad; /* to here; both 0: the whole circle; -6.2831855 .. 6.2831855 */
+    int16_t num_polar_plots; /* in this part */
+    struct rho_message_polar_plot polar_plots[RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS];
+};
+
+struct rho_message_polar_scan_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t sensor_id;
+    int8_t has_elevation;
+    int8_t has_range_rate;
+    int16_t part;
+    int16_t num_parts;
+    float sensor_x_m;
+    float sensor_y_m;
+    float sensor_z_m;
+    float sigma_range_m;
+    float sigma_azimuth_rad;
+    float sigma_elevation_rad;
+    float sigma_range_rate_mps;
+    float sector_from_rad;
+    float sector_to_rad;
+};
+RHO_MUST_CHECK enum rho_status rho_message_polar_scan_encode(
+    const struct rho_message_polar_scan *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_polar_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_polar_scan *message);
+RHO_MUST_CHECK enum rho_status rho_message_polar_scan_validate(
+    const struct rho_message_polar_scan *message, struct rho_message_place *place);
+const char *rho_message_polar_scan_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_polar_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_polar_scan_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_polar_scan_add(
+    struct rho_message_writer *writer, const struct rho_message_polar_plot *polar_plot);
+
+/* ---- track_list_t: The tracks after one step of the tracker, or a part of them. Channel RHO_TRACKS. ---- */
+
+#define RHO_MESSAGE_TRACK_LIST_CHANNEL "RHO_TRACKS"
+#define RHO_MESSAGE_TRACK_LIST_FINGERPRINT UINT64_C(0x50afcc23bcd9a625)
+#define RHO_MESSAGE_TRACK_LIST_MAX_SIZE 1337u
+#define RHO_MESSAGE_TRACK_LIST_MAX_TRACKS 9
+
+struct rho_message_track_list {
+    int64_t utime; /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's step, one more each */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int16_t num_tracks_total; /* of all parts; 0 .. 32767 */
+    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
+    int16_t num_tracks; /* in this part */
+    struct rho_message_track tracks[RHO_MESSAGE_TRACK_LIST_MAX_TRACKS];
+};
+
+struct rho_message_track_list_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t num_tracks_total;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_track_list_encode(
+    const struct rho_message_track_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_track_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_track_list *message);
+RHO_MUST_CHECK enum rho_status rho_message_track_list_validate(
+    const struct rho_message_track_list *message, struct rho_message_place *place);
+const char *rho_message_track_list_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_track_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_track_list_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_track_list_add(
+    struct rho_message_writer *writer, const struct rho_message_track *track);
+
+/* ---- truth_list_t: Where the targets of a simulation or a trial really were, or a part of them. Channel RHO_TRUTH. ---- */
+
+#define RHO_MESSAGE_TRUTH_LIST_CHANNEL "RHO_TRUTH"
+#define RHO_MESSAGE_TRUTH_LIST_FINGERPRINT UINT64_C(0x36f25f198a476da8)
+#define RHO_MESSAGE_TRUTH_LIST_MAX_SIZE 1426u
+#define RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS 50
+
+struct rho_message_truth_list {
+    int64_t utime; /* us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the list, one more each */
+    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the list; 1 .. 32767 */
+    int16_t num_targets; /* in this part */
+    struct rho_message_truth targets[RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS];
+};
+
+struct rho_message_truth_list_head {
+    int64_t utime;
+    int32_t scan;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_truth_list_encode(
+    const struct rho_message_truth_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_truth_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_truth_list *message);
+RHO_MUST_CHECK enum rho_status rho_message_truth_list_validate(
+    const struct rho_message_truth_list *message, struct rho_message_place *place);
+const char *rho_message_truth_list_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_truth_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_truth_list_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_truth_list_add(
+    struct rho_message_writer *writer, const struct rho_message_truth *target);
+
+#endif

@@ -1,0 +1,526 @@
+/* SPDX-License-Identifier: MIT */
+/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
+/* clang-format off */
+#include "rhotrack/message.h"
+
+#include <float.h>
+
+#include "message_codec.h"
+
+const struct message_run rho_message_runs[] = {
+    {offsetof(struct rho_message_peak, rho_m), 4, 4},
+    {offsetof(struct rho_message_peak, scans_hit), 2, 2},
+    {offsetof(struct rho_message_plot, dt_us), 4, 10},
+    {offsetof(struct rho_message_polar_plot, dt_us), 4, 6},
+    {offsetof(struct rho_message_status, utime), 8, 1},
+    {offsetof(struct rho_message_status, scan), 4, 25},
+    {offsetof(struct rho_message_status, tracks_tentative), 2, 3},
+    {offsetof(struct rho_message_status, step_us), 4, 6},
+    {offsetof(struct rho_message_track, track_id), 4, 1},
+    {offsetof(struct rho_message_track, status), 1, 1},
+    {offsetof(struct rho_message_track, hits), 2, 4},
+    {offsetof(struct rho_message_track, update_age_us), 4, 33},
+    {offsetof(struct rho_message_truth, target_id), 4, 7},
+    {offsetof(struct rho_message_bearing_scan, utime), 8, 1},
+    {offsetof(struct rho_message_bearing_scan, scan), 4, 2},
+    {offsetof(struct rho_message_bearing_scan, sensor_id), 2, 1},
+    {offsetof(struct rho_message_bearing_scan, sensor_x_m), 4, 3},
+    {0, 4, 1},
+    {offsetof(struct rho_message_peak_list, utime), 8, 1},
+    {offsetof(struct rho_message_peak_list, scan), 4, 1},
+    {offsetof(struct rho_message_plot_scan, utime), 8, 1},
+    {offsetof(struct rho_message_plot_scan, scan), 4, 2},
+    {offsetof(struct rho_message_plot_scan, sensor_id), 2, 1},
+    {offsetof(struct rho_message_plot_scan, kind), 1, 1},
+    {offsetof(struct rho_message_plot_scan, part), 2, 2},
+    {offsetof(struct rho_message_plot_scan, sector_from_rad), 4, 2},
+    {offsetof(struct rho_message_polar_scan, utime), 8, 1},
+    {offsetof(struct rho_message_polar_scan, scan), 4, 2},
+    {offsetof(struct rho_message_polar_scan, sensor_id), 2, 1},
+    {offsetof(struct rho_message_polar_scan, has_elevation), 1, 2},
+    {offsetof(struct rho_message_polar_scan, part), 2, 2},
+    {offsetof(struct rho_message_polar_scan, sensor_x_m), 4, 9},
+    {offsetof(struct rho_message_track_list, utime), 8, 1},
+    {offsetof(struct rho_message_track_list, scan), 4, 2},
+    {offsetof(struct rho_message_track_list, num_tracks_total), 2, 3},
+    {offsetof(struct rho_message_truth_list, utime), 8, 1},
+    {offsetof(struct rho_message_truth_list, scan), 4, 1},
+    {offsetof(struct rho_message_truth_list, part), 2, 2},
+};
+
+const struct message_float_rule rho_message_float_rules[] = {
+    {offsetof(struct rho_message_peak, rho_m), 1, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_peak, theta_rad), 1, 0.0f, 3.1415927f},
+    {offsetof(struct rho_message_peak, speed_mps), 1, 0.0f, 1000000.0f},
+    {offsetof(struct rho_message_peak, score_nat), 1, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_plot, x_m), 3, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_plot, vx_mps), 3, -20000.0f, 20000.0f},
+    {offsetof(struct rho_message_plot, sigma_m), 2, 0.0f, 100000.0f},
+    {offsetof(struct rho_message_plot, snr_db), 1, -1000.0f, 1000.0f},
+    {offsetof(struct rho_message_polar_plot, range_m), 1, 0.0f, 2000000.0f},
+    {offsetof(struct rho_message_polar_plot, azimuth_rad), 1, -3.1415927f, 3.1415927f},
+    {offsetof(struct rho_message_polar_plot, elevation_rad), 1, -1.5707964f, 1.5707964f},
+    {offsetof(struct rho_message_polar_plot, range_rate_mps), 1, -20000.0f, 20000.0f},
+    {offsetof(struct rho_message_polar_plot, snr_db), 1, -1000.0f, 1000.0f},
+    {offsetof(struct rho_message_status, step_us), 3, 0.0f, 1000000000000.0f},
+    {offsetof(struct rho_message_track, x_m), 10, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_track, maneuver_probability), 1, 0.0f, 1.0f},
+    {offsetof(struct rho_message_track, covariance), 21, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_truth, x_m), 3, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_truth, vx_mps), 3, -20000.0f, 20000.0f},
+    {offsetof(struct rho_message_bearing_scan, sensor_x_m), 2, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_bearing_scan, sigma_rad), 1, 0.0f, 0.5f},
+    {0, 1, -3.1415927f, 3.1415927f},
+    {offsetof(struct rho_message_plot_scan, sector_from_rad), 2, -6.2831855f, 6.2831855f},
+    {offsetof(struct rho_message_polar_scan, sensor_x_m), 3, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_polar_scan, sigma_range_m), 1, 0.0f, 100000.0f},
+    {offsetof(struct rho_message_polar_scan, sigma_azimuth_rad), 2, 0.0f, 0.5f},
+    {offsetof(struct rho_message_polar_scan, sigma_range_rate_mps), 1, 0.0f, 100000.0f},
+    {offsetof(struct rho_message_polar_scan, sector_from_rad), 2, -6.2831855f, 6.2831855f},
+};
+
+const struct message_int_rule rho_message_int_rules[] = {
+    {offsetof(struct rho_message_peak, scans_hit), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_peak, sensor_pairs), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_plot, dt_us), 4, MESSAGE_RANGE, -60000000, 60000000},
+    {offsetof(struct rho_message_polar_plot, dt_us), 4, MESSAGE_RANGE, -60000000, 60000000},
+    {offsetof(struct rho_message_status, utime), 8, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_status, scans_accepted), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, scans_late), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, scans_duplicate), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, scans_lost), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, scans_bad), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, messages_bad), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, messages_wrong_type), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, messages_flooded), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, frames_incomplete), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, scans_incomplete), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, fragments_refused), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, clock_jumps), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, sensor_restarts), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, plots_in), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, plots_claimed), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, plots_held), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, plots_initiated), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, plots_clutter), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, inputs_stale), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, inputs_invalid), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, inputs_no_room), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, bearings_in), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, ghosts_pruned), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, tracks_tentative), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_status, tracks_confirmed), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_status, tracks_coasting), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_status, origin_lat_1e7deg), 4, MESSAGE_RANGE, -900000000, 900000000},
+    {offsetof(struct rho_message_status, origin_lon_1e7deg), 4, MESSAGE_RANGE, -1800000000, 1800000000},
+    {offsetof(struct rho_message_track, status), 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4},
+    {offsetof(struct rho_message_track, hits), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_track, misses), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_track, plot), 2, MESSAGE_RANGE, -1, 32767},
+    {offsetof(struct rho_message_track, update_age_us), 4, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_bearing_scan, utime), 8, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_peak_list, utime), 8, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_plot_scan, utime), 8, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_plot_scan, kind), 1, MESSAGE_ONE_OF, 0, 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6},
+    {offsetof(struct rho_message_plot_scan, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_plot_scan, num_parts)},
+    {offsetof(struct rho_message_plot_scan, num_parts), 2, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_polar_scan, utime), 8, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_polar_scan, has_elevation), 1, MESSAGE_RANGE, 0, 1},
+    {offsetof(struct rho_message_polar_scan, has_range_rate), 1, MESSAGE_RANGE, 0, 1},
+    {offsetof(struct rho_message_polar_scan, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_polar_scan, num_parts)},
+    {offsetof(struct rho_message_polar_scan, num_parts), 2, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_track_list, utime), 8, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_track_list, num_tracks_total), 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_track_list, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_track_list, num_parts)},
+    {offsetof(struct rho_message_track_list, num_parts), 2, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_truth_list, utime), 8, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_truth_list, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_truth_list, num_parts)},
+    {offsetof(struct rho_message_truth_list, num_parts), 2, MESSAGE_RANGE, 1, 32767},
+};
+
+static const struct message_format peak_format = {
+    RHO_MESSAGE_PEAK_FINGERPRINT, {{0, 2}, {0, 4}, {0, 2}, 20},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
+static const struct message_format plot_format = {
+    RHO_MESSAGE_PLOT_FINGERPRINT, {{2, 1}, {4, 4}, {2, 1}, 40},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
+static const struct message_format polar_plot_format = {
+    RHO_MESSAGE_POLAR_PLOT_FINGERPRINT, {{3, 1}, {8, 5}, {3, 1}, 24},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
+static const struct message_format status_format = {
+    RHO_MESSAGE_STATUS_FINGERPRINT, {{4, 4}, {13, 1}, {4, 29}, 138},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
+static const struct message_format track_format = {
+    RHO_MESSAGE_TRACK_FINGERPRINT, {{8, 4}, {14, 3}, {33, 5}, 145},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
+static const struct message_format truth_format = {
+    RHO_MESSAGE_TRUTH_FINGERPRINT, {{12, 1}, {17, 2}, {38, 0}, 28},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
+static const struct message_format bearing_scan_format = {
+    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{13, 4}, {19, 2}, {38, 1}, 30},
+    {{17, 1}, {21, 1}, {0, 0}, 4},
+    offsetof(struct rho_message_bearing_scan, num_bearings), offsetof(struct rho_message_bearing_scan, bearing_rad),
+    sizeof(float), RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD};
+
+static const struct message_format peak_list_format = {
+    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{18, 2}, {22, 0}, {39, 1}, 12},
+    {{0, 2}, {0, 4}, {0, 2}, 20},
+    offsetof(struct rho_message_peak_list, num_peaks), offsetof(struct rho_message_peak_list, peaks),
+    sizeof(struct rho_message_peak), RHO_MESSAGE_PEAK_LIST_MAX_PEAKS};
+
+static const struct message_format plot_scan_format = {
+    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{20, 6}, {22, 1}, {40, 4}, 31},
+    {{2, 1}, {4, 4}, {2, 1}, 40},
+    offsetof(struct rho_message_plot_scan, num_plots), offsetof(struct rho_message_plot_scan, plots),
+    sizeof(struct rho_message_plot), RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
+
+static const struct message_format polar_scan_format = {
+    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{26, 6}, {23, 5}, {44, 5}, 60},
+    {{3, 1}, {8, 5}, {3, 1}, 24},
+    offsetof(struct rho_message_polar_scan, num_polar_plots), offsetof(struct rho_message_polar_scan, polar_plots),
+    sizeof(struct rho_message_polar_plot), RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS};
+
+static const struct message_format track_list_format = {
+    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{32, 3}, {28, 0}, {49, 4}, 22},
+    {{8, 4}, {14, 3}, {33, 5}, 145},
+    offsetof(struct rho_message_track_list, num_tracks), offsetof(struct rho_message_track_list, tracks),
+    sizeof(struct rho_message_track), RHO_MESSAGE_TRACK_LIST_MAX_TRACKS};
+
+static const struct message_format truth_list_format = {
+    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{35, 3}, {28, 0}, {53, 3}, 16},
+    {{12, 1}, {17, 2}, {38, 0}, 28},
+    offsetof(struct rho_message_truth_list, num_targets), offsetof(struct rho_message_truth_list, targets),
+    sizeof(struct rho_message_truth), RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS};
+
+typedef char bearing_scan_head_fits[offsetof(struct rho_message_bearing_scan, sigma_rad) ==
+    offsetof(struct rho_message_bearing_scan_head, sigma_rad) ? 1 : -1];
+typedef char peak_list_head_fits[offsetof(struct rho_message_peak_list, scan) ==
+    offsetof(struct rho_message_peak_list_head, scan) ? 1 : -1];
+typedef char plot_scan_head_fits[offsetof(struct rho_message_plot_scan, sector_to_rad) ==
+    offsetof(struct rho_message_plot_scan_head, sector_to_rad) ? 1 : -1];
+typedef char polar_scan_head_fits[offsetof(struct rho_message_polar_scan, sector_to_rad) ==
+    offsetof(struct rho_message_polar_scan_head, sector_to_rad) ? 1 : -1];
+typedef char track_list_head_fits[offsetof(struct rho_message_track_list, num_parts) ==
+    offsetof(struct rho_message_track_list_head, num_parts) ? 1 : -1];
+typedef char truth_list_head_fits[offsetof(struct rho_message_truth_list, num_parts) ==
+    offsetof(struct rho_message_truth_list_head, num_parts) ? 1 : -1];
+
+uint64_t rho_message_fingerprint(enum rho_message_type type)
+{
+    static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {
+        RHO_MESSAGE_PEAK_FINGERPRINT,
+        RHO_MESSAGE_PLOT_FINGERPRINT,
+        RHO_MESSAGE_POLAR_PLOT_FINGERPRINT,
+        RHO_MESSAGE_STATUS_FINGERPRINT,
+        RHO_MESSAGE_TRACK_FINGERPRINT,
+        RHO_MESSAGE_TRUTH_FINGERPRINT,
+        RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
+        RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
+        RHO_MESSAGE_PLOT_SCAN_FINGERPRINT,
+        RHO_MESSAGE_POLAR_SCAN_FINGERPRINT,
+        RHO_MESSAGE_TRACK_LIST_FINGERPRINT,
+        RHO_MESSAGE_TRUTH_LIST_FINGERPRINT,
+    };
+
+    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;
+}
+
+enum rho_status rho_message_peak_encode(
+    const struct rho_message_peak *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&peak_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_peak_decode(
+    const uint8_t *data, size_t size, struct rho_message_peak *message)
+{
+    return rho_message_decode(&peak_format, data, size, message);
+}
+
+enum rho_status rho_message_peak_validate(
+    const struct rho_message_peak *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&peak_format, message, place);
+}
+
+enum rho_status rho_message_plot_encode(
+    const struct rho_message_plot *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&plot_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_plot_decode(
+    const uint8_t *data, size_t size, struct rho_message_plot *message)
+{
+    return rho_message_decode(&plot_format, data, size, message);
+}
+
+enum rho_status rho_message_plot_validate(
+    const struct rho_message_plot *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&plot_format, message, place);
+}
+
+enum rho_status rho_message_polar_plot_encode(
+    const struct rho_message_polar_plot *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&polar_plot_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_polar_plot_decode(
+    const uint8_t *data, size_t size, struct rho_message_polar_plot *message)
+{
+    return rho_message_decode(&polar_plot_format, data, size, message);
+}
+
+enum rho_status rho_message_polar_plot_validate(
+    const struct rho_message_polar_plot *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&polar_plot_format, message, place);
+}
+
+enum rho_status rho_message_status_encode(
+    const struct rho_message_status *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&status_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_status_decode(
+    const uint8_t *data, size_t size, struct rho_message_status *message)
+{
+    return rho_message_decode(&status_format, data, size, message);
+}
+
+enum rho_status rho_message_status_validate(
+    const struct rho_message_status *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&status_format, message, place);
+}
+
+enum rho_status rho_message_track_encode(
+    const struct rho_message_track *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&track_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_track_decode(
+    const uint8_t *data, size_t size, struct rho_message_track *message)
+{
+    return rho_message_decode(&track_format, data, size, message);
+}
+
+enum rho_status rho_message_track_validate(
+    const struct rho_message_track *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&track_format, message, place);
+}
+
+enum rho_status rho_message_truth_encode(
+    const struct rho_message_truth *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&truth_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_truth_decode(
+    const uint8_t *data, size_t size, struct rho_message_truth *message)
+{
+    return rho_message_decode(&truth_format, data, size, message);
+}
+
+enum rho_status rho_message_truth_validate(
+    const struct rho_message_truth *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&truth_format, message, place);
+}
+
+enum rho_status rho_message_bearing_scan_encode(
+    const struct rho_message_bearing_scan *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&bearing_scan_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_bearing_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_bearing_scan *message)
+{
+    return rho_message_decode(&bearing_scan_format, data, size, message);
+}
+
+enum rho_status rho_message_bearing_scan_validate(
+    const struct rho_message_bearing_scan *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&bearing_scan_format, message, place);
+}
+
+enum rho_status rho_message_bearing_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_bearing_scan_head *head)
+{
+    return rho_message_begin(&bearing_scan_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_bearing_scan_add(
+    struct rho_message_writer *writer, const float *bearing_rad)
+{
+    return rho_message_add(&bearing_scan_format, writer, bearing_rad);
+}
+
+enum rho_status rho_message_peak_list_encode(
+    const struct rho_message_peak_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&peak_list_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_peak_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_peak_list *message)
+{
+    return rho_message_decode(&peak_list_format, data, size, message);
+}
+
+enum rho_status rho_message_peak_list_validate(
+    const struct rho_message_peak_list *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&peak_list_format, message, place);
+}
+
+enum rho_status rho_message_peak_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_peak_list_head *head)
+{
+    return rho_message_begin(&peak_list_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_peak_list_add(
+    struct rho_message_writer *writer, const struct rho_message_peak *peak)
+{
+    return rho_message_add(&peak_list_format, writer, peak);
+}
+
+enum rho_status rho_message_plot_scan_encode(
+    const struct rho_message_plot_scan *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&plot_scan_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_plot_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_plot_scan *message)
+{
+    return rho_message_decode(&plot_scan_format, data, size, message);
+}
+
+enum rho_status rho_message_plot_scan_validate(
+    const struct rho_message_plot_scan *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&plot_scan_format, message, place);
+}
+
+enum rho_status rho_message_plot_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_plot_scan_head *head)
+{
+    return rho_message_begin(&plot_scan_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_plot_scan_add(
+    struct rho_message_writer *writer, const struct rho_message_plot *plot)
+{
+    return rho_message_add(&plot_scan_format, writer, plot);
+}
+
+enum rho_status rho_message_polar_scan_encode(
+    const struct rho_message_polar_scan *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&polar_scan_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_polar_scan_decode(
+    const uint8_t *data, size_t size, struct rho_message_polar_scan *message)
+{
+    return rho_message_decode(&polar_scan_format, data, size, message);
+}
+
+enum rho_status rho_message_polar_scan_validate(
+    const struct rho_message_polar_scan *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&polar_scan_format, message, place);
+}
+
+enum rho_status rho_message_polar_scan_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_polar_scan_head *head)
+{
+    return rho_message_begin(&polar_scan_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_polar_scan_add(
+    struct rho_message_writer *writer, const struct rho_message_polar_plot *polar_plot)
+{
+    return rho_message_add(&polar_scan_format, writer, polar_plot);
+}
+
+enum rho_status rho_message_track_list_encode(
+    const struct rho_message_track_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&track_list_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_track_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_track_list *message)
+{
+    return rho_message_decode(&track_list_format, data, size, message);
+}
+
+enum rho_status rho_message_track_list_validate(
+    const struct rho_message_track_list *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&track_list_format, message, place);
+}
+
+enum rho_status rho_message_track_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_track_list_head *head)
+{
+    return rho_message_begin(&track_list_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_track_list_add(
+    struct rho_message_writer *writer, const struct rho_message_track *track)
+{
+    return rho_message_add(&track_list_format, writer, track);
+}
+
+enum rho_status rho_message_truth_list_encode(
+    const struct rho_message_truth_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&truth_list_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_truth_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_truth_list *message)
+{
+    return rho_message_decode(&truth_list_format, data, size, message);
+}
+
+enum rho_status rho_message_truth_list_validate(
+    const struct rho_message_truth_list *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&truth_list_format, message, place);
+}
+
+enum rho_status rho_message_truth_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_truth_list_head *head)
+{
+    return rho_message_begin(&truth_list_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_truth_list_add(
+    struct rho_message_writer *writer, const struct rho_message_truth *target)
+{
+    return rho_message_add(&truth_list_format, writer, target);
+}

@@ -1,0 +1,438 @@
+/* SPDX-License-Identifier: MIT */
+#include "message_codec.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "rhotrack/types.h"
+
+/* ---- Numbers, big endian ---- */
+
+static uint8_t *put16(uint8_t *to, uint16_t v)
+{
+    to[0] = (uint8_t)(v >> 8);
+    to[1] = (uint8_t)v;
+    return to + 2;
+}
+
+static uint8_t *put32(uint8_t *to, uint32_t v)
+{
+    to[0] = (uint8_t)(v >> 24);
+    to[1] = (uint8_t)(v >> 16);
+    to[2] = (uint8_t)(v >> 8);
+    to[3] = (uint8_t)v;
+    return to + 4;
+}
+
+static uint8_t *put64(uint8_t *to, uint64_t v)
+{
+    return put32(put32(to, (uint32_t)(v >> 32)), (uint32_t)v);
+}
+
+static uint16_t get16(const uint8_t *from)
+{
+    return (uint16_t)((unsigned)from[0] << 8 | from[1]);
+}
+
+static uint32_t get32(const uint8_t *from)
+{
+    return (uint32_t)from[0] << 24 | (uint32_t)from[1] << 16 | (uint32_t)from[2] << 8 | from[3];
+}
+
+static uint64_t get64(const uint8_t *from)
+{
+    return (uint64_t)get32(from) << 32 | get32(from + 4);
+}
+
+/* ---- Members of one width ---- */
+
+static uint8_t *put_members(uint8_t *to, const uint8_t *from, unsigned width, size_t count)
+{
+    uint16_t v16;
+    uint32_t v32;
+    uint64_t v64;
+
+    if (width == 4) { /* by far the most */
+        for (size_t i = 0; i < count; i++) {
+            memcpy(&v32, from + 4 * i, sizeof v32);
+            to = put32(to, v32);
+        }
+        return to;
+    }
+    for (size_t i = 0; i < count; i++, from += width) {
+        if (width == 8) {
+            memcpy(&v64, from, sizeof v64);
+            to = put64(to, v64);
+        } else if (width == 2) {
+            memcpy(&v16, from, sizeof v16);
+            to = put16(to, v16);
+        } else {
+            *to++ = *from;
+        }
+    }
+    return to;
+}
+
+static const uint8_t *get_members(const uint8_t *from, uint8_t *to, unsigned width, size_t count)
+{
+    uint16_t v16;
+    uint32_t v32;
+    uint64_t v64;
+
+    if (width == 4) {
+        for (size_t i = 0; i < count; i++) {
+            v32 = get32(from + 4 * i);
+            memcpy(to + 4 * i, &v32, sizeof v32);
+        }
+        return from + 4 * count;
+    }
+    for (size_t i = 0; i < count; i++, from += width, to += width) {
+        if (width == 8) {
+            v64 = get64(from);
+            memcpy(to, &v64, sizeof v64);
+        } else if (width == 2) {
+            v16 = get16(from);
+            memcpy(to, &v16, sizeof v16);
+        } else {
+            *to = *from;
+        }
+    }
+    return from;
+}
+
+/* ---- Structs ---- */
+
+static uint8_t *put_struct(uint8_t *to, const uint8_t *from, const struct message_layout *layout)
+{
+    const struct message_run *run = rho_message_runs + layout->runs.first;
+
+    for (unsigned i = 0; i < layout->runs.count; i++, run++) {
+        to = put_members(to, from + run->offset, run->width, run->count);
+    }
+    return to;
+}
+
+static const uint8_t *get_struct(const uint8_t *from, uint8_t *to,
+                                 const struct message_layout *layout)
+{
+    const struct message_run *run = rho_message_runs + layout->runs.first;
+
+    for (unsigned i = 0; i < layout->runs.count; i++, run++) {
+        from = get_members(from, to + run->offset, run->width, run->count);
+    }
+    return from;
+}
+
+/* The list's elements are one run each without gaps: the list is one long run. */
+static int is_flat(const struct message_format *format)
+{
+    return format->element.runs.count == 1 && format->element.wire_bytes == format->element_bytes;
+}
+
+static uint8_t *put_list(uint8_t *to, const uint8_t *list, const struct message_format *format,
+                         size_t count)
+{
+    const struct message_run *run = rho_message_runs + format->element.runs.first;
+
+    if (is_flat(format)) {
+        return put_members(to, list, run->width, count * run->count);
+    }
+    for (size_t i = 0; i < count; i++) {
+        to = put_struct(to, list + i * format->element_bytes, &format->element);
+    }
+    return to;
+}
+
+static void get_list(const uint8_t *from, uint8_t *list, const struct message_format *format,
+                     size_t count)
+{
+    const struct message_run *run = rho_message_runs + format->element.runs.first;
+
+    if (is_flat(format)) {
+        (void)get_members(from, list, run->width, count * run->count);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        from = get_struct(from, list + i * format->element_bytes, &format->element);
+    }
+}
+
+static int16_t read_count(const struct message_format *format, const uint8_t *message)
+{
+    int16_t count = 0;
+
+    if (format->max > 0) {
+        memcpy(&count, message + format->count_offset, sizeof count);
+    }
+    return count;
+}
+
+/* ---- Encode ---- */
+
+static size_t head_bytes(const struct message_format *format)
+{
+    return MESSAGE_FINGERPRINT_BYTES + format->head.wire_bytes +
+           (format->max > 0 ? MESSAGE_COUNT_BYTES : 0u);
+}
+
+static uint8_t *put_head(uint8_t *to, const uint8_t *message, const struct message_format *format,
+                         uint16_t count)
+{
+    to = put_struct(put64(to, format->fingerprint), message, &format->head);
+    return format->max > 0 ? put16(to, count) : to;
+}
+
+enum rho_status rho_message_encode(const struct message_format *format, const void *message,
+                                   uint8_t *buffer, size_t capacity, size_t *size)
+{
+    const uint8_t *bytes = message;
+    size_t count, total;
+    uint8_t *to;
+
+    if (!message || !buffer || !size) {
+        return RHO_ERROR_NULL;
+    }
+    if (read_count(format, bytes) < 0 || read_count(format, bytes) > format->max) {
+        return RHO_ERROR_COUNT;
+    }
+    count = (size_t)read_count(format, bytes);
+    total = head_bytes(format) + count * format->element.wire_bytes;
+    if (total > capacity) {
+        return RHO_ERROR_CAPACITY;
+    }
+    to = put_head(buffer, bytes, format, (uint16_t)count);
+    if (count > 0) {
+        (void)put_list(to, bytes + format->list_offset, format, count);
+    }
+    *size = total;
+    return RHO_OK;
+}
+
+/* ---- Encode piece by piece ---- */
+
+enum rho_status rho_message_begin(const struct message_format *format,
+                                  struct rho_message_writer *writer, uint8_t *buffer,
+                                  size_t capacity, const void *head)
+{
+    if (!writer || !buffer || !head) {
+        return RHO_ERROR_NULL;
+    }
+    if (head_bytes(format) > capacity) {
+        return RHO_ERROR_CAPACITY;
+    }
+    (void)put_head(buffer, head, format, 0);
+    *writer = (struct rho_message_writer){.buffer = buffer,
+                                          .capacity = capacity,
+                                          .size = head_bytes(format),
+                                          .fingerprint = format->fingerprint};
+    return RHO_OK;
+}
+
+enum rho_status rho_message_add(const struct message_format *format,
+                                struct rho_message_writer *writer, const void *element)
+{
+    if (!writer || !element) {
+        return RHO_ERROR_NULL;
+    }
+    if (writer->fingerprint != format->fingerprint) {
+        return RHO_ERROR_STATE;
+    }
+    if (writer->count >= format->max ||
+        writer->capacity - writer->size < format->element.wire_bytes) {
+        return RHO_ERROR_CAPACITY;
+    }
+    (void)put_list(writer->buffer + writer->size, element, format, 1);
+    writer->size += format->element.wire_bytes;
+    writer->count++;
+    (void)put16(writer->buffer + head_bytes(format) - MESSAGE_COUNT_BYTES, writer->count);
+    return RHO_OK;
+}
+
+enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size)
+{
+    if (!writer || !size) {
+        return RHO_ERROR_NULL;
+    }
+    if (!writer->buffer) {
+        return RHO_ERROR_STATE;
+    }
+    *size = writer->size;
+    *writer = (struct rho_message_writer){.buffer = NULL};
+    return RHO_OK;
+}
+
+/* ---- Decode ---- */
+
+/* Everything that can be wrong is seen here, before anything is written. */
+static enum rho_status check_bytes(const struct message_format *format, const uint8_t *data,
+                                   size_t size, size_t *count)
+{
+    size_t head = head_bytes(format), rest;
+
+    *count = 0;
+    if (size < MESSAGE_FINGERPRINT_BYTES) {
+        return RHO_ERROR_SHORT;
+    }
+    if (get64(data) != format->fingerprint) {
+        return RHO_ERROR_TYPE;
+    }
+    if (size < head) {
+        return RHO_ERROR_SHORT;
+    }
+    if (format->max > 0) {
+        *count = get16(data + head - MESSAGE_COUNT_BYTES); /* negative ones are above 32767 */
+    }
+    if (*count > format->max) {
+        return RHO_ERROR_COUNT;
+    }
+    rest = *count * format->element.wire_bytes;
+    return size - head < rest ? RHO_ERROR_SHORT : size - head > rest ? RHO_ERROR_TRAILING : RHO_OK;
+}
+
+enum rho_status rho_message_decode(const struct message_format *format, const uint8_t *data,
+                                   size_t size, void *message)
+{
+    uint8_t *bytes = message;
+    enum rho_status status;
+    const uint8_t *from;
+    int16_t stored;
+    size_t count;
+
+    if (!data || !message) {
+        return RHO_ERROR_NULL;
+    }
+    status = check_bytes(format, data, size, &count);
+    if (status != RHO_OK) {
+        return status;
+    }
+    from = get_struct(data + MESSAGE_FINGERPRINT_BYTES, bytes, &format->head);
+    if (format->max > 0) {
+        stored = (int16_t)count;
+        memcpy(bytes + format->count_offset, &stored, sizeof stored);
+        get_list(from + MESSAGE_COUNT_BYTES, bytes + format->list_offset, format, count);
+    }
+    return RHO_OK;
+}
+
+enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
+{
+    if (data && size >= MESSAGE_FINGERPRINT_BYTES) {
+        for (int i = 0; i < RHO_NUM_MESSAGE_TYPES; i++) {
+            if (get64(data) == rho_message_fingerprint((enum rho_message_type)i)) {
+                return (enum rho_message_type)i;
+            }
+        }
+    }
+    return RHO_NUM_MESSAGE_TYPES;
+}
+
+/* ---- Validate ---- */
+
+static int64_t read_int(const uint8_t *from, unsigned width)
+{
+    int8_t v8;
+    int16_t v16;
+    int32_t v32;
+    int64_t v64;
+
+    switch (width) {
+    case 1:
+        memcpy(&v8, from, sizeof v8);
+        return v8;
+    case 2:
+        memcpy(&v16, from, sizeof v16);
+        return v16;
+    case 4:
+        memcpy(&v32, from, sizeof v32);
+        return v32;
+    default:
+        memcpy(&v64, from, sizeof v64);
+        return v64;
+    }
+}
+
+static int is_int_good(const uint8_t *bytes, const struct message_int_rule *rule)
+{
+    int64_t v = read_int(bytes + rule->offset, rule->width);
+
+    switch (rule->kind) {
+    case MESSAGE_ONE_OF:
+        return v >= 0 && v < 31 && ((uint32_t)rule->max >> v & 1u) != 0;
+    case MESSAGE_BELOW:
+        return v >= rule->min && v < read_int(bytes + rule->max, 2);
+    case MESSAGE_TIME:
+        return v >= -RHO_LIMIT_TIME_US && v <= RHO_LIMIT_TIME_US;
+    default:
+        return v >= rule->min && v <= rule->max;
+    }
+}
+
+#define ALL_GOOD UINT16_MAX
+
+/* Offset of the first member that breaks its rule; ALL_GOOD where none does. */
+static uint16_t first_bad_float(const uint8_t *bytes, const struct message_float_rule *rule)
+{
+    float v;
+
+    for (unsigned i = 0; i < rule->count; i++) {
+        memcpy(&v, bytes + rule->offset + i * sizeof v, sizeof v);
+        if (!(v >= rule->min && v <= rule->max)) {
+            return (uint16_t)(rule->offset + i * sizeof v);
+        }
+    }
+    return ALL_GOOD;
+}
+
+static uint16_t first_bad(const uint8_t *bytes, const struct message_layout *layout)
+{
+    const struct message_int_rule *ints = rho_message_int_rules + layout->int_rules.first;
+    const struct message_float_rule *floats = rho_message_float_rules + layout->float_rules.first;
+    uint16_t bad = ALL_GOOD;
+
+    for (unsigned i = 0; i < layout->int_rules.count && bad == ALL_GOOD; i++) {
+        if (!is_int_good(bytes, &ints[i])) {
+            bad = ints[i].offset;
+        }
+    }
+    for (unsigned i = 0; i < layout->float_rules.count && bad == ALL_GOOD; i++) {
+        bad = first_bad_float(bytes, &floats[i]);
+    }
+    return bad;
+}
+
+static enum rho_status refuse(enum rho_status status, struct rho_message_place *place,
+                              uint16_t offset, int element)
+{
+    if (place) {
+        *place = (struct rho_message_place){offset, (int16_t)element};
+    }
+    return status;
+}
+
+enum rho_status rho_message_validate(const struct message_format *format, const void *message,
+                                     struct rho_message_place *place)
+{
+    const uint8_t *bytes = message;
+    uint16_t bad;
+    int count;
+
+    if (!message) {
+        return RHO_ERROR_NULL;
+    }
+    count = read_count(format, bytes);
+    if (count < 0 || count > format->max) {
+        return refuse(RHO_ERROR_COUNT, place, format->count_offset, -1);
+    }
+    bad = first_bad(bytes, &format->head);
+    if (bad != ALL_GOOD) {
+        return refuse(RHO_ERROR_VALUE, place, bad, -1);
+    }
+    for (int i = 0; i < count; i++) {
+        bad = first_bad(bytes + format->list_offset + (size_t)i * format->element_bytes,
+                        &format->element);
+        if (bad != ALL_GOOD) {
+            return refuse(RHO_ERROR_VALUE, place, bad, i);
+        }
+    }
+    return RHO_OK;
+}

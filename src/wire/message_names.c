@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: MIT */
+/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
+/* clang-format off */
+/* Apart from the codec, so that firmware that names no member does not carry the names. */
+#include "rhotrack/message.h"
+
+/* Members in their order. */
+struct name {
+    uint16_t offset;
+    char text[21];
+};
+
+/* The last member that begins at the offset or before; arrays are one member. */
+static const char *find(const struct name *names, unsigned count, uint16_t offset)
+{
+    unsigned i = 0;
+
+    while (i + 1 < count && names[i + 1].offset <= offset) {
+        i++;
+    }
+    return names[i].text;
+}
+
+static const struct name peak_names[] = {
+    {offsetof(struct rho_message_peak, rho_m), "rho_m"},
+    {offsetof(struct rho_message_peak, theta_rad), "theta_rad"},
+    {offsetof(struct rho_message_peak, speed_mps), "speed_mps"},
+    {offsetof(struct rho_message_peak, score_nat), "score_nat"},
+    {offsetof(struct rho_message_peak, scans_hit), "scans_hit"},
+    {offsetof(struct rho_message_peak, sensor_pairs), "sensor_pairs"},
+};
+
+static const struct name plot_names[] = {
+    {offsetof(struct rho_message_plot, dt_us), "dt_us"},
+    {offsetof(struct rho_message_plot, x_m), "x_m"},
+    {offsetof(struct rho_message_plot, y_m), "y_m"},
+    {offsetof(struct rho_message_plot, z_m), "z_m"},
+    {offsetof(struct rho_message_plot, vx_mps), "vx_mps"},
+    {offsetof(struct rho_message_plot, vy_mps), "vy_mps"},
+    {offsetof(struct rho_message_plot, vz_mps), "vz_mps"},
+    {offsetof(struct rho_message_plot, sigma_m), "sigma_m"},
+    {offsetof(struct rho_message_plot, sigma_mps), "sigma_mps"},
+    {offsetof(struct rho_message_plot, snr_db), "snr_db"},
+};
+
+static const struct name polar_plot_names[] = {
+    {offsetof(struct rho_message_polar_plot, dt_us), "dt_us"},
+    {offsetof(struct rho_message_polar_plot, range_m), "range_m"},
+    {offsetof(struct rho_message_polar_plot, azimuth_rad), "azimuth_rad"},
+    {offsetof(struct rho_message_polar_plot, elevation_rad), "elevation_rad"},
+    {offsetof(struct rho_message_polar_plot, range_rate_mps), "range_rate_mps"},
+    {offsetof(struct rho_message_polar_plot, snr_db), "snr_db"},
+};
+
+static const struct name status_names[] = {
+    {offsetof(struct rho_message_status, utime), "utime"},
+    {offsetof(struct rho_message_status, scan), "scan"},
+    {offsetof(struct rho_message_status, epoch), "epoch"},
+    {offsetof(struct rho_message_status, scans_accepted), "scans_accepted"},
+    {offsetof(struct rho_message_status, scans_late), "scans_late"},
+    {offsetof(struct rho_message_status, scans_duplicate), "scans_duplicate"},
+    {offsetof(struct rho_message_status, scans_lost), "scans_lost"},
+    {offsetof(struct rho_message_status, scans_bad), "scans_bad"},
+    {offsetof(struct rho_message_status, messages_bad), "messages_bad"},
+    {offsetof(struct rho_message_status, messages_wrong_type), "messages_wrong_type"},
+    {offsetof(struct rho_message_status, messages_flooded), "messages_flooded"},
+    {offsetof(struct rho_message_status, frames_incomplete), "frames_incomplete"},
+    {offsetof(struct rho_message_status, scans_incomplete), "scans_incomplete"},
+    {offsetof(struct rho_message_status, fragments_refused), "fragments_refused"},
+    {offsetof(struct rho_message_status, clock_jumps), "clock_jumps"},
+    {offsetof(struct rho_message_status, sensor_restarts), "sensor_restarts"},
+    {offsetof(struct rho_message_status, plots_in), "plots_in"},
+    {offsetof(struct rho_message_status, plots_claimed), "plots_claimed"},
+    {offsetof(struct rho_message_status, plots_held), "plots_held"},
+    {offsetof(struct rho_message_status, plots_initiated), "plots_initiated"},
+    {offsetof(struct rho_message_status, plots_clutter), "plots_clutter"},
+    {offsetof(struct rho_message_status, inputs_stale), "inputs_stale"},
+    {offsetof(struct rho_message_status, inputs_invalid), "inputs_invalid"},
+    {offsetof(struct rho_message_status, inputs_no_room), "inputs_no_room"},
+    {offsetof(struct rho_message_status, bearings_in), "bearings_in"},
+    {offsetof(struct rho_message_status, ghosts_pruned), "ghosts_pruned"},
+    {offsetof(struct rho_message_status, tracks_tentative), "tracks_tentative"},
+    {offsetof(struct rho_message_status, tracks_confirmed), "tracks_confirmed"},
+    {offsetof(struct rho_message_status, tracks_coasting), "tracks_coasting"},
+    {offsetof(struct rho_message_status, step_us), "step_us"},
+    {offsetof(struct rho_message_status, step_max_us), "step_max_us"},
+    {offsetof(struct rho_message_status, clutter_per_km2), "clutter_per_km2"},
+    {offsetof(struct rho_message_status, origin_lat_1e7deg), "origin_lat_1e7deg"},
+    {offsetof(struct rho_message_status, origin_lon_1e7deg), "origin_lon_1e7deg"},
+    {offsetof(struct rho_message_status, origin_alt_mm), "origin_alt_mm"},
+};
+
+static const struct name track_names[] = {
+    {offsetof(struct rho_message_track, track_id), "track_id"},
+    {offsetof(struct rho_message_track, status), "status"},
+    {offsetof(struct rho_message_track, hits), "hits"},
+    {offsetof(struct rho_message_track, misses), "misses"},
+    {offsetof(struct rho_message_track, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_track, plot), "plot"},
+    {offsetof(struct rho_message_track, update_age_us), "update_age_us"},
+    {offsetof(struct rho_message_track, x_m), "x_m"},
+    {offsetof(struct rho_message_track, y_m), "y_m"},
+    {offsetof(struct rho_message_track, z_m), "z_m"},
+    {offsetof(struct rho_message_track, vx_mps), "vx_mps"},
+    {offsetof(struct rho_message_track, vy_mps), "vy_mps"},
+    {offsetof(struct rho_message_track, vz_mps), "vz_mps"},
+    {offsetof(struct rho_message_track, ax_mps2), "ax_mps2"},
+    {offsetof(struct rho_message_track, ay_mps2), "ay_mps2"},
+    {offsetof(struct rho_message_track, az_mps2), "az_mps2"},
+    {offsetof(struct rho_message_track, score_nat), "score_nat"},
+    {offsetof(struct rho_message_track, maneuver_probability), "maneuver_probability"},
+    {offsetof(struct rho_message_track, covariance), "covariance"},
+};
+
+static const struct name truth_names[] = {
+    {offsetof(struct rho_message_truth, target_id), "target_id"},
+    {offsetof(struct rho_message_truth, x_m), "x_m"},
+    {offsetof(struct rho_message_truth, y_m), "y_m"},
+    {offsetof(struct rho_message_truth, z_m), "z_m"},
+    {offsetof(struct rho_message_truth, vx_mps), "vx_mps"},
+    {offsetof(struct rho_message_truth, vy_mps), "vy_mps"},
+    {offsetof(struct rho_message_truth, vz_mps), "vz_mps"},
+};
+
+static const struct name bearing_scan_names[] = {
+    {offsetof(struct rho_message_bearing_scan, utime), "utime"},
+    {offsetof(struct rho_message_bearing_scan, scan), "scan"},
+    {offsetof(struct rho_message_bearing_scan, epoch), "epoch"},
+    {offsetof(struct rho_message_bearing_scan, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_bearing_scan, sensor_x_m), "sensor_x_m"},
+    {offsetof(struct rho_message_bearing_scan, sensor_y_m), "sensor_y_m"},
+    {offsetof(struct rho_message_bearing_scan, sigma_rad), "sigma_rad"},
+    {offsetof(struct rho_message_bearing_scan, num_bearings), "num_bearings"},
+    {offsetof(struct rho_message_bearing_scan, bearing_rad), "bearing_rad"},
+};
+
+static const struct name peak_list_names[] = {
+    {offsetof(struct rho_message_peak_list, utime), "utime"},
+    {offsetof(struct rho_message_peak_list, scan), "scan"},
+    {offsetof(struct rho_message_peak_list, num_peaks), "num_peaks"},
+    {offsetof(struct rho_message_peak_list, peaks), "peaks"},
+};
+
+static const struct name plot_scan_names[] = {
+    {offsetof(struct rho_message_plot_scan, utime), "utime"},
+    {offsetof(struct rho_message_plot_scan, scan), "scan"},
+    {offsetof(struct rho_message_plot_scan, epoch), "epoch"},
+    {offsetof(struct rho_message_plot_scan, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_plot_scan, kind), "kind"},
+    {offsetof(struct rho_message_plot_scan, part), "part"},
+    {offsetof(struct rho_message_plot_scan, num_parts), "num_parts"},
+    {offsetof(struct rho_message_plot_scan, sector_from_rad), "sector_from_rad"},
+    {offsetof(struct rho_message_plot_scan, sector_to_rad), "sector_to_rad"},
+    {offsetof(struct rho_message_plot_scan, num_plots), "num_plots"},
+    {offsetof(struct rho_message_plot_scan, plots), "plots"},
+};
+
+static const struct name polar_scan_names[] = {
+    {offsetof(struct rho_message_polar_scan, utime), "utime"},
+    {offsetof(struct rho_message_polar_scan, scan), "scan"},
+    {offsetof(struct rho_message_polar_scan, epoch), "epoch"},
+    {offsetof(struct rho_message_polar_scan, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_polar_scan, has_elevation), "has_elevation"},
+    {offsetof(struct rho_message_polar_scan, has_range_rate), "has_range_rate"},
+    {offsetof(struct rho_message_polar_scan, part), "part"},
+    {offsetof(struct rho_message_polar_scan, num_parts), "num_parts"},
+    {offsetof(struct rho_message_polar_scan, sensor_x_m), "sensor_x_m"},
+    {offsetof(struct rho_message_polar_scan, sensor_y_m), "sensor_y_m"},
+    {offsetof(struct rho_message_polar_scan, sensor_z_m), "sensor_z_m"},
+    {offsetof(struct rho_message_polar_scan, sigma_range_m), "sigma_range_m"},
+    {offsetof(struct rho_message_polar_scan, sigma_azimuth_rad), "sigma_azimuth_rad"},
+    {offsetof(struct rho_message_polar_scan, sigma_elevation_rad), "sigma_elevation_rad"},
+    {offsetof(struct rho_message_polar_scan, sigma_range_rate_mps), "sigma_range_rate_mps"},
+    {offsetof(struct rho_message_polar_scan, sector_from_rad), "sector_from_rad"},
+    {offsetof(struct rho_message_polar_scan, sector_to_rad), "sector_to_rad"},
+    {offsetof(struct rho_message_polar_scan, num_polar_plots), "num_polar_plots"},
+    {offsetof(struct rho_message_polar_scan, polar_plots), "polar_plots"},
+};
+
+static const struct name track_list_names[] = {
+    {offsetof(struct rho_message_track_list, utime), "utime"},
+    {offsetof(struct rho_message_track_list, scan), "scan"},
+    {offsetof(struct rho_message_track_list, epoch), "epoch"},
+    {offsetof(struct rho_message_track_list, num_tracks_total), "num_tracks_total"},
+    {offsetof(struct rho_message_track_list, part), "part"},
+    {offsetof(struct rho_message_track_list, num_parts), "num_parts"},
+    {offsetof(struct rho_message_track_list, num_tracks), "num_tracks"},
+    {offsetof(struct rho_message_track_list, tracks), "tracks"},
+};
+
+static const struct name truth_list_names[] = {
+    {offsetof(struct rho_message_truth_list, utime), "utime"},
+    {offsetof(struct rho_message_truth_list, scan), "scan"},
+    {offsetof(struct rho_message_truth_list, part), "part"},
+    {offsetof(struct rho_message_truth_list, num_parts), "num_parts"},
+    {offsetof(struct rho_message_truth_list, num_targets), "num_targets"},
+    {offsetof(struct rho_message_truth_list, targets), "targets"},
+};
+
+const char *rho_message_type_name(enum rho_message_type type)
+{
+    static const char type_names[RHO_NUM_MESSAGE_TYPES][15] = {
+        "peak_t",
+        "plot_t",
+        "polar_plot_t",
+        "status_t",
+        "track_t",
+        "truth_t",
+        "bearing_scan_t",
+        "peak_list_t",
+        "plot_scan_t",
+        "polar_scan_t",
+        "track_list_t",
+        "truth_list_t",
+    };
+
+    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : "unknown";
+}
+
+const char *rho_message_peak_field(const struct rho_message_place *place)
+{
+    return place ? find(peak_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_plot_field(const struct rho_message_place *place)
+{
+    return place ? find(plot_names, 10, place->offset) : "unknown";
+}
+
+const char *rho_message_polar_plot_field(const struct rho_message_place *place)
+{
+    return place ? find(polar_plot_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_status_field(const struct rho_message_place *place)
+{
+    return place ? find(status_names, 35, place->offset) : "unknown";
+}
+
+const char *rho_message_track_field(const struct rho_message_place *place)
+{
+    return place ? find(track_names, 19, place->offset) : "unknown";
+}
+
+const char *rho_message_truth_field(const struct rho_message_place *place)
+{
+    return place ? find(truth_names, 7, place->offset) : "unknown";
+}
+
+const char *rho_message_bearing_scan_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return "bearing_rad";
+    }
+    return place ? find(bearing_scan_names, 9, place->offset) : "unknown";
+}
+
+const char *rho_message_peak_list_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(peak_names, 6, place->offset);
+    }
+    return place ? find(peak_list_names, 4, place->offset) : "unknown";
+}
+
+const char *rho_message_plot_scan_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(plot_names, 10, place->offset);
+    }
+    return place ? find(plot_scan_names, 11, place->offset) : "unknown";
+}
+
+const char *rho_message_polar_scan_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(polar_plot_names, 6, place->offset);
+    }
+    return place ? find(polar_scan_names, 19, place->offset) : "unknown";
+}
+
+const char *rho_message_track_list_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(track_names, 19, place->offset);
+    }
+    return place ? find(track_list_names, 8, place->offset) : "unknown";
+}
+
+const char *rho_message_truth_list_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(truth_names, 7, place->offset);
+    }
+    return place ? find(truth_list_names, 6, place->offset) : "unknown";
+}

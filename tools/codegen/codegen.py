@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Writes the LCM codec of rhotrack from lcm_types/*.lcm: the header, the tables, the names, and the README's table.
+
+Usage: codegen.py [--check] [ROOT]
+--check writes nothing, and names each file that is not what would be written; exit 1 where there is one.
+"""
+import pathlib
+import sys
+import textwrap
+
+import emit_c
+import lcm_types
+
+BEGIN, END = "<!-- made by tools/codegen -->", "<!-- end -->"
+
+
+def readme_table(known):
+    """Channels, sizes and fingerprints, for lcm_types/README.md."""
+    rows = ["| struct | channel | at most | list | bytes at most | fingerprint |", "|---|---|---|---|---|---|"]
+    for struct in known.values():
+        channel, has_sensor = struct.channel
+        channel = f"`{channel}{'<sensor_id>' if has_sensor else ''}`" if channel else "-"
+        most = struct.list_max if struct.list else "-"
+        name = f"`{struct.list.name}`" if struct.list else "-"
+        rows.append(f"| [{struct.name}]({struct.name}.lcm) | {channel} | {most} | {name} | "
+                    f"{lcm_types.max_size(struct, known)} | `{lcm_types.fingerprint(struct, known):016x}` |")
+    return "\n".join(rows)
+
+
+def readme(path, known):
+    """The README with its table made anew; the rest of it is not ours."""
+    text = path.read_text(encoding="utf-8")
+    if BEGIN not in text or END not in text:
+        sys.exit(f"{path}: no lines {BEGIN} and {END}")
+    head, rest = text.split(BEGIN, 1)
+    return f"{head}{BEGIN}\n{readme_table(known)}\n{END}{rest.split(END, 1)[1]}"
+
+
+def main():
+    arguments = sys.argv[1:]
+    is_check = "--check" in arguments
+    arguments = [argument for argument in arguments if argument != "--check"]
+    if len(arguments) > 1 or any(argument.startswith("-") for argument in arguments):
+        sys.exit(textwrap.dedent(__doc__).strip())
+    root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent.parent
+    known = lcm_types.read_all(root / "lcm_types")
+    if not known:
+        sys.exit(f"{root / 'lcm_types'}: no .lcm files")
+    emit_c.check_sizes(known)
+    files = {
+        root / "include/rhotrack/message.h": emit_c.header(known),
+        root / "src/wire/message.c": emit_c.source(known),
+        root / "src/wire/message_names.c": emit_c.names(known),
+        root / "lcm_types/README.md": readme(root / "lcm_types/README.md", known),
+    }
+    stale = [path for path, text in files.items()
+             if not path.is_file() or path.read_text(encoding="utf-8") != text]
+    for path in stale:
+        if is_check:
+            print(f"{path.relative_to(root)}: not what lcm_types/ says; run make codegen")
+        else:
+            path.write_text(files[path], encoding="utf-8")
+            print(f"codegen: {path.relative_to(root)}")
+    sys.exit(1 if is_check and stale else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,403 @@
+# SPDX-License-Identifier: MIT
+"""C text of the codec: include/rhotrack/message.h, src/wire/message.c and src/wire/message_names.c."""
+import lcm_types
+from lcm_types import PRIMITIVES, fail
+
+DATAGRAM_BYTES = 1472  # UDP payload of an Ethernet frame
+SHORT_HEADER_BYTES = 8  # of LCM
+CHANNEL_BYTES = 24  # longest channel used, with its end
+FLT_MAX = "FLT_MAX"
+C_TYPES = {"int8_t": "int8_t", "int16_t": "int16_t", "int32_t": "int32_t", "int64_t": "int64_t", "float": "float"}
+
+HEADER_TOP = """\
+/* SPDX-License-Identifier: MIT */
+/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
+/* clang-format off */
+/*
+ * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, nothing that is kept.
+ *
+ * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in their order, big endian,
+ * without gaps. Fields have the names, units and ranges of lcm_types/; capacities are RHO_MESSAGE_<STRUCT>_MAX_<LIST>,
+ * the longest message RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fits one datagram.
+ *
+ * For each struct S:
+ *   rho_message_S_encode    struct to bytes. Errors: NULL, COUNT (of the list: negative, or beyond its MAX), CAPACITY (of
+ *                           the buffer); nothing is written. Values are not looked at: validate does that.
+ *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another fingerprint), COUNT, TRAILING;
+ *                           *message is unchanged. Elements beyond the list's count are unchanged in any case.
+ *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors: NULL, COUNT, VALUE;
+ *                           *place (may be NULL) tells which member, and rho_message_S_field its name.
+ * and where S ends with a list, to write it without a copy of the list:
+ *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the buffer. Errors: NULL,
+ *                           CAPACITY.
+ *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another struct), CAPACITY (of
+ *                           the buffer or the list); the message so far stays whole.
+ *   rho_message_end         how long it is; the writer is empty then.
+ *
+ * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent of one another.
+ * Cost: proportional to the bytes, about 4 instructions a byte (Cortex-M4F). Stack: 120 bytes.
+ */
+#ifndef RHOTRACK_MESSAGE_H
+#define RHOTRACK_MESSAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/status.h"
+"""
+
+HEADER_COMMON = """
+/* A member that validate refuses. */
+struct rho_message_place {
+    uint16_t offset; /* in its struct */
+    int16_t element; /* of the list; -1: before it */
+};
+
+/* A message that is being written; the buffer is the caller's, and holds a whole message at any time. */
+struct rho_message_writer {
+    uint8_t *buffer;
+    size_t capacity, size; /* bytes; size: so far */
+    uint64_t fingerprint;
+    uint16_t count; /* elements so far */
+};
+
+/* Which message this is by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
+enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size);
+
+/* The fingerprint; 0 for any other value. Name as in lcm_types/ ("plot_scan_t"); "unknown" for any other value. */
+uint64_t rho_message_fingerprint(enum rho_message_type type);
+const char *rho_message_type_name(enum rho_message_type type);
+
+/* The length of what was begun and added. Errors: NULL, STATE (not begun). Constant cost. */
+RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
+"""
+
+FUNCTIONS = """\
+RHO_MUST_CHECK enum rho_status rho_message_{s}_encode(
+    const struct rho_message_{s} *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_{s}_decode(
+    const uint8_t *data, size_t size, struct rho_message_{s} *message);
+RHO_MUST_CHECK enum rho_status rho_message_{s}_validate(
+    const struct rho_message_{s} *message, struct rho_message_place *place);
+const char *rho_message_{s}_field(const struct rho_message_place *place);
+"""
+
+WRITER_FUNCTIONS = """\
+RHO_MUST_CHECK enum rho_status rho_message_{s}_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_{s}_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_{s}_add(
+    struct rho_message_writer *writer, const {element} *{one});
+"""
+
+BODIES = """\
+enum rho_status rho_message_{s}_encode(
+    const struct rho_message_{s} *message, uint8_t *buffer, size_t capacity, size_t *size)
+{{
+    return rho_message_encode(&{s}_format, message, buffer, capacity, size);
+}}
+
+enum rho_status rho_message_{s}_decode(
+    const uint8_t *data, size_t size, struct rho_message_{s} *message)
+{{
+    return rho_message_decode(&{s}_format, data, size, message);
+}}
+
+enum rho_status rho_message_{s}_validate(
+    const struct rho_message_{s} *message, struct rho_message_place *place)
+{{
+    return rho_message_validate(&{s}_format, message, place);
+}}
+"""
+
+WRITER_BODIES = """
+enum rho_status rho_message_{s}_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_{s}_head *head)
+{{
+    return rho_message_begin(&{s}_format, writer, buffer, capacity, head);
+}}
+
+enum rho_status rho_message_{s}_add(
+    struct rho_message_writer *writer, const {element} *{one})
+{{
+    return rho_message_add(&{s}_format, writer, {one});
+}}
+"""
+
+
+def check_sizes(known):
+    """Every message must fit one datagram: fragments are lost whole, and refused by the receiver."""
+    for struct in known.values():
+        size = lcm_types.max_size(struct, known) + SHORT_HEADER_BYTES + CHANNEL_BYTES
+        if size > DATAGRAM_BYTES:
+            fail(struct.path, 1, f"{size} bytes with header and channel do not fit a datagram of {DATAGRAM_BYTES}")
+
+
+def type_of(field):
+    return C_TYPES.get(field.type) or f"struct rho_message_{field.type.removesuffix('_t')}"
+
+
+def max_name(struct):
+    return f"RHO_MESSAGE_{struct.short.upper()}_MAX_{struct.list.name.upper()}"
+
+
+# ---- The header ----
+
+def range_text(field):
+    if field.minimum:
+        return f"{field.minimum} .. {field.maximum}"
+    return f"one of {', '.join(field.choices)}" if field.choices else ""
+
+
+def declaration(struct, field):
+    dimension = f"[{max_name(struct) if field.is_list else field.dimension}]" if field.dimension else ""
+    comment = "; ".join(text for text in (field.comment, range_text(field)) if text)
+    return f"    {type_of(field)} {field.name}{dimension};" + (f" /* {comment} */" if comment else "")
+
+
+def constants(struct, known):
+    prefix = f"RHO_MESSAGE_{struct.short.upper()}_"
+    channel, has_sensor = struct.channel
+    lines = []
+    if channel:
+        lines.append(f'#define {prefix}CHANNEL "{channel}"' + (" /* and the sensor's number */" if has_sensor else ""))
+    lines.append(f"#define {prefix}FINGERPRINT UINT64_C(0x{lcm_types.fingerprint(struct, known):016x})")
+    lines.append(f"#define {prefix}MAX_SIZE {lcm_types.max_size(struct, known)}u")
+    lines += [f"#define {prefix}{name} {value}" for name, value in struct.constants.items()]
+    return lines
+
+
+def header_of(struct, known):
+    lines = ["", f"/* ---- {struct.name}: {struct.comment[0]} ---- */"]
+    lines += [f"/* {text} */" for text in struct.comment[1:]]
+    lines += ["", *constants(struct, known), "", f"struct rho_message_{struct.short} {{"]
+    lines += [declaration(struct, field) for field in struct.fields] + ["};", ""]
+    if struct.list:
+        lines += [f"struct rho_message_{struct.short}_head {{"]
+        lines += [f"    {type_of(field)} {field.name};" for field in struct.head] + ["};", ""]
+    text = "\n".join(lines) + FUNCTIONS.format(s=struct.short)
+    return text + (WRITER_FUNCTIONS.format(**writer_names(struct)) if struct.list else "")
+
+
+def writer_names(struct):
+    one = struct.list.name.removesuffix("s") if struct.list.type not in PRIMITIVES else struct.list.name
+    return {"s": struct.short, "element": type_of(struct.list), "one": one}
+
+
+def header(known):
+    lines = [HEADER_TOP, "enum rho_message_type {"]
+    for index, struct in enumerate(known.values()):
+        lines.append(f"    RHO_MESSAGE_TYPE_{struct.short.upper()}" + (" = 0," if index == 0 else ","))
+    lines.append("    RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */\n};")
+    return "\n".join(lines) + "\n" + HEADER_COMMON + "".join(header_of(s, known) for s in known.values()) + "\n#endif\n"
+
+
+# ---- Tables ----
+
+class Tables:
+    """Runs and rules of all structs one after the other; a slice of each belongs to a layout."""
+
+    def __init__(self):
+        self.runs, self.floats, self.ints = [], [], []
+
+    def layout(self, c_struct, fields):
+        firsts = [len(table) for table in (self.runs, self.floats, self.ints)]
+        self.add_runs(c_struct, fields)
+        self.add_floats(c_struct, fields)
+        self.add_ints(c_struct, fields)
+        ends = [len(table) for table in (self.runs, self.floats, self.ints)]
+        slices = ", ".join(f"{{{first}, {end - first}}}" for first, end in zip(firsts, ends))
+        return f"{{{slices}, {lcm_types.wire_size(fields)}}}"
+
+    def single(self, primitive, minimum, maximum):
+        """A list of bare numbers: each element is one member at offset 0."""
+        firsts = (len(self.runs), len(self.floats))
+        self.runs.append(f"{{0, {PRIMITIVES[primitive]}, 1}}")
+        self.floats.append(f"{{0, 1, {minimum}, {maximum}}}")
+        return f"{{{{{firsts[0]}, 1}}, {{{firsts[1]}, 1}}, {{0, 0}}, {PRIMITIVES[primitive]}}}"
+
+    def add_runs(self, c_struct, fields):
+        """Members of one width that follow each other have no gap between them."""
+        group = []
+        for field in [*fields, None]:
+            if group and (field is None or PRIMITIVES[field.type] != PRIMITIVES[group[0].type]):
+                count = sum(member.length for member in group)
+                self.runs.append(f"{{offsetof({c_struct}, {group[0].name}), {PRIMITIVES[group[0].type]}, {count}}}")
+                group = []
+            group.append(field)
+
+    def add_floats(self, c_struct, fields):
+        group = []
+        for field in [*fields, None]:
+            same = field is not None and field.type == "float" and group and limits(field) == limits(group[0])
+            if group and not same:
+                low, high = limits(group[0])
+                count = sum(member.length for member in group)
+                self.floats.append(f"{{offsetof({c_struct}, {group[0].name}), {count}, {low}, {high}}}")
+                group = []
+            if field is not None and field.type == "float":
+                group.append(field)
+
+    def add_ints(self, c_struct, fields):
+        for field in fields:
+            rule = int_rule(c_struct, field, fields)
+            if field.type != "float" and rule:
+                self.ints.append(f"{{offsetof({c_struct}, {field.name}), {PRIMITIVES[field.type]}, {rule}}}")
+
+
+def limits(field):
+    """A float's range as C text; finite where none is said."""
+    if not field.minimum:
+        return f"-{FLT_MAX}", FLT_MAX
+    return tuple(f"{float(text)!r}f" for text in (field.minimum, field.maximum))
+
+
+def int_rule(c_struct, field, fields):
+    """Kind, min and max; None where every value is good."""
+    if field.type == "float" or not (field.minimum or field.choices):
+        return None
+    if field.choices:
+        return "MESSAGE_ONE_OF, 0, " + " | ".join(f"1 << {choice}" for choice in field.choices)
+    if field.maximum.endswith(" - 1"):
+        other = field.maximum.removesuffix(" - 1")
+        if other not in [member.name for member in fields if member.type == "int16_t"]:
+            raise SystemExit(f"{c_struct}: {field.name}: no int16_t {other}")
+        return f"MESSAGE_BELOW, {field.minimum}, offsetof({c_struct}, {other})"
+    if field.type == "int64_t":
+        if int(field.maximum) != 4 * 10**18 or int(field.minimum) != -int(field.maximum):
+            raise SystemExit(f"{c_struct}: {field.name}: a time is within 4000000000000000000 either way")
+        return "MESSAGE_TIME, 0, 0"
+    return f"MESSAGE_RANGE, {field.minimum}, {field.maximum}"
+
+
+def with_values(struct, rule):
+    for name, value in struct.constants.items():
+        rule = rule.replace(f"1 << {name}", f"1 << {value}")
+    return rule
+
+
+# ---- The source ----
+
+def format_of(struct, known, tables):
+    c_struct = f"struct rho_message_{struct.short}"
+    head = tables.layout(c_struct, struct.head)
+    tables.ints = [with_values(struct, rule) for rule in tables.ints]
+    prefix = f"RHO_MESSAGE_{struct.short.upper()}_"
+    if not struct.list:
+        return (f"static const struct message_format {struct.short}_format = {{\n    {prefix}FINGERPRINT, {head},\n"
+                f"    {{{{0, 0}}, {{0, 0}}, {{0, 0}}, 0}}, 0, 0, 0, 0}};\n")
+    return (f"static const struct message_format {struct.short}_format = {{\n    {prefix}FINGERPRINT, {head},\n"
+            f"    {element_of(struct, known, tables)},\n"
+            f"    offsetof({c_struct}, {struct.fields[-2].name}), offsetof({c_struct}, {struct.list.name}),\n"
+            f"    sizeof({type_of(struct.list)}), {max_name(struct)}}};\n")
+
+
+def element_of(struct, known, tables):
+    if struct.list.type in PRIMITIVES:
+        return tables.single(struct.list.type, *limits(struct.list))
+    if struct.list.type not in tables.known_layouts:
+        raise SystemExit(f"{struct.name}: {struct.list.type} comes later")
+    return tables.known_layouts[struct.list.type]
+
+
+def same_place(struct):
+    """The head's members lie where the whole struct's do, so that one table does for both."""
+    last = struct.head[-1].name
+    return (f"typedef char {struct.short}_head_fits[offsetof(struct rho_message_{struct.short}, {last}) ==\n"
+            f"    offsetof(struct rho_message_{struct.short}_head, {last}) ? 1 : -1];\n")
+
+
+def table(name, kind, rows):
+    return f"const struct {kind} {name}[] = {{\n" + "".join(f"    {row},\n" for row in rows) + "};\n"
+
+
+def source(known):
+    tables = Tables()
+    tables.known_layouts = {}
+    formats = []
+    for struct in known.values():
+        text = format_of(struct, known, tables)
+        formats.append(text)
+        if not struct.list:
+            tables.known_layouts[struct.name] = text.split("FINGERPRINT, ")[1].split(",\n")[0]
+    parts = ["/* SPDX-License-Identifier: MIT */\n"
+             "/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */\n/* clang-format off */\n"
+             "#include \"rhotrack/message.h\"\n\n#include <float.h>\n\n#include \"message_codec.h\"\n",
+             table("rho_message_runs", "message_run", tables.runs),
+             table("rho_message_float_rules", "message_float_rule", tables.floats),
+             table("rho_message_int_rules", "message_int_rule", tables.ints),
+             *formats,
+             "".join(same_place(struct) for struct in known.values() if struct.list),
+             fingerprints(known)]
+    for struct in known.values():
+        parts.append(BODIES.format(s=struct.short) +
+                     (WRITER_BODIES.format(**writer_names(struct)) if struct.list else ""))
+    return "\n".join(parts)
+
+
+def fingerprints(known):
+    rows = "".join(f"        RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n" for struct in known.values())
+    return ("uint64_t rho_message_fingerprint(enum rho_message_type type)\n{\n"
+            f"    static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {{\n{rows}    }};\n\n"
+            "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;\n}\n")
+
+
+# ---- Names ----
+
+NAMES_TOP = """\
+/* SPDX-License-Identifier: MIT */
+/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
+/* clang-format off */
+/* Apart from the codec, so that firmware that names no member does not carry the names. */
+#include "rhotrack/message.h"
+
+/* Members in their order. */
+struct name {
+    uint16_t offset;
+    char text[{width}];
+};
+
+/* The last member that begins at the offset or before; arrays are one member. */
+static const char *find(const struct name *names, unsigned count, uint16_t offset)
+{
+    unsigned i = 0;
+
+    while (i + 1 < count && names[i + 1].offset <= offset) {
+        i++;
+    }
+    return names[i].text;
+}
+"""
+
+
+def names_of(struct):
+    rows = "".join(f'    {{offsetof(struct rho_message_{struct.short}, {field.name}), "{field.name}"}},\n'
+                   for field in struct.fields)
+    return f"static const struct name {struct.short}_names[] = {{\n{rows}}};\n"
+
+
+def field_function(struct, known):
+    """The name of the member at a place; of a list's element, the element's member."""
+    short = struct.short
+    body = ""
+    if struct.list and struct.list.type in known:
+        other = known[struct.list.type].short
+        body = (f"    if (place && place->element >= 0) {{\n        return find({other}_names, "
+                f"{len(known[struct.list.type].fields)}, place->offset);\n    }}\n")
+    elif struct.list:
+        body = f"    if (place && place->element >= 0) {{\n        return \"{struct.list.name}\";\n    }}\n"
+    return (f"const char *rho_message_{short}_field(const struct rho_message_place *place)\n{{\n{body}"
+            f"    return place ? find({short}_names, {len(struct.fields)}, place->offset) : \"unknown\";\n}}\n")
+
+
+def names(known):
+    width = max(len(field.name) for struct in known.values() for field in struct.fields) + 1
+    type_width = max(len(name) for name in known) + 1
+    rows = "".join(f'        "{name}",\n' for name in known)
+    return "\n".join([
+        NAMES_TOP.replace("{width}", str(width)), *[names_of(struct) for struct in known.values()],
+        "const char *rho_message_type_name(enum rho_message_type type)\n{\n"
+        f"    static const char type_names[RHO_NUM_MESSAGE_TYPES][{type_width}] = {{\n{rows}    }};\n\n"
+        "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : \"unknown\";\n}\n",
+        *[field_function(struct, known) for struct in known.values()]])

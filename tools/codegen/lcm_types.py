@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: MIT
+"""Reads the .lcm files of rhotrack: structs, constants, fields with the ranges that their comments give, fingerprints.
+
+What is read is the part of the LCM type language that lcm_types/ uses: one struct a file, primitive numbers, constants,
+fixed arrays of primitives, and at most one list, which ends the struct and stands right behind the int16_t that counts it.
+A field's trailing comment may end with its range, [min .. max], or with the constants it may have, {A, B}.
+"""
+import dataclasses
+import pathlib
+import re
+import sys
+
+PRIMITIVES = {"int8_t": 1, "int16_t": 2, "int32_t": 4, "int64_t": 8, "float": 4}
+NAME = r"[A-Za-z_]\w*"
+MASK = (1 << 64) - 1
+
+
+@dataclasses.dataclass
+class Field:
+    """One member. dimension: "" for a scalar, a number for an array, the counting member's name for the list."""
+    type: str
+    name: str
+    dimension: str
+    comment: str
+    minimum: str = ""
+    maximum: str = ""
+    choices: tuple = ()
+
+    @property
+    def is_list(self):
+        return bool(self.dimension) and not self.dimension.isdigit()
+
+    @property
+    def length(self):
+        return int(self.dimension) if self.dimension.isdigit() else 1
+
+
+@dataclasses.dataclass
+class Struct:
+    path: pathlib.Path
+    comment: list
+    package: str
+    name: str
+    constants: dict
+    fields: list
+
+    @property
+    def short(self):
+        return self.name.removesuffix("_t")
+
+    @property
+    def list(self):
+        """The list at its end, or None."""
+        return self.fields[-1] if self.fields[-1].is_list else None
+
+    @property
+    def head(self):
+        """The fields before the list and its count."""
+        return self.fields[:-2] if self.list else self.fields
+
+    @property
+    def list_max(self):
+        return self.constants["MAX_" + self.list.name.upper()]
+
+    @property
+    def channel(self):
+        """The channel that its comment names, without the sensor's number; and whether that follows."""
+        found = re.search(r"Channel (RHO_\w+?)(<sensor_id>)?\.", " ".join(self.comment))
+        return (found.group(1), bool(found.group(2))) if found else (None, False)
+
+
+def fail(path, line, text):
+    sys.exit(f"{path}:{line}: {text}")
+
+
+def parse_comment(field):
+    """Takes the range or the choices off the end of a field's comment."""
+    ranged = re.search(r"\[(\S+) \.\. ([^\]]+)\]$", field.comment)
+    chosen = re.search(r"\{([^}]+)\}$", field.comment)
+    if ranged:
+        field.minimum, field.maximum = ranged.groups()
+    if chosen:
+        field.choices = tuple(name.strip() for name in chosen.group(1).split(","))
+    for found in (ranged, chosen):
+        if found:
+            field.comment = field.comment[:found.start()].strip().rstrip(",;")
+
+
+def parse_field(path, number, code, comment):
+    found = re.fullmatch(rf"({NAME})\s+({NAME})\s*(?:\[\s*(\w+)\s*\])?", code)
+    if not found:
+        fail(path, number, f"no member that is understood: {code}")
+    field = Field(found.group(1), found.group(2), found.group(3) or "", comment)
+    parse_comment(field)
+    return field
+
+
+def parse_constants(path, number, code):
+    constants = {}
+    found = re.fullmatch(r"const\s+int(?:8|16)_t\s+(.*)", code)
+    for item in found.group(1).split(",") if found else [""]:
+        pair = re.fullmatch(rf"\s*({NAME})\s*=\s*(-?\d+)\s*", item)
+        if not pair:
+            fail(path, number, f"no constant that is understood: {code}")
+        constants[pair.group(1)] = int(pair.group(2))
+    return constants
+
+
+def parse(path):
+    """One file."""
+    struct = Struct(path, [], "", "", {}, [])
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        code, _, comment = line.partition("//")
+        code, comment = code.strip(), comment.strip()
+        if not code:
+            if comment and not struct.package and not comment.startswith("SPDX"):
+                struct.comment.append(comment)
+            continue
+        if code in "{}":
+            continue
+        if code.startswith("struct"):
+            struct.name = code.split()[1]
+            continue
+        if not code.endswith(";"):
+            fail(path, number, f"no ; at the end: {code}")
+        code = code[:-1].strip()
+        if code.startswith("package"):
+            struct.package = code.split()[1]
+        elif code.startswith("const"):
+            struct.constants.update(parse_constants(path, number, code))
+        else:
+            struct.fields.append(parse_field(path, number, code, comment))
+    check(struct)
+    return struct
+
+
+def check(struct):
+    """The rules that keep encoders and decoders simple, and stock tools working."""
+    if struct.path.stem != struct.name or not struct.name.endswith("_t"):
+        fail(struct.path, 1, f"struct {struct.name} belongs into {struct.name}.lcm, and ends with _t")
+    for field in struct.fields:
+        if field.is_list and field is not struct.fields[-1]:
+            fail(struct.path, 1, f"{field.name}: a list must be the last member")
+        if field.type not in PRIMITIVES and not field.is_list:
+            fail(struct.path, 1, f"{field.name}: only a list may have members of its own, and no {field.type}")
+        for choice in field.choices:
+            if choice not in struct.constants:
+                fail(struct.path, 1, f"{field.name}: {choice} is no constant of {struct.name}")
+    if struct.list:
+        counter = struct.fields[-2]
+        if counter.name != struct.list.dimension or counter.type != "int16_t":
+            fail(struct.path, 1, f"{struct.list.name}: its int16_t count must stand right before it")
+        if "MAX_" + struct.list.name.upper() not in struct.constants:
+            fail(struct.path, 1, f"const int16_t MAX_{struct.list.name.upper()} is missing")
+
+
+def read_all(folder):
+    """All structs by name, those without lists first, else in the order of the alphabet."""
+    structs = [parse(path) for path in sorted(folder.glob("*.lcm"))]
+    structs.sort(key=lambda struct: (struct.list is not None, struct.name))
+    known = {}
+    for struct in structs:
+        for field in struct.fields:
+            if field.type not in PRIMITIVES and field.type not in known:
+                fail(struct.path, 1, f"{field.name}: there is no struct {field.type} without a list")
+        known[struct.name] = struct
+    return known
+
+
+# ---- Sizes on the wire ----
+
+def wire_size(fields):
+    return sum(PRIMITIVES[field.type] * field.length for field in fields)
+
+
+def element_size(struct, known):
+    """Bytes of one member of the list."""
+    kind = struct.list.type
+    return PRIMITIVES[kind] if kind in PRIMITIVES else wire_size(known[kind].fields)
+
+
+def max_size(struct, known):
+    """Bytes of the longest message, fingerprint included."""
+    if not struct.list:
+        return 8 + wire_size(struct.fields)
+    return 8 + wire_size(struct.head) + 2 + struct.list_max * element_size(struct, known)
+
+
+# ---- Fingerprints, as lcm-gen makes them ----
+
+def update(value, char):
+    """One character; the shift to the right keeps the sign, and so does the character's."""
+    signed = value - (1 << 64) if value >> 63 else value
+    char = char - 256 if char > 127 else char
+    return (((value << 8) ^ (signed >> 55)) + char) & MASK
+
+
+def update_text(value, text):
+    data = text.encode()
+    value = update(value, len(data))
+    for char in data:
+        value = update(value, char)
+    return value
+
+
+def fingerprint(struct, known):
+    """Names and types of the members, not the struct's own name, constants or comments."""
+    value = 0x12345678
+    for field in struct.fields:
+        value = update_text(value, field.name)
+        if field.type in PRIMITIVES:
+            value = update_text(value, field.type)
+        value = update(value, 1 if field.dimension else 0)
+        if field.dimension:
+            value = update(value, 1 if field.is_list else 0)
+            value = update_text(value, field.dimension)
+    for field in struct.fields:
+        if field.type not in PRIMITIVES:
+            value = (value + fingerprint(known[field.type], known)) & MASK
+    return ((value << 1) | (value >> 63)) & MASK
