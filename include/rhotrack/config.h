@@ -161,6 +161,17 @@
 #define RHO_MAX_SENSORS RHO_CONFIG_PICK(8, 64)
 #endif
 
+/* Scans of sensors that are put together, or wait for their turn, at a time. RAM: 56 bytes a plot of RHO_MAX_PLOTS each. With
+ * 1 the parts of two sensors' scans that come at the same time drive each other out. 1 .. 64. */
+#ifndef RHO_MAX_OPEN_SCANS
+#define RHO_MAX_OPEN_SCANS RHO_CONFIG_PICK(2, 16)
+#endif
+
+/* Messages that one scan may be spread over; scans of more are refused. RAM: 2 bytes a part and open scan. 1 .. 32767. */
+#ifndef RHO_MAX_PARTS
+#define RHO_MAX_PARTS RHO_CONFIG_PICK(16, 512)
+#endif
+
 #if RHO_MAX_SCANS < 3 || RHO_MAX_SCANS > 12
 #error "RHO_MAX_SCANS must be 3 .. 12"
 #endif
@@ -247,6 +258,12 @@
 #if RHO_MAX_SENSORS < 1 || RHO_MAX_SENSORS > 256
 #error "RHO_MAX_SENSORS must be 1 .. 256"
 #endif
+#if RHO_MAX_OPEN_SCANS < 1 || RHO_MAX_OPEN_SCANS > 64
+#error "RHO_MAX_OPEN_SCANS must be 1 .. 64"
+#endif
+#if RHO_MAX_PARTS < 1 || RHO_MAX_PARTS > 32767
+#error "RHO_MAX_PARTS must be 1 .. 32767"
+#endif
 
 /*
  * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c,
@@ -274,5 +291,8 @@
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (480 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \
      RHO_RAM_HYPOTHESES_BYTES + 640)
+#define RHO_RAM_FEED_BYTES                                                                         \
+    (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
+     164 * RHO_MAX_SENSORS + 400)
 
 #endif

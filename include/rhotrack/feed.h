@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * feed: messages of sensors in, whole scans out, in the order of time; what is lost, late, double or wrong is counted.
+ *
+ *     while (a message has come) {
+ *         while (rho_feed_take(&feed, channel, data, size, now_us) == RHO_ERROR_CAPACITY) {
+ *             step what rho_feed_next gives, once, and try again
+ *         }
+ *         while (rho_feed_next(&feed, now_us, &item)) {
+ *             step item
+ *         }
+ *     }
+ *
+ * Nobody is trusted: LCM does not say who sent a message. What a message can do is bounded, and one sensor that fails or
+ * lies leaves the scans of the others as they are.
+ *
+ * Parts      A scan is complete when all its parts are here. It goes out incomplete, and is counted, when a newer scan of
+ *            its sensor begins or hold_us has passed since its last part. Plots are in the order of the parts.
+ * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans of
+ *            different sensors go out in the order of time. With one sensor nothing waits.
+ * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps) and its time
+ *            later, by jump_max_us at most. Numbers that were skipped are lost; 0 or up to 31 lower is double or late.
+ *            Anything else, and another epoch, is refused until follow_scans of them in a row agree: the sensor restarted.
+ * Clock      A scan more than jump_max_us off the time of the last accepted one is refused, so that one wrong clock does
+ *            not make all other sensors late. When more sensors agree on another time than on the present one, that time is
+ *            followed: is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as
+ *            the other, the reception clock decides if it is near one of them, and else who came first.
+ * Flood      More than flood_per_s messages of one sensor in a second are not looked at. Sensors that are not known
+ *            share one such measure. A new sensor takes the place of one that was not heard for longest, never that of one
+ *            that is heard and has proved itself by follow_scans scans.
+ *
+ * Which sensor sent a message is told by its channel: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n>, with n the
+ * message's sensor_id. The reception clock only has to go on; microseconds, any epoch.
+ * The object holds no pointers: a memcpy is a snapshot.
+ */
+#ifndef RHOTRACK_FEED_H
+#define RHOTRACK_FEED_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+/* Numbers that a sensor may skip and still be believed at once. */
+#define RHO_FEED_SKIP_MAX 64
+
+/* Noise where the messages say 0; each above 0 and within the limits of types.h. */
+struct rho_feed_noise {
+    float sigma_m, sigma_mps; /* of plots */
+    float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps; /* polar */
+    float sigma_rad; /* bearings */
+};
+
+/*
+ * What is known of a sensor beforehand. A polar message or bearing says the sensor's place itself; the place here counts for
+ * plots, and for polar messages that say 0, 0, 0. Biases are taken off polar plots and bearings.
+ */
+struct rho_feed_sensor {
+    struct rho_sensor sensor;
+    struct rho_feed_noise noise;
+};
+
+struct rho_feed_config {
+    int64_t
+        hold_us; /* 0 .. 10 s; 0: nothing waits for other sensors, and parts wait for a newer scan alone */
+    int64_t jump_max_us;   /* 1 s .. 1 h */
+    uint32_t flood_per_s;  /* 1 .. 1e6 */
+    uint16_t follow_scans; /* 2 .. 255 */
+    uint16_t is_told; /* 1: items have a sensor also where `other` is all that is known of it */
+    struct rho_feed_sensor
+        other; /* holds for sensors that are not described; its sensor_id is not looked at */
+};
+
+/* Since init; all saturate. */
+struct rho_feed_counters {
+    uint32_t messages_bad;        /* length, count, a value, the sensor's number */
+    uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
+    uint32_t messages_flooded;
+    uint32_t scans_accepted;   /* first parts seen of a scan that is taken */
+    uint32_t scans_late;       /* older than one of the same sensor that was accepted */
+    uint32_t scans_duplicate;  /* scans, or parts of one, that were there before */
+    uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
+    uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers: refused */
+    uint32_t scans_incomplete; /* went out without some of their parts */
+    uint32_t
+        clock_jumps; /* scans refused for their time: far off the sensor's own, or the common clock */
+    uint32_t sensor_restarts; /* new numbers or times followed */
+    uint32_t sensors_no_room; /* messages of more sensors than RHO_MAX_SENSORS */
+    uint32_t
+        plots_no_room; /* of accepted scans beyond RHO_MAX_PLOTS or RHO_MAX_BEARINGS: the last ones */
+};
+
+enum rho_feed_kind { RHO_FEED_PLOTS = 0, RHO_FEED_POLAR, RHO_FEED_BEARINGS, RHO_NUM_FEED_KINDS };
+
+/* Where a sensor's scans have come to. */
+struct rho_feed_place {
+    int64_t time_us;
+    int32_t scan, epoch;
+};
+
+/* One sensor's stream of messages. */
+struct rho_feed_source {
+    struct rho_feed_place place; /* its newest scan whose number was believed */
+    struct rho_feed_place stray; /* the newest that was not */
+    int64_t heard_us;            /* reception clock: its last believed scan */
+    int64_t bucket_us;           /* reception clock: when the bucket was full */
+    uint32_t bucket;    /* messages that may still come before the bucket is filled again */
+    uint32_t seen;      /* bit i: number place.scan - i was there */
+    uint16_t scans;     /* believed; saturates */
+    uint16_t strays;    /* in a row, that agree with each other */
+    uint16_t off_clock; /* scans in a row; saturates; 0: it tells the common time */
+    int16_t sensor_id;
+    uint8_t kind; /* enum rho_feed_kind */
+    uint8_t is_used;
+};
+
+/* A scan that is put together. */
+struct rho_feed_slot {
+    struct rho_feed_place place;
+    int64_t heard_us; /* reception clock: its last part */
+    uint32_t measures;
+    float sector_from_rad, sector_to_rad;
+    struct rho_sensor sensor;
+    uint16_t source; /* index */
+    uint16_t num_parts, parts_here;
+    uint16_t num_inputs; /* plots or bearings that are kept */
+    uint8_t state;       /* private */
+    uint8_t kind;        /* enum rho_feed_kind */
+    uint8_t has_sensor, is_restart;
+    uint16_t
+        parts[RHO_MAX_PARTS]; /* of each part that is here, 1 more than its inputs; 0: missing */
+    struct rho_bearing bearings[RHO_MAX_BEARINGS];
+    struct rho_plot plots[RHO_MAX_PLOTS];
+};
+
+struct rho_feed {
+    uint32_t magic;
+    uint16_t num_known;
+    uint16_t is_pressed; /* a scan found no room: the oldest goes out at the next call */
+    int64_t clock_us;    /* of the newest accepted scan */
+    uint16_t has_clock;
+    uint16_t is_restart; /* the next scan that is accepted is the first on another clock */
+    uint32_t reserved;   /* 0 */
+    struct rho_feed_config config;
+    struct rho_feed_counters counters;
+    struct rho_feed_source stranger; /* its bucket alone */
+    struct rho_feed_source sources[RHO_MAX_SENSORS];
+    struct rho_feed_sensor known[RHO_MAX_SENSORS];
+    struct rho_feed_slot slots[RHO_MAX_OPEN_SCANS];
+};
+
+/* A scan to step. It points into the object. */
+struct rho_feed_item {
+    enum rho_feed_kind kind;
+    struct rho_scan scan;             /* PLOTS, POLAR */
+    struct rho_bearing_scan bearings; /* BEARINGS */
+    /* who saw it, for rho_tracker_set_sensor; has_sensor 0: nothing is known but the defaults */
+    struct rho_sensor sensor;
+    int has_sensor;
+    int is_restart; /* the common clock was set anew: trackers start anew as well, before this scan */
+    uint16_t parts_missing;
+};
+
+/*
+ * hold 20 ms, jump_max 30 s, flood 10 000 a second, follow_scans 3; other sensors: at the origin, looking everywhere, pd 0.9,
+ * no biases; noise 10 m, 1 m/s, 15 m, 3 mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0. Constant cost.
+ */
+void rho_feed_config_default(struct rho_feed_config *config);
+
+/*
+ * Prepares an empty feed; the config is copied.
+ *   size   sizeof(struct rho_feed) of the caller
+ * Errors: NULL, SIZE, CONFIG. Cost: sizeof(feed) bytes cleared.
+ */
+RHO_MUST_CHECK enum rho_status rho_feed_init(struct rho_feed *feed, size_t size,
+                                             const struct rho_feed_config *config);
+
+/*
+ * Describes a sensor, or replaces the description of the same sensor_id: noise, biases, reach.
+ * Errors: NULL, STATE (not initialised), CONFIG (noise outside its limits, a place or bias that is), CAPACITY
+ * (RHO_MAX_SENSORS); nothing is changed. Cost: RHO_MAX_SENSORS.
+ */
+RHO_MUST_CHECK enum rho_status rho_feed_set_sensor(struct rho_feed *feed,
+                                                   const struct rho_feed_sensor *sensor);
+
+/*
+ * Takes one message; any bytes may be given. RHO_OK also where it was refused: a counter has moved.
+ *   channel  ends with NUL
+ *   now_us   reception clock
+ * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel), CAPACITY (no room for another open scan: call
+ * rho_feed_next once, step what it gives, and take the message again); nothing is changed but for that call.
+ * Cost: the message's bytes, RHO_MAX_SENSORS, and where parts come out of order the scan's plots moved.
+ * Stack: 2 KB: the message as a struct.
+ */
+RHO_MUST_CHECK enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel,
+                                             const uint8_t *data, size_t size, int64_t now_us);
+
+/*
+ * The next scan that is due, if there is one; it is valid until the next call of this function. now_us INT64_MAX: all that
+ * is there goes out.
+ * Returns 0 where nothing is due, or feed is not initialised. Cost: RHO_MAX_OPEN_SCANS, RHO_MAX_SENSORS.
+ */
+int rho_feed_next(struct rho_feed *feed, int64_t now_us, struct rho_feed_item *item);
+
+/* When rho_feed_next should be called though no message comes; INT64_MAX: not before one does. Cost: RHO_MAX_OPEN_SCANS. */
+int64_t rho_feed_due_us(const struct rho_feed *feed);
+
+#endif

@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/feed.h"
+
+#include <string.h>
+
+#include "feed_parts.h"
+#include "rhotrack/angle.h"
+#include "rhotrack/measurement.h"
+
+#define MAGIC 0x66656564u
+#define HOLD_MAX_US 10000000
+#define JUMP_MIN_US 1000000
+#define JUMP_MAX_US 3600000000ll
+#define FLOOD_MAX 1000000u
+
+typedef char rho_feed_fits_its_formula[sizeof(struct rho_feed) <= RHO_RAM_FEED_BYTES ? 1 : -1];
+
+static int is_ready(const struct rho_feed *feed)
+{
+    return feed->magic == MAGIC;
+}
+
+/* ---- Configuration ---- */
+
+static int is_sigma(float sigma)
+{
+    return rho_is_within(sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
+}
+
+static int is_sigma_rad(float sigma_rad)
+{
+    return rho_is_within(sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
+}
+
+static int is_noise(const struct rho_feed_noise *noise)
+{
+    return is_sigma(noise->sigma_m) && is_sigma(noise->sigma_mps) &&
+           is_sigma(noise->sigma_range_m) && is_sigma(noise->sigma_range_rate_mps) &&
+           is_sigma_rad(noise->sigma_azimuth_rad) && is_sigma_rad(noise->sigma_elevation_rad) &&
+           is_sigma_rad(noise->sigma_rad);
+}
+
+static int is_known(const struct rho_feed_sensor *known)
+{
+    return is_noise(&known->noise) && rho_measurement_is_sensor(&known->sensor);
+}
+
+static int is_config(const struct rho_feed_config *config)
+{
+    return config->hold_us >= 0 && config->hold_us <= HOLD_MAX_US &&
+           config->jump_max_us >= JUMP_MIN_US && config->jump_max_us <= JUMP_MAX_US &&
+           config->flood_per_s >= 1 && config->flood_per_s <= FLOOD_MAX &&
+           config->follow_scans >= 2 && config->follow_scans <= 255 && is_known(&config->other);
+}
+
+void rho_feed_config_default(struct rho_feed_config *config)
+{
+    *config = (struct rho_feed_config){
+        .hold_us = 20000,
+        .jump_max_us = 30000000,
+        .flood_per_s = 10000,
+        .follow_scans = 3,
+        .other = {.sensor = {.pd = 0.9f, .range_max_m = 2.0f * RHO_LIMIT_POSITION_M},
+                  .noise = {.sigma_m = 10.0f,
+                            .sigma_mps = 1.0f,
+                            .sigma_range_m = 15.0f,
+                            .sigma_azimuth_rad = 0.003f,
+                            .sigma_elevation_rad = 0.003f,
+                            .sigma_range_rate_mps = 1.0f,
+                            .sigma_rad = 0.00175f}},
+    };
+}
+
+enum rho_status rho_feed_init(struct rho_feed *feed, size_t size,
+                              const struct rho_feed_config *config)
+{
+    if (!feed || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *feed) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_config(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    memset(feed, 0, sizeof *feed);
+    memcpy(&feed->config, config, sizeof feed->config);
+    feed->magic = MAGIC;
+    return RHO_OK;
+}
+
+enum rho_status rho_feed_set_sensor(struct rho_feed *feed, const struct rho_feed_sensor *sensor)
+{
+    unsigned i = 0;
+
+    if (!feed || !sensor) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_ready(feed)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!is_known(sensor)) {
+        return RHO_ERROR_CONFIG;
+    }
+    while (i < feed->num_known && feed->known[i].sensor.sensor_id != sensor->sensor.sensor_id) {
+        i++;
+    }
+    if (i == RHO_MAX_SENSORS) {
+        return RHO_ERROR_CAPACITY;
+    }
+    feed->known[i] = *sensor;
+    feed->num_known = (uint16_t)(feed->num_known + (i == feed->num_known));
+    return RHO_OK;
+}
+
+/* ---- Channels ---- */
+
+/* The number behind the prefix, as a sensor writes it: no sign but -, no leading zeros, within int16_t. 0: it is none. */
+static int read_number(const char *text, int16_t *number)
+{
+    int is_negative = text[0] == '-';
+    const char *digits = text + is_negative;
+    int32_t value = 0;
+
+    if (digits[0] == '\0' || (digits[0] == '0' && (digits[1] != '\0' || is_negative))) {
+        return 0;
+    }
+    for (; *digits != '\0'; digits++) {
+        if (*digits < '0' || *digits > '9') {
+            return 0;
+        }
+        value = value * 10 + (*digits - '0');
+        if (value > INT16_MAX + is_negative) {
+            return 0;
+        }
+    }
+    *number = (int16_t)(is_negative ? -value : value);
+    return 1;
+}
+
+static int read_channel(const char *channel, enum rho_feed_kind *kind, int16_t *sensor_id)
+{
+    static const char prefixes[RHO_NUM_FEED_KINDS][14] = {
+        [RHO_FEED_PLOTS] = RHO_MESSAGE_PLOT_SCAN_CHANNEL,
+        [RHO_FEED_POLAR] = RHO_MESSAGE_POLAR_SCAN_CHANNEL,
+        [RHO_FEED_BEARINGS] = RHO_MESSAGE_BEARING_SCAN_CHANNEL,
+    };
+
+    for (unsigned i = 0; i < RHO_NUM_FEED_KINDS; i++) {
+        unsigned length = 0;
+
+        while (prefixes[i][length] != '\0' && channel[length] == prefixes[i][length]) {
+            length++;
+        }
+        if (prefixes[i][length] == '\0') {
+            *kind = (enum rho_feed_kind)i;
+            return read_number(channel + length, sensor_id);
+        }
+    }
+    return 0;
+}
+
+/* ---- Sources ---- */
+
+static struct rho_feed_source *find_source(struct rho_feed *feed, enum rho_feed_kind kind,
+                                           int16_t sensor_id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct rho_feed_source *source = &feed->sources[i];
+
+        if (source->is_used && source->kind == kind && source->sensor_id == sensor_id) {
+            return source;
+        }
+    }
+    return NULL;
+}
+
+static int gives_way(const struct rho_feed *feed, const struct rho_feed_source *source,
+                     int64_t now_us)
+{
+    return source->scans < feed->config.follow_scans ||
+           rho_feed_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us;
+}
+
+/* A free place, or that of the one heard longest ago that may give way; NULL: none. */
+static struct rho_feed_source *find_room(struct rho_feed *feed, int64_t now_us)
+{
+    struct rho_feed_source *oldest = NULL;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct rho_feed_source *source = &feed->sources[i];
+
+        if (!source->is_used) {
+            return source;
+        }
+        if (gives_way(feed, source, now_us) && (!oldest || source->heard_us < oldest->heard_us)) {
+            oldest = source;
+        }
+    }
+    return oldest;
+}
+
+/* ---- A message of a scan ---- */
+
+static void refuse(struct rho_feed *feed, struct rho_feed_source *source, enum feed_verdict verdict,
+                   const struct feed_heading *heading)
+{
+    if (verdict == FEED_DUPLICATE) {
+        rho_feed_count_one(&feed->counters.scans_duplicate);
+    } else if (verdict == FEED_LATE) {
+        rho_feed_count_one(&feed->counters.scans_late);
+    } else {
+        rho_feed_note_stray(&feed->config, source, &heading->place);
+        rho_feed_count_one(verdict == FEED_STRAY_TIME ? &feed->counters.clock_jumps
+                                                      : &feed->counters.scans_bad);
+    }
+}
+
+/* A scan that is believed begins; the one before it of this sensor is as complete as it gets. */
+static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
+                       enum feed_verdict verdict, const struct feed_heading *heading,
+                       const union feed_message *message, int64_t now_us)
+{
+    struct rho_feed_slot *last = rho_feed_find_open(feed, source), *slot;
+
+    if (last) {
+        rho_feed_close_slot(feed, last);
+    }
+    feed->counters.scans_lost = rho_count(
+        feed->counters.scans_lost, rho_feed_note_place(source, &heading->place, verdict, now_us));
+    if (verdict == FEED_FOLLOW) {
+        rho_feed_count_one(&feed->counters.sensor_restarts);
+    }
+    if (!rho_feed_is_on_clock(feed, source, heading->place.time_us, verdict, now_us)) {
+        rho_feed_count_one(&feed->counters.clock_jumps);
+        return;
+    }
+    if (feed->is_restart) {
+        rho_feed_drop_slots(feed);
+    }
+    slot = rho_feed_find_state(feed, FEED_SLOT_FREE);
+    rho_feed_count_one(&feed->counters.scans_accepted);
+    rho_feed_open_slot(feed, slot, source, heading);
+    rho_feed_add_part(feed, slot, heading, message, now_us);
+}
+
+static struct rho_feed_source *new_source(struct rho_feed *feed, const struct feed_heading *heading,
+                                          const struct rho_feed_source *stranger, int64_t now_us)
+{
+    struct rho_feed_source *source = find_room(feed, now_us);
+    struct rho_feed_slot *slot;
+
+    if (!source) {
+        rho_feed_count_one(&feed->counters.sensors_no_room);
+        return NULL;
+    }
+    slot = rho_feed_find_open(feed, source);
+    if (slot) {
+        rho_feed_close_slot(feed, slot);
+    }
+    *source = (struct rho_feed_source){.bucket_us = stranger->bucket_us,
+                                       .bucket = feed->config.flood_per_s,
+                                       .sensor_id = heading->sensor_id,
+                                       .kind = heading->kind,
+                                       .is_used = 1};
+    return source;
+}
+
+/* Errors: CAPACITY. */
+static enum rho_status take_part(struct rho_feed *feed, const struct feed_heading *heading,
+                                 const union feed_message *message, int64_t now_us)
+{
+    struct rho_feed_source *source = find_source(feed, heading->kind, heading->sensor_id);
+    struct rho_feed_slot *slot = source ? rho_feed_find_open(feed, source) : NULL;
+    enum feed_verdict verdict;
+
+    if (slot && rho_feed_is_same_scan(slot, heading)) {
+        rho_feed_add_part(feed, slot, heading, message, now_us);
+        return RHO_OK;
+    }
+    verdict = source ? rho_feed_judge(&feed->config, source, &heading->place) : FEED_NEXT;
+    if (verdict != FEED_NEXT && verdict != FEED_FOLLOW) {
+        refuse(feed, source, verdict, heading);
+        return RHO_OK;
+    }
+    if (!rho_feed_find_state(feed, FEED_SLOT_FREE)) {
+        feed->is_pressed = 1;
+        return RHO_ERROR_CAPACITY;
+    }
+    source = source ? source : new_source(feed, heading, &feed->stranger, now_us);
+    if (source) {
+        begin_scan(feed, source, verdict, heading, message, now_us);
+    }
+    return RHO_OK;
+}
+
+enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const uint8_t *data,
+                              size_t size, int64_t now_us)
+{
+    struct rho_feed_source *source;
+    union feed_message message;
+    struct feed_heading heading;
+    enum rho_feed_kind kind;
+    enum rho_status status;
+    int16_t sensor_id;
+
+    if (!feed || !channel || !data) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_ready(feed)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!read_channel(channel, &kind, &sensor_id)) {
+        return RHO_ERROR_TYPE;
+    }
+    source = find_source(feed, kind, sensor_id);
+    source = source ? source : &feed->stranger;
+    if (!rho_feed_draw(source, feed->config.flood_per_s, now_us)) {
+        rho_feed_count_one(&feed->counters.messages_flooded);
+        return RHO_OK;
+    }
+    status = rho_feed_open_message(kind, data, size, &message, &heading);
+    if (status != RHO_OK || heading.sensor_id != sensor_id) {
+        rho_feed_count_one(status == RHO_ERROR_TYPE ? &feed->counters.messages_wrong_type
+                                                    : &feed->counters.messages_bad);
+        return RHO_OK;
+    }
+    if (heading.num_parts > RHO_MAX_PARTS) {
+        rho_feed_count_one(&feed->counters.scans_bad);
+        return RHO_OK;
+    }
+    status = take_part(feed, &heading, &message, now_us);
+    source->bucket += status == RHO_ERROR_CAPACITY; /* it comes again */
+    return status;
+}
+
+/* ---- Scans that are due ---- */
+
+int rho_feed_next(struct rho_feed *feed, int64_t now_us, struct rho_feed_item *item)
+{
+    struct rho_feed_slot *slot;
+
+    if (!feed || !item || !is_ready(feed)) {
+        return 0;
+    }
+    slot = rho_feed_find_state(feed, FEED_SLOT_GIVEN);
+    if (slot) {
+        slot->state = FEED_SLOT_FREE;
+    }
+    slot = rho_feed_find_due(feed, now_us);
+    if (!slot) {
+        return 0;
+    }
+    slot->state = FEED_SLOT_GIVEN;
+    rho_feed_fill_item(slot, item);
+    return 1;
+}
+
+int64_t rho_feed_due_us(const struct rho_feed *feed)
+{
+    int64_t due_us = INT64_MAX;
+
+    if (!feed || !is_ready(feed)) {
+        return due_us;
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        const struct rho_feed_slot *slot = &feed->slots[i];
+        int waits = slot->state == FEED_SLOT_COMPLETE ||
+                    (slot->state == FEED_SLOT_OPEN && feed->config.hold_us > 0);
+
+        if (waits && slot->heard_us <= INT64_MAX - feed->config.hold_us &&
+            slot->heard_us + feed->config.hold_us < due_us) {
+            due_us = slot->heard_us + feed->config.hold_us;
+        }
+    }
+    return due_us;
+}

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/* Private to feed: a message's heading, which of a sensor's scans are believed, and how messages become plots. */
+#ifndef RHOTRACK_FEED_PARTS_H
+#define RHOTRACK_FEED_PARTS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/feed.h"
+#include "rhotrack/message.h"
+
+/* One message, decoded: the one of its kind. */
+union feed_message {
+    struct rho_message_plot_scan plots;
+    struct rho_message_polar_scan polar;
+    struct rho_message_bearing_scan bearings;
+};
+
+/* What all kinds say of the scan they are a part of. */
+struct feed_heading {
+    struct rho_feed_place place;
+    uint32_t measures;
+    float sector_from_rad, sector_to_rad;
+    float x_m, y_m, z_m; /* of the sensor; 0, 0, 0: not said */
+    uint16_t part, num_parts;
+    uint16_t num_inputs;
+    int16_t sensor_id;
+    uint8_t kind; /* enum rho_feed_kind */
+};
+
+/* What a scan's number and time are worth. */
+enum feed_verdict {
+    FEED_NEXT,         /* believed */
+    FEED_FOLLOW,       /* believed, as it agrees with those before it that were not */
+    FEED_DUPLICATE,    /* was there */
+    FEED_LATE,         /* older */
+    FEED_STRAY_NUMBER, /* not believed: its number or epoch */
+    FEED_STRAY_TIME    /* not believed: its time */
+};
+
+/* ---- feed_admit.c: numbers and clocks ---- */
+
+/* Microseconds from one time to another of the reception clock; 0 where that goes back. */
+uint64_t rho_feed_elapsed_us(int64_t now_us, int64_t then_us);
+
+enum feed_verdict rho_feed_judge(const struct rho_feed_config *config,
+                                 const struct rho_feed_source *source,
+                                 const struct rho_feed_place *place);
+
+/* A scan that was not believed is remembered, for those that may agree with it. */
+void rho_feed_note_stray(const struct rho_feed_config *config, struct rho_feed_source *source,
+                         const struct rho_feed_place *place);
+
+/* A believed scan: the sensor has come to here. Returns how many numbers were skipped. */
+uint32_t rho_feed_note_place(struct rho_feed_source *source, const struct rho_feed_place *place,
+                             enum feed_verdict verdict, int64_t now_us);
+
+/*
+ * True where a believed scan's time is the common clock's, or becomes it (then feed->is_restart is set). A scan off the clock
+ * is counted in its source.
+ */
+int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, int64_t time_us,
+                         enum feed_verdict verdict, int64_t now_us);
+
+/* Takes a message off the bucket; 0: it is empty. */
+int rho_feed_draw(struct rho_feed_source *source, uint32_t flood_per_s, int64_t now_us);
+
+/* ---- feed_slots.c: scans that are put together ---- */
+
+enum feed_slot_state {
+    FEED_SLOT_FREE = 0,
+    FEED_SLOT_OPEN,     /* parts are missing */
+    FEED_SLOT_COMPLETE, /* waits for its turn; parts may be missing for good */
+    FEED_SLOT_GIVEN     /* the caller reads it */
+};
+
+void rho_feed_count_one(uint32_t *counter);
+
+/* NULL: none. */
+struct rho_feed_slot *rho_feed_find_state(struct rho_feed *feed, enum feed_slot_state state);
+struct rho_feed_slot *rho_feed_find_open(struct rho_feed *feed,
+                                         const struct rho_feed_source *source);
+
+/* The slot begins with this scan. */
+void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
+                        const struct rho_feed_source *source, const struct feed_heading *heading);
+
+/* Nothing more is waited for. */
+void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot);
+
+/* Of the clock that held before: what cannot be stepped any more. */
+void rho_feed_drop_slots(struct rho_feed *feed);
+
+int rho_feed_is_same_scan(const struct rho_feed_slot *slot, const struct feed_heading *heading);
+
+/* Another part of the slot's scan; it may be there already, or contradict the others. */
+void rho_feed_add_part(struct rho_feed *feed, struct rho_feed_slot *slot,
+                       const struct feed_heading *heading, const union feed_message *message,
+                       int64_t now_us);
+
+/* Whose turn it is; NULL: nobody's yet. */
+struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us);
+
+void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *item);
+
+/* ---- feed_fill.c: messages ---- */
+
+/* Decodes and validates; the heading is the message's. */
+enum rho_status rho_feed_open_message(enum rho_feed_kind kind, const uint8_t *data, size_t size,
+                                      union feed_message *message, struct feed_heading *heading);
+
+/* Puts a part's plots or bearings in their place in the slot, and counts what finds no room. */
+void rho_feed_fill(struct rho_feed *feed, struct rho_feed_slot *slot,
+                   const struct feed_heading *heading, const union feed_message *message);
+
+/* What is known of a sensor; the config's `other` where it was not described. */
+const struct rho_feed_sensor *rho_feed_known(const struct rho_feed *feed, int32_t sensor_id);
+
+#endif

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: MIT */
+/* Scans that are put together, and when it is their turn. */
+#include <string.h>
+
+#include "feed_parts.h"
+
+void rho_feed_count_one(uint32_t *counter)
+{
+    *counter = rho_count(*counter, 1);
+}
+
+struct rho_feed_slot *rho_feed_find_state(struct rho_feed *feed, enum feed_slot_state state)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (feed->slots[i].state == state) {
+            return &feed->slots[i];
+        }
+    }
+    return NULL;
+}
+
+struct rho_feed_slot *rho_feed_find_open(struct rho_feed *feed,
+                                         const struct rho_feed_source *source)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (slot->state == FEED_SLOT_OPEN && &feed->sources[slot->source] == source) {
+            return slot;
+        }
+    }
+    return NULL;
+}
+
+void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot)
+{
+    if (slot->parts_here < slot->num_parts) {
+        rho_feed_count_one(&feed->counters.scans_incomplete);
+    }
+    slot->state = FEED_SLOT_COMPLETE;
+}
+
+/* What belongs to the clock that held before cannot be stepped any more. */
+void rho_feed_drop_slots(struct rho_feed *feed)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (slot->state == FEED_SLOT_OPEN || slot->state == FEED_SLOT_COMPLETE) {
+            rho_feed_count_one(&feed->counters.scans_late);
+            slot->state = FEED_SLOT_FREE;
+        }
+    }
+}
+
+static void describe(const struct rho_feed *feed, struct rho_feed_slot *slot,
+                     const struct feed_heading *heading)
+{
+    const struct rho_feed_sensor *known = rho_feed_known(feed, heading->sensor_id);
+    int has_place = heading->x_m < 0.0f || heading->x_m > 0.0f || heading->y_m < 0.0f ||
+                    heading->y_m > 0.0f || heading->z_m < 0.0f || heading->z_m > 0.0f;
+
+    slot->sensor = known->sensor;
+    slot->sensor.sensor_id = heading->sensor_id;
+    if (has_place || heading->kind == RHO_FEED_BEARINGS) {
+        slot->sensor.x_m = heading->x_m;
+        slot->sensor.y_m = heading->y_m;
+        slot->sensor.z_m = heading->z_m;
+    }
+    slot->has_sensor = (uint8_t)(known != &feed->config.other || feed->config.is_told ||
+                                 (has_place && heading->kind != RHO_FEED_BEARINGS));
+}
+
+void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
+                        const struct rho_feed_source *source, const struct feed_heading *heading)
+{
+    slot->place = heading->place;
+    slot->measures = heading->measures;
+    slot->sector_from_rad = heading->sector_from_rad;
+    slot->sector_to_rad = heading->sector_to_rad;
+    slot->source = (uint16_t)(source - feed->sources);
+    slot->num_parts = heading->num_parts;
+    slot->parts_here = 0;
+    slot->num_inputs = 0;
+    slot->kind = heading->kind;
+    slot->is_restart = (uint8_t)feed->is_restart;
+    memset(slot->parts, 0, sizeof slot->parts);
+    describe(feed, slot, heading);
+    slot->state = FEED_SLOT_OPEN;
+    feed->is_restart = 0;
+}
+
+/* ---- Parts ---- */
+
+static int is_equal(float a, float b)
+{
+    return a <= b && a >= b;
+}
+
+int rho_feed_is_same_scan(const struct rho_feed_slot *slot, const struct feed_heading *heading)
+{
+    return slot->place.scan == heading->place.scan && slot->place.epoch == heading->place.epoch;
+}
+
+/* The parts of a scan must say the same of it. */
+static int agrees(const struct rho_feed_slot *slot, const struct feed_heading *heading)
+{
+    int has_place = heading->kind == RHO_FEED_POLAR;
+
+    return slot->place.time_us == heading->place.time_us && slot->num_parts == heading->num_parts &&
+           slot->measures == heading->measures &&
+           is_equal(slot->sector_from_rad, heading->sector_from_rad) &&
+           is_equal(slot->sector_to_rad, heading->sector_to_rad) &&
+           (!has_place || ((is_equal(slot->sensor.x_m, heading->x_m) &&
+                            is_equal(slot->sensor.y_m, heading->y_m) &&
+                            is_equal(slot->sensor.z_m, heading->z_m)) ||
+                           (is_equal(heading->x_m, 0.0f) && is_equal(heading->y_m, 0.0f) &&
+                            is_equal(heading->z_m, 0.0f))));
+}
+
+void rho_feed_add_part(struct rho_feed *feed, struct rho_feed_slot *slot,
+                       const struct feed_heading *heading, const union feed_message *message,
+                       int64_t now_us)
+{
+    if (slot->parts[heading->part] > 0) {
+        rho_feed_count_one(&feed->counters.scans_duplicate);
+        return;
+    }
+    if (slot->parts_here > 0 && !agrees(slot, heading)) {
+        rho_feed_count_one(&feed->counters.scans_bad);
+        return;
+    }
+    rho_feed_fill(feed, slot, heading, message);
+    slot->heard_us = now_us;
+    if (slot->parts_here == slot->num_parts) {
+        rho_feed_close_slot(feed, slot);
+    }
+}
+
+/* ---- Scans that are due ---- */
+
+/* Every other live sensor has sent what is not older, and nothing older is still being put together. */
+static int is_turn(const struct rho_feed *feed, const struct rho_feed_slot *slot, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_feed_source *source = &feed->sources[i];
+
+        if (source->is_used && source->off_clock == 0 &&
+            source->place.time_us < slot->place.time_us &&
+            rho_feed_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us) {
+            return 0;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (feed->slots[i].state == FEED_SLOT_OPEN &&
+            feed->slots[i].place.time_us < slot->place.time_us) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int has_waited(const struct rho_feed *feed, const struct rho_feed_slot *slot, int64_t now_us)
+{
+    return now_us == INT64_MAX ||
+           rho_feed_elapsed_us(now_us, slot->heard_us) >= (uint64_t)feed->config.hold_us;
+}
+
+static void close_overdue(struct rho_feed *feed, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (slot->state == FEED_SLOT_OPEN && has_waited(feed, slot, now_us) &&
+            (feed->config.hold_us > 0 || now_us == INT64_MAX)) {
+            rho_feed_close_slot(feed, slot);
+        }
+    }
+}
+
+/* Of one time the lower sensor_id comes first, and of one sensor the lower kind. */
+static int comes_before(const struct rho_feed_slot *a, const struct rho_feed_slot *b)
+{
+    if (a->place.time_us != b->place.time_us) {
+        return a->place.time_us < b->place.time_us;
+    }
+    return a->sensor.sensor_id != b->sensor.sensor_id ? a->sensor.sensor_id < b->sensor.sensor_id
+                                                      : a->kind < b->kind;
+}
+
+static struct rho_feed_slot *find_first(struct rho_feed *feed, enum feed_slot_state state)
+{
+    struct rho_feed_slot *first = NULL;
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (slot->state == state && (!first || comes_before(slot, first))) {
+            first = slot;
+        }
+    }
+    return first;
+}
+
+struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
+{
+    struct rho_feed_slot *slot;
+
+    close_overdue(feed, now_us);
+    slot = find_first(feed, FEED_SLOT_COMPLETE);
+    if (feed->is_pressed && !slot) {
+        slot = find_first(feed, FEED_SLOT_OPEN);
+        if (slot) {
+            rho_feed_close_slot(feed, slot);
+        }
+    }
+    if (!slot || feed->is_pressed || has_waited(feed, slot, now_us) ||
+        is_turn(feed, slot, now_us)) {
+        feed->is_pressed = 0;
+        return slot;
+    }
+    return NULL;
+}
+
+void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *item)
+{
+    *item = (struct rho_feed_item){
+        .kind = (enum rho_feed_kind)slot->kind,
+        .sensor = slot->sensor,
+        .has_sensor = slot->has_sensor,
+        .is_restart = slot->is_restart,
+        .parts_missing = (uint16_t)(slot->num_parts - slot->parts_here),
+    };
+    if (slot->kind == RHO_FEED_BEARINGS) {
+        item->bearings = (struct rho_bearing_scan){.time_us = slot->place.time_us,
+                                                   .sensor_id = slot->sensor.sensor_id,
+                                                   .x_m = slot->sensor.x_m,
+                                                   .y_m = slot->sensor.y_m,
+                                                   .num_bearings = slot->num_inputs,
+                                                   .bearings = slot->bearings};
+    } else {
+        item->scan = (struct rho_scan){.time_us = slot->place.time_us,
+                                       .sensor_id = slot->sensor.sensor_id,
+                                       .measures = slot->measures,
+                                       .sector_from_rad = slot->sector_from_rad,
+                                       .sector_to_rad = slot->sector_to_rad,
+                                       .num_plots = slot->num_inputs,
+                                       .plots = slot->plots};
+    }
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/udpm.h"
+
+#include <string.h>
+
+#define NUMBERS_BYTES 8u /* magic and sequence */
+
+static const uint8_t magic[4] = {'L', 'C', '0', '2'};
+
+/* Characters before the NUL; more than RHO_UDPM_MAX_CHANNEL where there is none in reach. */
+static size_t channel_length(const char *channel, size_t size)
+{
+    size_t most = size < RHO_UDPM_MAX_CHANNEL + 1u ? size : RHO_UDPM_MAX_CHANNEL + 1u;
+
+    for (size_t i = 0; i < most; i++) {
+        if (channel[i] == '\0') {
+            return i;
+        }
+    }
+    return RHO_UDPM_MAX_CHANNEL + 1u;
+}
+
+static int is_length(size_t length)
+{
+    return length >= 1 && length <= RHO_UDPM_MAX_CHANNEL;
+}
+
+enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequence,
+                               const char *channel, size_t *head)
+{
+    size_t length;
+
+    if (!buffer || !channel || !head) {
+        return RHO_ERROR_NULL;
+    }
+    length = channel_length(channel, SIZE_MAX);
+    if (!is_length(length)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (capacity < NUMBERS_BYTES + length + 1) {
+        return RHO_ERROR_CAPACITY;
+    }
+    memcpy(buffer, magic, sizeof magic);
+    for (unsigned i = 0; i < 4; i++) {
+        buffer[4 + i] = (uint8_t)(sequence >> (24 - 8 * i));
+    }
+    memcpy(buffer + NUMBERS_BYTES, channel, length + 1);
+    *head = NUMBERS_BYTES + length + 1;
+    return RHO_OK;
+}
+
+enum rho_status rho_udpm_parse(const uint8_t *data, size_t size, struct rho_udpm_datagram *datagram)
+{
+    const char *channel;
+    uint32_t sequence = 0;
+    size_t length, head;
+
+    if (!data || !datagram) {
+        return RHO_ERROR_NULL;
+    }
+    if (size < NUMBERS_BYTES) {
+        return RHO_ERROR_SHORT;
+    }
+    if (memcmp(data, magic, sizeof magic) != 0) {
+        return RHO_ERROR_TYPE;
+    }
+    channel = (const char *)data + NUMBERS_BYTES;
+    length = channel_length(channel, size - NUMBERS_BYTES);
+    if (!is_length(length)) {
+        return RHO_ERROR_VALUE;
+    }
+    for (unsigned i = 0; i < 4; i++) {
+        sequence = sequence << 8 | data[4 + i];
+    }
+    head = NUMBERS_BYTES + length + 1;
+    *datagram = (struct rho_udpm_datagram){sequence, channel, data + head, size - head};
+    return RHO_OK;
+}
+
+int rho_udpm_is_self_test(const struct rho_udpm_datagram *datagram)
+{
+    static const char name[] = "LCM_SELF_TEST";
+    size_t i = 0;
+
+    if (!datagram || !datagram->channel) {
+        return 0;
+    }
+    while (name[i] != '\0' && datagram->channel[i] == name[i]) {
+        i++;
+    }
+    return name[i] == datagram->channel[i];
+}
