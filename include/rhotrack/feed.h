@@ -78,18 +78,19 @@ struct rho_feed_counters {
     uint32_t messages_bad;        /* length, count, a value, the sensor's number */
     uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
     uint32_t messages_flooded;
-    uint32_t scans_accepted;   /* first parts seen of a scan that is taken */
+    uint32_t scans_accepted;   /* of which a first part came */
     uint32_t scans_late;       /* older than one of the same sensor that was accepted */
     uint32_t scans_duplicate;  /* scans, or parts of one, that were there before */
     uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
-    uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers: refused */
+    uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers */
     uint32_t scans_incomplete; /* went out without some of their parts */
     uint32_t
-        clock_jumps; /* scans refused for their time: far off the sensor's own, or the common clock */
+        clock_jumps; /* refused for their time: far off the sensor's own, or the common clock */
     uint32_t sensor_restarts; /* new numbers or times followed */
     uint32_t sensors_no_room; /* messages of more sensors than RHO_MAX_SENSORS */
-    uint32_t
-        plots_no_room; /* of accepted scans beyond RHO_MAX_PLOTS or RHO_MAX_BEARINGS: the last ones */
+    uint32_t bearings_in;     /* of accepted scans */
+    /* of accepted scans beyond RHO_MAX_PLOTS or RHO_MAX_BEARINGS: the last ones */
+    uint32_t plots_no_room;
 };
 
 enum rho_feed_kind { RHO_FEED_PLOTS = 0, RHO_FEED_POLAR, RHO_FEED_BEARINGS, RHO_NUM_FEED_KINDS };

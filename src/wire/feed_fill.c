@@ -210,6 +210,7 @@ void rho_feed_fill(struct rho_feed *feed, struct rho_feed_slot *slot,
     }
     if (heading->kind == RHO_FEED_BEARINGS) {
         fill_bearings(slot->bearings + at, count, &message->bearings, known);
+        feed->counters.bearings_in = rho_count(feed->counters.bearings_in, heading->num_inputs);
     } else {
         memmove(slot->plots + at + count, slot->plots + at, behind * sizeof *slot->plots);
         if (heading->kind == RHO_FEED_PLOTS) {

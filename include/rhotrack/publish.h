@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS and RHO_STATUS.
+ *
+ *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
+ *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
+ *         send(RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer, size);
+ *     }
+ *
+ * Messages are written element by element: nothing but the buffer is needed. `step` is the tracker's own number, one more
+ * each, and `epoch` its boot number: receivers see by them what they missed.
+ */
+#ifndef RHOTRACK_PUBLISH_H
+#define RHOTRACK_PUBLISH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/feed.h"
+#include "rhotrack/frames.h"
+#include "rhotrack/initiator.h"
+#include "rhotrack/message.h"
+#include "rhotrack/passive.h"
+#include "rhotrack/status.h"
+#include "rhotrack/tracker.h"
+
+/* Messages that the report's tracks take; 1 where there are none. Constant cost. */
+uint16_t rho_publish_num_parts(const struct rho_report *report);
+
+/*
+ * One part of the report's tracks (track_list_t): first the live ones, then those that ended, DELETED, of which only the
+ * identity is said. sensor_id beyond int16_t becomes -1, counts stay at 32767.
+ *   part  0 .. rho_publish_num_parts - 1
+ * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the message's bytes.
+ * Stack: 200 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step,
+                                                  int32_t epoch, uint16_t part, uint8_t *buffer,
+                                                  size_t capacity, size_t *size);
+
+/*
+ * The best candidates of the last searches (peak_list_t), those of plots before those of bearings; each may be NULL.
+ * Errors: NULL (buffer, size), CAPACITY (of the buffer); *size is unchanged. Cost: the message's bytes, and a square root and
+ * an arctangent a peak. Stack: 160 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
+                                                 const struct rho_passive *passive, int64_t time_us,
+                                                 int32_t step, uint8_t *buffer, size_t capacity,
+                                                 size_t *size);
+
+/*
+ * Fills the counters and numbers of tracks that these objects tell; each may be NULL, and counts as zeros. All other fields
+ * are 0: scan, epoch, fragments_refused, step_us, step_max_us and the origin are the caller's. Cost: RHO_MAX_TRACKS.
+ */
+void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *frames,
+                        const struct rho_tracker *tracker, const struct rho_initiator *initiator,
+                        struct rho_message_status *status);
+
+#endif

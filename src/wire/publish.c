@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/publish.h"
+
+#include <string.h>
+
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+
+#define PART_TRACKS RHO_MESSAGE_TRACK_LIST_MAX_TRACKS
+#define NAT(mnat) ((float)(mnat) / 1000.0f)
+#define M2_PER_KM2 1.0e6f
+
+static int16_t short_count(uint32_t count)
+{
+    return (int16_t)(count < INT16_MAX ? count : INT16_MAX);
+}
+
+static int32_t long_count(uint32_t count)
+{
+    return (int32_t)(count < INT32_MAX ? count : INT32_MAX);
+}
+
+/* ---- Tracks ---- */
+
+static unsigned num_entries(const struct rho_report *report)
+{
+    return (unsigned)report->num_tracks + report->num_ended;
+}
+
+uint16_t rho_publish_num_parts(const struct rho_report *report)
+{
+    unsigned entries = report ? num_entries(report) : 0;
+
+    return (uint16_t)(entries <= PART_TRACKS ? 1 : (entries + PART_TRACKS - 1) / PART_TRACKS);
+}
+
+static int8_t status_of(enum rho_track_status status)
+{
+    return status == RHO_TRACK_CONFIRMED  ? RHO_MESSAGE_TRACK_CONFIRMED
+           : status == RHO_TRACK_COASTING ? RHO_MESSAGE_TRACK_COASTING
+                                          : RHO_MESSAGE_TRACK_TENTATIVE;
+}
+
+static int16_t sensor_of(int32_t sensor_id)
+{
+    return (int16_t)(sensor_id >= INT16_MIN && sensor_id <= INT16_MAX ? sensor_id : -1);
+}
+
+static void fill_track(const struct rho_track_report *track, struct rho_message_track *message)
+{
+    *message = (struct rho_message_track){
+        .track_id = (int32_t)(track->track_id & INT32_MAX),
+        .status = status_of(track->status),
+        .hits = short_count(track->hits),
+        .misses = short_count(track->misses),
+        .sensor_id = sensor_of(track->sensor_id),
+        .plot = (int16_t)(track->plot <= INT16_MAX ? track->plot : INT16_MAX),
+        .update_age_us = track->update_age_us,
+        .x_m = track->state[0],
+        .y_m = track->state[1],
+        .z_m = track->state[2],
+        .vx_mps = track->state[3],
+        .vy_mps = track->state[4],
+        .vz_mps = track->state[5],
+        .ax_mps2 = track->accel_mps2[0],
+        .ay_mps2 = track->accel_mps2[1],
+        .az_mps2 = track->accel_mps2[2],
+        .score_nat = track->score_nat,
+        .maneuver_probability = track->maneuver_probability,
+    };
+    memcpy(message->covariance, track->covariance, sizeof message->covariance);
+}
+
+static void fill_entry(const struct rho_report *report, unsigned entry,
+                       struct rho_message_track *message)
+{
+    if (entry < report->num_tracks) {
+        fill_track(&report->tracks[entry], message);
+        return;
+    }
+    *message = (struct rho_message_track){
+        .track_id = (int32_t)(report->ended[entry - report->num_tracks] & INT32_MAX),
+        .status = RHO_MESSAGE_TRACK_DELETED,
+        .plot = -1};
+}
+
+enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step, int32_t epoch,
+                                   uint16_t part, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    struct rho_message_track_list_head head;
+    struct rho_message_writer writer;
+    struct rho_message_track track;
+    enum rho_status status;
+    unsigned last;
+
+    if (!report || !buffer || !size) {
+        return RHO_ERROR_NULL;
+    }
+    if (part >= rho_publish_num_parts(report)) {
+        return RHO_ERROR_VALUE;
+    }
+    head =
+        (struct rho_message_track_list_head){.utime = report->time_us,
+                                             .scan = step,
+                                             .epoch = epoch,
+                                             .num_tracks_total = short_count(num_entries(report)),
+                                             .part = (int16_t)part,
+                                             .num_parts = (int16_t)rho_publish_num_parts(report)};
+    status = rho_message_track_list_begin(&writer, buffer, capacity, &head);
+    last = (part + 1u) * PART_TRACKS < num_entries(report) ? (part + 1u) * PART_TRACKS
+                                                           : num_entries(report);
+    for (unsigned i = part * PART_TRACKS; i < last && status == RHO_OK; i++) {
+        fill_entry(report, i, &track);
+        status = rho_message_track_list_add(&writer, &track);
+    }
+    return status == RHO_OK ? rho_message_end(&writer, size) : status;
+}
+
+/* ---- Peaks ---- */
+
+static struct rho_message_peak peak_of(float x_m, float y_m, float vx_mps, float vy_mps)
+{
+    struct rho_line line = rho_angle_line(x_m, y_m, vx_mps, vy_mps);
+
+    return (struct rho_message_peak){.rho_m = line.rho_m,
+                                     .theta_rad = line.theta_rad,
+                                     .speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps)};
+}
+
+/* Pairs of sensors that both gave the track a bearing. */
+static int16_t sensor_pairs(const struct rho_passive_track *track)
+{
+    int sensors = 0;
+
+    for (unsigned sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
+        int claims = 0;
+
+        for (unsigned scan = 0; scan < RHO_MAX_PASSIVE_SCANS; scan++) {
+            claims |= track->claim[scan][sensor];
+        }
+        sensors += claims != 0;
+    }
+    return (int16_t)(sensors * (sensors - 1) / 2);
+}
+
+static enum rho_status add_candidates(const struct rho_initiator *initiator,
+                                      struct rho_message_writer *writer)
+{
+    enum rho_status status = RHO_OK;
+    struct rho_message_peak peak;
+
+    for (unsigned i = 0; i < initiator->num_candidates && status == RHO_OK &&
+                         writer->count < RHO_MESSAGE_PEAK_LIST_MAX_PEAKS;
+         i++) {
+        const struct rho_candidate *candidate = &initiator->candidates[i];
+
+        peak = peak_of(candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps);
+        peak.score_nat = NAT(candidate->score_mnat);
+        peak.scans_hit = short_count(candidate->hits);
+        status = rho_message_peak_list_add(writer, &peak);
+    }
+    return status;
+}
+
+static enum rho_status add_passive(const struct rho_passive *passive,
+                                   struct rho_message_writer *writer)
+{
+    enum rho_status status = RHO_OK;
+    struct rho_message_peak peak;
+
+    for (unsigned i = 0; i < passive->num_tracks && status == RHO_OK &&
+                         writer->count < RHO_MESSAGE_PEAK_LIST_MAX_PEAKS;
+         i++) {
+        const struct rho_passive_track *track = &passive->tracks[i];
+
+        peak = peak_of(track->x_m, track->y_m, track->vx_mps, track->vy_mps);
+        peak.score_nat = NAT(track->score_mnat);
+        peak.scans_hit = (int16_t)rho_count_bits(track->scans);
+        peak.sensor_pairs = sensor_pairs(track);
+        status = rho_message_peak_list_add(writer, &peak);
+    }
+    return status;
+}
+
+enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
+                                  const struct rho_passive *passive, int64_t time_us, int32_t step,
+                                  uint8_t *buffer, size_t capacity, size_t *size)
+{
+    struct rho_message_peak_list_head head = {.utime = time_us, .scan = step};
+    struct rho_message_writer writer;
+    enum rho_status status;
+
+    if (!buffer || !size) {
+        return RHO_ERROR_NULL;
+    }
+    status = rho_message_peak_list_begin(&writer, buffer, capacity, &head);
+    if (status == RHO_OK && initiator) {
+        status = add_candidates(initiator, &writer);
+    }
+    if (status == RHO_OK && passive) {
+        status = add_passive(passive, &writer);
+    }
+    return status == RHO_OK ? rho_message_end(&writer, size) : status;
+}
+
+/* ---- Status ---- */
+
+static void fill_feed(const struct rho_feed_counters *feed, struct rho_message_status *status)
+{
+    status->scans_accepted = long_count(feed->scans_accepted);
+    status->scans_late = long_count(feed->scans_late);
+    status->scans_duplicate = long_count(feed->scans_duplicate);
+    status->scans_lost = long_count(feed->scans_lost);
+    status->scans_bad = long_count(rho_count(feed->scans_bad, feed->sensors_no_room));
+    status->messages_bad = long_count(feed->messages_bad);
+    status->messages_wrong_type = long_count(feed->messages_wrong_type);
+    status->messages_flooded = long_count(feed->messages_flooded);
+    status->scans_incomplete = long_count(feed->scans_incomplete);
+    status->clock_jumps = long_count(feed->clock_jumps);
+    status->sensor_restarts = long_count(feed->sensor_restarts);
+    status->bearings_in = long_count(feed->bearings_in);
+    status->plots_in = long_count(feed->plots_no_room);
+    status->inputs_no_room = long_count(feed->plots_no_room);
+}
+
+static int32_t sum(int32_t counter, uint32_t more)
+{
+    return long_count(rho_count((uint32_t)counter, more));
+}
+
+static void add_frames(const struct rho_frames_counters *frames, struct rho_message_status *status)
+{
+    status->frames_incomplete = long_count(frames->frames_incomplete);
+    status->scans_late = sum(status->scans_late, frames->scans_late);
+    status->clock_jumps = sum(status->clock_jumps, frames->scans_off_clock);
+    status->plots_in = sum(status->plots_in, frames->bearings_no_room);
+    status->inputs_no_room = sum(status->inputs_no_room, frames->bearings_no_room);
+}
+
+static void add_tracker(const struct rho_tracker *tracker, struct rho_message_status *status)
+{
+    const struct rho_tracker_counters *counters = &tracker->counters;
+    uint32_t count[RHO_NUM_TRACK_STATUS] = {0};
+
+    status->utime = tracker->time_us;
+    status->scans_late = sum(status->scans_late, counters->scans_late);
+    status->plots_in = sum(status->plots_in, counters->plots_in);
+    status->plots_claimed = long_count(counters->fates[RHO_FATE_CLAIMED]);
+    status->plots_held = long_count(counters->fates[RHO_FATE_HELD]);
+    status->plots_initiated = long_count(counters->plots_initiated);
+    status->plots_clutter = long_count(counters->plots_clutter);
+    status->inputs_stale = long_count(counters->fates[RHO_FATE_STALE]);
+    status->inputs_invalid = long_count(counters->fates[RHO_FATE_INVALID]);
+    status->inputs_no_room = sum(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
+    status->ghosts_pruned = long_count(counters->fates[RHO_FATE_GHOST]);
+    for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
+        if (tracker->tracks[i].status < RHO_NUM_TRACK_STATUS) {
+            count[tracker->tracks[i].status]++;
+        }
+    }
+    status->tracks_tentative = short_count(count[RHO_TRACK_TENTATIVE]);
+    status->tracks_confirmed = short_count(count[RHO_TRACK_CONFIRMED]);
+    status->tracks_coasting = short_count(count[RHO_TRACK_COASTING]);
+}
+
+void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *frames,
+                        const struct rho_tracker *tracker, const struct rho_initiator *initiator,
+                        struct rho_message_status *status)
+{
+    *status = (struct rho_message_status){.utime = 0};
+    if (feed) {
+        fill_feed(&feed->counters, status);
+    }
+    if (frames) {
+        add_frames(&frames->counters, status);
+    }
+    if (tracker) {
+        add_tracker(tracker, status);
+    }
+    if (initiator) {
+        status->clutter_per_km2 = initiator->density_per_m2 * M2_PER_KM2;
+    }
+}
