@@ -13,6 +13,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "rhotrack/feed.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/tracker.h"
 
@@ -60,6 +61,18 @@
     X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MIN_M, "area_y_min_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MAX_M, "area_y_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(HOLD_MS, "hold_ms", "ms", 20, 0, 10000, 0, 1,                                                \
+      "messages: wait for parts of a scan, and for other sensors' earlier scans")                  \
+    X(JUMP_MAX_S, "jump_max_s", "s", 30, 1, 3600, 0, 1,                                            \
+      "messages: gap in a sensor's times, or between sensors, that is believed at once")           \
+    X(FOLLOW_SCANS, "follow_scans", "-", 3, 2, 255, 1, 1,                                          \
+      "messages: scans in a row that must agree on new numbers or times")                          \
+    X(FLOOD_PER_S, "flood_per_s", "1/s", 10000, 1, 1e6, 1, 1,                                      \
+      "messages: of one sensor that are looked at")                                                \
+    X(ORIGIN_LAT_DEG, "origin_lat_deg", "deg", 0, -90, 90, 0, 0,                                   \
+      "of the local frame, passed on in RHO_STATUS")                                               \
+    X(ORIGIN_LON_DEG, "origin_lon_deg", "deg", 0, -180, 180, 0, 0, "")                             \
+    X(ORIGIN_ALT_M, "origin_alt_m", "m", 0, -1e4, 1e5, 0, 0, "")                                   \
     X(D_RHO_M, "d_rho_m", "m", 5, 0.001, 1e5, 0, 1, "all methods but kernel: cell of rho")         \
     X(D_THETA_RAD, "d_theta_rad", "rad", 0.001, 1e-4, 0.5, 0, 1,                                   \
       "all methods but kernel: cell of theta")                                                     \
@@ -276,5 +289,8 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
 void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config);
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config);
+
+/* The same for what takes the sensors' messages, with every sensor that anything was said of. Exit 1 where it refuses. */
+void parameters_to_feed(const struct parameters *parameters, struct rho_feed *feed);
 
 #endif
