@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.io.ByteArrayInputStream;
+import java.io.DataInputStream;
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.util.ArrayList;
+import java.util.List;
+import rhotrack.bearing_scan_t;
+import rhotrack.peak_list_t;
+import rhotrack.plot_scan_t;
+import rhotrack.polar_scan_t;
+import rhotrack.status_t;
+import rhotrack.track_list_t;
+import rhotrack.track_t;
+import rhotrack.truth_list_t;
+
+/**
+ * Messages into the model. A message that is not one of ours to the last byte (another version's fingerprint, counts
+ * or numbers out of bounds, bytes missing or left over) is counted as ignored and changes nothing.
+ */
+final class Decoder {
+    private final Model model;
+
+    Decoder(Model model) {
+        this.model = model;
+    }
+
+    /** Whether messages of this fingerprint can be shown. */
+    static boolean knows(long fingerprint) {
+        return fingerprint == plot_scan_t.LCM_FINGERPRINT || fingerprint == polar_scan_t.LCM_FINGERPRINT
+                || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
+                || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
+                || fingerprint == status_t.LCM_FINGERPRINT;
+    }
+
+    void decode(String channel, byte[] data) {
+        boolean good = false;
+        try {
+            good = data.length >= Long.BYTES && dispatch(channel, data, ByteBuffer.wrap(data).getLong());
+        } catch (IOException | RuntimeException e) {
+            // Whatever came was not ours, or was cut; RuntimeException is what generated code makes of a bad count.
+            good = false;
+        }
+        model.countMessage(good);
+    }
+
+    private boolean dispatch(String channel, byte[] data, long fingerprint) throws IOException {
+        DataInputStream in = new DataInputStream(new ByteArrayInputStream(data));
+        if (fingerprint == plot_scan_t.LCM_FINGERPRINT) {
+            return take(channel, new plot_scan_t(in), in);
+        }
+        if (fingerprint == polar_scan_t.LCM_FINGERPRINT) {
+            return take(channel, new polar_scan_t(in), in);
+        }
+        if (fingerprint == bearing_scan_t.LCM_FINGERPRINT) {
+            return take(channel, new bearing_scan_t(in), in);
+        }
+        if (fingerprint == track_list_t.LCM_FINGERPRINT) {
+            return take(new track_list_t(in), in);
+        }
+        if (fingerprint == truth_list_t.LCM_FINGERPRINT) {
+            return take(new truth_list_t(in), in);
+        }
+        if (fingerprint == peak_list_t.LCM_FINGERPRINT) {
+            return take(new peak_list_t(in), in);
+        }
+        return fingerprint == status_t.LCM_FINGERPRINT && take(new status_t(in), in);
+    }
+
+    private boolean take(String channel, plot_scan_t scan, DataInputStream in) throws IOException {
+        if (in.available() > 0 || scan.num_plots > plot_scan_t.MAX_PLOTS || !isPart(scan.part, scan.num_parts)
+                || !isOf(scan.sensor_id, channel)) {
+            return false;
+        }
+        List<Place> places = new ArrayList<>();
+        for (rhotrack.plot_t plot : scan.plots) {
+            places.add(new Place(plot.x_m, plot.y_m));
+        }
+        if (!areSane(places)) {
+            return false;
+        }
+        int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
+        model.addPlots(channel, scan.epoch, scan.scan, looks, new Scene.Plots(scan.sensor_id, places));
+        return true;
+    }
+
+    private boolean take(String channel, polar_scan_t scan, DataInputStream in) throws IOException {
+        Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
+        if (in.available() > 0 || scan.num_polar_plots > polar_scan_t.MAX_POLAR_PLOTS || !sensor.isSane()
+                || !isPart(scan.part, scan.num_parts) || !isOf(scan.sensor_id, channel)) {
+            return false;
+        }
+        List<Place> places = new ArrayList<>();
+        for (rhotrack.polar_plot_t plot : scan.polar_plots) {
+            double elevation = scan.has_elevation == 1 ? plot.elevation_rad : 0;
+            places.add(Geometry.fromPolar(sensor, plot.range_m, plot.azimuth_rad, elevation));
+        }
+        if (!areSane(places)) {
+            return false;
+        }
+        int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
+        model.addSensor(scan.sensor_id, sensor);
+        model.addPlots(channel, scan.epoch, scan.scan, looks, new Scene.Plots(scan.sensor_id, places));
+        return true;
+    }
+
+    private boolean take(String channel, bearing_scan_t scan, DataInputStream in) throws IOException {
+        Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
+        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD || !sensor.isSane()
+                || !isOf(scan.sensor_id, channel)) {
+            return false;
+        }
+        List<Double> angles = new ArrayList<>();
+        for (float angle : scan.bearing_rad) {
+            if (!(Math.abs(angle) <= 4)) {
+                return false;
+            }
+            angles.add((double) angle);
+        }
+        model.addBearings(channel, scan.epoch, scan.scan, new Scene.Bearings(scan.sensor_id, sensor, angles));
+        return true;
+    }
+
+    private boolean take(track_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_tracks > track_list_t.MAX_TRACKS || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<TrackMark> marks = new ArrayList<>();
+        for (track_t track : list.tracks) {
+            TrackMark mark = mark(track);
+            if (mark == null) {
+                return false;
+            }
+            marks.add(mark);
+        }
+        model.addTracks(list.epoch, list.scan, list.part, list.num_parts, marks);
+        return true;
+    }
+
+    private static TrackMark mark(track_t track) {
+        Place place = new Place(track.x_m, track.y_m);
+        TrackMark.Status[] states = TrackMark.Status.values();
+        boolean known = track.status >= track_t.TENTATIVE && track.status <= track_t.DELETED;
+        if (!known || !place.isSane() || !isFinite(track.z_m, track.vx_mps, track.vy_mps, track.score_nat)) {
+            return null;
+        }
+        Ellipse ellipse = Ellipse.of(track.covariance[0], track.covariance[1], track.covariance[2]);
+        return new TrackMark(track.track_id, states[track.status - track_t.TENTATIVE], place, track.z_m, track.vx_mps,
+                track.vy_mps, track.hits, track.misses, track.score_nat, ellipse);
+    }
+
+    private boolean take(truth_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_targets > truth_list_t.MAX_TARGETS
+                || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<Scene.Truth> targets = new ArrayList<>();
+        for (rhotrack.truth_t target : list.targets) {
+            Place place = new Place(target.x_m, target.y_m);
+            if (!place.isSane() || !isFinite(target.vx_mps, target.vy_mps)) {
+                return false;
+            }
+            targets.add(new Scene.Truth(target.target_id, place, target.vx_mps, target.vy_mps));
+        }
+        model.addTruth(list.scan, list.part, list.num_parts, targets);
+        return true;
+    }
+
+    private boolean take(peak_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_peaks > peak_list_t.MAX_PEAKS) {
+            return false;
+        }
+        List<Scene.Peak> peaks = new ArrayList<>();
+        for (rhotrack.peak_t peak : list.peaks) {
+            boolean within = peak.theta_rad >= 0 && peak.theta_rad < 3.15 && Math.abs(peak.rho_m) <= 4e6;
+            if (!within || !isFinite(peak.speed_mps, peak.score_nat)) {
+                return false;
+            }
+            peaks.add(new Scene.Peak(peak.rho_m, peak.theta_rad, peak.speed_mps, peak.score_nat, peak.scans_hit,
+                    peak.sensor_pairs));
+        }
+        model.addPeaks(list.scan, new Scene.Peaks(peaks));
+        return true;
+    }
+
+    private boolean take(status_t status, DataInputStream in) throws IOException {
+        if (in.available() > 0 || !isFinite(status.step_us, status.step_max_us, status.clutter_per_km2)) {
+            return false;
+        }
+        model.setStatus(new Scene.Status(status.scans_accepted, status.scans_lost, status.scans_late,
+                saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative, status.tracks_confirmed,
+                status.tracks_coasting, status.step_us, status.step_max_us, status.clutter_per_km2));
+        return true;
+    }
+
+    private static int saturatedSum(int a, int b) {
+        return (int) Math.min(Integer.MAX_VALUE, (long) a + b);
+    }
+
+    private static boolean isPart(int part, int numParts) {
+        return part >= 0 && part < numParts;
+    }
+
+    /** A sensor has its number in its channel's name; anything else would be drawn in another one's colour. */
+    private static boolean isOf(int sensorId, String channel) {
+        return channel.endsWith("_" + sensorId);
+    }
+
+    private static boolean areSane(List<Place> places) {
+        return places.stream().allMatch(Place::isSane);
+    }
+
+    private static boolean isFinite(float... numbers) {
+        for (float number : numbers) {
+            if (!Float.isFinite(number)) {
+                return false;
+            }
+        }
+        return true;
+    }
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+
+/** What the messages have said so far. Messages come in one thread, painting asks from another. */
+final class Model {
+    private static final int PLOT_TURNS = 12;
+    private static final int BEARING_TURNS = 3;
+    private static final int PEAK_LISTS = 6;
+    /** The tracker itself takes no more sensors than this. */
+    private static final int MAX_CHANNELS = 64;
+
+    private final Map<String, LookHistory<Scene.Plots>> plots = new LinkedHashMap<>();
+    private final Map<String, LookHistory<Scene.Bearings>> bearings = new LinkedHashMap<>();
+    private LookHistory<Scene.Peaks> peaks = new LookHistory<>(PEAK_LISTS);
+    private ListAssembler<TrackMark> trackParts = new ListAssembler<>();
+    private ListAssembler<Scene.Truth> truthParts = new ListAssembler<>();
+    private TrackStore tracks = new TrackStore();
+    private List<Scene.Truth> truth = List.of();
+    private final Map<Integer, Place> sensors = new TreeMap<>();
+    private Scene.Status status;
+    private long statusNanos;
+    private long tracksNanos;
+    private long received;
+    private long ignored;
+    private long changes;
+
+    synchronized void addPlots(String channel, int epoch, int scan, int looksPerTurn, Scene.Plots look) {
+        add(plots, PLOT_TURNS, channel, epoch, scan, looksPerTurn, look);
+    }
+
+    synchronized void addBearings(String channel, int epoch, int scan, Scene.Bearings look) {
+        add(bearings, BEARING_TURNS, channel, epoch, scan, 1, look);
+        addSensor(look.sensorId(), look.sensor());
+    }
+
+    private static <T> void add(Map<String, LookHistory<T>> channels, int turns, String channel, int epoch, int scan,
+            int looksPerTurn, T look) {
+        if (channels.containsKey(channel) || channels.size() < MAX_CHANNELS) {
+            channels.computeIfAbsent(channel, name -> new LookHistory<>(turns)).add(epoch, scan, looksPerTurn, look);
+        }
+    }
+
+    synchronized void addSensor(int id, Place place) {
+        if (sensors.containsKey(id) || sensors.size() < MAX_CHANNELS) {
+            sensors.put(id, place);
+        }
+    }
+
+    synchronized void addPeaks(int scan, Scene.Peaks list) {
+        peaks.add(0, scan, 1, list);
+    }
+
+    synchronized void addTracks(int epoch, int scan, int part, int numParts, List<TrackMark> marks) {
+        trackParts.add(epoch, scan, part, numParts, marks).forEach(tracks::apply);
+        tracksNanos = System.nanoTime();
+    }
+
+    synchronized void addTruth(int scan, int part, int numParts, List<Scene.Truth> targets) {
+        truthParts.add(0, scan, part, numParts, targets).forEach(list -> truth = List.copyOf(list.items()));
+    }
+
+    synchronized void setStatus(Scene.Status newStatus) {
+        status = newStatus;
+        statusNanos = System.nanoTime();
+    }
+
+    synchronized void countMessage(boolean good) {
+        received++;
+        ignored += good ? 0 : 1;
+        changes++;
+    }
+
+    /** Grows with each message: whoever has seen this number has nothing new to paint. */
+    synchronized long changes() {
+        return changes;
+    }
+
+    /** Forgets all but the counts of messages. */
+    synchronized void clear() {
+        plots.clear();
+        bearings.clear();
+        sensors.clear();
+        peaks = new LookHistory<>(PEAK_LISTS);
+        trackParts = new ListAssembler<>();
+        truthParts = new ListAssembler<>();
+        tracks = new TrackStore();
+        truth = List.of();
+        changes++;
+    }
+
+    synchronized Scene scene() {
+        List<LookHistory.Faded<Scene.Plots>> allPlots = new ArrayList<>();
+        plots.values().forEach(history -> allPlots.addAll(history.fading()));
+        List<LookHistory.Faded<Scene.Bearings>> allBearings = new ArrayList<>();
+        bearings.values().forEach(history -> allBearings.addAll(history.fading()));
+        Scene.Health health =
+                new Scene.Health(status, age(statusNanos), age(tracksNanos), received, ignored);
+        return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
+                new TreeMap<>(sensors), health);
+    }
+
+    private static double age(long nanos) {
+        return nanos == 0 ? -1 : (System.nanoTime() - nanos) / 1e9;
+    }
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.awt.Dimension;
+import java.awt.Graphics;
+import java.awt.Graphics2D;
+import java.awt.Point;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import javax.swing.JComponent;
+
+/** The plan view: north is up, east is right. */
+@SuppressWarnings("serial") // nobody stores views
+final class PlanView extends JComponent {
+    private static final int FIT_MARGIN = 60;
+
+    private final ViewTransform view = new ViewTransform();
+    private final ViewOptions options;
+    private Scene scene;
+    private boolean follows = true;
+    private Bounds fitted;
+    private Point pointer;
+
+    PlanView(ViewOptions options) {
+        this.options = options;
+        setPreferredSize(new Dimension(860, 700));
+    }
+
+    void show(Scene newScene) {
+        scene = newScene;
+        repaint();
+    }
+
+    /** Shows everything, and keeps doing so until the user moves the view. */
+    void fit() {
+        follows = true;
+        fitted = null;
+        repaint();
+    }
+
+    void zoomAbout(double x, double y, double factor) {
+        follows = false;
+        view.zoomAbout(x, y, factor);
+        repaint();
+    }
+
+    void zoom(double factor) {
+        zoomAbout(getWidth() / 2.0, getHeight() / 2.0, factor);
+    }
+
+    void pan(double right, double down) {
+        follows = false;
+        view.pan(right, down);
+        repaint();
+    }
+
+    /** The pointer's place is written into the corner; null: it has left. */
+    void pointAt(Point point) {
+        pointer = point;
+        repaint();
+    }
+
+    @Override
+    protected void paintComponent(Graphics graphics) {
+        Graphics2D g = (Graphics2D) graphics.create();
+        Palette.smooth(g);
+        int width = getWidth();
+        int height = getHeight() - Legend.HEIGHT;
+        view.resize(width, height);
+        g.setColor(Palette.BACKGROUND);
+        g.fillRect(0, 0, width, getHeight());
+        if (scene != null) {
+            followScene();
+            paintScene(g, width, height);
+        }
+        g.dispose();
+    }
+
+    private void paintScene(Graphics2D g, int width, int height) {
+        double seconds = TrackLayer.vectorSeconds(scene.tracks(), view.metresPerPixel());
+        LabelPlacer labels = new LabelPlacer(width, height);
+        labels.block(width - 50, 0, 50, 60);
+        labels.block(0, 0, 290, 24);
+        GridLayer.paint(g, view, width, height);
+        if (options.shows(ViewOptions.Layer.BEARINGS)) {
+            SensorLayer.paintBearings(g, scene, view);
+        }
+        if (options.shows(ViewOptions.Layer.PLOTS)) {
+            SensorLayer.paintPlots(g, scene, view);
+        }
+        if (options.shows(ViewOptions.Layer.TRUTH)) {
+            TrackLayer.paintTruth(g, scene, view, seconds);
+        }
+        if (options.shows(ViewOptions.Layer.TRAILS)) {
+            TrackLayer.paintTrails(g, scene, view);
+        }
+        if (options.shows(ViewOptions.Layer.ELLIPSES)) {
+            TrackLayer.paintEllipses(g, scene, view);
+        }
+        TrackLayer.paintTracks(g, scene, view, seconds, labels);
+        SensorLayer.paintSensors(g, scene, view, labels);
+        if (options.shows(ViewOptions.Layer.LABELS)) {
+            TrackLayer.paintLabels(g, scene, view, labels);
+        }
+        Symbols.north(g, width - 26, 26);
+        paintPointer(g);
+        Legend.paint(g, scene, options, seconds, width, getHeight());
+    }
+
+    private void paintPointer(Graphics2D g) {
+        g.setFont(Palette.SMALL);
+        g.setColor(Palette.MUTED);
+        if (pointer == null) {
+            return;
+        }
+        double x = view.worldX(pointer.x);
+        double y = view.worldY(pointer.y);
+        g.drawString(String.format(Locale.ROOT, "x %.2f  y %.2f  range %.2f km   %03.0f\u00b0", x / 1000, y / 1000,
+                Math.hypot(x, y) / 1000, Geometry.compassDegrees(x, y)), 12, 18);
+    }
+
+    /** Fits anew only when something leaves the view or it has become much too large, so that it stands still. */
+    private void followScene() {
+        Bounds wanted = follows ? extent() : null;
+        if (wanted == null) {
+            return;
+        }
+        boolean tooLarge = fitted != null
+                && Math.max(fitted.width() / wanted.width(), fitted.height() / wanted.height()) > 2.5
+                && Math.min(fitted.width() / wanted.width(), fitted.height() / wanted.height()) > 1.5;
+        if (fitted == null || tooLarge) {
+            fitted = wanted;
+        } else if (!fitted.contains(wanted)) {
+            fitted = fitted.union(wanted);
+        }
+        view.fit(fitted, FIT_MARGIN); // each time, as the window may have another size by now
+    }
+
+    private Bounds extent() {
+        List<Place> sure = new ArrayList<>(scene.sensors().values());
+        scene.tracks().forEach(track -> sure.add(track.place()));
+        scene.truth().forEach(target -> sure.add(target.place()));
+        List<Place> doubtful = new ArrayList<>();
+        scene.plots().forEach(look -> doubtful.addAll(look.content().places()));
+        Bounds bounds = Bounds.of(sure);
+        Bounds plots = Bounds.ofMost(doubtful);
+        return bounds == null ? plots : bounds.union(plots);
+    }
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.util.List;
+import java.util.Map;
+
+/** What is to be drawn: an immutable copy of the model, so that painting needs no lock and a pause is to keep one. */
+record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
+        List<LookHistory.Faded<Peaks>> peaks, List<TrackMark> tracks, List<List<Place>> trails, List<Truth> truth,
+        Map<Integer, Place> sensors, Health health) {
+    /** Plots of (a part of) one look. */
+    record Plots(int sensorId, List<Place> places) {
+    }
+
+    /** Bearings of one look, rad counter-clockwise from east. */
+    record Bearings(int sensorId, Place sensor, List<Double> angles) {
+    }
+
+    /** The candidates of one search. */
+    record Peaks(List<Peak> peaks) {
+    }
+
+    record Peak(double rho, double theta, double speed, double score, int scansHit, int sensorPairs) {
+    }
+
+    record Truth(int id, Place place, double vx, double vy) {
+    }
+
+    /** RHO_STATUS, the few figures that a status line has room for. */
+    record Status(int accepted, int lost, int late, int bad, int tentative, int confirmed, int coasting, double stepUs,
+            double stepMaxUs, double clutterPerKm2) {
+    }
+
+    /** How the messages themselves are doing; ages in seconds, negative where nothing came yet. */
+    record Health(Status status, double statusAge, double tracksAge, long received, long ignored) {
+    }
+}

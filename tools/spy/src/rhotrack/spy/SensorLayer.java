@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.awt.Color;
+import java.awt.Graphics2D;
+import java.awt.geom.Line2D;
+import java.awt.geom.Rectangle2D;
+import java.util.Map;
+
+/** What the sensors saw: plots and bearings that fade, and where the sensors stand. */
+final class SensorLayer {
+    private SensorLayer() {
+    }
+
+    static void paintPlots(Graphics2D g, Scene scene, ViewTransform view) {
+        for (LookHistory.Faded<Scene.Plots> look : scene.plots()) {
+            double strength = look.strength();
+            double size = strength == 1 ? 4 : 3;
+            g.setColor(Palette.faded(Palette.ofSensor(look.content().sensorId()), 0.08 + 0.8 * strength * strength));
+            for (Place place : look.content().places()) {
+                Symbols.plot(g, view.screenX(place.x()), view.screenY(place.y()), size);
+            }
+        }
+    }
+
+    static void paintBearings(Graphics2D g, Scene scene, ViewTransform view) {
+        Bounds visible = view.visible();
+        g.setStroke(Palette.THIN);
+        for (LookHistory.Faded<Scene.Bearings> look : scene.bearings()) {
+            Place sensor = look.content().sensor();
+            double reach = visible.farthestFrom(sensor);
+            double strength = look.strength();
+            Color colour = Palette.ofSensor(look.content().sensorId());
+            g.setColor(Palette.faded(colour, 0.4 * strength * strength));
+            for (double angle : look.content().angles()) {
+                g.draw(new Line2D.Double(view.screenX(sensor.x()), view.screenY(sensor.y()),
+                        view.screenX(sensor.x() + reach * Math.cos(angle)),
+                        view.screenY(sensor.y() + reach * Math.sin(angle))));
+            }
+        }
+    }
+
+    static void paintSensors(Graphics2D g, Scene scene, ViewTransform view, LabelPlacer labels) {
+        for (Map.Entry<Integer, Place> sensor : scene.sensors().entrySet()) {
+            double x = view.screenX(sensor.getValue().x());
+            double y = view.screenY(sensor.getValue().y());
+            Color colour = Palette.ofSensor(sensor.getKey());
+            Symbols.sensor(g, colour, x, y);
+            labels.block(x - 8, y - 8, 16, 16);
+            g.setFont(Palette.BOLD);
+            String text = "S" + sensor.getKey();
+            Rectangle2D room = labels.place(x, y, 8, g.getFontMetrics().stringWidth(text), 13);
+            if (room != null) {
+                g.drawString(text, (float) room.getX(), (float) room.getMaxY() - 2);
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.awt.Color;
+import java.awt.Graphics2D;
+import java.awt.geom.Ellipse2D;
+import java.awt.geom.Line2D;
+import java.awt.geom.Path2D;
+import java.awt.geom.Rectangle2D;
+
+/** The marks of the views, the same in pictures, tables and legends. Shapes differ too, not colours alone. */
+final class Symbols {
+    private Symbols() {
+    }
+
+    static void track(Graphics2D g, TrackMark.Status status, double x, double y) {
+        g.setColor(Palette.of(status));
+        g.setStroke(Palette.LINE);
+        switch (status) {
+            case CONFIRMED -> g.fill(new Ellipse2D.Double(x - 4, y - 4, 8, 8));
+            case TENTATIVE -> g.draw(new Ellipse2D.Double(x - 4, y - 4, 8, 8));
+            default -> g.draw(polygon(x, y - 5, x + 5, y, x, y + 5, x - 5, y));
+        }
+    }
+
+    static void plot(Graphics2D g, double x, double y, double size) {
+        g.fill(new Rectangle2D.Double(x - size / 2, y - size / 2, size, size));
+    }
+
+    static void truth(Graphics2D g, double x, double y) {
+        g.setColor(Palette.faded(Palette.TRUTH, 0.5));
+        g.setStroke(Palette.THIN);
+        g.draw(new Line2D.Double(x - 6, y, x + 6, y));
+        g.draw(new Line2D.Double(x, y - 6, x, y + 6));
+    }
+
+    static void sensor(Graphics2D g, Color colour, double x, double y) {
+        Path2D triangle = polygon(x, y - 7, x + 6.5, y + 5, x - 6.5, y + 5);
+        g.setColor(Palette.BACKGROUND);
+        g.fill(triangle);
+        g.setColor(colour);
+        g.setStroke(Palette.LINE);
+        g.draw(triangle);
+    }
+
+    static void north(Graphics2D g, double x, double y) {
+        g.setColor(Palette.MUTED);
+        g.fill(polygon(x, y - 14, x + 6, y + 8, x, y + 3, x - 6, y + 8));
+        g.setFont(Palette.BOLD);
+        g.drawString("N", (float) (x - g.getFontMetrics().stringWidth("N") / 2.0), (float) (y + 22));
+    }
+
+    private static Path2D polygon(double... xy) {
+        Path2D path = new Path2D.Double();
+        path.moveTo(xy[0], xy[1]);
+        for (int i = 2; i < xy.length; i += 2) {
+            path.lineTo(xy[i], xy[i + 1]);
+        }
+        path.closePath();
+        return path;
+    }
+}

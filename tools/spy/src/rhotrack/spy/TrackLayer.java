@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.awt.Color;
+import java.awt.FontMetrics;
+import java.awt.Graphics2D;
+import java.awt.Shape;
+import java.awt.geom.AffineTransform;
+import java.awt.geom.Ellipse2D;
+import java.awt.geom.Line2D;
+import java.awt.geom.Path2D;
+import java.awt.geom.Rectangle2D;
+import java.util.List;
+import java.util.Locale;
+
+/** The tracks, and the truth where there is one. */
+final class TrackLayer {
+    private static final double SIGMAS = 3;
+    /** The velocity vector of the median track is at least so long. */
+    private static final double VECTOR_PIXELS = 22;
+    /** Ellipses of less than this are hidden by the track's own symbol. */
+    private static final double MIN_ELLIPSE_PIXELS = 4.5;
+
+    private static final double LABEL_GAP = 6;
+
+    private TrackLayer() {
+    }
+
+    /** Vectors show the way of so many seconds, a round number; 0 where nothing moves. */
+    static double vectorSeconds(List<TrackMark> tracks, double metresPerPixel) {
+        double[] speeds = tracks.stream().mapToDouble(TrackMark::speed).filter(v -> v > 0).sorted().toArray();
+        if (speeds.length == 0) {
+            return 0;
+        }
+        return Scale.roundStep(VECTOR_PIXELS * metresPerPixel / speeds[speeds.length / 2]);
+    }
+
+    static void paintTruth(Graphics2D g, Scene scene, ViewTransform view, double seconds) {
+        for (Scene.Truth target : scene.truth()) {
+            double x = view.screenX(target.place().x());
+            double y = view.screenY(target.place().y());
+            Symbols.truth(g, x, y);
+            vector(g, target.place(), target.vx() * seconds, target.vy() * seconds, view);
+        }
+    }
+
+    static void paintTrails(Graphics2D g, Scene scene, ViewTransform view) {
+        g.setStroke(Palette.THIN);
+        for (int i = 0; i < scene.tracks().size(); i++) {
+            List<Place> trail = scene.trails().get(i);
+            Color colour = Palette.of(scene.tracks().get(i).status());
+            for (int k = 1; k < trail.size(); k++) {
+                Place from = trail.get(k - 1);
+                Place to = trail.get(k);
+                g.setColor(Palette.faded(colour, 0.1 + 0.5 * k / trail.size()));
+                g.draw(new Line2D.Double(view.screenX(from.x()), view.screenY(from.y()), view.screenX(to.x()),
+                        view.screenY(to.y())));
+            }
+        }
+    }
+
+    static void paintEllipses(Graphics2D g, Scene scene, ViewTransform view) {
+        for (TrackMark track : scene.tracks()) {
+            Ellipse ellipse = track.ellipse();
+            double scale = SIGMAS / view.metresPerPixel();
+            if (ellipse == null || ellipse.major() * scale < MIN_ELLIPSE_PIXELS) {
+                continue;
+            }
+            double a = ellipse.major() * scale;
+            double b = ellipse.minor() * scale;
+            AffineTransform place = AffineTransform.getTranslateInstance(view.screenX(track.place().x()),
+                    view.screenY(track.place().y()));
+            place.rotate(-ellipse.angle()); // the screen's y points down
+            Shape outline = place.createTransformedShape(new Ellipse2D.Double(-a, -b, 2 * a, 2 * b));
+            g.setColor(Palette.faded(Palette.of(track.status()), 0.1));
+            g.fill(outline);
+            g.setColor(Palette.faded(Palette.of(track.status()), 0.6));
+            g.setStroke(Palette.THIN);
+            g.draw(outline);
+        }
+    }
+
+    static void paintTracks(Graphics2D g, Scene scene, ViewTransform view, double seconds, LabelPlacer labels) {
+        for (TrackMark track : scene.tracks()) {
+            g.setColor(Palette.of(track.status()));
+            g.setStroke(Palette.LINE);
+            vector(g, track.place(), track.vx() * seconds, track.vy() * seconds, view);
+            double x = view.screenX(track.place().x());
+            double y = view.screenY(track.place().y());
+            Symbols.track(g, track.status(), x, y);
+            labels.block(x - 5, y - 5, 10, 10);
+        }
+        for (TrackMark track : scene.tracks()) {
+            blockVector(track, view, seconds, labels);
+        }
+    }
+
+    private static void vector(Graphics2D g, Place from, double east, double north, ViewTransform view) {
+        Path2D line = new Path2D.Double();
+        line.moveTo(view.screenX(from.x()), view.screenY(from.y()));
+        line.lineTo(view.screenX(from.x() + east), view.screenY(from.y() + north));
+        g.draw(line);
+    }
+
+    /** A few small boxes along the vector: one box about all of a slanting line would take too much room. */
+    private static void blockVector(TrackMark track, ViewTransform view, double seconds, LabelPlacer labels) {
+        for (double share : new double[] {0.35, 0.65, 1}) {
+            double x = view.screenX(track.place().x() + share * seconds * track.vx());
+            double y = view.screenY(track.place().y() + share * seconds * track.vy());
+            labels.block(x - 3, y - 3, 6, 6);
+        }
+    }
+
+    /** Confirmed tracks have the first choice of room. */
+    static void paintLabels(Graphics2D g, Scene scene, ViewTransform view, LabelPlacer labels) {
+        FontMetrics bold = g.getFontMetrics(Palette.BOLD);
+        FontMetrics small = g.getFontMetrics(Palette.SMALL);
+        for (TrackMark track : TrackMark.byImportance(scene.tracks())) {
+            String id = Integer.toString(track.id());
+            String speed = String.format(Locale.ROOT, "%.0f m/s", track.speed());
+            double x = view.screenX(track.place().x());
+            double y = view.screenY(track.place().y());
+            int idWidth = bold.stringWidth(id) + 6;
+            Rectangle2D room = labels.place(x, y, LABEL_GAP, idWidth + small.stringWidth(speed), 14);
+            if (room == null) {
+                continue;
+            }
+            LabelPlacer.paintLeader(g, x, y, LABEL_GAP, room, Palette.of(track.status()));
+            g.setColor(Palette.faded(Palette.BACKGROUND, 0.6));
+            g.fill(room);
+            float left = (float) room.getX();
+            float baseline = (float) room.getMaxY() - 3;
+            g.setColor(Palette.of(track.status()));
+            g.setFont(Palette.BOLD);
+            g.drawString(id, left, baseline);
+            g.setColor(Palette.MUTED);
+            g.setFont(Palette.SMALL);
+            g.drawString(speed, left + idWidth, baseline);
+        }
+    }
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.util.EnumSet;
+
+/** What the user wants to see. */
+final class ViewOptions {
+    enum Layer {
+        PLOTS('P', "Plots"), BEARINGS('B', "Bearings"), TRAILS('H', "Trails"), ELLIPSES('E', "Ellipses"),
+        LABELS('L', "Labels"), TRUTH('T', "Truth");
+
+        final char key;
+        final String title;
+
+        Layer(char key, String title) {
+            this.key = key;
+            this.title = title;
+        }
+    }
+
+    private final EnumSet<Layer> shown = EnumSet.allOf(Layer.class);
+
+    boolean shows(Layer layer) {
+        return shown.contains(layer);
+    }
+
+    void toggle(Layer layer) {
+        if (!shown.remove(layer)) {
+            shown.add(layer);
+        }
+    }
+}

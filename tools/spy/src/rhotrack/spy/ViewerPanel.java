@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.awt.BorderLayout;
+import java.awt.Color;
+import java.awt.Component;
+import java.awt.Container;
+import java.awt.Graphics2D;
+import java.awt.image.BufferedImage;
+import javax.swing.BorderFactory;
+import javax.swing.JPanel;
+import javax.swing.JSplitPane;
+import javax.swing.Timer;
+import javax.swing.plaf.basic.BasicSplitPaneUI;
+
+/** All views of one model, with their buttons and keys. Needs no window to paint itself. */
+@SuppressWarnings("serial") // nobody stores views
+final class ViewerPanel extends JPanel {
+    private static final int REFRESH_MS = 100;
+    /** The ages in the status line grow also when nothing comes. */
+    private static final long LONGEST_REST_NANOS = 1_000_000_000L;
+    private static final double PAN_PIXELS = 60;
+    private static final double ZOOM_A_KEY = 1.4;
+
+    private final Model model;
+    private final ViewOptions options = new ViewOptions();
+    private final PlanView plan = new PlanView(options);
+    private final PeaksView peaks = new PeaksView();
+    private final TrackTable table = new TrackTable();
+    private final StatusLine status = new StatusLine();
+    private final Timer timer = new Timer(REFRESH_MS, event -> refreshIfChanged());
+    private Scene scene;
+    private boolean paused;
+    private long seen = -1;
+    private long refreshed;
+
+    ViewerPanel(Model model) {
+        super(new BorderLayout());
+        this.model = model;
+        setBackground(Palette.PANEL);
+        setFocusable(true);
+        add(controls().row(), BorderLayout.NORTH);
+        JSplitPane side = split(JSplitPane.VERTICAL_SPLIT, peaks, table, 0.6);
+        add(split(JSplitPane.HORIZONTAL_SPLIT, plan, side, 0.72), BorderLayout.CENTER);
+        add(status, BorderLayout.SOUTH);
+        PointerControl.attach(plan);
+    }
+
+    void start() {
+        timer.start();
+    }
+
+    void stop() {
+        timer.stop();
+    }
+
+    private Controls controls() {
+        Controls controls = new Controls(this);
+        controls.button("Pause", "SPACE", () -> paused, this::togglePause);
+        controls.button("Fit", "F", () -> false, plan::fit);
+        controls.button("Clear", "C", () -> false, this::clear);
+        controls.gap();
+        for (ViewOptions.Layer layer : ViewOptions.Layer.values()) {
+            controls.button(layer.title, String.valueOf(layer.key), () -> options.shows(layer), () -> {
+                options.toggle(layer);
+                repaint();
+            });
+        }
+        controls.key("typed +", () -> plan.zoom(ZOOM_A_KEY));
+        controls.key("typed -", () -> plan.zoom(1 / ZOOM_A_KEY));
+        controls.key("LEFT", () -> plan.pan(PAN_PIXELS, 0));
+        controls.key("RIGHT", () -> plan.pan(-PAN_PIXELS, 0));
+        controls.key("UP", () -> plan.pan(0, PAN_PIXELS));
+        controls.key("DOWN", () -> plan.pan(0, -PAN_PIXELS));
+        return controls;
+    }
+
+    private static JSplitPane split(int orientation, Component first, Component second, double weight) {
+        JSplitPane split = new JSplitPane(orientation, true, first, second);
+        BasicSplitPaneUI plain = new BasicSplitPaneUI(); // the usual one paints knobs and edges in light grey
+        split.setUI(plain);
+        plain.getDivider().setBorder(BorderFactory.createEmptyBorder());
+        split.setBackground(Palette.EDGE);
+        split.setBorder(BorderFactory.createEmptyBorder());
+        split.setDividerSize(3);
+        split.setResizeWeight(weight);
+        return split;
+    }
+
+    /** What is shown stands still; messages are still taken, and shown when the pause ends. */
+    private void togglePause() {
+        paused = !paused;
+        status.show(scene, paused);
+    }
+
+    private void clear() {
+        model.clear();
+        plan.fit();
+    }
+
+    private void refreshIfChanged() {
+        boolean rested = System.nanoTime() - refreshed > LONGEST_REST_NANOS;
+        if (!paused && (rested || model.changes() != seen)) {
+            refresh();
+        }
+    }
+
+    private void refresh() {
+        seen = model.changes();
+        refreshed = System.nanoTime();
+        scene = model.scene();
+        plan.show(scene);
+        peaks.show(scene);
+        table.show(scene);
+        status.show(scene, paused);
+    }
+
+    /** Paints what the model holds now. Without a window the layout must be asked for. */
+    BufferedImage picture(int width, int height) {
+        setSize(width, height);
+        layOut(this);
+        refresh();
+        BufferedImage image = new BufferedImage(width, height, BufferedImage.TYPE_INT_RGB);
+        Graphics2D g = image.createGraphics();
+        g.setColor(Color.BLACK);
+        printAll(g);
+        g.dispose();
+        return image;
+    }
+
+    private static void layOut(Container container) {
+        container.doLayout();
+        for (Component child : container.getComponents()) {
+            if (child instanceof Container inner) {
+                layOut(inner);
+            }
+        }
+    }
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy;
+
+import java.awt.image.BufferedImage;
+import java.io.ByteArrayOutputStream;
+import java.io.DataOutputStream;
+import java.io.IOException;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Random;
+import lcm.lcm.LCMEncodable;
+import rhotrack.bearing_scan_t;
+import rhotrack.peak_list_t;
+import rhotrack.peak_t;
+import rhotrack.polar_plot_t;
+import rhotrack.polar_scan_t;
+import rhotrack.status_t;
+import rhotrack.track_list_t;
+import rhotrack.track_t;
+
+/** From messages, good and bad, to what is painted. */
+final class MessageTest {
+    private MessageTest() {
+    }
+
+    static void run(Checks check) {
+        check.group("messages", () -> good(check));
+        check.group("bad messages", () -> bad(check));
+        check.group("mutated messages", () -> mutated(check));
+        check.group("picture", () -> picture(check));
+        check.group("fingerprints", () -> {
+            check.isTrue("tracks are known", Decoder.knows(track_list_t.LCM_FINGERPRINT));
+            check.isTrue("a part of a message is none", !Decoder.knows(track_t.LCM_FINGERPRINT));
+        });
+    }
+
+    private static byte[] bytes(LCMEncodable message) throws IOException {
+        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+        message.encode(new DataOutputStream(bytes));
+        return bytes.toByteArray();
+    }
+
+    private static polar_scan_t polarScan() {
+        polar_scan_t scan = new polar_scan_t();
+        scan.sensor_id = 3;
+        scan.num_parts = 1;
+        scan.sensor_x_m = 100;
+        polar_plot_t plot = new polar_plot_t();
+        plot.range_m = 2000;
+        scan.polar_plots = new polar_plot_t[] {plot};
+        scan.num_polar_plots = 1;
+        return scan;
+    }
+
+    private static track_list_t trackList(int scan, int status) {
+        track_t track = new track_t();
+        track.track_id = 12;
+        track.status = (byte) status;
+        track.x_m = 500;
+        track.vx_mps = 100;
+        track.covariance[0] = 900;
+        track.covariance[2] = 400;
+        track_list_t list = new track_list_t();
+        list.scan = scan;
+        list.num_parts = 1;
+        list.num_tracks = 1;
+        list.tracks = new track_t[] {track};
+        return list;
+    }
+
+    private static bearing_scan_t bearings() {
+        bearing_scan_t scan = new bearing_scan_t();
+        scan.sensor_id = 2;
+        scan.num_bearings = 2;
+        scan.bearing_rad = new float[] {1, -2};
+        return scan;
+    }
+
+    private static peak_list_t peaks() {
+        peak_t peak = new peak_t();
+        peak.rho_m = -300;
+        peak.theta_rad = 1;
+        peak_list_t list = new peak_list_t();
+        list.num_peaks = 1;
+        list.peaks = new peak_t[] {peak};
+        return list;
+    }
+
+    private static void good(Checks check) throws IOException {
+        Model model = new Model();
+        Decoder decoder = new Decoder(model);
+        decoder.decode("RHO_POLAR_3", bytes(polarScan()));
+        decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.COASTING)));
+        decoder.decode("RHO_BEARINGS_2", bytes(bearings()));
+        decoder.decode("RHO_PEAKS", bytes(peaks()));
+        status_t status = new status_t();
+        status.scans_bad = Integer.MAX_VALUE;
+        status.messages_bad = 5;
+        decoder.decode("RHO_STATUS", bytes(status));
+        Scene scene = model.scene();
+        check.equal("plots", List.of(new Place(2100, 0)), scene.plots().get(0).content().places());
+        check.equal("sensors", new Place(100, 0), scene.sensors().get(3));
+        check.equal("tracks", TrackMark.Status.COASTING, scene.tracks().get(0).status());
+        check.near("ellipse", 30, scene.tracks().get(0).ellipse().major());
+        check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
+        check.near("peaks", -300, scene.peaks().get(0).content().peaks().get(0).rho());
+        check.equal("counters stay at their limit", Integer.MAX_VALUE, scene.health().status().bad());
+        check.equal("all taken", 0L, scene.health().ignored());
+        decoder.decode("RHO_TRACKS", bytes(trackList(2, track_t.DELETED)));
+        check.equal("deleted", 0, model.scene().tracks().size());
+    }
+
+    private static void bad(Checks check) throws IOException {
+        Model model = new Model();
+        Decoder decoder = new Decoder(model);
+        byte[] whole = bytes(trackList(1, track_t.CONFIRMED));
+        decoder.decode("RHO_TRACKS", new byte[0]);
+        decoder.decode("RHO_TRACKS", new byte[7]);
+        decoder.decode("RHO_TRACKS", Arrays.copyOf(whole, whole.length - 1));
+        decoder.decode("RHO_TRACKS", Arrays.copyOf(whole, whole.length + 1));
+        byte[] other = whole.clone();
+        other[0] ^= 1; // another version's fingerprint
+        decoder.decode("RHO_TRACKS", other);
+        decoder.decode("RHO_TRACKS", bytes(trackList(1, 5)));
+        track_list_t nowhere = trackList(1, track_t.CONFIRMED);
+        nowhere.tracks[0].x_m = Float.NaN;
+        decoder.decode("RHO_TRACKS", bytes(nowhere));
+        track_list_t part = trackList(1, track_t.CONFIRMED);
+        part.part = 1;
+        decoder.decode("RHO_TRACKS", bytes(part));
+        bearing_scan_t infinite = bearings();
+        infinite.bearing_rad[0] = Float.POSITIVE_INFINITY;
+        decoder.decode("RHO_BEARINGS_2", bytes(infinite));
+        decoder.decode("RHO_BEARINGS_12", bytes(bearings())); // a sensor on another one's channel
+        check.equal("all refused", 10L, model.scene().health().ignored());
+        check.equal("nothing shown", 0, model.scene().tracks().size());
+        track_list_t vague = trackList(1, track_t.CONFIRMED);
+        vague.tracks[0].covariance[0] = Float.NaN;
+        decoder.decode("RHO_TRACKS", bytes(vague));
+        check.equal("a bad covariance costs the ellipse only", null, model.scene().tracks().get(0).ellipse());
+    }
+
+    private static void mutated(Checks check) throws IOException {
+        Random random = new Random(1);
+        Model model = new Model();
+        Decoder decoder = new Decoder(model);
+        byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
+            bytes(peaks()), bytes(new status_t())};
+        int rounds = 20000;
+        for (int i = 0; i < rounds; i++) {
+            byte[] message = originals[i % originals.length].clone();
+            for (int k = random.nextInt(4); k >= 0; k--) {
+                message[8 + random.nextInt(message.length - 8)] = (byte) random.nextInt(256);
+            }
+            decoder.decode(i % 2 == 0 ? "RHO_POLAR_3" : "RHO_BEARINGS_2", message);
+        }
+        for (int id = 0; id < 300; id++) {
+            polar_scan_t scan = polarScan();
+            scan.sensor_id = (short) id;
+            decoder.decode("RHO_POLAR_" + id, bytes(scan));
+        }
+        check.equal("all counted", rounds + 300L, model.scene().health().received());
+        check.isTrue("no more sensors than a tracker takes", model.scene().sensors().size() == 64);
+        new ViewerPanel(model).picture(800, 600);
+        check.isTrue("and painted", true);
+    }
+
+    private static void picture(Checks check) throws IOException {
+        Model model = new Model();
+        ViewerPanel panel = new ViewerPanel(model);
+        BufferedImage before = panel.picture(900, 600);
+        Decoder decoder = new Decoder(model);
+        decoder.decode("RHO_POLAR_3", bytes(polarScan()));
+        decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
+        BufferedImage after = panel.picture(900, 600);
+        int confirmed = Palette.of(TrackMark.Status.CONFIRMED).getRGB();
+        check.isTrue("no track at first", count(before, confirmed) < count(after, confirmed));
+    }
+
+    private static int count(BufferedImage image, int colour) {
+        int[] pixels = image.getRGB(0, 0, image.getWidth(), image.getHeight(), null, 0, image.getWidth());
+        return (int) Arrays.stream(pixels).filter(pixel -> pixel == colour).count();
+    }
+}
