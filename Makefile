@@ -232,6 +232,50 @@ format-check:
 	    clang-format --dry-run -Werror "$$file" >/dev/null 2>&1 || { echo "$$file: run make format"; failed=1; }; \
 	done; test -z "$$failed"
 
+# --- the viewer for lcm-spy ------------------------------------------------------------------
+
+# Not the lcm-gen that the pip package lcm puts first on PATH: what it writes must fit the jar.
+LCM_GEN ?= /usr/bin/lcm-gen
+LCM_JARS ?= /usr/share/java/lcm.jar:/usr/share/java/jchart2d.jar
+
+spy := $(BUILD)/spy
+spy_jars := $(spy)/rhotrack-types.jar $(spy)/rhotrack-spy.jar
+spy_sources := $(sort $(wildcard tools/spy/src/rhotrack/spy/*.java))
+spy_tests := $(sort $(wildcard tools/spy/test/rhotrack/spy/*.java))
+spy_path := $(LCM_JARS):$(spy)/rhotrack-types.jar:$(spy)/rhotrack-spy.jar
+javac = echo "  javac    $@" && rm -rf $(1) && mkdir -p $(1) && javac --release 17 -encoding UTF-8 -d $(1)
+java_warnings := -Xlint:all -Werror
+
+## Build the viewer for lcm-spy (build/spy/rhotrack-types.jar, rhotrack-spy.jar); needs liblcm-java
+spy: $(spy_jars)
+
+$(spy)/rhotrack-types.jar: $(sort $(wildcard lcm_types/*.lcm)) Makefile
+	@for file in $(LCM_GEN) $(subst :, ,$(LCM_JARS)); do test -e $$file || \
+	    { echo "spy: no $$file (Debian: liblcm-bin liblcm-java libjchart2d-java default-jdk)" >&2; exit 1; }; done
+	@rm -rf $(spy)/types && mkdir -p $(spy)/types && $(LCM_GEN) -j --jpath $(spy)/types $(filter %.lcm,$^)
+	@$(call javac,$(spy)/types-classes) -nowarn -cp $(LCM_JARS) $(spy)/types/rhotrack/*.java
+	@jar --create --file $@ -C $(spy)/types-classes .
+
+$(spy)/rhotrack-spy.jar: $(spy_sources) $(spy)/rhotrack-types.jar
+	@$(call javac,$(spy)/classes) $(java_warnings) -cp $(LCM_JARS):$(spy)/rhotrack-types.jar $(spy_sources)
+	@jar --create --file $@ -C $(spy)/classes .
+
+# Not /usr/bin/lcm-spy: it asks for a garbage collector that Java has no more.
+## Start lcm-spy with the viewer (LCM_URL=udpm://... for another network than LCM's default)
+spy-run: spy
+	java -Djava.net.preferIPv4Stack=true -cp $(spy_path) lcm.spy.Spy $(if $(LCM_URL),--lcm-url='$(LCM_URL)')
+
+## Start the viewer without lcm-spy (LCM_URL as above)
+spy-view: spy
+	java -Djava.net.preferIPv4Stack=true -cp $(spy_path) rhotrack.spy.Viewer $(if $(LCM_URL),--lcm-url='$(LCM_URL)')
+
+## Test the viewer's parts without a display; ends with `N passed, N failed`
+spy-test: spy
+	@$(call javac,$(spy)/test-classes) $(java_warnings) -cp $(spy_path) $(spy_tests)
+	@java -Djava.awt.headless=true -cp $(spy_path):$(spy)/test-classes rhotrack.spy.SelfTest
+
+.PHONY: spy spy-run spy-view spy-test
+
 # --- the rest --------------------------------------------------------------------------------
 
 ## Remove everything that was built
