@@ -12,6 +12,7 @@ trap 'rm -rf "$folder"' EXIT
 ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/jobs" tools/instructions/jobs.c "$build/librhotrack.a"
 ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/maintain" tools/instructions/maintain.c \
     "$build/librhotrack.a"
+${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/wire" tools/instructions/wire.c "$build/librhotrack.a"
 ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o "$folder/hough" \
     tools/instructions/hough.c "$build/workstation/librhotrack.a"
 
@@ -65,6 +66,23 @@ default 10 0 'isotropic noise' 60000
 default 1 1 'noise of its own, the target alone'
 default 4 1 'noise of its own'
 default 10 1 'noise of its own'
+
+wire() { # job, text, at most a byte
+    local count size bar=''
+    count=$(instructions wire "$1")
+    read -r size <"$folder/stdout"
+    [ -z "${3-}" ] || bar="  (at most $3)"
+    awk -v text="$2" -v count="$count" -v size="$size" -v bar="$bar" -v most="${3:-1e9}" 'BEGIN {
+        printf "%-62s %12d %8.2f%s\n", text, count, count / size, bar
+        exit count / size > most }' || failed=1
+}
+
+printf '\n%-62s %12s %8s\n' 'messages' instructions 'a byte'
+wire encode 'plot_scan_t of 34 plots, encoded' 20
+wire decode 'the same, decoded'
+wire validate 'the same, its values checked'
+wire take 'the same, taken by the feed: decoded, checked, made plots'
+wire publish 'track_list_t of 9 tracks, from a report'
 
 votes() { # points: a row with and without pruning
     local plain pruned

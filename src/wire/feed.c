@@ -85,6 +85,7 @@ enum rho_status rho_feed_init(struct rho_feed *feed, size_t size,
     }
     memset(feed, 0, sizeof *feed);
     memcpy(&feed->config, config, sizeof feed->config);
+    feed->stranger.bucket = config->flood_per_s;
     feed->magic = MAGIC;
     return RHO_OK;
 }

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * wire: messages to bytes and back, for tools/instructions.sh to count the instructions of. What is counted runs inside
+ * job(). Argument: the job's name. Prints the message's bytes.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rhotrack/feed.h"
+#include "rhotrack/message.h"
+#include "rhotrack/publish.h"
+
+static struct rho_message_plot_scan scan;
+static struct rho_report report;
+static struct rho_feed feed;
+static uint8_t bytes[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
+static size_t size;
+static enum rho_status status;
+
+__attribute__((noinline)) static void encode_scan(void)
+{
+    status = rho_message_plot_scan_encode(&scan, bytes, sizeof bytes, &size);
+}
+
+static void decode_scan(void)
+{
+    status = rho_message_plot_scan_decode(bytes, size, &scan);
+}
+
+static void validate_scan(void)
+{
+    status = rho_message_plot_scan_validate(&scan, NULL);
+}
+
+static void take_scan(void)
+{
+    status = rho_feed_take(&feed, "RHO_PLOTS_1", bytes, size, 0);
+    if (status == RHO_OK && feed.counters.scans_accepted != 1) {
+        status = RHO_ERROR_VALUE;
+    }
+}
+
+static void publish_tracks(void)
+{
+    status = rho_publish_tracks(&report, 1, 1, 0, bytes, sizeof bytes, &size);
+}
+
+/* The function whose instructions count. */
+__attribute__((noinline)) static void job(void (*work)(void))
+{
+    work();
+    __asm__ volatile("" ::: "memory");
+}
+
+static void fill(void)
+{
+    struct rho_feed_config config;
+
+    scan = (struct rho_message_plot_scan){.scan = 1,
+                                          .sensor_id = 1,
+                                          .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D,
+                                          .num_parts = 1,
+                                          .num_plots = RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
+    for (int i = 0; i < RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS; i++) {
+        scan.plots[i].x_m = 1000.0f * (float)i;
+        scan.plots[i].y_m = -500.0f * (float)i;
+    }
+    report.num_tracks = RHO_MESSAGE_TRACK_LIST_MAX_TRACKS;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        report.tracks[i].track_id = i + 1;
+        report.tracks[i].status = RHO_TRACK_CONFIRMED;
+    }
+    rho_feed_config_default(&config);
+    status = rho_feed_init(&feed, sizeof feed, &config);
+}
+
+int main(int argc, char **argv)
+{
+    static const struct {
+        const char *name;
+        void (*work)(void);
+    } jobs[] = {{"encode", encode_scan},
+                {"decode", decode_scan},
+                {"validate", validate_scan},
+                {"take", take_scan},
+                {"publish", publish_tracks}};
+
+    fill();
+    encode_scan();
+    for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
+        if (argc == 2 && status == RHO_OK && strcmp(argv[1], jobs[i].name) == 0) {
+            job(jobs[i].work);
+            printf("%zu\n", size);
+            return status == RHO_OK ? EXIT_SUCCESS : EXIT_FAILURE;
+        }
+    }
+    fprintf(stderr, "no such job\n");
+    return EXIT_FAILURE;
+}
