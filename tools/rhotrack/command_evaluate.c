@@ -104,8 +104,9 @@ static bool counts(const struct table *table, size_t row)
     if (strcmp(status, "confirmed") == 0 || strcmp(status, "coasting") == 0) {
         return true;
     }
-    if (strcmp(status, "tentative") != 0) {
-        table_fail(table, row, "status: '%s' is none of tentative, confirmed, coasting", status);
+    if (strcmp(status, "tentative") != 0 && strcmp(status, "deleted") != 0) {
+        table_fail(table, row, "status: '%s' is none of tentative, confirmed, coasting, deleted",
+                   status);
     }
     return false;
 }

@@ -10,7 +10,7 @@
 #include "hint.h"
 #include "method.h"
 
-enum { NUM_OPTIONS = 13, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 14, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -20,6 +20,7 @@ static const struct {
     {'o', "output", "OUTPUT", "where to write; it appears there only when it is complete"},
     {'m', "method", "METHOD", "how tracks are initiated: " METHOD_NAMES},
     {'g', "gate", "GATE", "how a track chooses its plots; the parameter gate says the same"},
+    {'K', "kind", "KIND", "which messages of a log: plots, polar, bearings, truth or tracks"},
     {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
     {'f', "follow", NULL, NULL},
     {'c', "covariance", NULL, "tracks with 21 columns more: the covariance's lower triangle"},
@@ -103,6 +104,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     case 'g':
         line->gate = argument;
+        break;
+    case 'K':
+        line->kind = argument;
         break;
     case 'i':
         line->no_input_estimation = true;

@@ -14,6 +14,7 @@ struct command_line {
     const char *output;       /* -o; NULL where not given */
     const char *method;       /* --method; NULL where not given */
     const char *gate;         /* --gate */
+    const char *kind;         /* --kind; NULL where not given */
     uint64_t seed;            /* --seed; default 1 */
     long runs;                /* --runs; 0 where not given */
     bool json;                /* --json */
@@ -32,6 +33,7 @@ int command_evaluate(struct command_line *line);
 int command_experiment(struct command_line *line);
 int command_plot(struct command_line *line);
 int command_bench(struct command_line *line);
+int command_convert(struct command_line *line);
 int command_config(struct command_line *line);
 
 #endif

@@ -67,12 +67,20 @@ static const struct command commands[] = {
      "Draws plots or bearings, tracks, the parameter space of lines, or errors, as SVG.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
+    {"convert", command_convert, "IN OUT [--kind plots|polar|bearings|truth|tracks]", 2, 2, "KcksC",
+     "CSV files to LCM logs and back",
+     "Writes a CSV file (plots, polar plots, bearings, truth or tracks) as an LCM log, or the\n"
+     "messages of one kind of a log as a CSV file. CSV files end with .csv, LCM logs with .lcm.\n"
+     "Values keep float32 and times microseconds. Rows of one sensor are one scan where they have\n"
+     "the same scan and epoch (columns), else the same t_s, or are within scan_interval_s. "
+     "Damaged\n"
+     "places of a log are skipped and reported; bad messages are refused, or with --keep-going\n"
+     "skipped and counted.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",
      "every parameter with unit, default and range",
      "Prints each parameter's unit, default, range, and its value now with where it came from; "
      "with\n"
      "--method, that method's customary values.\n"},
-    {"convert", NULL, "", 0, 0, "", "", ""},
     {"node", NULL, "", 0, 0, "", "", ""},
     {"publish", NULL, "", 0, 0, "", "", ""},
     {"register", NULL, "", 0, 0, "", "", ""},

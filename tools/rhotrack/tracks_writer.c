@@ -6,7 +6,7 @@
 #include "common.h"
 #include "rhotrack/angle.h"
 
-static void write_time(FILE *file, int64_t time_us)
+void tracks_write_time(FILE *file, int64_t time_us)
 {
     uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
 
@@ -40,7 +40,7 @@ void tracks_write_header(FILE *file, bool with_covariance)
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
                       bool with_covariance)
 {
-    write_time(file, time_us);
+    tracks_write_time(file, time_us);
     fprintf(file, ",%" PRIu32 ",%s", track->track_id, rho_track_status_name(track->status));
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         write_float(file, track->state[i]);
@@ -73,7 +73,7 @@ void initiated_write_header(FILE *file)
 void initiated_write_row(FILE *file, const struct initiated *row)
 {
     fprintf(file, "%u,", row->track_id);
-    write_time(file, row->time_us);
+    tracks_write_time(file, row->time_us);
     if (row->has_state) {
         write_float(file, row->x_m);
         write_float(file, row->y_m);

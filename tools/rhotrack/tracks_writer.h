@@ -19,6 +19,9 @@
  */
 void tracks_write_header(FILE *file, bool with_covariance);
 
+/* Seconds, to the microsecond. */
+void tracks_write_time(FILE *file, int64_t time_us);
+
 /* One row: a track's estimate at time_us. */
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
                       bool with_covariance);

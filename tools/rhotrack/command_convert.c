@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: MIT */
+/* convert: a CSV file as an LCM log, or the messages of one kind of a log as a CSV file. */
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "common.h"
+#include "lcm_log.h"
+#include "message_source.h"
+#include "rows_collect.h"
+#include "rows_write.h"
+
+/* ---- Which way ---- */
+
+static bool ends_with(const char *path, const char *suffix)
+{
+    size_t length = strlen(path), end = strlen(suffix);
+
+    return length >= end && strcmp(path + length - end, suffix) == 0;
+}
+
+static bool is_regular(const char *path)
+{
+    struct stat status;
+
+    return stat(path, &status) ||
+           S_ISREG(status.st_mode); /* of what is not there the reader says so */
+}
+
+/* A pipe is what the output's name leaves for it. */
+static bool input_is_log(const char *input, const char *output)
+{
+    return lcm_log_is_log(input) ||
+           (!is_regular(input) && !ends_with(input, ".csv") && ends_with(output, ".csv"));
+}
+
+/* An output with another name, as standard output, is what the input is not. */
+static void check_output(const char *output, bool from_log)
+{
+    if (ends_with(output, from_log ? ".lcm" : ".csv")) {
+        fail(EXIT_USAGE,
+             "convert: %s would be %s, and so is the input; CSV files end with .csv, LCM logs with "
+             ".lcm",
+             output, from_log ? "an LCM log" : "a CSV file");
+    }
+}
+
+/* ---- CSV to log ---- */
+
+static void write_log(struct message_source *source, const char *path)
+{
+    struct output output = output_open(path);
+    struct lcm_log_writer writer = {.file = output.file};
+    struct message_event event;
+
+    while (message_source_next(source, &event)) {
+        if (!lcm_log_write(&writer, event.utime, event.channel, event.data, event.size)) {
+            fail(EXIT_RUNTIME, "%s: cannot be written: %s", path, strerror(errno));
+        }
+    }
+    output_close(&output);
+}
+
+static void convert_to_log(const struct command_line *line)
+{
+    struct message_source *source =
+        message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
+
+    if (line->kind) {
+        fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is a CSV file",
+             line->arguments[0]);
+    }
+    write_log(source, line->arguments[1]);
+    message_source_report(source);
+    message_source_close(source);
+}
+
+/* ---- Log to CSV ---- */
+
+struct reading {
+    const struct command_line *line;
+    const char *path;
+    const struct rows_kind *kind; /* wanted, or the first that was found; NULL before */
+    struct rows_collection collection;
+    uint64_t num_messages[NUM_ROWS_KINDS]; /* on channels of each kind */
+    uint64_t messages_bad, others;
+};
+
+static const struct rows_kind *find_kind(const char *name)
+{
+    for (int i = 0; i < NUM_ROWS_KINDS; i++) {
+        if (strcmp(name, rows_kinds[i]->name) == 0) {
+            return rows_kinds[i];
+        }
+    }
+    fail(EXIT_USAGE, "convert: --kind '%s' is none of plots, polar, bearings, truth, tracks", name);
+}
+
+static void choose_kind(struct reading *reading, const struct rows_kind *kind)
+{
+    reading->kind = kind;
+    rows_collect_start(&reading->collection, kind);
+}
+
+static void take_message(struct reading *reading, const struct lcm_log_event *event)
+{
+    char reason[ROWS_COLLECT_REASON_BYTES];
+    const char *why =
+        rows_collect(&reading->collection, event->channel, event->data, event->size, reason);
+
+    if (!why) {
+        return;
+    }
+    if (!reading->line->keep_going) {
+        fail(EXIT_USAGE, "%s: event %" PRId64 " at byte %" PRIu64 ", %s: %s", reading->path,
+             event->number, event->offset, event->channel, why);
+    }
+    reading->messages_bad++;
+}
+
+static void take_event(struct reading *reading, const struct lcm_log_event *event)
+{
+    const struct rows_kind *kind = rows_kind_of_channel(event->channel);
+
+    if (!kind) {
+        reading->others++;
+        return;
+    }
+    for (int i = 0; i < NUM_ROWS_KINDS; i++) {
+        reading->num_messages[i] += rows_kinds[i] == kind;
+    }
+    if (!reading->kind) {
+        choose_kind(reading, kind);
+    }
+    if (reading->kind == kind) {
+        take_message(reading, event);
+    }
+}
+
+/* "12 plots, 3 truth" */
+static const char *list_kinds(const struct reading *reading, char *text, size_t bytes)
+{
+    size_t length = 0;
+
+    *text = '\0';
+    for (int i = 0; i < NUM_ROWS_KINDS; i++) {
+        if (reading->num_messages[i] > 0) {
+            length +=
+                (size_t)snprintf(text + length, bytes - length, "%s%" PRIu64 " %s",
+                                 length ? ", " : "", reading->num_messages[i], rows_kinds[i]->name);
+        }
+    }
+    return text;
+}
+
+/* One kind at least, and no other that was not chosen against. */
+static void check_kinds(struct reading *reading)
+{
+    char text[200];
+    int kinds = 0;
+
+    for (int i = 0; i < NUM_ROWS_KINDS; i++) {
+        kinds += reading->num_messages[i] > 0;
+    }
+    list_kinds(reading, text, sizeof text);
+    if (kinds == 0) {
+        fail(EXIT_USAGE,
+             "%s: no messages of plots, polar plots, bearings, truth or tracks in it; %" PRIu64
+             " on other channels",
+             reading->path, reading->others);
+    }
+    if (reading->line->kind && reading->collection.count == 0 && reading->messages_bad == 0) {
+        fail(EXIT_USAGE, "%s: no messages of %s in it, but %s", reading->path, reading->kind->name,
+             text);
+    }
+    if (!reading->line->kind && kinds > 1) {
+        fail(EXIT_USAGE,
+             "%s: several kinds of messages in it, and a CSV file holds one (%s): choose by --kind",
+             reading->path, text);
+    }
+    for (int i = 0; i < NUM_ROWS_KINDS; i++) {
+        reading->others += rows_kinds[i] == reading->kind ? 0 : reading->num_messages[i];
+    }
+}
+
+static void say_count(const struct reading *reading, uint64_t count, const char *what)
+{
+    if (count > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", reading->path, count, what);
+    }
+}
+
+static void report(const struct reading *reading, const struct lcm_log_reader *log)
+{
+    lcm_log_report(log);
+    say_count(reading, reading->messages_bad, "bad messages skipped");
+    say_count(reading, reading->others, "messages on other channels left out");
+    say_count(reading, reading->collection.messages_again,
+              "messages that were there before left out");
+    say_count(reading, reading->collection.scans_incomplete, "scans or lists lack parts");
+    say_count(reading, reading->collection.lists_empty, "lists without elements have no row");
+}
+
+static void convert_from_log(const struct command_line *line)
+{
+    struct reading reading = {.line = line, .path = line->arguments[0]};
+    struct lcm_log_reader *log;
+    struct lcm_log_event event;
+    struct output output;
+
+    if (line->kind) {
+        choose_kind(&reading, find_kind(line->kind));
+    }
+    log = lcm_log_open(reading.path);
+    while (lcm_log_next(log, &event)) {
+        take_event(&reading, &event);
+    }
+    if (lcm_log_counts(log).events == 0) {
+        fail(EXIT_USAGE, "%s: not one event of an LCM log in it", reading.path);
+    }
+    check_kinds(&reading);
+    rows_collect_finish(&reading.collection);
+    if (reading.collection.rows.count == 0) {
+        fail(EXIT_USAGE, "%s: the messages of %s in it have not one row", reading.path,
+             reading.kind->name);
+    }
+    output = output_open(line->arguments[1]);
+    rows_write(output.file, &reading.collection.rows, line->covariance);
+    output_close(&output);
+    report(&reading, log);
+    rows_collect_free(&reading.collection);
+    lcm_log_close(log);
+}
+
+int command_convert(struct command_line *line)
+{
+    bool from_log = input_is_log(line->arguments[0], line->arguments[1]);
+
+    parameters_check(&line->parameters);
+    check_output(line->arguments[1], from_log);
+    if (from_log) {
+        convert_from_log(line);
+    } else {
+        convert_to_log(line);
+    }
+    return 0;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * rows_read: rows from a CSV file, each checked by what its message may hold.
+ *
+ * Columns scan and epoch, of scans and lists both, number these; a file without them has none numbered.
+ */
+#ifndef RHOTRACK_TOOL_ROWS_READ_H
+#define RHOTRACK_TOOL_ROWS_READ_H
+
+#include <stdbool.h>
+
+#include "parameters.h"
+#include "rows.h"
+
+/* A file and what was read of it. */
+struct rows_file {
+    char *path;
+    bool keep_going;
+    struct rows rows;
+    bool has_scan, has_epoch; /* the columns */
+    uint64_t rows_skipped;
+};
+
+/*
+ * Reads a file. Errors: exit 2, with file and line; with keep_going bad rows are skipped and counted instead. Places of
+ * radars that the file does not say come from the parameters.
+ */
+void rows_read(struct rows_file *file, const char *path, const struct parameters *parameters,
+               bool keep_going);
+
+/* A row that turned out bad: exit 2 with its line, or counted. */
+void rows_refuse(struct rows_file *file, const struct row *row, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void rows_read_end(struct rows_file *file);
+
+#endif

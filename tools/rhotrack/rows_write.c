@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+#include "rows_write.h"
+
+#include <inttypes.h>
+
+#include "common.h"
+#include "tracks_writer.h"
+
+/* ---- Which columns ---- */
+
+static bool is_set_in(const struct rows_column *column, double cell)
+{
+    if (rows_is_empty(cell)) {
+        return false;
+    }
+    return !(column->flags & COLUMN_NOT_ZERO) || !rows_is_zero((float)cell);
+}
+
+static bool is_wanted(const struct rows *rows, int index, bool with_covariance)
+{
+    const struct rows_column *column = &rows->kind->columns[index];
+
+    if (column->flags & (COLUMN_ALWAYS | COLUMN_COVARIANCE)) {
+        return (column->flags & COLUMN_ALWAYS) || with_covariance;
+    }
+    for (size_t i = 0; i < rows->count; i++) {
+        if (is_set_in(column, rows_cells(rows, &rows->list[i])[index])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void choose_columns(const struct rows *rows, bool with_covariance, bool *is_chosen)
+{
+    const struct rows_column *columns = rows->kind->columns;
+
+    for (int i = 0; i < rows->kind->num_columns; i++) {
+        is_chosen[i] = is_wanted(rows, i, with_covariance);
+    }
+    for (int i = 0; i < rows->kind->num_columns; i++) {
+        for (int j = 0; j < rows->kind->num_columns && !is_chosen[i]; j++) {
+            is_chosen[i] = columns[i].group != 0 && columns[j].group == columns[i].group &&
+                           is_wanted(rows, j, with_covariance);
+        }
+    }
+}
+
+/* ---- Cells ---- */
+
+static void write_cell(FILE *file, const struct rows_column *column, double cell)
+{
+    static const char *const states[] = {[RHO_MESSAGE_TRACK_TENTATIVE] = "tentative",
+                                         [RHO_MESSAGE_TRACK_CONFIRMED] = "confirmed",
+                                         [RHO_MESSAGE_TRACK_COASTING] = "coasting",
+                                         [RHO_MESSAGE_TRACK_DELETED] = "deleted"};
+    char text[FLOAT_TEXT_BYTES];
+
+    fputc(',', file);
+    if (rows_is_empty(cell)) {
+        return;
+    }
+    if (column->flags & COLUMN_STATUS) {
+        fputs(states[(int)cell], file);
+    } else if (column->flags & (COLUMN_INT16 | COLUMN_INT32)) {
+        fprintf(file, "%" PRId32, (int32_t)cell);
+    } else if (!(cell < 0.0) && !(cell > 0.0) && !rows_is_zero((float)cell)) {
+        fputs("-0", file); /* float_text has none */
+    } else {
+        fputs(float_text((float)cell, text), file);
+    }
+}
+
+static void write_header(FILE *file, const struct rows_kind *kind, const bool *is_chosen)
+{
+    fputs(kind->has_sensor ? "t_s,sensor_id" : "t_s", file);
+    for (int i = 0; i < kind->num_columns; i++) {
+        if (is_chosen[i]) {
+            fprintf(file, ",%s", kind->columns[i].name);
+        }
+    }
+    fputs(kind->has_epoch ? ",scan,epoch\n" : ",scan\n", file);
+}
+
+static void write_row(FILE *file, const struct rows *rows, const struct row *row,
+                      const bool *is_chosen)
+{
+    const struct rows_kind *kind = rows->kind;
+    const double *cells = rows_cells(rows, row);
+
+    tracks_write_time(file, row->time_us);
+    if (kind->has_sensor) {
+        fprintf(file, ",%" PRId32, row->sensor_id);
+    }
+    for (int i = 0; i < kind->num_columns; i++) {
+        if (is_chosen[i]) {
+            write_cell(file, &kind->columns[i], cells[i]);
+        }
+    }
+    fprintf(file, ",%" PRId32, row->scan);
+    if (kind->has_epoch) {
+        fprintf(file, ",%" PRId32, row->epoch);
+    }
+    fputc('\n', file);
+}
+
+void rows_write(FILE *file, const struct rows *rows, bool with_covariance)
+{
+    bool is_chosen[ROWS_MAX_COLUMNS];
+
+    choose_columns(rows, with_covariance, is_chosen);
+    write_header(file, rows->kind, is_chosen);
+    for (size_t i = 0; i < rows->count; i++) {
+        write_row(file, rows, &rows->list[i], is_chosen);
+    }
+}
