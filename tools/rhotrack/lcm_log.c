@@ -9,7 +9,12 @@
 
 #include "common.h"
 
-enum { SYNC_BYTES = 4, PLACES_SHOWN = 3, FIRST_CAPACITY = 1 << 16 };
+enum {
+    SYNC_BYTES = 4,
+    HEADER_MAX_BYTES = LCM_LOG_HEADER_BYTES + LCM_LOG_MAX_CHANNEL,
+    PLACES_SHOWN = 3,
+    FIRST_CAPACITY = 1 << 16
+};
 
 static const uint8_t sync_word[SYNC_BYTES] = {0xED, 0xA1, 0xDA, 0x01};
 
@@ -90,12 +95,12 @@ static size_t find_sync(const uint8_t *data, size_t from, size_t size)
     return size;
 }
 
-/* A whole header, its channel too, inside an event's channel or data; size where there is none. */
-static size_t find_header(const uint8_t *data, size_t size)
+/* A whole header, its channel too, that begins inside an event of so many bytes; bytes where there is none. */
+static size_t find_header(const uint8_t *data, size_t bytes, size_t size)
 {
     size_t at = find_sync(data, 1, size);
 
-    while (at < size) {
+    while (at < bytes) {
         size_t left = size - at;
 
         if (left > LCM_LOG_HEADER_BYTES && event_bytes(data + at, left) > 0 &&
@@ -104,7 +109,7 @@ static size_t find_header(const uint8_t *data, size_t size)
         }
         at = find_sync(data, at + 1, size);
     }
-    return size;
+    return bytes;
 }
 
 static void take_event(const uint8_t *data, size_t bytes, struct lcm_log_event *event)
@@ -125,6 +130,12 @@ static enum lcm_log_found skip_to(size_t bytes, size_t *count)
     return LCM_LOG_SKIP;
 }
 
+static enum lcm_log_found ask_for(size_t bytes, size_t *count)
+{
+    *count = bytes;
+    return LCM_LOG_MORE;
+}
+
 enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
                                  struct lcm_log_event *event, size_t *count)
 {
@@ -137,11 +148,13 @@ enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
         return skip_to(find_sync(data, 1, size), count);
     }
     if (size < bytes + SYNC_BYTES && !is_end) {
-        *count = bytes + SYNC_BYTES;
-        return LCM_LOG_MORE;
+        return ask_for(bytes + SYNC_BYTES, count);
     }
     if (size > bytes && !may_be_sync(data + bytes, size - bytes)) {
-        inside = find_header(data, bytes);
+        if (size < bytes + HEADER_MAX_BYTES && !is_end) {
+            return ask_for(bytes + HEADER_MAX_BYTES, count);
+        }
+        inside = find_header(data, bytes, size);
         if (inside < bytes) {
             return skip_to(inside, count);
         }

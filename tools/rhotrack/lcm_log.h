@@ -5,7 +5,7 @@
  * An event is the sync word 0xEDA1DA01, int64 event number, int64 utime (us), int32 length of the channel, int32 length of
  * the data, channel, data; big endian. The reader trusts none of these numbers: what is no whole event is skipped up to the
  * next sync word, and counted. Damage can make an event longer than it was, over the events behind it: one that is not
- * followed by another sync word is therefore none where a whole header stands inside it.
+ * followed by another sync word is therefore none where a whole header begins inside it.
  */
 #ifndef RHOTRACK_TOOL_LCM_LOG_H
 #define RHOTRACK_TOOL_LCM_LOG_H

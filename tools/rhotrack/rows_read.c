@@ -193,7 +193,7 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
 /* Where a radar stands, if its row does not say. */
 static void fill_place(const struct reading *reading, int32_t sensor_id, double *cells)
 {
-    static const int ids[] = {SENSOR_X_M, SENSOR_Y_M, SENSOR_Z_M};
+    static const enum sensor_parameter_id ids[] = {SENSOR_X_M, SENSOR_Y_M, SENSOR_Z_M};
 
     if (reading->place < 0) {
         return;
