@@ -341,7 +341,26 @@ static void a_length_a_little_wrong_is_noticed(void **state)
     add_event(&the_log, 1, "A", "two");
     add_event_saying(&the_log, 2, "A", "three", 1, 2); /* the rest is garbage */
     add_event(&the_log, 3, "A", "four");
-    assert_found("-32 1:A:two 2:A:th -3 3:A:four ");
+    add_event_saying(&the_log, 4, "A",
+                     "\xED\xA1\xDA\x01"
+                     "five",
+                     1, 20); /* a sync word that is none before it */
+    add_event(&the_log, 5, "A", "six");
+    assert_found("-32 1:A:two 2:A:th -3 3:A:four -37 5:A:six ");
+}
+
+static void a_channel_too_long_is_none(void **state)
+{
+    char channel[LCM_LOG_MAX_CHANNEL + 2];
+    (void)state;
+
+    memset(channel, 'c', sizeof channel);
+    channel[sizeof channel - 1] = '\0';
+    add_event(&the_log, 0, channel, "one");
+    add_event(&the_log, 1, channel + 1, "two");
+    assert_string_equal(strchr(found_in(the_log.data, the_log.size), '1'),
+                        "1:ccccccccccccccccccccc"
+                        "cccccccccccccccccccccccccccccccccccccccccc:two ");
 }
 
 static void a_channel_with_a_nul_is_none(void **state)
@@ -391,8 +410,10 @@ static void sync_words_in_garbage_are_garbage(void **state)
     add_event(&the_log, 0, "A", "one");
     add(&the_log, "\xED\xED\xA1\xED\xA1\xDA\xED\xA1\xDA\x01 thirty bytes that say nothing", 40);
     add_event(&the_log, 1, "A", "two");
+    add(&the_log, "x\xED", 2);
+    add_event(&the_log, 2, "A", "three");
     add(&the_log, "\xED\xA1\xDA\x01", 4);
-    assert_found("-12 0:A:one -40 1:A:two -4 ");
+    assert_found("-12 0:A:one -40 1:A:two -2 2:A:three -4 ");
 }
 
 /* ---- bytes that are not there yet ------------------------------------------------------------- */
@@ -428,7 +449,7 @@ static void a_file_gives_its_events_and_counts_the_rest(void **state)
 
     add(&the_log, "abc", 3);
     add_event(&the_log, 0, "A", "one");
-    add(&the_log, "defgh", 5);
+    add(&the_log, "d\xED\xA1\xDA\x01", 5);
     add_event(&the_log, 1, "B", "two");
     add(&the_log, reference, sizeof reference - 1);
     write_file(path);
@@ -572,6 +593,7 @@ int main(void)
         cmocka_unit_test_setup(a_wrong_byte_in_a_header_costs_that_event_alone, start),
         cmocka_unit_test_setup(hostile_lengths_are_skipped, start),
         cmocka_unit_test_setup(a_length_a_little_wrong_is_noticed, start),
+        cmocka_unit_test_setup(a_channel_too_long_is_none, start),
         cmocka_unit_test_setup(a_channel_with_a_nul_is_none, start),
         cmocka_unit_test_setup(sync_words_in_data_are_data, start),
         cmocka_unit_test_setup(a_log_in_an_event_is_data, start),

@@ -374,6 +374,6 @@ bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *cha
         (size > 0 && fwrite(data, size, 1, writer->file) != 1)) {
         return false;
     }
-    writer->number++;
+    writer->number = writer->number < INT64_MAX ? writer->number + 1 : 0;
     return true;
 }
