@@ -167,4 +167,7 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 
+/* Pairs of sensors that both gave the track a bearing. Cost: RHO_MAX_PASSIVE_SCANS x RHO_MAX_PASSIVE_SENSORS. */
+unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track);
+
 #endif

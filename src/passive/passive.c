@@ -268,3 +268,18 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     rho_passive_select(&search);
     return RHO_OK;
 }
+
+unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)
+{
+    unsigned sensors = 0;
+
+    for (unsigned sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
+        unsigned claims = 0;
+
+        for (unsigned scan = 0; scan < RHO_MAX_PASSIVE_SCANS; scan++) {
+            claims |= track->claim[scan][sensor];
+        }
+        sensors += claims != 0;
+    }
+    return sensors * (sensors - 1) / 2;
+}

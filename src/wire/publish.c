@@ -127,22 +127,6 @@ static struct rho_message_peak peak_of(float x_m, float y_m, float vx_mps, float
                                      .speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps)};
 }
 
-/* Pairs of sensors that both gave the track a bearing. */
-static int16_t sensor_pairs(const struct rho_passive_track *track)
-{
-    int sensors = 0;
-
-    for (unsigned sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
-        int claims = 0;
-
-        for (unsigned scan = 0; scan < RHO_MAX_PASSIVE_SCANS; scan++) {
-            claims |= track->claim[scan][sensor];
-        }
-        sensors += claims != 0;
-    }
-    return (int16_t)(sensors * (sensors - 1) / 2);
-}
-
 static enum rho_status add_candidates(const struct rho_initiator *initiator,
                                       struct rho_message_writer *writer)
 {
@@ -176,7 +160,7 @@ static enum rho_status add_passive(const struct rho_passive *passive,
         peak = peak_of(track->x_m, track->y_m, track->vx_mps, track->vy_mps);
         peak.score_nat = NAT(track->score_mnat);
         peak.scans_hit = (int16_t)rho_count_bits(track->scans);
-        peak.sensor_pairs = sensor_pairs(track);
+        peak.sensor_pairs = (int16_t)rho_passive_sensor_pairs(track);
         status = rho_message_peak_list_add(writer, &peak);
     }
     return status;

@@ -22,6 +22,7 @@
 #include "commands.h"
 #include "common.h"
 #include "gospa.h"
+#include "log_table.h"
 #include "table.h"
 
 #define TIME_TOLERANCE_US 1000
@@ -382,8 +383,9 @@ int command_evaluate(struct command_line *line)
     if (line->num_arguments != 2) {
         fail(EXIT_USAGE, "evaluate: give a truth file and a tracks file");
     }
-    struct table *truth = table_read(line->arguments[0], line->keep_going);
-    struct table *tracks = table_read(line->arguments[1], line->keep_going);
+    struct table *truth = log_table_or_csv(line->arguments[0], &rows_kind_truth, line->keep_going);
+    struct table *tracks =
+        log_table_or_csv(line->arguments[1], &rows_kind_tracks, line->keep_going);
     table_need_rows(truth);
     struct evaluation e = {.cutoff_m = line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]};
     struct result results[NUM_RESULTS];

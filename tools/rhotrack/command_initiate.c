@@ -11,8 +11,8 @@
 #include "initiate_classic.h"
 #include "initiate_passive.h"
 #include "initiate_passive_paper.h"
+#include "initiated_output.h"
 #include "scan_reader.h"
-#include "tracks_writer.h"
 
 struct batch {
     struct rho_initiator *initiator;
@@ -88,16 +88,15 @@ static void search(struct batch *batch, const struct command_line *line)
 
 static void write_found(const struct batch *batch, const char *path)
 {
-    struct output output = output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
-    initiated_write_header(output.file);
     for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
         struct initiated row =
             initiated_from(i + 1, batch->time_us, &batch->initiator->candidates[i]);
 
-        initiated_write_row(output.file, &row);
+        initiated_output_row(found, &row);
     }
-    output_close(&output);
+    initiated_output_close(found);
 }
 
 /* Votes of each track found, descending; *sum gets them all. */

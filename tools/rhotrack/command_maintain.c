@@ -13,7 +13,7 @@
 #include "rhotrack/measurement.h"
 #include "rhotrack/track.h"
 #include "scan_reader.h"
-#include "tracks_writer.h"
+#include "tracks_output.h"
 
 struct maintaining {
     struct maintainer *maintainer;
@@ -175,7 +175,7 @@ static void fill_row(struct maintaining *maintaining)
 }
 
 static void step_all(struct maintaining *maintaining, struct scan_reader *reader,
-                     const struct command_line *line, FILE *file)
+                     const struct command_line *line, struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", scan_reader_total(reader));
     const struct rho_scan *scan;
@@ -187,13 +187,10 @@ static void step_all(struct maintaining *maintaining, struct scan_reader *reader
         step(maintaining, scan, scan_reader_sensor(reader));
         if (maintaining->is_started && !was_started) {
             warn_blind(line, maintaining->gate, scan);
-            if (file) {
-                tracks_write_header(file, line->covariance);
-            }
         }
-        if (maintaining->is_started && file) {
+        if (maintaining->is_started && tracks) {
             fill_row(maintaining);
-            tracks_write_row(file, scan->time_us, &maintaining->track, line->covariance);
+            tracks_output_track(tracks, scan->time_us, &maintaining->track);
         }
         progress_show(&progress, maintaining->scans);
     }
@@ -275,7 +272,7 @@ int command_maintain(struct command_line *line)
                                       .track = {.track_id = 1}};
     struct scan_reader *reader;
     struct scan_reader_counts counts;
-    struct output output;
+    struct tracks_output *tracks;
 
     warn_unused(line, maintaining.gate);
     maintaining.maintainer =
@@ -285,13 +282,9 @@ int command_maintain(struct command_line *line)
     if (counts.plots == 0) {
         fail(EXIT_USAGE, "%s: not one plot to start the track from", line->arguments[0]);
     }
-    if (has_file) {
-        output = output_open(line->output);
-    }
-    step_all(&maintaining, reader, line, has_file ? output.file : NULL);
-    if (has_file) {
-        output_close(&output);
-    }
+    tracks = has_file ? tracks_output_open(line->output, line->covariance) : NULL;
+    step_all(&maintaining, reader, line, tracks);
+    tracks_output_close(tracks);
     print_summary(&maintaining, &counts);
     if (line->json) {
         print_json(&maintaining, line, &counts);

@@ -12,7 +12,7 @@
 #include "frame_reader.h"
 #include "inputs.h"
 #include "method.h"
-#include "tracks_writer.h"
+#include "tracks_output.h"
 
 struct tracking {
     struct chain chain;
@@ -92,20 +92,17 @@ static void step(struct tracking *tracking, const struct input *input)
     }
 }
 
-static void step_all(struct tracking *tracking, struct inputs *inputs, uint64_t total, FILE *file,
-                     bool with_covariance)
+static void step_all(struct tracking *tracking, struct inputs *inputs, uint64_t total,
+                     struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", total);
     uint64_t done = 0;
 
-    if (file) {
-        tracks_write_header(file, with_covariance);
-    }
     for (struct input input = inputs_next(inputs); input.scan || input.frame;
          input = inputs_next(inputs)) {
         step(tracking, &input);
-        if (file) {
-            tracks_write_report(file, tracking->chain.report, with_covariance);
+        if (tracks) {
+            tracks_output_report(tracks, tracking->chain.report);
         }
         progress_show(&progress, ++done);
     }
@@ -214,20 +211,16 @@ int command_track(struct command_line *line)
     bool has_file = line->output || !line->json;
     struct inputs *inputs;
     struct inputs_counts counts;
-    struct output output;
+    struct tracks_output *tracks;
     struct tracking tracking = {.chain = chain_start()};
 
     set_gate(line);
     inputs = inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     open_chain(&tracking, inputs, &line->parameters);
     counts = inputs_counts(inputs);
-    if (has_file) {
-        output = output_open(line->output);
-    }
-    step_all(&tracking, inputs, counts.steps, has_file ? output.file : NULL, line->covariance);
-    if (has_file) {
-        output_close(&output);
-    }
+    tracks = has_file ? tracks_output_open(line->output, line->covariance) : NULL;
+    step_all(&tracking, inputs, counts.steps, tracks);
+    tracks_output_close(tracks);
     print_summary(&tracking, &counts);
     if (line->json) {
         print_json(&tracking, inputs, &counts);

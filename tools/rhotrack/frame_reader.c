@@ -9,51 +9,12 @@
 
 #include "bearing_row.h"
 #include "common.h"
+#include "frame_reader_parts.h"
+#include "lcm_log.h"
+#include "log_scans.h"
 #include "table.h"
 
 #define SAME_PLACE_M 1.0
-#define NO_ENTRY SIZE_MAX
-
-/* A scan while its rows are collected. */
-struct entry {
-    struct rho_bearing_scan scan;
-    const char *path; /* of its first row, as are */
-    uint32_t line;
-    size_t order; /* over all files */
-    size_t first_bearing;
-};
-
-/* A bearing and the scan that it belongs to. */
-struct member {
-    size_t entry;
-    struct rho_bearing bearing;
-};
-
-/* A sensor, where it was first named, and its scan in this file that further rows may join. */
-struct known_sensor {
-    struct frame_sensor sensor;
-    const char *path;
-    uint32_t line;
-    size_t open; /* or NO_ENTRY */
-};
-
-struct frame_reader {
-    const struct parameters *parameters;
-    bool keep_going;
-    int64_t interval_us, tolerance_us;
-    struct known_sensor known[RHO_MAX_SENSORS];
-    struct frame_sensor sensors[RHO_MAX_SENSORS]; /* the same, sorted */
-    size_t num_sensors;
-    struct entry *entries;
-    size_t num_entries, entries_capacity;
-    struct member *members;
-    size_t num_members, members_capacity;
-    struct rho_bearing *bearings;   /* all, scan by scan */
-    struct rho_bearing_scan *scans; /* all, frame by frame */
-    struct rho_frame *frames;
-    size_t num_frames, next;
-    uint64_t frames_incomplete, rows_skipped;
-};
 
 bool frame_reader_is_bearings(const char *path)
 {
@@ -61,6 +22,9 @@ bool frame_reader_is_bearings(const char *path)
     struct table *table;
     bool is_bearings;
 
+    if (lcm_log_is_log(path)) {
+        return log_scans_kinds(path) == LOG_HAS_BEARINGS;
+    }
     if (stat(path, &status) || !S_ISREG(status.st_mode)) {
         return false; /* a pipe could not be read again */
     }
@@ -166,7 +130,7 @@ static size_t add_entry(struct frame_reader *reader, const char *path, uint32_t 
 {
     reader->entries = must_grow(reader->entries, reader->num_entries, &reader->entries_capacity,
                                 sizeof *reader->entries);
-    reader->entries[reader->num_entries] = (struct entry){
+    reader->entries[reader->num_entries] = (struct frame_entry){
         .scan = {.time_us = row->time_us,
                  .sensor_id = row->sensor_id,
                  .x_m = row->x_m,
@@ -184,7 +148,7 @@ static void add_row(struct frame_reader *reader, const char *path, uint32_t line
                     const struct bearing_row *row)
 {
     struct known_sensor *known = have_sensor(reader, path, line, row);
-    struct member *member;
+    struct frame_member *member;
 
     if (!joins(reader, known, row->time_us)) {
         known->open = add_entry(reader, path, line, row);
@@ -195,7 +159,7 @@ static void add_row(struct frame_reader *reader, const char *path, uint32_t line
     reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
                                 sizeof *reader->members);
     member = &reader->members[reader->num_members++];
-    *member = (struct member){known->open, row->bearing};
+    *member = (struct frame_member){known->open, row->bearing};
     member->bearing.offset_us +=
         (int32_t)(row->time_us - reader->entries[known->open].scan.time_us);
     reader->entries[known->open].scan.num_bearings++;
@@ -249,10 +213,62 @@ static void read_table(struct frame_reader *reader, const struct table *table, c
     }
 }
 
+/* ---- Logs to scans ---- */
+
+/* The item's heading as a row; its place in the log stands for a line. */
+static void add_item(struct frame_reader *reader, const char *path, uint32_t number,
+                     const struct rho_bearing_scan *scan)
+{
+    struct bearing_row row = {.time_us = scan->time_us,
+                              .sensor_id = scan->sensor_id,
+                              .x_m = scan->x_m,
+                              .y_m = scan->y_m,
+                              .sector_from_rad = scan->sector_from_rad,
+                              .sector_to_rad = scan->sector_to_rad,
+                              .has_bearing = scan->num_bearings > 0};
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.reason = reason};
+
+    if (!check_sensor(reader, path, &row, &check)) {
+        if (!reader->keep_going) {
+            fail(EXIT_USAGE, "%s: scan %u of bearings: %s", path, (unsigned)number, reason);
+        }
+        reader->rows_skipped += scan->num_bearings ? scan->num_bearings : 1;
+        return;
+    }
+    have_sensor(reader, path, number, &row)->open = NO_ENTRY;
+    for (uint32_t i = 0; i < scan->num_bearings || i == 0; i++) {
+        if (scan->num_bearings > 0) {
+            row.bearing = scan->bearings[i];
+        }
+        add_row(reader, path, number, &row);
+    }
+}
+
+static void read_log(struct frame_reader *reader, const char *path)
+{
+    struct log_scans scans = log_scans_read(path, reader->parameters, reader->keep_going);
+    uint32_t number = 0;
+
+    for (size_t i = 0; i < scans.count; i++) {
+        if (scans.items[i].kind == RHO_FEED_BEARINGS) {
+            add_item(reader, path, ++number, &scans.items[i].bearings);
+        }
+    }
+    log_scans_free(&scans);
+}
+
+/* ---- All files ---- */
+
 static void read_path(struct frame_reader *reader, const char *path)
 {
-    struct table *table = table_read(path, reader->keep_going);
+    struct table *table;
 
+    if (lcm_log_is_log(path)) {
+        read_log(reader, path);
+        return;
+    }
+    table = table_read(path, reader->keep_going);
     table_need_rows(table);
     reader->rows_skipped += table->rows_skipped;
     for (size_t i = 0; i < reader->num_sensors; i++) {
@@ -260,139 +276,6 @@ static void read_path(struct frame_reader *reader, const char *path)
     }
     read_table(reader, table, path);
     table_free(table);
-}
-
-/* ---- Scans to frames ---- */
-
-/* Places the bearings scan by scan, in the order of their rows. */
-static void place_bearings(struct frame_reader *reader)
-{
-    size_t start = 0;
-
-    reader->bearings = must_alloc((reader->num_members + 1) * sizeof *reader->bearings);
-    for (size_t i = 0; i < reader->num_entries; i++) {
-        reader->entries[i].first_bearing = start;
-        reader->entries[i].scan.bearings = reader->bearings + start;
-        start += reader->entries[i].scan.num_bearings;
-    }
-    for (size_t i = 0; i < reader->num_members; i++) {
-        struct entry *entry = &reader->entries[reader->members[i].entry];
-
-        reader->bearings[entry->first_bearing++] = reader->members[i].bearing;
-    }
-    free(reader->members);
-    reader->members = NULL;
-}
-
-static int compare_entries(const void *a, const void *b)
-{
-    const struct entry *first = a, *second = b;
-
-    if (first->scan.time_us != second->scan.time_us) {
-        return first->scan.time_us < second->scan.time_us ? -1 : 1;
-    }
-    return first->order < second->order ? -1 : 1;
-}
-
-static int compare_scans(const void *a, const void *b)
-{
-    const struct rho_bearing_scan *first = a, *second = b;
-
-    return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
-}
-
-static int compare_sensors(const void *a, const void *b)
-{
-    const struct frame_sensor *first = a, *second = b;
-
-    return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
-}
-
-/* True where the scan is a further one of the frame that is open; it is not before it. */
-static bool belongs(const struct frame_reader *reader, const struct rho_frame *frame,
-                    const struct rho_bearing_scan *scan)
-{
-    if (scan->time_us - reader->tolerance_us > frame->time_us) {
-        return false;
-    }
-    for (size_t i = 0; i < frame->num_scans; i++) {
-        if (frame->scans[i].sensor_id == scan->sensor_id) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* A sensor's scan at the time of another one of its own, of another file: which of them was before cannot be told. */
-static const struct entry *find_twin(const struct frame_reader *reader, size_t index)
-{
-    const struct entry *entry = &reader->entries[index];
-
-    for (size_t i = index;
-         i-- > 0 && entry[-1].scan.time_us == reader->entries[index].scan.time_us;) {
-        entry--;
-        if (entry->scan.sensor_id == reader->entries[index].scan.sensor_id) {
-            return entry;
-        }
-    }
-    return NULL;
-}
-
-/* Entries are in the order of time; twins of earlier ones are refused, or left out and counted. */
-static void leave_out_twins(struct frame_reader *reader)
-{
-    size_t kept = 0;
-
-    for (size_t i = 0; i < reader->num_entries; i++) {
-        const struct entry *entry = &reader->entries[i], *twin;
-
-        reader->entries[kept] = *entry;
-        twin = find_twin(reader, kept);
-        if (!twin) {
-            kept++;
-            continue;
-        }
-        entry = &reader->entries[kept];
-        if (!reader->keep_going) {
-            fail(EXIT_USAGE, "%s:%u: sensor %d has another scan at %.6f s: line %u of %s",
-                 entry->path, (unsigned)entry->line, (int)entry->scan.sensor_id,
-                 (double)entry->scan.time_us * 1e-6, (unsigned)twin->line, twin->path);
-        }
-        reader->rows_skipped += entry->scan.num_bearings ? entry->scan.num_bearings : 1;
-        reader->num_members -= entry->scan.num_bearings;
-    }
-    reader->num_entries = kept;
-}
-
-/* The scan goes behind those of the open frame, or into one of its own. */
-static void add_to_frame(struct frame_reader *reader, size_t index)
-{
-    struct rho_bearing_scan *scan = &reader->scans[index];
-    struct rho_frame *frame = &reader->frames[reader->num_frames];
-
-    if (reader->num_frames > 0 && belongs(reader, frame - 1, scan)) {
-        frame[-1].num_scans++;
-        return;
-    }
-    *frame = (struct rho_frame){.time_us = scan->time_us, .num_scans = 1, .scans = scan};
-    reader->num_frames++;
-}
-
-static void make_frames(struct frame_reader *reader)
-{
-    reader->scans = must_alloc(reader->num_entries * sizeof *reader->scans);
-    reader->frames = must_alloc(reader->num_entries * sizeof *reader->frames);
-    for (size_t i = 0; i < reader->num_entries; i++) {
-        reader->scans[i] = reader->entries[i].scan;
-        add_to_frame(reader, i);
-    }
-    for (size_t i = 0, first = 0; i < reader->num_frames; i++) {
-        size_t num_scans = reader->frames[i].num_scans;
-
-        qsort(reader->scans + first, num_scans, sizeof *reader->scans, compare_scans);
-        reader->frames_incomplete += num_scans < reader->num_sensors;
-        first += num_scans;
-    }
 }
 
 void frame_reader_need_pair(const struct frame_reader *reader)
@@ -403,6 +286,13 @@ void frame_reader_need_pair(const struct frame_reader *reader)
              reader->known[0].path, (unsigned)reader->known[0].line,
              (int)reader->known[0].sensor.sensor_id);
     }
+}
+
+static int compare_sensors(const void *a, const void *b)
+{
+    const struct frame_sensor *first = a, *second = b;
+
+    return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
 }
 
 static void sort_sensors(struct frame_reader *reader)
@@ -426,10 +316,8 @@ struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
         read_path(reader, paths[i]);
     }
     sort_sensors(reader);
-    place_bearings(reader);
-    qsort(reader->entries, reader->num_entries, sizeof *reader->entries, compare_entries);
-    leave_out_twins(reader);
-    make_frames(reader);
+    frame_reader_place_bearings(reader);
+    frame_reader_make_frames(reader);
     return reader;
 }
 

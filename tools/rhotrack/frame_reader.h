@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * frame_reader: bearing files in, frames out, merged by time.
+ * frame_reader: bearing files in, frames out, merged by time. LCM logs are read as log_scans.h has it, and of CSV files
  *
- * Columns by name: t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad[,sigma_rad][,sector_from_rad,sector_to_rad][,snr_db];
+ * columns by name: t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad[,sigma_rad][,sector_from_rad,sector_to_rad][,snr_db];
  * others are ignored. Bearings are counter-clockwise from +x. Rows of one sensor with the same t_s (or within
  * scan_interval_s) are one scan; a row without a bearing is a scan that saw nothing. Scans of different sensors within
  * frame_tolerance_s of the first are one frame, which closes when all sensors of the files have reported, or one of them
@@ -30,7 +30,7 @@ struct frame_sensor {
     float x_m, y_m;
 };
 
-/* The file's header says that it holds bearings. False also where it cannot be told: no such file, a pipe. */
+/* The file's header says that it holds bearings, or the log has those and no plots. False also where it cannot be told: no such file, a pipe. */
 bool frame_reader_is_bearings(const char *path);
 
 /*

@@ -8,8 +8,8 @@
 
 #include "chain.h"
 #include "common.h"
+#include "initiated_output.h"
 #include "scan_reader.h"
-#include "tracks_writer.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)
 #define PAIRS_MANY 1e7
@@ -192,18 +192,17 @@ static struct initiated row_of(const struct search *search, uint32_t number)
 
 static void write_found(const struct search *search, const char *path)
 {
-    struct output output = output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
     struct progress progress = progress_start("tracks", search->result.num_peaks);
 
-    initiated_write_header(output.file);
     for (uint32_t i = 0; i < search->result.num_peaks; i++) {
         struct initiated row = row_of(search, i);
 
-        initiated_write_row(output.file, &row);
+        initiated_output_row(found, &row);
         progress_show(&progress, i + 1);
     }
     progress_end(&progress);
-    output_close(&output);
+    initiated_output_close(found);
 }
 
 static void add_peaks(cJSON *object, const struct search *search)

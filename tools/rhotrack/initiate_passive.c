@@ -7,9 +7,9 @@
 #include "bearings_batch.h"
 #include "chain.h"
 #include "common.h"
+#include "initiated_output.h"
 #include "method.h"
 #include "rhotrack/angle.h"
-#include "tracks_writer.h"
 
 static enum rho_status push(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
@@ -25,9 +25,8 @@ static enum rho_status search(void *object)
 
 static void write_found(const struct rho_passive *passive, int64_t time_us, const char *path)
 {
-    struct output output = output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
-    initiated_write_header(output.file);
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *track = &passive->tracks[i];
         struct rho_line line = rho_angle_line(track->x_m, track->y_m, track->vx_mps, track->vy_mps);
@@ -41,11 +40,12 @@ static void write_found(const struct rho_passive *passive, int64_t time_us, cons
                                 .rho_m = line.rho_m,
                                 .theta_rad = line.theta_rad,
                                 .scans = rho_count_bits(track->scans),
+                                .sensor_pairs = rho_passive_sensor_pairs(track),
                                 .score = (double)((float)track->score_mnat / 1000.0f)};
 
-        initiated_write_row(output.file, &row);
+        initiated_output_row(found, &row);
     }
-    output_close(&output);
+    initiated_output_close(found);
 }
 
 /* Bearings of each track, descending, and their number. */

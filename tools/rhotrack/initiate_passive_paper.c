@@ -7,8 +7,8 @@
 #include "bearings_batch.h"
 #include "chain.h"
 #include "common.h"
+#include "initiated_output.h"
 #include "method.h"
-#include "tracks_writer.h"
 
 static enum rho_status push(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
@@ -24,9 +24,8 @@ static enum rho_status search(void *object)
 
 static void write_found(const struct rho_passive_paper *paper, int64_t time_us, const char *path)
 {
-    struct output output = output_open(path);
+    struct initiated_output *found = initiated_output_open(path);
 
-    initiated_write_header(output.file);
     for (unsigned i = 0; i < paper->num_lines; i++) {
         const struct rho_passive_paper_line *line = &paper->lines[i];
         struct initiated row = {.track_id = i + 1,
@@ -39,11 +38,13 @@ static void write_found(const struct rho_passive_paper *paper, int64_t time_us, 
                                 .rho_m = line->rho_m,
                                 .theta_rad = line->theta_rad,
                                 .scans = rho_count_bits(line->scans),
+                                .sensor_pairs =
+                                    paper->batch.num_sensors * (paper->batch.num_sensors - 1u) / 2u,
                                 .score = line->votes};
 
-        initiated_write_row(output.file, &row);
+        initiated_output_row(found, &row);
     }
-    output_close(&output);
+    initiated_output_close(found);
 }
 
 static void add_votes(cJSON *object, const struct rho_passive_paper *paper)

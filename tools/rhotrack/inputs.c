@@ -5,6 +5,8 @@
 
 #include "common.h"
 #include "frame_reader.h"
+#include "lcm_log.h"
+#include "log_scans.h"
 #include "scan_reader.h"
 
 struct inputs {
@@ -17,13 +19,25 @@ struct inputs {
     bool scan_is_taken; /* the next one overwrites it: not before the caller is done */
 };
 
-/* The paths of one kind in front, in their order. Returns how many. */
-static int sort_paths(char *const *paths, int num_paths, bool are_bearings, char **sorted)
+/* What a file holds: a table has one kind, a log may have both. */
+static unsigned kinds_of(const char *path)
+{
+    unsigned kinds;
+
+    if (!lcm_log_is_log(path)) {
+        return frame_reader_is_bearings(path) ? LOG_HAS_BEARINGS : LOG_HAS_PLOTS;
+    }
+    kinds = log_scans_kinds(path);
+    return kinds ? kinds : LOG_HAS_PLOTS; /* whose reader says what is missing */
+}
+
+/* The paths that hold a kind, in their order. Returns how many. */
+static int sort_paths(char *const *paths, int num_paths, unsigned kind, char **sorted)
 {
     int count = 0;
 
     for (int i = 0; i < num_paths; i++) {
-        if (frame_reader_is_bearings(paths[i]) == are_bearings) {
+        if (kinds_of(paths[i]) & kind) {
             sorted[count++] = paths[i];
         }
     }
@@ -46,12 +60,12 @@ struct inputs *inputs_open(char *const *paths, int num_paths, const struct param
 {
     struct inputs *inputs = must_calloc(1, sizeof *inputs);
     char **sorted = must_calloc((size_t)num_paths + 1, sizeof *sorted);
-    int count = sort_paths(paths, num_paths, false, sorted);
+    int count = sort_paths(paths, num_paths, LOG_HAS_PLOTS, sorted);
 
     if (count > 0) {
         inputs->scan_reader = scan_reader_open(sorted, count, parameters, keep_going);
     }
-    count = sort_paths(paths, num_paths, true, sorted);
+    count = sort_paths(paths, num_paths, LOG_HAS_BEARINGS, sorted);
     if (count > 0) {
         inputs->frame_reader = frame_reader_open(sorted, count, parameters, keep_going);
         if (!inputs->scan_reader) {

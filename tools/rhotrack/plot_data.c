@@ -7,6 +7,9 @@
 
 #include "common.h"
 #include "frame_reader.h"
+#include "lcm_log.h"
+#include "log_scans.h"
+#include "log_table.h"
 #include "plot_row.h"
 #include "table.h"
 
@@ -49,6 +52,12 @@ static struct plot_point read_point(const struct table *table, size_t row, int i
     return point;
 }
 
+static bool is_deleted(const struct table *table, size_t row)
+{
+    int status = table_find(table, "status");
+    return status >= 0 && strcmp(table_cell(table, row, status), "deleted") == 0;
+}
+
 static void add_points(struct plot_points *points, const struct table *table, int id_column,
                        const struct parameters *parameters)
 {
@@ -57,15 +66,16 @@ static void add_points(struct plot_points *points, const struct table *table, in
     points->list =
         must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
     for (size_t row = 0; row < table->num_rows; row++) {
-        if (*table_cell(table, row, x_column) != '\0') { /* else: a scan that saw nothing */
+        /* else: a scan that saw nothing, or a track that is no more */
+        if (*table_cell(table, row, x_column) != '\0' && !is_deleted(table, row)) {
             points->list[points->count++] = read_point(table, row, id_column, parameters);
         }
     }
 }
 
-static void add_file(struct plot_data *data, const char *path, const struct parameters *parameters)
+static void add_table(struct plot_data *data, struct table *table,
+                      const struct parameters *parameters)
 {
-    struct table *table = table_read(path, false);
     int track = table_find(table, "track_id"), target = table_find(table, "target_id");
     if (track >= 0) {
         add_points(&data->tracks, table, track, parameters);
@@ -75,6 +85,27 @@ static void add_file(struct plot_data *data, const char *path, const struct para
         add_points(&data->plots, table, -1, parameters);
     }
     table_free(table);
+}
+
+static void add_file(struct plot_data *data, const char *path, const struct parameters *parameters)
+{
+    static const struct rows_kind *const kinds[] = {&rows_kind_plots, &rows_kind_polar,
+                                                    &rows_kind_truth, &rows_kind_tracks};
+    size_t found = 0;
+    if (!lcm_log_is_log(path)) {
+        add_table(data, table_read(path, false), parameters);
+        return;
+    }
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        struct table *table = log_table_read(path, kinds[i], false);
+        if (table != NULL) {
+            add_table(data, table, parameters);
+            found++;
+        }
+    }
+    if (found == 0 && log_scans_kinds(path) == 0) {
+        fail(EXIT_USAGE, "%s: no messages of plots, bearings, truth or tracks in it", path);
+    }
 }
 
 /* ---- bearings --------------------------------------------------------------------------------- */
@@ -188,9 +219,13 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
     char **bearings = must_calloc((size_t)num_paths, sizeof bearings[0]);
     int num_bearings = 0;
     for (int i = 0; i < num_paths; i++) {
-        if (frame_reader_is_bearings(paths[i])) {
+        bool is_log = lcm_log_is_log(paths[i]);
+        bool has_bearings = is_log ? (log_scans_kinds(paths[i]) & LOG_HAS_BEARINGS) != 0
+                                   : frame_reader_is_bearings(paths[i]);
+        if (has_bearings) {
             bearings[num_bearings++] = paths[i];
-        } else {
+        }
+        if (is_log || !has_bearings) {
             add_file(&data, paths[i], parameters);
         }
     }

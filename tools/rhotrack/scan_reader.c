@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "common.h"
+#include "lcm_log.h"
+#include "log_scans.h"
 #include "plot_row.h"
 #include "table.h"
 
@@ -194,9 +196,50 @@ static void read_table(struct scan_reader *reader, const struct table *table)
     }
 }
 
+/* ---- Logs to scans ---- */
+
+static void add_item(struct scan_reader *reader, const struct rho_feed_item *item)
+{
+    const struct plot_row scan = {.time_us = item->scan.time_us,
+                                  .sensor_id = item->scan.sensor_id,
+                                  .sector_from_rad = item->scan.sector_from_rad,
+                                  .sector_to_rad = item->scan.sector_to_rad,
+                                  .has_sensor = item->has_sensor,
+                                  .sensor = item->sensor};
+    size_t index = add_entry(reader, &scan);
+
+    reader->entries[index].scan.measures = item->scan.measures;
+    for (uint32_t i = 0; i < item->scan.num_plots; i++) {
+        reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
+                                    sizeof *reader->members);
+        reader->members[reader->num_members++] = (struct member){index, item->scan.plots[i]};
+        reader->entries[index].scan.num_plots++;
+    }
+}
+
+static void read_log(struct scan_reader *reader, const char *path)
+{
+    struct log_scans scans = log_scans_read(path, reader->parameters, reader->keep_going);
+
+    for (size_t i = 0; i < scans.count; i++) {
+        if (scans.items[i].kind != RHO_FEED_BEARINGS) {
+            add_item(reader, &scans.items[i]);
+        }
+    }
+    log_scans_free(&scans);
+}
+
+/* ---- All files ---- */
+
 static void read_path(struct scan_reader *reader, const char *path)
 {
-    struct table *table = table_read(path, reader->keep_going);
+    struct table *table;
+
+    if (lcm_log_is_log(path)) {
+        read_log(reader, path);
+        return;
+    }
+    table = table_read(path, reader->keep_going);
     table_need_rows(table);
 
     reader->rows_skipped += table->rows_skipped;
@@ -212,7 +255,7 @@ static void place_plots(struct scan_reader *reader)
 {
     size_t start = 0;
 
-    reader->plots = must_alloc(reader->num_members * sizeof *reader->plots);
+    reader->plots = must_alloc((reader->num_members + 1) * sizeof *reader->plots);
     for (size_t i = 0; i < reader->num_entries; i++) {
         reader->entries[i].first_plot = start;
         reader->entries[i].scan.plots = reader->plots + start;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scan_reader: plot files in, scans out, merged by time.
+ * scan_reader: plot files in, scans out, merged by time. LCM logs are read as log_scans.h has it, and of CSV files
  *
- * Columns by name: t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps], or polar:
+ * columns by name: t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps], or polar:
  * t_s,sensor_id,range_m,azimuth_rad[,elevation_rad][,range_rate_mps][,sensor_x_m,sensor_y_m,sensor_z_m]
  * [,sigma_range_m,...]; azimuth_deg (clockwise from north) and elevation_deg may stand for the radians. Others are
  * ignored. Rows of one sensor with the same t_s (or within scan_interval_s) are one scan; a row

@@ -291,25 +291,46 @@ void table_need_rows(const struct table *table)
     }
 }
 
+/* The content as rows; it is freed. */
+static struct table *parse(struct reading *reading)
+{
+    struct table *table = reading->table;
+
+    table->text = must_alloc(reading->bytes + 2);
+    start_parser(reading);
+    do {
+        parse_lines(reading);
+        finish_rows(reading);
+    } while (is_wanted(reading));
+    csv_free(&reading->parser);
+    check_content(reading);
+    free(reading->row);
+    free(reading->content);
+    return table;
+}
+
 static struct table *read_table(const char *path, bool keep_going, bool header_only)
 {
-    struct table *table = must_calloc(1, sizeof *table);
-    struct reading reading = {
-        .table = table, .keep_going = keep_going, .header_only = header_only, .line = 1};
+    struct reading reading = {.table = must_calloc(1, sizeof *reading.table),
+                              .keep_going = keep_going,
+                              .header_only = header_only,
+                              .line = 1};
 
-    table->path = must_copy(path);
+    reading.table->path = must_copy(path);
     read_file(&reading);
-    table->text = must_alloc(reading.bytes + 2);
-    start_parser(&reading);
-    do {
-        parse_lines(&reading);
-        finish_rows(&reading);
-    } while (is_wanted(&reading));
-    csv_free(&reading.parser);
-    check_content(&reading);
-    free(reading.row);
-    free(reading.content);
-    return table;
+    return parse(&reading);
+}
+
+struct table *table_from_text(const char *path, char *text, size_t bytes, bool keep_going)
+{
+    struct reading reading = {.table = must_calloc(1, sizeof *reading.table),
+                              .keep_going = keep_going,
+                              .line = 1,
+                              .content = text,
+                              .bytes = bytes};
+
+    reading.table->path = must_copy(path);
+    return parse(&reading);
 }
 
 struct table *table_read(const char *path, bool keep_going)

@@ -39,8 +39,9 @@ struct initiated {
     bool has_state;  /* else the columns x_m .. vy_mps are empty */
     float x_m, y_m, vx_mps, vy_mps;
     float rho_m, theta_rad;
-    unsigned scans; /* that voted */
-    double score;   /* nats or votes */
+    unsigned scans;        /* that voted */
+    unsigned sensor_pairs; /* of passive sensors, that confirm it; else 0 */
+    double score;          /* nats or votes */
 };
 void initiated_write_row(FILE *file, const struct initiated *row);
 

@@ -1,0 +1,128 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# LCM logs where CSV files go: the commands do the same with both, byte for byte.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+
+# make SCENARIO NAME OPTIONS...: NAME.csv and truth.csv of a scenario, and the same as logs, in a folder of that name
+make_files() {
+    local scenario=$1 name=$2
+    shift 2
+    run simulate "$scenario" --seed 3 "$@" -o "$scenario"
+    run convert "$scenario/$name.csv" "$scenario/in.lcm" --config "$scenario/scenario.ini"
+    check "$scenario: $name.csv as a log" exits 0
+    run convert "$scenario/truth.csv" "$scenario/truth.lcm"
+    check "$scenario: truth.csv as a log" exits 0
+    mv "$scenario/$name.csv" "$scenario/in.csv"
+}
+
+# ---- the tracker ----
+
+same_tracks() { # scenario, options
+    local scenario=$1
+    shift
+    run track "$scenario/in.csv" --config "$scenario/scenario.ini" --covariance "$@" -o "$scenario/tracks.csv"
+    check "$scenario $*: tracks of the CSV file" exits 0
+    run track "$scenario/in.lcm" --config "$scenario/scenario.ini" --covariance "$@" -o "$scenario/same.csv"
+    check "$scenario $*: tracks of the log" exits 0
+    check "$scenario $*: there are some, and they are the same" \
+        sh -c "test \$(wc -l <'$scenario/tracks.csv') -gt 5 && cmp '$scenario/tracks.csv' '$scenario/same.csv'"
+}
+
+make_files radar plots
+make_files polar polar --set range_rate=1
+make_files weave plots --set num_scans=60
+make_files passive-three bearings --set num_scans=14
+same_tracks radar --gate nearest
+same_tracks polar --gate hough
+for scenario in radar polar weave passive-three; do
+    same_tracks "$scenario"
+done
+
+# two radars and their targets' bearings together, all in one log
+run track radar/in.csv passive-three/in.csv -o both.csv
+check 'plots and bearings of two files' exits 0
+run track radar/in.lcm passive-three/in.lcm -o both.again.csv
+check 'the same of two logs' cmp both.csv both.again.csv
+cat radar/in.lcm passive-three/in.lcm radar/truth.lcm >one.lcm
+run track one.lcm -o both.again.csv
+check 'the same of one log with plots, bearings and truth' cmp both.csv both.again.csv
+
+# ---- tracks as a log, evaluate ----
+
+# Times and places of truth are float32 in the log.
+same_figures() {
+    python3 -c 'import json
+a, b = json.load(open("figures")), json.load(open("again"))
+off = [k for k in a if a[k] != b[k] and abs(a[k] - b[k]) > 1e-4 * abs(a[k])]
+exit(str(off) if off or not a["targets_found"] else 0)'
+}
+
+for scenario in radar polar weave; do
+    run track "$scenario/in.lcm" --config "$scenario/scenario.ini" -o "$scenario/tracks.lcm"
+    check "$scenario: tracks as a log" exits 0
+    run convert "$scenario/tracks.lcm" "$scenario/back.csv" --covariance
+    check "$scenario: as a CSV file again" exits 0
+    check "$scenario: its rows are those of the CSV file" sh -c "
+        cut -d, -f1-12,15-39 '$scenario/tracks.csv' >a
+        grep -v ,deleted, '$scenario/back.csv' | cut -d, -f1-12,15-39 >b
+        cmp a b"
+    run evaluate "$scenario/truth.csv" "$scenario/tracks.csv" --json
+    cp stdout figures
+    run evaluate "$scenario/truth.lcm" "$scenario/tracks.lcm" --json
+    cp stdout again
+    check "$scenario: evaluate finds the same in logs" same_figures
+done
+run evaluate radar/truth.lcm radar/in.lcm
+check 'evaluate: a log without tracks' says 2 'rhotrack: radar/in.lcm: no messages of tracks in it*'
+
+# ---- the others ----
+
+run initiate radar/in.csv --config radar/scenario.ini
+cp stdout found.csv
+run initiate radar/in.lcm --config radar/scenario.ini
+check 'initiate' writes_same_as found.csv
+run initiate passive-three/in.csv
+cp stdout found.csv
+run initiate passive-three/in.lcm
+check 'initiate, bearings' writes_same_as found.csv
+for method in ht nht; do
+    run initiate radar/in.csv --method "$method"
+    cp stdout found.csv
+    run initiate radar/in.lcm --method "$method"
+    check "initiate --method $method" writes_same_as found.csv
+done
+run initiate radar/in.lcm --config radar/scenario.ini -o peaks.lcm
+check 'initiate: peaks as a log' sh -c 'grep -q RHO_PEAKS peaks.lcm'
+run maintain weave/in.csv --config weave/scenario.ini
+cp stdout one.csv
+run maintain weave/in.lcm --config weave/scenario.ini
+check 'maintain' writes_same_as one.csv
+run maintain weave/in.lcm --config weave/scenario.ini -o one.lcm
+run convert one.lcm one.again.csv
+check 'maintain: its track as a log' sh -c "
+    cut -d, -f1-12,15-18 one.csv >a; cut -d, -f1-12,15-18 one.again.csv >b; cmp a b"
+run maintain passive-three/in.lcm
+check 'maintain: bearings are refused' says 2 'rhotrack: passive-three/in.lcm: maintain takes plots, and these are bearings'
+run plot tracks radar/in.lcm radar/tracks.lcm radar/truth.lcm -o map.svg
+check 'plot' sh -c 'grep -q "<svg" map.svg'
+run plot tracks peaks.lcm -o map.svg
+check 'plot: nothing to draw in it' says 2 'rhotrack: peaks.lcm: no messages of plots, bearings, truth or tracks in it'
+
+# ---- what may be wrong with a log ----
+
+head -c 500 /dev/zero >garbage
+cat garbage radar/in.lcm >damaged.lcm
+run track radar/in.lcm -o whole.csv
+run track damaged.lcm -o again.csv
+check 'damage at the start is skipped and told' matches "$(cat stderr)" '*damaged.lcm: 500 bytes skipped*'
+check 'and what follows is read' cmp whole.csv again.csv
+cat radar/in.lcm radar/in.lcm >double.lcm
+run track double.lcm -o again.csv
+check 'a log twice over: told' matches "$(cat stderr)" '*double.lcm: * scans or parts double*'
+check 'and taken once' cmp whole.csv again.csv
+run track radar/truth.lcm
+check 'a log without scans' says 2 'rhotrack: radar/truth.lcm: not one scan of a sensor (*'
+run track garbage.lcm
+check 'a log that is not there' says 2 'rhotrack: garbage.lcm: *'
+finish

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+#include "tracks_output.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "chain.h"
+#include "common.h"
+#include "lcm_log.h"
+#include "rhotrack/publish.h"
+#include "tracks_writer.h"
+
+#define EPOCH 1 /* a file has one tracker, started once */
+
+struct tracks_output {
+    struct output output;
+    const char *path;
+    bool is_log, with_covariance, has_header;
+    struct lcm_log_writer log;
+    int32_t step;
+    struct rho_report *single; /* of a step that has one track */
+};
+
+bool tracks_output_is_log(const char *path)
+{
+    size_t length = path ? strlen(path) : 0;
+
+    return length > 4 && strcmp(path + length - 4, ".lcm") == 0;
+}
+
+struct tracks_output *tracks_output_open(const char *path, bool with_covariance)
+{
+    struct tracks_output *tracks = must_calloc(1, sizeof *tracks);
+
+    tracks->path = path;
+    tracks->is_log = tracks_output_is_log(path);
+    tracks->with_covariance = with_covariance;
+    tracks->output = output_open(path);
+    tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
+    return tracks;
+}
+
+/* Not before there is something to write: what is refused on the way leaves no header on standard output. */
+static void need_header(struct tracks_output *tracks)
+{
+    if (!tracks->is_log && !tracks->has_header) {
+        tracks->has_header = true;
+        tracks_write_header(tracks->output.file, tracks->with_covariance);
+    }
+}
+
+static void write_list(struct tracks_output *tracks, const struct rho_report *report)
+{
+    uint8_t buffer[RHO_MESSAGE_TRACK_LIST_MAX_SIZE];
+    size_t size;
+
+    tracks->step++;
+    for (uint16_t part = 0; part < rho_publish_num_parts(report); part++) {
+        must_succeed(
+            rho_publish_tracks(report, tracks->step, EPOCH, part, buffer, sizeof buffer, &size),
+            "publish");
+        if (!lcm_log_write(&tracks->log, report->time_us, RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer,
+                           size)) {
+            fail(EXIT_RUNTIME, "%s: %s", tracks->path, strerror(errno));
+        }
+    }
+}
+
+void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report)
+{
+    if (tracks->is_log) {
+        write_list(tracks, report);
+    } else {
+        need_header(tracks);
+        tracks_write_report(tracks->output.file, report, tracks->with_covariance);
+    }
+}
+
+void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
+                         const struct rho_track_report *track)
+{
+    if (!tracks->is_log) {
+        need_header(tracks);
+        tracks_write_row(tracks->output.file, time_us, track, tracks->with_covariance);
+        return;
+    }
+    if (!tracks->single) {
+        tracks->single = must_calloc(1, sizeof *tracks->single);
+    }
+    tracks->single->time_us = time_us;
+    tracks->single->num_tracks = 1;
+    tracks->single->tracks[0] = *track;
+    write_list(tracks, tracks->single);
+}
+
+void tracks_output_close(struct tracks_output *tracks)
+{
+    if (tracks) {
+        need_header(tracks);
+        output_close(&tracks->output);
+        free(tracks->single);
+        free(tracks);
+    }
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracks_output: tracks to a file: CSV, or where its name ends with .lcm an LCM log of RHO_TRACKS messages, one list a step,
+ * at the scans' times.
+ */
+#ifndef RHOTRACK_TOOL_TRACKS_OUTPUT_H
+#define RHOTRACK_TOOL_TRACKS_OUTPUT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "rhotrack/tracker.h"
+
+struct tracks_output;
+
+/* path NULL: CSV to standard output. A log's tracks always have their covariance. Errors: exit 1. */
+struct tracks_output *tracks_output_open(const char *path, bool with_covariance);
+
+/* All tracks of a step. */
+void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report);
+
+/* A step that has one track. */
+void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
+                         const struct rho_track_report *track);
+
+/* The file appears under its name. */
+void tracks_output_close(struct tracks_output *tracks);
+
+/* Whether an output of this name is a log. */
+bool tracks_output_is_log(const char *path);
+
+#endif
