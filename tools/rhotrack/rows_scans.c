@@ -8,7 +8,7 @@
 
 #include "common.h"
 
-#define OWN_TIME_MAX_US 60000000 /* dt_us of the messages */
+#define OWN_TIME_MAX_US 60000000 /* dt_us of the messages; no scan_interval_s is longer */
 
 /* The scans of a file under way. Rows of one scan are neighbours. */
 struct making {
@@ -163,22 +163,6 @@ static bool check_plot(struct making *making, const struct rows_scan *scan, cons
     return true;
 }
 
-static bool check_time(struct making *making, const struct rows_scan *scan, const struct row *row)
-{
-    int64_t own_us = row->time_us - scan->utime;
-
-    if (making->kind->has_one_time && own_us != 0) {
-        rows_refuse(making->file, row,
-                    "t_s is not that of the scan's first row: a scan of bearings has one time");
-        return false;
-    }
-    if (own_us < -OWN_TIME_MAX_US || own_us > OWN_TIME_MAX_US) {
-        rows_refuse(making->file, row, "t_s is more than 60 s off the scan's first row");
-        return false;
-    }
-    return true;
-}
-
 static bool check_row(struct making *making, const struct rows_scan *scan, const struct row *row)
 {
     const char *name = difference(making, rows_cells(&making->file->rows, row),
@@ -188,7 +172,12 @@ static bool check_row(struct making *making, const struct rows_scan *scan, const
         rows_refuse(making->file, row, "%s is not that of the scan's first row", name);
         return false;
     }
-    return check_time(making, scan, row);
+    if (making->kind->has_one_time && row->time_us != scan->utime) {
+        rows_refuse(making->file, row,
+                    "t_s is not that of the scan's first row: a scan of bearings has one time");
+        return false;
+    }
+    return true;
 }
 
 /* ---- Scans ---- */
