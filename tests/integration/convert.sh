@@ -189,6 +189,7 @@ refuse 'range below 0' '2: range_m -5 is outside the range of a polar_scan_t' "$
 refuse 'range without azimuth' '2: the azimuth is empty' "${polar}1,1,5,\n"
 refuse 'no azimuth' "1: no column 'azimuth_rad'" 't_s,sensor_id,range_m\n1,1,5\n'
 refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" 't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,1,1\n'
+refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" 't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,1,1,1\n'
 refuse 'a radar in two places' "3: sensor_y_m is not that of the scan's first row" \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,5,1,0,0\n1,1,5,1,0,1\n'
 refuse 'two sigmas of bearings' "3: sigma_rad is not that of the scan's other rows: *" "${bearings}1,1,0,0,1,0.1\n1,1,0,0,1,0.2\n"

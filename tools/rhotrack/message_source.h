@@ -27,8 +27,8 @@ struct message_event {
 };
 
 /*
- * Opens the files, which keep the parameters' address (scan_interval_s makes scans of rows with times of their own,
- * sensor.N.x_m and so on place radars that the file does not place). A CSV file is read and checked as a whole: errors as
+ * Opens the files. Of the parameters, which are not kept, scan_interval_s makes scans of rows with times of their own, and
+ * sensor.N.x_m and so on place radars that the file does not place. A CSV file is read and checked as a whole: errors as
  * `rhotrack: FILE:LINE: what is wrong`, exit 2; with keep_going bad rows are skipped and counted instead. A log is read as
  * it is used, damaged places are skipped and counted; no event in it at all: exit 2.
  */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* rows_polar: polar plots, polar_scan_t. Sigmas are the message's: plots with others go into another part. */
 #include <math.h>
-#include <string.h>
 
 #include "rows.h"
 
@@ -73,9 +72,7 @@ static int pattern(const double *cells)
 static bool has_same_sigmas(const double *cells, const double *others)
 {
     for (int i = SIGMA_RANGE_M; i <= SIGMA_RANGE_RATE_MPS; i++) {
-        float one = rows_float(cells[i]), other = rows_float(others[i]);
-
-        if (memcmp(&one, &other, sizeof one) != 0) {
+        if (rows_float(cells[i]) != rows_float(others[i])) {
             return false;
         }
     }

@@ -82,6 +82,9 @@ static void find_columns(struct reading *reading)
             reading->place = i;
         }
     }
+    if (kind == &rows_kind_polar && table_find(table, "x_m") >= 0) {
+        table_fail(table, TABLE_HEADER, "both 'range_m' and 'x_m' are there");
+    }
     row_need_both(table, "sensor_x_m", "sensor_y_m");
     row_need_both(table, "sector_from_rad", "sector_to_rad");
 }
