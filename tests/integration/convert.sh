@@ -94,14 +94,17 @@ cat >all.csv <<'END'
 t_s,sensor_id,range_m,azimuth_rad,elevation_rad,range_rate_mps,snr_db,sensor_x_m,sensor_y_m,sensor_z_m,sigma_range_m,sigma_azimuth_rad,sigma_elevation_rad,sigma_range_rate_mps,sector_from_rad,sector_to_rad
 1,2,100,3.1415927,1.5,-3,,10,20,30,5,0.01,0.02,0.5,0,1
 1,2,101,-3.1415927,-1.5,3,7,10,20,30,6,0.01,0.02,0.5,0,1
-1,2,102,0,0,0,,10,20,30,6,0.01,,,0,1
+1,2,102,0,0,0,,10,20,30,6,0.03,0.02,0.5,0,1
+1,2,103,0,0,0,,10,20,30,6,0.03,,0.5,0,1
+1,2,104,0,0,0,,10,20,30,6,0.03,,,0,1
+1,2,105,0,0,0,,10,20,30,6,0.03,,,0,1
 1,3,102,0,,,,0,0,0,,,,,,
 END
 check 'all columns of polar plots' there_and_back all.csv
 check 'all columns of polar plots: values' same_values all.csv back.csv
 check 'other sigmas go into parts of their own' python3 -c '
 import sys
-sys.exit(open("one.lcm", "rb").read().count(b"RHO_POLAR_2") != 3)'
+sys.exit(open("one.lcm", "rb").read().count(b"RHO_POLAR_2") != 5)'
 printf 't_s,sensor_id,range_m,azimuth_deg,elevation_deg\n1,2,100,90,45\n1,2,100,180,-45\n1,2,100,0,0\n' >degrees.csv
 run convert degrees.csv one.lcm
 run convert one.lcm back.csv
