@@ -209,6 +209,13 @@ refuse 'unknown status' "2: status 'lost' is none of tentative, confirmed, coast
 refuse 'hits beyond int16' "2: hits '40000' is outside -32768 .. 32767, which messages hold" \
     't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,40000\n'
 refuse 'hits below 0' '2: hits -1 is outside the range of a track_list_t' 't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,-1\n'
+printf 't_s,sensor_id,range_m,azimuth_rad,sigma_range_m\n' >parts.csv
+for i in $(seq 32768); do echo "1,1,$i,0,$((1 + i % 2))"; done >>parts.csv
+echo before >out.lcm
+run convert parts.csv out.lcm
+check 'more parts than messages number' refused 'parts.csv:2: a scan of 32768 parts; messages number 32767'
+run convert parts.csv out.lcm --keep-going
+check 'nothing is left' refused 'parts.csv: not one good scan in it'
 refuse 'header alone' '1: no rows after the header' "$plots"
 printf "${plots}1,1,1,1\nx,1,1,1\n1,40000,1,1\n1,1,1\n1,1,3e6,1\n0,1,1,1\n2,1,1,1\n" >mixed.csv
 run convert mixed.csv out.lcm --keep-going

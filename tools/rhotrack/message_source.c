@@ -68,7 +68,8 @@ static void open_input(struct input *input, const char *path, const struct param
     }
     go_on(input);
     if (!input->has_event) {
-        fail(EXIT_USAGE, "%s: not one event of an LCM log in it", path);
+        fail(EXIT_USAGE, "%s: not one %s in it", path,
+             input->log ? "event of an LCM log" : "good scan");
     }
 }
 

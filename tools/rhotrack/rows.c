@@ -53,6 +53,18 @@ double *rows_cells(const struct rows *rows, const struct row *row)
     return rows->cells + row->cells;
 }
 
+bool rows_saw_something(const struct rows *rows, const struct row *row)
+{
+    const double *cells = rows_cells(rows, row);
+
+    for (int i = 0; i < rows->kind->num_columns; i++) {
+        if ((rows->kind->columns[i].flags & COLUMN_MEASURED) && !rows_is_empty(cells[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* ---- For the kinds ---- */
 
 bool rows_is_empty(double cell)

@@ -41,7 +41,7 @@ struct rows_column {
 struct row {
     int64_t time_us; /* its own */
     int32_t sensor_id, epoch, scan;
-    uint32_t line;  /* of the file, as is path */
+    uint32_t line;  /* of the file; 0 of a message */
     uint64_t order; /* among rows of one time */
     size_t cells;   /* where they begin */
 };
@@ -119,6 +119,9 @@ void rows_free(struct rows *rows);
 /* Adds a row with empty cells and returns these, valid until the next row. */
 double *rows_add(struct rows *rows, const struct row *row);
 double *rows_cells(const struct rows *rows, const struct row *row);
+
+/* The row has a plot, a bearing, a target or a track. */
+bool rows_saw_something(const struct rows *rows, const struct row *row);
 
 /* ---- For the kinds ---- */
 

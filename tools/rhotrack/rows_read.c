@@ -225,16 +225,6 @@ static bool read_key(const struct reading *reading, const struct row_check *chec
            (reading->epoch < 0 || read_int32(check, reading->epoch, &row->epoch));
 }
 
-static bool has_measurement(const struct rows_kind *kind, const double *cells)
-{
-    for (int i = 0; i < kind->num_columns; i++) {
-        if ((kind->columns[i].flags & COLUMN_MEASURED) && !rows_is_empty(cells[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The newest row as a message of its own: what does that refuse? */
 static bool check_ranges(const struct reading *reading, const struct row_check *check)
 {
@@ -246,7 +236,7 @@ static bool check_ranges(const struct reading *reading, const struct row_check *
     const char *field = "a value";
     int column;
 
-    part.count = has_measurement(rows->kind, rows_cells(rows, row));
+    part.count = rows_saw_something(rows, row);
     if (rows->kind->encode(&part, message, &field) > 0) {
         return true;
     }
@@ -271,14 +261,15 @@ static bool check_order(const struct reading *reading, const struct row_check *c
 static bool check_row(const struct reading *reading, const struct row_check *check,
                       const struct row *row, double *cells)
 {
-    const struct rows_kind *kind = reading->file->rows.kind;
+    const struct rows *rows = &reading->file->rows;
     const char *why;
 
     if (!check_order(reading, check, row) || !read_cells(reading, check, cells)) {
         return false;
     }
     fill_place(reading, row->sensor_id, cells);
-    why = has_measurement(kind, cells) ? kind->why_not(cells) : NULL;
+    why =
+        rows_saw_something(rows, &rows->list[rows->count - 1]) ? rows->kind->why_not(cells) : NULL;
     return why ? row_refuse(check, "%s", why) : check_ranges(reading, check);
 }
 

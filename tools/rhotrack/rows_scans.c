@@ -107,18 +107,6 @@ static bool joins(const struct making *making, size_t first, size_t index)
 
 /* ---- What rows of a scan have in common ---- */
 
-static bool has_measurement(const struct making *making, const struct row *row)
-{
-    const double *cells = rows_cells(&making->file->rows, row);
-
-    for (int i = 0; i < making->kind->num_columns; i++) {
-        if ((making->kind->columns[i].flags & COLUMN_MEASURED) && !rows_is_empty(cells[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static bool is_same(double one, double other)
 {
     return rows_is_empty(one) ? rows_is_empty(other) : one <= other && one >= other;
@@ -186,7 +174,7 @@ static bool check_row(struct making *making, const struct rows_scan *scan, const
 static int64_t time_of(const struct making *making, size_t first, size_t end)
 {
     for (size_t i = first; making->file->has_scan && i < end; i++) {
-        if (!has_measurement(making, &making->rows[i])) {
+        if (!rows_saw_something(&making->file->rows, &making->rows[i])) {
             return making->rows[i].time_us;
         }
     }
@@ -221,7 +209,7 @@ static void add_scan(struct making *making, size_t first, size_t end)
 
     for (size_t i = first; i < end; i++) {
         struct row row = making->rows[i];
-        bool is_plot = has_measurement(making, &row);
+        bool is_plot = rows_saw_something(&making->file->rows, &row);
 
         if (!check_row(making, &scan, &row) ||
             (is_plot && scan.count > 0 && !check_plot(making, &scan, &row))) {
