@@ -39,6 +39,21 @@ for scenario in radar polar weave passive-three; do
     same_tracks "$scenario"
 done
 
+# A CSV file of a log says which rows are one scan, whatever their own times.
+run convert polar/in.lcm polar/numbered.csv
+run track polar/numbered.csv --config polar/scenario.ini --set scan_interval_s=0 --covariance -o polar/same.csv
+check 'rows of one number are one scan' cmp polar/tracks.csv polar/same.csv
+cat >late.csv <<CSV
+t_s,sensor_id,x_m,y_m,scan
+1.0,1,0,0,7
+3.0,1,10,0,7
+2.0,1,20,0,7
+4.0,1,30,0,8
+3.9,1,40,0,9
+CSV
+run track late.csv
+check 'a scan may hold times in any order, scans may not' says 2 'rhotrack: late.csv:6: time goes back from 4.000000 s to 3.900000 s'
+
 # two radars and their targets' bearings together, all in one log
 run track radar/in.csv passive-three/in.csv -o both.csv
 check 'plots and bearings of two files' exits 0

@@ -47,6 +47,8 @@ struct bearing_columns bearing_columns_find(const struct table *table)
         .sector_from_rad = table_find(table, "sector_from_rad"),
         .sector_to_rad = table_find(table, "sector_to_rad"),
         .snr_db = table_find(table, "snr_db"),
+        .scan = table_find(table, "scan"),
+        .epoch = table_find(table, "epoch"),
     };
 }
 
@@ -90,6 +92,7 @@ bool bearing_row_read(const struct table *table, const struct bearing_columns *c
     *bearing_row = (struct bearing_row){.has_bearing = false};
     if (!row_key(&check, columns->t_s, columns->sensor_id, &bearing_row->time_us,
                  &bearing_row->sensor_id) ||
+        !row_number(&check, columns->scan, columns->epoch, &bearing_row->number) ||
         !row_position(&check, columns->sensor_x_m, &bearing_row->x_m) ||
         !row_position(&check, columns->sensor_y_m, &bearing_row->y_m) ||
         !row_sector(&check, columns->sector_from_rad, columns->sector_to_rad,

@@ -14,6 +14,7 @@
 
 struct bearing_row {
     int64_t time_us;
+    struct row_number number; /* of the scan */
     int32_t sensor_id;
     float x_m, y_m;                       /* of the sensor */
     float sector_from_rad, sector_to_rad; /* of the scan; both 0 where not given */
@@ -24,7 +25,7 @@ struct bearing_row {
 /* Columns of a bearings file by index, -1 where it has none. */
 struct bearing_columns {
     int t_s, sensor_id, sensor_x_m, sensor_y_m, bearing_rad;
-    int sigma_rad, sector_from_rad, sector_to_rad, snr_db;
+    int sigma_rad, sector_from_rad, sector_to_rad, snr_db, scan, epoch;
 };
 
 /* The file holds bearings, and neither places nor ranges. */

@@ -97,17 +97,17 @@ static bool check_sensor(struct frame_reader *reader, const char *path,
 
 /* ---- Rows to scans ---- */
 
-/* time_us is not before the scan's. */
 static bool joins(const struct frame_reader *reader, const struct known_sensor *known,
-                  int64_t time_us)
+                  const struct bearing_row *row)
 {
-    int64_t start_us;
+    const struct frame_entry *entry;
 
     if (!known || known->open == NO_ENTRY) {
         return false;
     }
-    start_us = reader->entries[known->open].scan.time_us;
-    return time_us == start_us || time_us - reader->interval_us < start_us;
+    entry = &reader->entries[known->open];
+    return row_joins(&row->number, row->time_us, &entry->number, entry->scan.time_us,
+                     reader->interval_us);
 }
 
 static struct known_sensor *have_sensor(struct frame_reader *reader, const char *path,
@@ -137,6 +137,7 @@ static size_t add_entry(struct frame_reader *reader, const char *path, uint32_t 
                  .y_m = row->y_m,
                  .sector_from_rad = row->sector_from_rad,
                  .sector_to_rad = row->sector_to_rad},
+        .number = row->number,
         .path = path,
         .line = line,
         .order = reader->num_entries,
@@ -150,7 +151,7 @@ static void add_row(struct frame_reader *reader, const char *path, uint32_t line
     struct known_sensor *known = have_sensor(reader, path, line, row);
     struct frame_member *member;
 
-    if (!joins(reader, known, row->time_us)) {
+    if (!joins(reader, known, row)) {
         known->open = add_entry(reader, path, line, row);
     }
     if (!row->has_bearing) {
@@ -170,12 +171,13 @@ static bool check_order(struct frame_reader *reader, const struct bearing_row *r
 {
     const struct known_sensor *known = find_sensor(reader, row->sensor_id);
     const struct rho_bearing_scan *scan;
+    bool is_within = row->number.is_given && joins(reader, known, row);
 
-    if (last_us && row->time_us < *last_us) {
+    if (last_us && row->time_us < *last_us && !is_within) {
         return row_refuse(check, "time goes back from %.6f s to %.6f s", (double)*last_us * 1e-6,
                           (double)row->time_us * 1e-6);
     }
-    if (!joins(reader, known, row->time_us)) {
+    if (!joins(reader, known, row)) {
         return true;
     }
     scan = &reader->entries[known->open].scan;
@@ -204,7 +206,7 @@ static void read_table(struct frame_reader *reader, const struct table *table, c
             reader->rows_skipped++;
             continue;
         }
-        last_us = row.time_us;
+        last_us = has_last && last_us > row.time_us ? last_us : row.time_us;
         has_last = true;
         add_row(reader, path, table->lines[i], &row);
     }

@@ -8,12 +8,14 @@
 #include <stdint.h>
 
 #include "frame_reader.h"
+#include "row_check.h"
 
 #define NO_ENTRY SIZE_MAX
 
 /* A scan while its rows are collected. */
 struct frame_entry {
     struct rho_bearing_scan scan;
+    struct row_number number;
     const char *path; /* of its first row, as are */
     uint32_t line;
     size_t order; /* over all files */

@@ -47,8 +47,7 @@ static struct plot_point read_point(const struct table *table, size_t row, int i
     point.y_m = table_number_at(table, row, table_need(table, "y_m"));
     point.vx_mps = table_number_or(table, row, table_find(table, "vx_mps"), 0.0);
     point.vy_mps = table_number_or(table, row, table_find(table, "vy_mps"), 0.0);
-    point.is_tentative = status >= 0 && (strcmp(table_cell(table, row, status), "tentative") == 0 ||
-                                         strcmp(table_cell(table, row, status), "deleted") == 0);
+    point.is_tentative = status >= 0 && strcmp(table_cell(table, row, status), "tentative") == 0;
     return point;
 }
 

@@ -75,6 +75,8 @@ struct plot_columns plot_columns_find(const struct table *table)
         .sector_from_rad = table_find(table, "sector_from_rad"),
         .sector_to_rad = table_find(table, "sector_to_rad"),
         .snr_db = table_find(table, "snr_db"),
+        .scan = table_find(table, "scan"),
+        .epoch = table_find(table, "epoch"),
     };
     check_not_both(table, columns.range_m, columns.x_m);
     check_not_both(table, columns.azimuth_rad, columns.azimuth_deg);
@@ -325,6 +327,7 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
     *plot_row = (struct plot_row){.has_plot = false};
     if (!row_key(&checking.cells, columns->t_s, columns->sensor_id, &plot_row->time_us,
                  &plot_row->sensor_id) ||
+        !row_number(&checking.cells, columns->scan, columns->epoch, &plot_row->number) ||
         !row_sector(&checking.cells, columns->sector_from_rad, columns->sector_to_rad,
                     &plot_row->sector_from_rad, &plot_row->sector_to_rad) ||
         !read_sensor(&checking, parameters, plot_row)) {

@@ -14,6 +14,7 @@
 
 struct plot_row {
     int64_t time_us;
+    struct row_number number; /* of the scan */
     int32_t sensor_id;
     float sector_from_rad, sector_to_rad; /* of the scan; both 0 where not given */
     bool has_plot;
@@ -30,7 +31,7 @@ struct plot_columns {
     int range_rate_mps;
     int sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
     int sensor_x_m, sensor_y_m, sensor_z_m;
-    int sector_from_rad, sector_to_rad, snr_db;
+    int sector_from_rad, sector_to_rad, snr_db, scan, epoch;
 };
 
 /* Finds the columns; exit 2 where one is missing that is needed, or the file holds bearings. */

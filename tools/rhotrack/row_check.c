@@ -91,6 +91,36 @@ bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *tim
     return why ? row_refuse_cell(check, sensor_id, why) : true;
 }
 
+bool row_number(const struct row_check *check, int scan, int epoch, struct row_number *number)
+{
+    const char *why;
+
+    *number = (struct row_number){.is_given = row_has(check, scan)};
+    if (!number->is_given) {
+        return true;
+    }
+    why = table_int32(table_cell(check->table, check->row, scan), &number->scan);
+    if (why) {
+        return row_refuse_cell(check, scan, why);
+    }
+    why = row_has(check, epoch)
+              ? table_int32(table_cell(check->table, check->row, epoch), &number->epoch)
+              : NULL;
+    return why ? row_refuse_cell(check, epoch, why) : true;
+}
+
+bool row_joins(const struct row_number *number, int64_t time_us, const struct row_number *scan,
+               int64_t start_us, int64_t interval_us)
+{
+    int64_t offset_us = time_us - start_us;
+
+    if (number->is_given && scan->is_given) {
+        return number->scan == scan->scan && number->epoch == scan->epoch &&
+               offset_us >= -RHO_LIMIT_OFFSET_US && offset_us <= RHO_LIMIT_OFFSET_US;
+    }
+    return offset_us == 0 || (offset_us > 0 && offset_us < interval_us);
+}
+
 void row_need_both(const struct table *table, const char *first, const char *second)
 {
     bool has_first = table_find(table, first) >= 0, has_second = table_find(table, second) >= 0;

@@ -43,6 +43,20 @@ bool row_snr(const struct row_check *check, int column, float *snr_db);
 bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
              int32_t *sensor);
 
+/* The scan's number, where the file says it: rows of one sensor with the same are one scan, whatever their own times. */
+struct row_number {
+    bool is_given;
+    int32_t scan, epoch; /* epoch: 0 where not given */
+};
+bool row_number(const struct row_check *check, int scan, int epoch, struct row_number *number);
+
+/*
+ * Whether a row joins a scan that began at start_us: by their numbers where both have one, else by their times, within
+ * interval_us.
+ */
+bool row_joins(const struct row_number *number, int64_t time_us, const struct row_number *scan,
+               int64_t start_us, int64_t interval_us);
+
 /* Columns that mean something only together: exit 2 where one is there without the other. */
 void row_need_both(const struct table *table, const char *first, const char *second);
 

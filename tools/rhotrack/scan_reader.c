@@ -15,6 +15,7 @@
 /* A scan while its rows are collected. */
 struct entry {
     struct rho_scan scan;
+    struct row_number number;
     size_t order; /* of its first row, over all files */
     size_t first_plot;
     bool has_measures; /* scan.measures is settled, by its first plot */
@@ -63,6 +64,7 @@ static size_t add_entry(struct scan_reader *reader, const struct plot_row *row)
                  .sensor_id = row->sensor_id,
                  .sector_from_rad = row->sector_from_rad,
                  .sector_to_rad = row->sector_to_rad},
+        .number = row->number,
         .order = reader->num_entries,
         .has_sensor = row->has_sensor,
         .sensor = row->sensor,
@@ -80,12 +82,12 @@ static struct open_scan *find_open(const struct scan_reader *reader, int32_t sen
     return NULL;
 }
 
-/* time_us is not before the scan's. */
-static bool joins(const struct scan_reader *reader, size_t entry, int64_t time_us)
+static bool joins(const struct scan_reader *reader, size_t entry, const struct plot_row *row)
 {
-    int64_t start_us = reader->entries[entry].scan.time_us;
+    const struct entry *scan = &reader->entries[entry];
 
-    return time_us == start_us || time_us - reader->interval_us < start_us;
+    return row_joins(&row->number, row->time_us, &scan->number, scan->scan.time_us,
+                     reader->interval_us);
 }
 
 /* The scan that a good row belongs to. */
@@ -93,7 +95,7 @@ static size_t entry_of(struct scan_reader *reader, const struct plot_row *row)
 {
     struct open_scan *open = find_open(reader, row->sensor_id);
 
-    if (open && joins(reader, open->entry, row->time_us)) {
+    if (open && joins(reader, open->entry, row)) {
         return open->entry;
     }
     if (!open) {
@@ -136,7 +138,7 @@ static const char *why_not_same_scan(const struct scan_reader *reader, const str
     const struct open_scan *open = find_open(reader, row->sensor_id);
     const struct entry *entry;
 
-    if (!open || !joins(reader, open->entry, row->time_us)) {
+    if (!open || !joins(reader, open->entry, row)) {
         return NULL;
     }
     entry = &reader->entries[open->entry];
@@ -158,8 +160,10 @@ static bool check_order(const struct scan_reader *reader, const struct plot_row 
                         const int64_t *last_us, char *reason)
 {
     const char *why = why_not_same_scan(reader, row);
+    const struct open_scan *open = find_open(reader, row->sensor_id);
+    bool is_within = row->number.is_given && open && joins(reader, open->entry, row);
 
-    if (last_us && row->time_us < *last_us) {
+    if (last_us && row->time_us < *last_us && !is_within) {
         snprintf(reason, PLOT_ROW_REASON_BYTES, "time goes back from %.6f s to %.6f s",
                  (double)*last_us * 1e-6, (double)row->time_us * 1e-6);
         return false;
@@ -187,7 +191,7 @@ static void read_table(struct scan_reader *reader, const struct table *table)
             reader->rows_skipped++;
             continue;
         }
-        last_us = row.time_us;
+        last_us = has_last && last_us > row.time_us ? last_us : row.time_us;
         has_last = true;
         add_row(reader, &row);
     }
