@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: MIT */
+/* Made by make_message_table.py from lcm_types/. */
+/*
+ * Included once for each family of structs: MESSAGE_TABLE(name) names a table, MESSAGE_STRUCT(s) the C type of struct s,
+ * MESSAGE_HEAD(s, m) is the offset of a member in the struct of the members before the list, MESSAGE_LIST_IS_POINTER
+ * whether the struct holds a pointer to its list. The tables' own types stand in tests/unit/message_shape.h.
+ */
+#ifndef RHOTRACK_TEST_MESSAGE_TABLE
+#define RHOTRACK_TEST_MESSAGE_TABLE
+#define MESSAGES_WITHOUT_LIST(X) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(status, STATUS) X(track, TRACK) X(truth, TRUTH)
+#define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH")
+#endif
+
+static const struct message_member MESSAGE_TABLE(peak)[] = {
+    {"rho_m", offsetof(MESSAGE_STRUCT(peak), rho_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"theta_rad", offsetof(MESSAGE_STRUCT(peak), theta_rad), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(3.1415927)},
+    {"speed_mps", offsetof(MESSAGE_STRUCT(peak), speed_mps), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e6)},
+    {"score_nat", offsetof(MESSAGE_STRUCT(peak), score_nat), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"scans_hit", offsetof(MESSAGE_STRUCT(peak), scans_hit), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"sensor_pairs", offsetof(MESSAGE_STRUCT(peak), sensor_pairs), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+};
+
+static const struct message_member MESSAGE_TABLE(plot)[] = {
+    {"dt_us", offsetof(MESSAGE_STRUCT(plot), dt_us), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(-60000000), .max = INT64_C(60000000)},
+    {"x_m", offsetof(MESSAGE_STRUCT(plot), x_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"y_m", offsetof(MESSAGE_STRUCT(plot), y_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"z_m", offsetof(MESSAGE_STRUCT(plot), z_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"vx_mps", offsetof(MESSAGE_STRUCT(plot), vx_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"vy_mps", offsetof(MESSAGE_STRUCT(plot), vy_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"vz_mps", offsetof(MESSAGE_STRUCT(plot), vz_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"sigma_m", offsetof(MESSAGE_STRUCT(plot), sigma_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"sigma_mps", offsetof(MESSAGE_STRUCT(plot), sigma_mps), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"snr_db", offsetof(MESSAGE_STRUCT(plot), snr_db), 0, 4, 1, .is_float = true, .low = (float)(-1000), .high = (float)(1000)},
+};
+
+static const struct message_member MESSAGE_TABLE(polar_plot)[] = {
+    {"dt_us", offsetof(MESSAGE_STRUCT(polar_plot), dt_us), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(-60000000), .max = INT64_C(60000000)},
+    {"range_m", offsetof(MESSAGE_STRUCT(polar_plot), range_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(2e6)},
+    {"azimuth_rad", offsetof(MESSAGE_STRUCT(polar_plot), azimuth_rad), 0, 4, 1, .is_float = true, .low = (float)(-3.1415927), .high = (float)(3.1415927)},
+    {"elevation_rad", offsetof(MESSAGE_STRUCT(polar_plot), elevation_rad), 0, 4, 1, .is_float = true, .low = (float)(-1.5707964), .high = (float)(1.5707964)},
+    {"range_rate_mps", offsetof(MESSAGE_STRUCT(polar_plot), range_rate_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"snr_db", offsetof(MESSAGE_STRUCT(polar_plot), snr_db), 0, 4, 1, .is_float = true, .low = (float)(-1000), .high = (float)(1000)},
+};
+
+static const struct message_member MESSAGE_TABLE(status)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(status), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(status), scan), 0, 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(status), epoch), 0, 4, 1, .rule = MEMBER_ANY},
+    {"scans_accepted", offsetof(MESSAGE_STRUCT(status), scans_accepted), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"scans_late", offsetof(MESSAGE_STRUCT(status), scans_late), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"scans_duplicate", offsetof(MESSAGE_STRUCT(status), scans_duplicate), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"scans_lost", offsetof(MESSAGE_STRUCT(status), scans_lost), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"scans_bad", offsetof(MESSAGE_STRUCT(status), scans_bad), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"messages_bad", offsetof(MESSAGE_STRUCT(status), messages_bad), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"messages_wrong_type", offsetof(MESSAGE_STRUCT(status), messages_wrong_type), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"messages_flooded", offsetof(MESSAGE_STRUCT(status), messages_flooded), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"frames_incomplete", offsetof(MESSAGE_STRUCT(status), frames_incomplete), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"scans_incomplete", offsetof(MESSAGE_STRUCT(status), scans_incomplete), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"fragments_refused", offsetof(MESSAGE_STRUCT(status), fragments_refused), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"clock_jumps", offsetof(MESSAGE_STRUCT(status), clock_jumps), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"sensor_restarts", offsetof(MESSAGE_STRUCT(status), sensor_restarts), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"plots_in", offsetof(MESSAGE_STRUCT(status), plots_in), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"plots_claimed", offsetof(MESSAGE_STRUCT(status), plots_claimed), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"plots_held", offsetof(MESSAGE_STRUCT(status), plots_held), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"plots_initiated", offsetof(MESSAGE_STRUCT(status), plots_initiated), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"plots_clutter", offsetof(MESSAGE_STRUCT(status), plots_clutter), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"inputs_stale", offsetof(MESSAGE_STRUCT(status), inputs_stale), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"inputs_invalid", offsetof(MESSAGE_STRUCT(status), inputs_invalid), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"inputs_no_room", offsetof(MESSAGE_STRUCT(status), inputs_no_room), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"bearings_in", offsetof(MESSAGE_STRUCT(status), bearings_in), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"ghosts_pruned", offsetof(MESSAGE_STRUCT(status), ghosts_pruned), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"tracks_tentative", offsetof(MESSAGE_STRUCT(status), tracks_tentative), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"tracks_confirmed", offsetof(MESSAGE_STRUCT(status), tracks_confirmed), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"tracks_coasting", offsetof(MESSAGE_STRUCT(status), tracks_coasting), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"step_us", offsetof(MESSAGE_STRUCT(status), step_us), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e12)},
+    {"step_max_us", offsetof(MESSAGE_STRUCT(status), step_max_us), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e12)},
+    {"clutter_per_km2", offsetof(MESSAGE_STRUCT(status), clutter_per_km2), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e12)},
+    {"origin_lat_1e7deg", offsetof(MESSAGE_STRUCT(status), origin_lat_1e7deg), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(-900000000), .max = INT64_C(900000000)},
+    {"origin_lon_1e7deg", offsetof(MESSAGE_STRUCT(status), origin_lon_1e7deg), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(-1800000000), .max = INT64_C(1800000000)},
+    {"origin_alt_mm", offsetof(MESSAGE_STRUCT(status), origin_alt_mm), 0, 4, 1, .rule = MEMBER_ANY},
+};
+
+static const struct message_member MESSAGE_TABLE(track)[] = {
+    {"track_id", offsetof(MESSAGE_STRUCT(track), track_id), 0, 4, 1, .rule = MEMBER_ANY},
+    {"status", offsetof(MESSAGE_STRUCT(track), status), 0, 1, 1, .rule = MEMBER_ONE_OF, .choices = {1, 2, 3, 4}, .num_choices = 4},
+    {"hits", offsetof(MESSAGE_STRUCT(track), hits), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"misses", offsetof(MESSAGE_STRUCT(track), misses), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"sensor_id", offsetof(MESSAGE_STRUCT(track), sensor_id), 0, 2, 1, .rule = MEMBER_ANY},
+    {"plot", offsetof(MESSAGE_STRUCT(track), plot), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(-1), .max = INT64_C(32767)},
+    {"update_age_us", offsetof(MESSAGE_STRUCT(track), update_age_us), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"x_m", offsetof(MESSAGE_STRUCT(track), x_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"y_m", offsetof(MESSAGE_STRUCT(track), y_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"z_m", offsetof(MESSAGE_STRUCT(track), z_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"vx_mps", offsetof(MESSAGE_STRUCT(track), vx_mps), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"vy_mps", offsetof(MESSAGE_STRUCT(track), vy_mps), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"vz_mps", offsetof(MESSAGE_STRUCT(track), vz_mps), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"ax_mps2", offsetof(MESSAGE_STRUCT(track), ax_mps2), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"ay_mps2", offsetof(MESSAGE_STRUCT(track), ay_mps2), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"az_mps2", offsetof(MESSAGE_STRUCT(track), az_mps2), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"score_nat", offsetof(MESSAGE_STRUCT(track), score_nat), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"maneuver_probability", offsetof(MESSAGE_STRUCT(track), maneuver_probability), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"covariance", offsetof(MESSAGE_STRUCT(track), covariance), 0, 4, 21, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+};
+
+static const struct message_member MESSAGE_TABLE(truth)[] = {
+    {"target_id", offsetof(MESSAGE_STRUCT(truth), target_id), 0, 4, 1, .rule = MEMBER_ANY},
+    {"x_m", offsetof(MESSAGE_STRUCT(truth), x_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"y_m", offsetof(MESSAGE_STRUCT(truth), y_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"z_m", offsetof(MESSAGE_STRUCT(truth), z_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"vx_mps", offsetof(MESSAGE_STRUCT(truth), vx_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"vy_mps", offsetof(MESSAGE_STRUCT(truth), vy_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"vz_mps", offsetof(MESSAGE_STRUCT(truth), vz_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+};
+
+static const struct message_member MESSAGE_TABLE(bearing_scan)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(bearing_scan), utime), MESSAGE_HEAD(bearing_scan, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(bearing_scan), scan), MESSAGE_HEAD(bearing_scan, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(bearing_scan), epoch), MESSAGE_HEAD(bearing_scan, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"sensor_id", offsetof(MESSAGE_STRUCT(bearing_scan), sensor_id), MESSAGE_HEAD(bearing_scan, sensor_id), 2, 1, .rule = MEMBER_ANY},
+    {"sensor_x_m", offsetof(MESSAGE_STRUCT(bearing_scan), sensor_x_m), MESSAGE_HEAD(bearing_scan, sensor_x_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_y_m", offsetof(MESSAGE_STRUCT(bearing_scan), sensor_y_m), MESSAGE_HEAD(bearing_scan, sensor_y_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sigma_rad", offsetof(MESSAGE_STRUCT(bearing_scan), sigma_rad), MESSAGE_HEAD(bearing_scan, sigma_rad), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(0.5)},
+};
+static const struct message_member MESSAGE_TABLE(bearing_scan_element)[] = {
+    {"bearing_rad", 0, 0, 4, 1, .is_float = true, .low = (float)(-3.1415927), .high = (float)(3.1415927)},
+};
+
+static const struct message_member MESSAGE_TABLE(peak_list)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(peak_list), utime), MESSAGE_HEAD(peak_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(peak_list), scan), MESSAGE_HEAD(peak_list, scan), 4, 1, .rule = MEMBER_ANY},
+};
+
+static const struct message_member MESSAGE_TABLE(plot_scan)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(plot_scan), utime), MESSAGE_HEAD(plot_scan, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(plot_scan), scan), MESSAGE_HEAD(plot_scan, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(plot_scan), epoch), MESSAGE_HEAD(plot_scan, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"sensor_id", offsetof(MESSAGE_STRUCT(plot_scan), sensor_id), MESSAGE_HEAD(plot_scan, sensor_id), 2, 1, .rule = MEMBER_ANY},
+    {"kind", offsetof(MESSAGE_STRUCT(plot_scan), kind), MESSAGE_HEAD(plot_scan, kind), 1, 1, .rule = MEMBER_ONE_OF, .choices = {2, 3, 4, 6}, .num_choices = 4},
+    {"part", offsetof(MESSAGE_STRUCT(plot_scan), part), MESSAGE_HEAD(plot_scan, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(plot_scan), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(plot_scan), num_parts), MESSAGE_HEAD(plot_scan, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+    {"sector_from_rad", offsetof(MESSAGE_STRUCT(plot_scan), sector_from_rad), MESSAGE_HEAD(plot_scan, sector_from_rad), 4, 1, .is_float = true, .low = (float)(-6.2831855), .high = (float)(6.2831855)},
+    {"sector_to_rad", offsetof(MESSAGE_STRUCT(plot_scan), sector_to_rad), MESSAGE_HEAD(plot_scan, sector_to_rad), 4, 1, .is_float = true, .low = (float)(-6.2831855), .high = (float)(6.2831855)},
+};
+
+static const struct message_member MESSAGE_TABLE(polar_scan)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(polar_scan), utime), MESSAGE_HEAD(polar_scan, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(polar_scan), scan), MESSAGE_HEAD(polar_scan, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(polar_scan), epoch), MESSAGE_HEAD(polar_scan, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"sensor_id", offsetof(MESSAGE_STRUCT(polar_scan), sensor_id), MESSAGE_HEAD(polar_scan, sensor_id), 2, 1, .rule = MEMBER_ANY},
+    {"has_elevation", offsetof(MESSAGE_STRUCT(polar_scan), has_elevation), MESSAGE_HEAD(polar_scan, has_elevation), 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
+    {"has_range_rate", offsetof(MESSAGE_STRUCT(polar_scan), has_range_rate), MESSAGE_HEAD(polar_scan, has_range_rate), 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
+    {"part", offsetof(MESSAGE_STRUCT(polar_scan), part), MESSAGE_HEAD(polar_scan, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(polar_scan), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(polar_scan), num_parts), MESSAGE_HEAD(polar_scan, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+    {"sensor_x_m", offsetof(MESSAGE_STRUCT(polar_scan), sensor_x_m), MESSAGE_HEAD(polar_scan, sensor_x_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_y_m", offsetof(MESSAGE_STRUCT(polar_scan), sensor_y_m), MESSAGE_HEAD(polar_scan, sensor_y_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_z_m", offsetof(MESSAGE_STRUCT(polar_scan), sensor_z_m), MESSAGE_HEAD(polar_scan, sensor_z_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sigma_range_m", offsetof(MESSAGE_STRUCT(polar_scan), sigma_range_m), MESSAGE_HEAD(polar_scan, sigma_range_m), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"sigma_azimuth_rad", offsetof(MESSAGE_STRUCT(polar_scan), sigma_azimuth_rad), MESSAGE_HEAD(polar_scan, sigma_azimuth_rad), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(0.5)},
+    {"sigma_elevation_rad", offsetof(MESSAGE_STRUCT(polar_scan), sigma_elevation_rad), MESSAGE_HEAD(polar_scan, sigma_elevation_rad), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(0.5)},
+    {"sigma_range_rate_mps", offsetof(MESSAGE_STRUCT(polar_scan), sigma_range_rate_mps), MESSAGE_HEAD(polar_scan, sigma_range_rate_mps), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"sector_from_rad", offsetof(MESSAGE_STRUCT(polar_scan), sector_from_rad), MESSAGE_HEAD(polar_scan, sector_from_rad), 4, 1, .is_float = true, .low = (float)(-6.2831855), .high = (float)(6.2831855)},
+    {"sector_to_rad", offsetof(MESSAGE_STRUCT(polar_scan), sector_to_rad), MESSAGE_HEAD(polar_scan, sector_to_rad), 4, 1, .is_float = true, .low = (float)(-6.2831855), .high = (float)(6.2831855)},
+};
+
+static const struct message_member MESSAGE_TABLE(track_list)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(track_list), utime), MESSAGE_HEAD(track_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(track_list), scan), MESSAGE_HEAD(track_list, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(track_list), epoch), MESSAGE_HEAD(track_list, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"num_tracks_total", offsetof(MESSAGE_STRUCT(track_list), num_tracks_total), MESSAGE_HEAD(track_list, num_tracks_total), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"part", offsetof(MESSAGE_STRUCT(track_list), part), MESSAGE_HEAD(track_list, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(track_list), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(track_list), num_parts), MESSAGE_HEAD(track_list, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+};
+
+static const struct message_member MESSAGE_TABLE(truth_list)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(truth_list), utime), MESSAGE_HEAD(truth_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(truth_list), scan), MESSAGE_HEAD(truth_list, scan), 4, 1, .rule = MEMBER_ANY},
+    {"part", offsetof(MESSAGE_STRUCT(truth_list), part), MESSAGE_HEAD(truth_list, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(truth_list), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(truth_list), num_parts), MESSAGE_HEAD(truth_list, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+};
+
+static const struct message_shape MESSAGE_TABLE(shapes)[] = {
+    {"peak_t", MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), .element_members = NULL},
+    {"plot_t", MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), .element_members = NULL},
+    {"polar_plot_t", MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), .element_members = NULL},
+    {"status_t", MESSAGE_TABLE(status), 35, sizeof(MESSAGE_STRUCT(status)), .element_members = NULL},
+    {"track_t", MESSAGE_TABLE(track), 19, sizeof(MESSAGE_STRUCT(track)), .element_members = NULL},
+    {"truth_t", MESSAGE_TABLE(truth), 7, sizeof(MESSAGE_STRUCT(truth)), .element_members = NULL},
+    {"bearing_scan_t", MESSAGE_TABLE(bearing_scan), 7, sizeof(MESSAGE_STRUCT(bearing_scan)),
+     {"num_bearings", offsetof(MESSAGE_STRUCT(bearing_scan), num_bearings), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(bearing_scan), bearing_rad), MESSAGE_TABLE(bearing_scan_element), 1, sizeof(float), 256, MESSAGE_LIST_IS_POINTER},
+    {"peak_list_t", MESSAGE_TABLE(peak_list), 2, sizeof(MESSAGE_STRUCT(peak_list)),
+     {"num_peaks", offsetof(MESSAGE_STRUCT(peak_list), num_peaks), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(peak_list), peaks), MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), 48, MESSAGE_LIST_IS_POINTER},
+    {"plot_scan_t", MESSAGE_TABLE(plot_scan), 9, sizeof(MESSAGE_STRUCT(plot_scan)),
+     {"num_plots", offsetof(MESSAGE_STRUCT(plot_scan), num_plots), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(plot_scan), plots), MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), 34, MESSAGE_LIST_IS_POINTER},
+    {"polar_scan_t", MESSAGE_TABLE(polar_scan), 17, sizeof(MESSAGE_STRUCT(polar_scan)),
+     {"num_polar_plots", offsetof(MESSAGE_STRUCT(polar_scan), num_polar_plots), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(polar_scan), polar_plots), MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), 54, MESSAGE_LIST_IS_POINTER},
+    {"track_list_t", MESSAGE_TABLE(track_list), 6, sizeof(MESSAGE_STRUCT(track_list)),
+     {"num_tracks", offsetof(MESSAGE_STRUCT(track_list), num_tracks), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(track_list), tracks), MESSAGE_TABLE(track), 19, sizeof(MESSAGE_STRUCT(track)), 9, MESSAGE_LIST_IS_POINTER},
+    {"truth_list_t", MESSAGE_TABLE(truth_list), 4, sizeof(MESSAGE_STRUCT(truth_list)),
+     {"num_targets", offsetof(MESSAGE_STRUCT(truth_list), num_targets), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(truth_list), targets), MESSAGE_TABLE(truth), 7, sizeof(MESSAGE_STRUCT(truth)), 50, MESSAGE_LIST_IS_POINTER},
+};
