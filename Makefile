@@ -129,6 +129,7 @@ install: all
 ## Set up what is missing, build and run the whole test suite; ends with `N passed, N failed`
 test:
 	@tools/setup.sh
+	@BUILD=$(BUILD) tools/python.sh
 	@$(MAKE) --no-print-directory -k $(jobs) all test-programs || echo "  ...  the build has failures"
 	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
 	    $(sort $(wildcard tests/integration/*.sh tests/regression/*.sh)) \

@@ -5,6 +5,7 @@
 #
 # A check passes where it exits with 0. CMocka programs count each of their tests, scripts that end with a line
 # `N passed, N failed` count as it says, all others as one. A check that is not there (it did not build) is a failure.
+# What a check leaves out is a line `skipped: ...` of its own, which is shown, and counts neither way.
 # Output goes to $BUILD/log/; of a failure its end is shown, and what stands around the word FAIL or ERROR before.
 # The last line is `N passed, N failed`; exit 1 where anything failed.
 set -u
@@ -27,7 +28,7 @@ cmocka_sum() {
 }
 
 run_check() {
-    local check=$1 name=${1#"$BUILD"/} log status=0 good bad start=$EPOCHREALTIME seconds
+    local check=$1 name=${1#"$BUILD"/} log status=0 good bad counts='' start=$EPOCHREALTIME seconds
     log=$BUILD/log/${name//\//_}.log
     if [ -x "$check" ]; then
         timeout "$seconds_max" "$(realpath "$check")" >"$log" 2>&1 </dev/null || status=$?
@@ -42,8 +43,9 @@ run_check() {
     if [[ $(tail -n 1 "$log") =~ ^([0-9]+)\ passed,\ ([0-9]+)\ failed$ ]]; then
         good=${BASH_REMATCH[1]}
         bad=${BASH_REMATCH[2]}
+        counts=yes
     fi
-    if [ "$good" -eq 0 ] && [ "$status" -eq 0 ]; then
+    if [ -z "$counts" ] && [ "$good" -eq 0 ] && [ "$status" -eq 0 ]; then
         good=1 # it does not count
     fi
     if [ "$bad" -eq 0 ] && [ "$status" -ne 0 ]; then
@@ -54,6 +56,7 @@ run_check() {
     seconds=$(awk "BEGIN {printf \"%.1f\", $EPOCHREALTIME - $start}")
     if [ "$status" -eq 0 ] && [ "$bad" -eq 0 ]; then
         printf 'ok      %-52s %4d  %6s s\n' "$name" "$good" "$seconds"
+        sed -n 's/^skipped: /        | &/p' "$log"
         return
     fi
     failures+=("$name")

@@ -18,9 +18,12 @@ libcsv-dev          # the program reads CSV
 libinih-dev         # ... and INI
 libcjson-dev        # ... and writes JSON
 libcmocka-dev       # unit and scenario tests
+liblcm-bin          # lcm-gen: tests of the codec beside the C and the Python that it makes
+liblcm-dev          # ... and what that C includes
 gnuplot-nox         # pictures
 librsvg2-bin        # pictures: SVG to PNG
 python3             # make layers, reference vectors
+python3-venv        # what tests import goes to build/venv (tools/python.sh)
 valgrind            # memory checks, instruction counts
 '
 

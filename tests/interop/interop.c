@@ -4,7 +4,7 @@
  *
  *   interop c N              N random messages of each type from one codec through the other, both ways
  *   interop write FOLDER N   N random messages of each type to FOLDER/TYPE.log
- *   interop read FOLDER      such files of another runtime: our decode, the values compared, our encode
+ *   interop read FOLDER N    such files of another runtime: our decode, the values compared, our encode
  *   interop vectors          the text of tests/vectors/message_vectors.h, made by lcm-gen's C alone
  *
  * Files are LCM event logs: each message is followed by an event on the channel VALUES, its numbers by name instead of by
@@ -223,7 +223,7 @@ static size_t read_event(FILE *file, const char *channel, uint8_t data[MESSAGE_B
     return fread(data, 1, size, file) == size ? size : 0;
 }
 
-static void read_logs(const char *folder)
+static void read_logs(const char *folder, int num_messages)
 {
     _Alignas(8) char message[MESSAGE_STRUCT_MAX];
     uint8_t bytes[MESSAGE_BYTES_MAX], values[MESSAGE_BYTES_MAX], ours[MESSAGE_BYTES_MAX];
@@ -243,8 +243,8 @@ static void read_logs(const char *folder)
                         codecs[i].encode(message, ours, sizeof ours, &our_size) == RHO_OK &&
                         our_size == size && memcmp(bytes, ours, size) == 0;
         }
-        say(num_read > 0 && num_good == num_read, "%s: %d of %d messages read by us", shape->name,
-            num_good, num_read);
+        say(num_read == num_messages && num_good == num_read, "%s: %d of %d messages read by us",
+            shape->name, num_good, num_read);
         fclose(file);
     }
 }
@@ -294,12 +294,12 @@ int main(int argc, char **argv)
         compare_with_c(atoi(argv[2]));
     } else if (strcmp(mode, "write") == 0 && argc == 4) {
         write_logs(argv[2], atoi(argv[3]));
-    } else if (strcmp(mode, "read") == 0 && argc == 3) {
-        read_logs(argv[2]);
+    } else if (strcmp(mode, "read") == 0 && argc == 4) {
+        read_logs(argv[2], atoi(argv[3]));
     } else if (strcmp(mode, "vectors") == 0 && argc == 2) {
         print_vectors();
     } else {
-        fprintf(stderr, "usage: interop c N | write FOLDER N | read FOLDER | vectors\n");
+        fprintf(stderr, "usage: interop c N | write FOLDER N | read FOLDER N | vectors\n");
         return 2;
     }
     return num_failed > 0;
