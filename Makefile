@@ -60,9 +60,11 @@ compile = @mkdir -p $(@D) && echo "  cc       $@" && $(CC) $(1) $(OPT) $(CFLAGS)
 # As many jobs as processors, unless the caller said how many.
 jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 
+comma := ,
+
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib codegen bench-opencv test-programs test demo layers poison size instructions examples determinism lint format \
+.PHONY: all lib codegen bench-opencv test-programs test fuzz demo layers poison size instructions examples determinism lint format \
         format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
@@ -169,6 +171,44 @@ sanitize:
 sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
 	    $(sort $(wildcard tests/integration/bad*.sh))
+
+# --- fuzzing ---------------------------------------------------------------------------------
+
+# What meets bytes from outside is compiled for the fuzzer: the codecs, the readers of the program, and src/base that
+# they call. The rest of library and program is linked as it is. In src/wire an unsigned number that wraps is a finding,
+# too; elsewhere loops and the square root wrap on purpose.
+fuzz_readers := bearing_row frame_reader hint parameters plot_data plot_row row_check scan_reader table
+fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c)
+fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
+fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))
+fuzz_programs := $(fuzz_sources:tests/fuzz/%.c=$(BUILD)/fuzz/%)
+fuzz_checks := -fsanitize=address,undefined,float-cast-overflow,float-divide-by-zero
+fuzz_integers := -fsanitize=integer -fno-sanitize=unsigned-shift-base
+fuzz_flags = -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) -Itools/rhotrack \
+              -O1 -g $(fuzz_checks) -fno-sanitize-recover=all
+
+## Fuzz every decoder and reader: FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH
+fuzz:
+	@$(MAKE) --no-print-directory $(jobs) $(fuzz_programs)
+	@BUILD=$(BUILD) tests/fuzz/run.sh $(fuzz_programs)
+
+export FUZZ_SECONDS FUZZ_SECONDS_EACH
+
+$(filter $(BUILD)/fuzz/parts/src/wire/%,$(fuzz_objects)) $(fuzz_programs): \
+    private fuzz_checks += $(fuzz_integers)
+
+$(BUILD)/fuzz/parts/%.o: %.c Makefile
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -fsanitize=fuzzer-no-link -c -o $@ $<
+
+$(BUILD)/fuzz/parts.a: $(fuzz_objects)
+$(BUILD)/fuzz/program.a: $(filter-out %/main.o,$(program_objects))
+$(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a:
+	@rm -f $@ && echo "  ar       $@" && ar rcs $@ $^
+
+# --wrap=fail: a reader that refuses its file comes back to the target instead of ending it.
+$(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a $(workstation_library) Makefile
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -MF $@.d -fsanitize=fuzzer \
+	    $(if $(shell grep -l __wrap_fail $<),-Wl$(comma)--wrap=fail) -o $@ $< $(filter %.a,$^) $(program_libraries)
 
 # --- gates -----------------------------------------------------------------------------------
 
@@ -289,4 +329,4 @@ help:
 	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-14s %s\n", $$0, text; text = ""}' Makefile
 
 -include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
-         $(unit_programs:=.d) $(scenario_programs:=.d)
+         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(fuzz_programs:=.d)

@@ -33,8 +33,8 @@ struct message_shape {
     struct message_member counter;
     size_t list_offset;
     const struct message_member *element_members;
-    size_t num_element_members, element_size;
-    int most; /* elements; 0: no list */
+    size_t num_element_members, element_size, wire_bytes; /* wire_bytes: of an element */
+    int most;                                             /* elements; 0: no list */
     bool list_is_pointer;
 };
 
@@ -77,8 +77,8 @@ static inline void store_bits(void *at, unsigned width, uint64_t bits)
 
 static inline uint8_t *put_bits(uint8_t *to, unsigned width, uint64_t bits)
 {
-    for (unsigned i = width; i-- > 0;) {
-        *to++ = (uint8_t)(bits >> 8 * i & 0xff);
+    for (unsigned i = width; i > 0; i--) {
+        *to++ = (uint8_t)(bits >> 8 * (i - 1) & 0xff);
     }
     return to;
 }

@@ -93,12 +93,14 @@ def shape(struct, known):
     if not struct.list:
         return text + ", .element_members = NULL},\n"
     kind, name = struct.list[:2]
-    element, size = (f"{struct.short}_element", f"sizeof({kind})") if kind in WIDTH else \
-        (kind.removesuffix("_t"), f"sizeof(MESSAGE_STRUCT({kind.removesuffix('_t')}))")
-    number = 1 if kind in WIDTH else len(known[kind].members)
+    element, size, number, wire = f"{struct.short}_element", f"sizeof({kind})", 1, WIDTH.get(kind)
+    if kind in known:
+        members = known[kind].members
+        element, size, number = known[kind].short, f"sizeof(MESSAGE_STRUCT({known[kind].short}))", len(members)
+        wire = sum(WIDTH[member[0]] * int(member[2] or 1) for member in members)
     c_struct = f"MESSAGE_STRUCT({struct.short})"
     return (f"{text},\n     {{\"{struct.counter[1]}\", offsetof({c_struct}, {struct.counter[1]}), 0, 2, 1, "
-            f".rule = MEMBER_ANY}},\n     offsetof({c_struct}, {name}), MESSAGE_TABLE({element}), {number}, {size}, "
+            f".rule = MEMBER_ANY}},\n     offsetof({c_struct}, {name}), MESSAGE_TABLE({element}), {number}, {size}, {wire}, "
             f"{struct.most}, MESSAGE_LIST_IS_POINTER}},\n")
 
 
