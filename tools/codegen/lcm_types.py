@@ -25,6 +25,7 @@ class Field:
     minimum: str = ""
     maximum: str = ""
     choices: tuple = ()
+    line: int = 1  # in its file
 
     @property
     def is_list(self):
@@ -51,7 +52,7 @@ class Struct:
     @property
     def list(self):
         """The list at its end, or None."""
-        return self.fields[-1] if self.fields[-1].is_list else None
+        return self.fields[-1] if self.fields and self.fields[-1].is_list else None
 
     @property
     def head(self):
@@ -74,7 +75,7 @@ def fail(path, line, text):
 
 
 def parse_comment(field):
-    """Takes the range or the choices off the end of a field's comment."""
+    """Takes the range or the choices off the end of a field's comment. False where it ends like one, but is none."""
     ranged = re.search(r"\[(\S+) \.\. ([^\]]+)\]$", field.comment)
     chosen = re.search(r"\{([^}]+)\}$", field.comment)
     if ranged:
@@ -84,14 +85,18 @@ def parse_comment(field):
     for found in (ranged, chosen):
         if found:
             field.comment = field.comment[:found.start()].strip().rstrip(",;")
+    return bool(ranged or chosen) or not field.comment.endswith(("]", "}"))
 
 
 def parse_field(path, number, code, comment):
     found = re.fullmatch(rf"({NAME})\s+({NAME})\s*(?:\[\s*(\w+)\s*\])?", code)
     if not found:
         fail(path, number, f"no member that is understood: {code}")
-    field = Field(found.group(1), found.group(2), found.group(3) or "", comment)
-    parse_comment(field)
+    field = Field(found.group(1), found.group(2), found.group(3) or "", comment, line=number)
+    if not parse_comment(field):
+        fail(path, number, f"{field.name}: no range [min .. max] and no {{A, B}}: {comment}")
+    if "*/" in comment or "/*" in comment:
+        fail(path, number, f"{field.name}: the comment would end the one in C: {comment}")
     return field
 
 
@@ -118,15 +123,18 @@ def parse(path):
             continue
         if code in "{}":
             continue
-        if code.startswith("struct"):
-            struct.name = code.split()[1]
+        if code.split()[0] == "struct":
+            found = re.fullmatch(rf"struct\s+({NAME})\s*{{?", code)
+            if not found or struct.name:
+                fail(path, number, f"one struct a file, its members on lines of their own: {code}")
+            struct.name = found.group(1)
             continue
         if not code.endswith(";"):
             fail(path, number, f"no ; at the end: {code}")
         code = code[:-1].strip()
-        if code.startswith("package"):
+        if code.split()[0] == "package":
             struct.package = code.split()[1]
-        elif code.startswith("const"):
+        elif code.split()[0] == "const":
             struct.constants.update(parse_constants(path, number, code))
         else:
             struct.fields.append(parse_field(path, number, code, comment))
@@ -138,20 +146,71 @@ def check(struct):
     """The rules that keep encoders and decoders simple, and stock tools working."""
     if struct.path.stem != struct.name or not struct.name.endswith("_t"):
         fail(struct.path, 1, f"struct {struct.name} belongs into {struct.name}.lcm, and ends with _t")
+    if struct.package != "rhotrack":
+        fail(struct.path, 1, "package rhotrack is missing")
+    if not struct.head:
+        fail(struct.path, 1, f"{struct.name} has no members, or only a list")
     for field in struct.fields:
-        if field.is_list and field is not struct.fields[-1]:
-            fail(struct.path, 1, f"{field.name}: a list must be the last member")
-        if field.type not in PRIMITIVES and not field.is_list:
-            fail(struct.path, 1, f"{field.name}: only a list may have members of its own, and no {field.type}")
-        for choice in field.choices:
-            if choice not in struct.constants:
-                fail(struct.path, 1, f"{field.name}: {choice} is no constant of {struct.name}")
+        check_kind(struct, field)
+        check_values(struct, field)
     if struct.list:
-        counter = struct.fields[-2]
-        if counter.name != struct.list.dimension or counter.type != "int16_t":
-            fail(struct.path, 1, f"{struct.list.name}: its int16_t count must stand right before it")
-        if "MAX_" + struct.list.name.upper() not in struct.constants:
-            fail(struct.path, 1, f"const int16_t MAX_{struct.list.name.upper()} is missing")
+        check_list(struct)
+
+
+def check_kind(struct, field):
+    """Flat numbers, but for the list."""
+    if field.is_list and field is not struct.fields[-1]:
+        fail(struct.path, field.line, f"{field.name}: a list must be the last member")
+    if field.type not in PRIMITIVES and not field.is_list:
+        fail(struct.path, field.line, f"{field.name}: only a list may have members of its own, and no {field.type}")
+    if field.is_list and field.type in PRIMITIVES and field.type != "float":
+        fail(struct.path, field.line, f"{field.name}: a list of bare numbers must be of float")
+    if field.dimension and field.length == 0:
+        fail(struct.path, field.line, f"{field.name}: an array of nothing")
+
+
+def check_values(struct, field):
+    """Ranges that the codec's rules can hold, and that mean something."""
+    def refuse(text):
+        fail(struct.path, field.line, f"{field.name}: {text}")
+
+    for choice in field.choices:
+        if choice not in struct.constants:
+            refuse(f"{choice} is no constant of {struct.name}")
+        if not 0 <= struct.constants[choice] <= 30:
+            refuse(f"{choice} is not within 0 .. 30")
+    if (field.minimum or field.choices) and field.dimension and field.type != "float":
+        refuse("an array of integers has no range")
+    if field.choices and field.type == "float":
+        refuse("a float has no constants to choose from")
+    if not field.minimum or field.type not in PRIMITIVES:
+        return
+    if field.maximum.endswith(" - 1") and field.type != "float":
+        other = field.maximum.removesuffix(" - 1")
+        if not re.fullmatch(r"-?\d+", field.minimum) or other not in [member.name for member in struct.head if member.type == "int16_t" and not member.dimension]:
+            refuse(f"no range, as there is no int16_t {other}, or {field.minimum} is no number")
+        return
+    try:
+        low, high = (float(text) if field.type == "float" else int(text) for text in (field.minimum, field.maximum))
+    except ValueError:
+        refuse(f"no range of {field.type}: {field.minimum} .. {field.maximum}")
+    most = 3.4e38 if field.type == "float" else (1 << 8 * PRIMITIVES[field.type] - 1) - 1
+    if not -most - 1 <= low <= high <= most:
+        refuse(f"no range of {field.type}: {field.minimum} .. {field.maximum}")
+    if field.type == "int64_t" and (high != 4 * 10**18 or low != -high):
+        refuse("a time is within 4000000000000000000 either way")
+
+
+def check_list(struct):
+    """Its count and its capacity."""
+    counter = struct.fields[-2]
+    if counter.name != struct.list.dimension or counter.type != "int16_t":
+        fail(struct.path, struct.list.line, f"{struct.list.name}: its int16_t count must stand right before it")
+    most = "MAX_" + struct.list.name.upper()
+    if most not in struct.constants:
+        fail(struct.path, struct.list.line, f"const int16_t {most} is missing")
+    if not 1 <= struct.constants[most] <= 32767:
+        fail(struct.path, struct.list.line, f"{most} is not within 1 .. 32767")
 
 
 def read_all(folder):
@@ -161,8 +220,8 @@ def read_all(folder):
     known = {}
     for struct in structs:
         for field in struct.fields:
-            if field.type not in PRIMITIVES and field.type not in known:
-                fail(struct.path, 1, f"{field.name}: there is no struct {field.type} without a list")
+            if field.type not in PRIMITIVES and (field.type not in known or known[field.type].list):
+                fail(struct.path, field.line, f"{field.name}: there is no struct {field.type} without a list")
         known[struct.name] = struct
     return known
 

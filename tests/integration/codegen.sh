@@ -1,0 +1,160 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# tools/codegen: what is checked in is what it writes, a change of either is named, and each of its rules is kept.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+top=$(pwd)
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+passed=0
+failed=0
+
+fresh() {
+    rm -rf "$copy/tree"
+    mkdir -p "$copy/tree/include/rhotrack" "$copy/tree/src/wire"
+    cp -r lcm_types "$copy/tree"
+    cp include/rhotrack/message.h "$copy/tree/include/rhotrack"
+    cp src/wire/message.c src/wire/message_names.c "$copy/tree/src/wire"
+}
+
+codegen() { # arguments
+    status=0
+    "$top/tools/codegen/codegen.py" "$@" "$copy/tree" >"$copy/output" 2>&1 || status=$?
+}
+
+says() { # text; none: no output at all
+    ! grep -q Traceback "$copy/output" || return
+    if [ -n "$1" ]; then grep -qF -- "$1" "$copy/output"; else [ ! -s "$copy/output" ]; fi
+}
+
+expect() { # name, exit code, what it says
+    if [ "$status" -eq "$2" ] && says "${3-}"; then
+        echo "ok   $1"
+        passed=$((passed + 1))
+    else
+        echo "FAIL $1: exit $status, expected $2 and '${3-}', got:"
+        head -n 5 "$copy/output" | sed 's/^/     /'
+        failed=$((failed + 1))
+    fi
+}
+
+# ---- What is checked in ----
+
+fresh
+codegen --check
+expect 'the tree as it is' 0
+
+stale() { # file
+    fresh
+    sed -i '$ s/$/ /' "$copy/tree/$1"
+    codegen --check
+    expect "$1 edited by hand" 1 "$1: not what lcm_types/ says; run make codegen"
+    codegen
+    expect "$1 written anew" 0 "codegen: $1"
+    status=0
+    cmp "$1" "$copy/tree/$1" >"$copy/output" 2>&1 || status=$?
+    expect '... as it was' 0
+}
+stale include/rhotrack/message.h
+stale src/wire/message.c
+stale src/wire/message_names.c
+
+changed() { # what, sed expression for plot_t.lcm, file that it changes
+    fresh
+    sed -i "$2" "$copy/tree/lcm_types/plot_t.lcm"
+    codegen --check
+    expect "$1 changes $3" 1 "$3: not what lcm_types/ says"
+}
+changed "a member's name" 's/snr_db/snr_dB/' lcm_types/README.md
+changed "a member's name" 's/snr_db/snr_dB/' src/wire/message_names.c
+changed "a member's type" 's/float   snr_db/int32_t snr_db/' include/rhotrack/message.h
+changed "a member's range" 's/-1000 \.\. 1000/-1000 .. 1001/' src/wire/message.c
+changed 'a comment' 's/east, m/eastwards, m/' include/rhotrack/message.h
+
+fresh
+rm "$copy/tree/src/wire/message.c"
+codegen --check
+expect 'a generated file that is not there' 1 'src/wire/message.c: not what'
+fresh
+rm "$copy"/tree/lcm_types/*.lcm
+codegen --check
+expect 'no .lcm files' 1 'lcm_types: no .lcm files'
+fresh
+sed -i '/made by tools.codegen/d' "$copy/tree/lcm_types/README.md"
+codegen --check
+expect 'a README without the table' 1 'README.md: no lines'
+codegen --nonsense
+expect 'an option that is not there' 1 'Usage:'
+
+# ---- Rules ----
+
+# The lines stand in a struct of their own; the message names the file, and the line where it is one member's.
+refuse() { # what, line of the file, text, the struct's lines...
+    local what=$1 line=$2 text=$3
+    shift 3
+    fresh
+    { printf 'package rhotrack;\nstruct odd_t\n{\n'; printf '%s\n' "$@"; printf '}\n'; } >"$copy/tree/lcm_types/odd_t.lcm"
+    codegen
+    expect "$what" 1 "lcm_types/odd_t.lcm:$line: $text"
+}
+one='int32_t x;'
+refuse 'a list that is not last' 7 'a: a list must be the last member' \
+    'const int16_t MAX_A = 2;' "$one" 'int16_t num;' 'float a[num];' 'float b;'
+refuse 'a count of 32 bits' 7 'a: its int16_t count must stand right before it' \
+    'const int16_t MAX_A = 2;' "$one" 'int32_t num;' 'float a[num];'
+refuse 'a count elsewhere' 8 'a: its int16_t count must stand right before it' \
+    'const int16_t MAX_A = 2;' 'int16_t num;' "$one" 'int16_t y;' 'float a[num];'
+refuse 'a list without capacity' 6 'const int16_t MAX_A is missing' "$one" 'int16_t num;' 'float a[num];'
+refuse 'a capacity of 0' 7 'MAX_A is not within' 'const int16_t MAX_A = 0;' "$one" 'int16_t num;' 'float a[num];'
+refuse 'a member with members' 5 'p: only a list may have members of its own' "$one" 'plot_t p;'
+refuse 'an array of structs' 5 'p: only a list may have members of its own' "$one" 'plot_t p[3];'
+refuse 'a type that is not known' 7 'a: there is no struct blob_t without a list' \
+    'const int16_t MAX_A = 2;' "$one" 'int16_t num;' 'blob_t a[num];'
+refuse 'a list of lists' 7 'a: there is no struct bearing_scan_t without a list' \
+    'const int16_t MAX_A = 2;' "$one" 'int16_t num;' 'bearing_scan_t a[num];'
+refuse 'a list of bare integers' 7 'a: a list of bare numbers must be of float' \
+    'const int16_t MAX_A = 2;' "$one" 'int16_t num;' 'int16_t a[num];'
+refuse 'double' 4 'd: only a list may have members of its own, and no double' 'double d;'
+refuse 'a string' 4 's: only a list may have members of its own, and no string' 'string s;'
+refuse 'an array of nothing' 4 'a: an array of nothing' 'float a[0];'
+refuse 'two dimensions' 4 'no member that is understood' 'float a[2][3];'
+refuse 'a message beyond a datagram' 1 '1480 bytes with header and channel do not fit a datagram of 1472' \
+    'const int16_t MAX_A = 359;' 'int16_t x;' 'int16_t num;' 'float a[num];'
+refuse 'no semicolon' 4 'no ; at the end' 'int32_t x'
+refuse 'a struct without members' 1 'odd_t has no members'
+refuse 'another struct in the file' 6 'one struct a file' "$one" '}' 'struct more_t' '{' "$one"
+refuse 'a constant that is no number' 4 'no constant that is understood' 'const int8_t A = B;' "$one"
+refuse 'a choice that is no constant' 4 's: C is no constant of odd_t' 'int8_t s; // one {C}'
+refuse 'a choice beyond 30' 5 's: C is not within 0 .. 30' 'const int8_t C = 31;' 'int8_t s; // one {C}'
+refuse 'a range that is none' 4 'x: no range [min .. max]' 'int32_t x; // m [0..1]'
+refuse 'a range the wrong way round' 4 'x: no range of int32_t: 2 .. 1' 'int32_t x; // [2 .. 1]'
+refuse 'a range beyond the type' 4 'x: no range of int8_t: 0 .. 128' 'int8_t x; // [0 .. 128]'
+refuse 'a range of fractions' 4 'x: no range of int16_t: 0 .. 1e3' 'int16_t x; // [0 .. 1e3]'
+refuse 'a range of words' 4 'x: no range of float: 0 .. n - 1' 'float x; // [0 .. n - 1]'
+refuse 'a range below what is not there' 4 'x: no range, as there is no int16_t n' 'int16_t x; // [0 .. n - 1]'
+refuse 'a range of an array of integers' 4 'x: an array of integers has no range' 'int16_t x[3]; // [0 .. 9]'
+refuse 'a time with a range of its own' 4 'x: a time is within' 'int64_t x; // [0 .. 9]'
+refuse 'a comment that ends one in C' 4 'x: the comment would end' 'int32_t x; // a */ b'
+
+fresh
+sed -i 's/^struct plot_t/struct plots_t/' "$copy/tree/lcm_types/plot_t.lcm"
+codegen
+expect "a struct of another name than its file's" 1 'plot_t.lcm:1: struct plots_t belongs into plots_t.lcm'
+fresh
+sed -i '/^package/d' "$copy/tree/lcm_types/plot_t.lcm"
+codegen
+expect 'no package' 1 'plot_t.lcm:1: package rhotrack is missing'
+
+# ---- What it makes of rules that no struct has yet ----
+
+# Constants of which one begins as another does.
+fresh
+sed -i 's/POSITION_2D = 2/POSITION = 1, POSITION_2D = 2/; s/{POSITION_2D,/{POSITION, POSITION_2D,/' \
+    "$copy/tree/lcm_types/plot_scan_t.lcm"
+codegen
+expect 'a constant that begins as another one does' 0 'codegen: src/wire/message.c'
+status=0
+grep -F 'plot_scan, kind), 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message.c" >"$copy/output" || status=$?
+expect '... has its own value' 0 '1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6'
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
