@@ -7,6 +7,7 @@
 #   OPT=-O3           optimisation (default -O2)
 #   CFLAGS=, LDFLAGS= added to every compilation, every link
 #   BUILD=folder      where everything goes (default build); give each set of flags its own
+#   FUZZ_SECONDS=60   how long `make fuzz` runs, all targets together; FUZZ_SECONDS_EACH= each of them
 #   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local)
 
 VERSION := 0.1.0

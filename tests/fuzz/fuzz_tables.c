@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The CSV readers on any file: the table itself, plots to scans, bearings to frames, and what the plot command reads
- * (truth and tracks, too). The first byte says which, and whether bad rows are skipped; the rest is the file.
+ * (truth and tracks, too). The first byte says which, whether bad rows are skipped, and whether rows of half a second are
+ * one scan; the rest is the file.
  *
  * A reader that refuses its file calls fail(), which ends the program. Here it jumps out of the reader (linked with
  * --wrap=fail), and what that reader had allocated is given back by the hooks of the sanitizer's allocator. So leaks of
@@ -227,6 +228,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     }
     must(ftruncate(file, 0) == 0 && pwrite(file, data + 1, size - 1, 0) == (ssize_t)(size - 1));
+    parameters.value[PARAMETER_SCAN_INTERVAL_S] = (data[0] & 8) != 0 ? 0.5 : 0.0;
     is_keeping = true;
     if (setjmp(refused) == 0) {
         read_file(path, &parameters, data[0]);
