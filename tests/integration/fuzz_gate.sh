@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# `make fuzz` can fail: each seeded defect of the codec is found within 20 s, and the codec as it is passes.
+# `make fuzz` can fail: each defect seeded in the codec or a reader is found within 20 s, and both pass as they are.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
+build=${BUILD:-build}
 seconds=20
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -16,32 +17,44 @@ if ! echo 'int LLVMFuzzerTestOneInput(const char *d, unsigned long n) { return d
     exit 0
 fi
 
-build() { # codec
-    clang -std=c11 -O1 -g -Iinclude -Isrc/wire -ffp-contract=off -fsanitize=fuzzer,address,undefined,integer \
-        -fno-sanitize=unsigned-shift-base -fno-sanitize-recover=all -o "$folder/fuzz_message" \
+flags='-std=c11 -D_GNU_SOURCE -O1 -g -Iinclude -Isrc/wire -Itools/rhotrack -ffp-contract=off
+    -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all'
+
+# shellcheck disable=SC2086 # words on purpose
+build_message() { # codec
+    clang $flags -fsanitize=integer -fno-sanitize=unsigned-shift-base -o "$folder/fuzz_message" \
         tests/fuzz/fuzz_message.c "$1" src/wire/message.c src/wire/message_names.c src/base/status.c
 }
 
-fuzz() {
-    BUILD=$folder FUZZ_SECONDS_EACH=$1 tests/fuzz/run.sh "$folder/fuzz_message" >"$folder/output" 2>&1
+# The other parts are the program's own objects.
+# shellcheck disable=SC2086
+build_tables() { # reader
+    clang $flags -DRHO_PROFILE_WORKSTATION -Wl,--wrap=fail -o "$folder/fuzz_tables" tests/fuzz/fuzz_tables.c "$1" \
+        "$folder/program.a" "$build/workstation/librhotrack.a" -lcsv -linih -lcjson -pthread -lm
 }
 
-must_find() { # what is wrong, sed expression that makes it so
+fuzz() { # target, seconds
+    BUILD=$folder FUZZ_SECONDS_EACH=$2 tests/fuzz/run.sh "$folder/$1" >"$folder/output" 2>&1
+}
+
+seeded() { # target, file, what is wrong, sed expression that makes it so
     local start=$SECONDS
-    sed -E "$2" src/wire/message_codec.c >"$folder/codec.c"
-    if cmp -s src/wire/message_codec.c "$folder/codec.c" || ! build "$folder/codec.c"; then
-        echo "FAIL $1: not seeded"
+    sed -E "$4" "$2" >"$folder/seeded.c"
+    if cmp -s "$2" "$folder/seeded.c" || ! "build_${1#fuzz_}" "$folder/seeded.c"; then
+        echo "FAIL $3: not seeded"
         failed=$((failed + 1))
-    elif fuzz "$seconds" || ! grep -q '^FAIL fuzz_message' "$folder/output"; then
-        echo "FAIL $1: not found in $seconds s"
+    elif fuzz "$1" "$seconds" || ! grep -q "^FAIL $1" "$folder/output"; then
+        echo "FAIL $3: not found in $seconds s"
         cat "$folder/output"
         failed=$((failed + 1))
     else
-        echo "ok   $1: found after $((SECONDS - start)) s, build included"
+        echo "ok   $3: found after $((SECONDS - start)) s, build included"
         passed=$((passed + 1))
     fi
     rm -rf "$folder/fuzz"
 }
+
+must_find() { seeded fuzz_message src/wire/message_codec.c "$@"; } # what is wrong, sed expression
 
 must_find 'decode takes any count' 's/if \(\*count > format->max\)/if (0)/'
 must_find 'decode takes one element too many' 's/if \(\*count > format->max\)/if (*count > format->max + 1u)/'
@@ -53,14 +66,28 @@ must_find 'validate takes any count' 's/if \(count < 0 \|\| count > format->max\
 must_find 'add goes beyond the list' 's/writer->count >= format->max/0/'
 must_find 'add goes beyond the buffer' 's/writer->capacity - writer->size < format->element.wire_bytes/0/'
 
-build src/wire/message_codec.c
-if fuzz 5; then
-    echo 'ok   the codec as it is: nothing found in 5 s'
-    passed=$((passed + 1))
+must_pass() { # target, file
+    if "build_${1#fuzz_}" "$2" && fuzz "$1" 5; then
+        echo "ok   $1: nothing found in $2 as it is, 5 s"
+        passed=$((passed + 1))
+    else
+        echo "FAIL $1, $2 as it is:"
+        cat "$folder/output"
+        failed=$((failed + 1))
+    fi
+    rm -rf "$folder/fuzz"
+}
+must_pass fuzz_message src/wire/message_codec.c
+
+objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)
+if [ -z "$objects" ] || [ ! -f "$build/workstation/librhotrack.a" ]; then
+    echo 'skipped: fuzz gate: defects of the readers, as the program is not built'
 else
-    echo 'FAIL the codec as it is:'
-    cat "$folder/output"
-    failed=$((failed + 1))
+    # shellcheck disable=SC2086
+    ar rcs "$folder/program.a" $objects
+    seeded fuzz_tables tools/rhotrack/row_check.c 'numbers beyond their limits' 's/number < \(double\)min \|\| number > \(double\)max/0/'
+    seeded fuzz_tables tools/rhotrack/table.c 'a table that is not given back' 's/free\(table->text\);//'
+    must_pass fuzz_tables tools/rhotrack/table.c
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
