@@ -3,6 +3,7 @@
 """Writes seeds of fuzz targets that are made of vectors in the tree. Usage: seeds.py FOLDER"""
 import pathlib
 import re
+import struct
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -15,6 +16,22 @@ def main():
     for name, golden, lines in re.findall(r'\{"(\w+)", GOLDEN_(\w+),\s*((?:"[0-9a-f]+"\s*)+)', text):
         data = bytes.fromhex("".join(re.findall(r'"([0-9a-f]+)"', lines)))
         (folder / f"{name}-{golden.lower()}").write_bytes(data)
+    write_logs(pathlib.Path(sys.argv[1]) / "fuzz_log")
+
+
+def write_logs(folder):
+    """Logs of short events: whole, damaged in between, cut, and one whose length takes in the next."""
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def event(number, channel, data, size=None):
+        return struct.pack(">IqqII", 0xEDA1DA01, number, number * 1000, len(channel),
+                           len(data) if size is None else size) + channel + data
+
+    events = [event(0, b"RHO_PLOTS_1", b"abc"), event(1, b"X", b""), event(2, b"RHO_TRACKS", b"12345678")]
+    (folder / "whole").write_bytes(b"".join(events))
+    (folder / "damaged").write_bytes(events[0] + b"\xed\xa1garbage" + events[1] + events[2])
+    (folder / "cut").write_bytes((events[0] + events[2])[:-3])
+    (folder / "lies").write_bytes(event(0, b"X", b"ab", 40) + events[1] + events[2])
 
 
 if __name__ == "__main__":
