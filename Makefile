@@ -295,7 +295,7 @@ spy: $(spy_jars)
 
 $(spy)/rhotrack-types.jar: $(sort $(wildcard lcm_types/*.lcm)) Makefile
 	@for file in $(LCM_GEN) $(subst :, ,$(LCM_JARS)); do test -e $$file || \
-	    { echo "spy: no $$file (Debian: liblcm-bin liblcm-java libjchart2d-java default-jdk)" >&2; exit 1; }; done
+	    { echo "spy: no $$file; tools/setup.sh spy installs what is missing" >&2; exit 1; }; done
 	@rm -rf $(spy)/types && mkdir -p $(spy)/types && $(LCM_GEN) -j --jpath $(spy)/types $(filter %.lcm,$^)
 	@$(call javac,$(spy)/types-classes) -nowarn -cp $(LCM_JARS) $(spy)/types/rhotrack/*.java
 	@jar --create --file $@ -C $(spy)/types-classes .

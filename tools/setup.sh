@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick when none is.
+# `setup.sh spy`: those of the viewer for lcm-spy (make spy) instead.
 set -eu
 
 packages='
@@ -25,7 +26,23 @@ librsvg2-bin        # pictures: SVG to PNG
 python3             # make layers, reference vectors
 python3-venv        # what tests import goes to build/venv (tools/python.sh)
 valgrind            # memory checks, instruction counts
+iproute2            # tests on networks of their own: hosts on a bridge
+nftables            # ... and the loss on it
 '
+spy_packages='
+openjdk-17-jdk      # the viewer is Java, and shows windows
+liblcm-bin          # lcm-gen -j
+liblcm-java         # LCM and lcm-spy
+libjchart2d-java    # ... which draws with it
+'
+case ${1:-} in
+'') ;;
+spy) packages=$spy_packages ;;
+*)
+    echo "setup: unknown: $1 (there is: spy)" >&2
+    exit 2
+    ;;
+esac
 
 missing=''
 for package in $(printf '%s' "$packages" | sed 's/#.*//'); do
