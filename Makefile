@@ -54,7 +54,7 @@ library_flags := -std=c99 $(common_flags) $(warnings) -Wpedantic -Wconversion -W
 program_flags := -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) \
                  -Wconversion -pthread
 test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itools/rhotrack $(warnings)
-program_libraries := -lcsv -linih -lcjson -pthread -lm
+program_libraries := -llcm -lcsv -linih -lcjson -pthread -lm
 
 compile = @mkdir -p $(@D) && echo "  cc       $@" && $(CC) $(1) $(OPT) $(CFLAGS)
 

@@ -18,6 +18,7 @@ pkg-config          # test of the installed library
 libcsv-dev          # the program reads CSV
 libinih-dev         # ... and INI
 libcjson-dev        # ... and writes JSON
+liblcm-dev          # LCM: providers other than UDP multicast
 libcmocka-dev       # unit and scenario tests
 liblcm-bin          # lcm-gen: tests of the codec beside the C and the Python that it makes
 liblcm-dev          # ... and what that C includes

@@ -1,0 +1,459 @@
+/* SPDX-License-Identifier: MIT */
+#include "node_core.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "chain.h"
+#include "common.h"
+#include "rhotrack/message.h"
+#include "rhotrack/publish.h"
+#include "rhotrack/udpm.h"
+
+/* Scans of plots that wait for the open frame; one more closes it. */
+#define WAITING_MAX 4
+
+struct waiting {
+    struct rho_scan scan;
+    struct rho_sensor sensor;
+    int has_sensor;
+    struct rho_plot *plots; /* RHO_MAX_PLOTS */
+};
+
+struct timing {
+    int64_t sum_us, max_us;
+    uint64_t steps;
+};
+
+struct node_core {
+    const struct parameters *parameters;
+    struct node_core_events events;
+    struct chain chain;
+    struct node_core_counters counters;
+    struct timing total, lately; /* lately: since the last status */
+    int32_t step, epoch;
+    int64_t
+        frame_due_us; /* when the open frame closes, whoever is missing; INT64_MAX: none is open */
+    unsigned num_waiting;
+    struct waiting waiting[WAITING_MAX]; /* in the order of time */
+    struct rho_feed feed;
+    struct rho_frames frames;
+};
+
+/* ---- Start ---- */
+
+static void open_frames(struct node_core *core)
+{
+    const double *value = core->parameters->value;
+    struct rho_frames_config config;
+
+    rho_frames_config_default(&config);
+    config.tolerance_us = llround(value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
+    config.jump_max_us = llround(value[PARAMETER_JUMP_MAX_S] * 1e6);
+    config.follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS];
+    if (rho_frames_init(&core->frames, sizeof core->frames, &config) != RHO_OK) {
+        fail(EXIT_USAGE, "node: frame_tolerance_s has to be 10 s at most, and below jump_max_s");
+    }
+    core->frame_due_us = INT64_MAX;
+}
+
+static void open_chain(struct node_core *core)
+{
+    chain_open(&core->chain, core->parameters);
+    chain_open_passive(&core->chain, core->parameters);
+}
+
+struct node_core *node_core_open(const struct parameters *parameters, int32_t epoch,
+                                 const struct node_core_events *events)
+{
+    struct node_core *core = must_calloc(1, sizeof *core);
+
+    core->parameters = parameters;
+    core->events = *events;
+    core->epoch = epoch;
+    core->chain = chain_start();
+    memset(core->chain.report, 0, sizeof *core->chain.report);
+    for (int i = 0; i < WAITING_MAX; i++) {
+        core->waiting[i].plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot));
+    }
+    open_chain(core);
+    open_frames(core);
+    parameters_to_feed(parameters, &core->feed);
+    return core;
+}
+
+/* Tracks do not go on across a clock that was set; counters do. */
+static void start_anew(struct node_core *core)
+{
+    struct rho_tracker_counters counters = core->chain.tracker->counters;
+
+    open_chain(core);
+    core->chain.tracker->counters = counters;
+    core->epoch = core->epoch == INT32_MAX ? 0 : core->epoch + 1;
+    core->counters.restarts++;
+}
+
+/* ---- Steps ---- */
+
+static void send_tracks(const struct node_core *core)
+{
+    const struct rho_report *report = core->chain.report;
+    uint8_t buffer[RHO_UDPM_MAX_DATAGRAM];
+    size_t size;
+
+    for (uint16_t part = 0; part < rho_publish_num_parts(report); part++) {
+        if (rho_publish_tracks(report, core->step, core->epoch, part, buffer, sizeof buffer,
+                               &size) == RHO_OK) {
+            core->events.send(core->events.context, RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer, size);
+        }
+    }
+}
+
+static void send_peaks(const struct node_core *core, const struct rho_initiator *initiator,
+                       const struct rho_passive *passive)
+{
+    uint8_t buffer[RHO_UDPM_MAX_DATAGRAM];
+    size_t size;
+
+    if (rho_publish_peaks(initiator, passive, core->chain.report->time_us, core->step, buffer,
+                          sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_PEAK_LIST_CHANNEL, buffer, size);
+    }
+}
+
+static void count_time(struct timing *timing, int64_t took_us)
+{
+    timing->steps++;
+    timing->sum_us += took_us;
+    if (took_us > timing->max_us) {
+        timing->max_us = took_us;
+    }
+}
+
+/* A step that began at start_us was made. Peaks are those of its own search. */
+static void finish_step(struct node_core *core, int64_t start_us,
+                        const struct rho_initiator *initiator, const struct rho_passive *passive)
+{
+    int64_t took_us = clock_us() - start_us;
+
+    count_time(&core->total, took_us);
+    count_time(&core->lately, took_us);
+    core->counters.steps++;
+    core->step = core->step == INT32_MAX ? INT32_MIN : core->step + 1;
+    if (core->events.stepped) {
+        core->events.stepped(core->events.context, core->chain.report);
+    }
+    send_tracks(core);
+    send_peaks(core, initiator, passive);
+}
+
+static void describe(struct node_core *core, const struct rho_sensor *sensor)
+{
+    if (rho_tracker_set_sensor(core->chain.tracker, sensor) != RHO_OK) {
+        core->counters.sensors_refused++;
+    }
+}
+
+static void step_scan(struct node_core *core, const struct rho_scan *scan,
+                      const struct rho_sensor *sensor)
+{
+    struct chain *chain = &core->chain;
+    int64_t start_us;
+
+    if (sensor) {
+        describe(core, sensor);
+    }
+    start_us = clock_us();
+    if (rho_tracker_step(chain->tracker, chain->initiator, scan, chain->report) != RHO_OK) {
+        core->counters.scans_refused++;
+        return;
+    }
+    finish_step(core, start_us, chain->initiator, NULL);
+}
+
+/* ---- Frames of bearings ---- */
+
+static const struct rho_frames_slot *open_frame(const struct node_core *core)
+{
+    const struct rho_frames_slot *slot = &core->frames.slots[core->frames.open];
+
+    return slot->num_scans > 0 ? slot : NULL;
+}
+
+static void step_closed_frame(struct node_core *core)
+{
+    struct chain *chain = &core->chain;
+    struct rho_frame_view view;
+    int64_t start_us;
+
+    if (!rho_frames_closed(&core->frames, &view)) {
+        return;
+    }
+    if (view.is_restart) {
+        start_anew(core);
+    }
+    start_us = clock_us();
+    if (rho_tracker_step_frame(chain->tracker, chain->passive, &view.frame, chain->report) !=
+        RHO_OK) {
+        core->counters.frames_refused++;
+        return;
+    }
+    finish_step(core, start_us, NULL, chain->passive);
+}
+
+static void close_frame(struct node_core *core)
+{
+    core->frame_due_us = INT64_MAX;
+    if (open_frame(core) && rho_frames_close(&core->frames) == RHO_OK) {
+        step_closed_frame(core);
+    }
+}
+
+/*
+ * The cells of a search hold sensors that are not farther apart than this. A frame with one that is would be refused as a
+ * whole, so the sensor is, which came last.
+ */
+static int is_near(const struct node_core *core, const struct rho_bearing_scan *scan)
+{
+    for (unsigned i = 0; i < core->frames.num_sensors; i++) {
+        const struct rho_frames_sensor *known = &core->frames.sensors[i];
+        float apart_m = hypotf(known->x_m - scan->x_m, known->y_m - scan->y_m);
+
+        if (apart_m > core->chain.passive->batch.apart_max_m) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* As `track` describes them: passive sensors see as far as bearings are searched. */
+static void describe_passive(struct node_core *core, const struct rho_feed_item *item)
+{
+    struct rho_sensor sensor = item->sensor;
+
+    if (item->has_sensor) {
+        sensor.range_max_m =
+            (float)parameters_of_sensor(core->parameters, sensor.sensor_id, SENSOR_RANGE_MAX_M,
+                                        core->parameters->value[PARAMETER_RANGE_MAX_M]);
+        describe(core, &sensor);
+    }
+}
+
+/* The open frame closes when nothing has come for as long as its sensors may differ, and messages are held. */
+static void push_bearings(struct node_core *core, const struct rho_feed_item *item, int64_t now_us)
+{
+    int64_t hold_us = core->feed.config.hold_us;
+    int64_t wait_us = hold_us + core->frames.config.tolerance_us;
+
+    if (!is_near(core, &item->bearings) ||
+        rho_frames_push(&core->frames, &item->bearings) != RHO_OK) {
+        core->counters.bearings_refused++;
+        return;
+    }
+    describe_passive(core, item);
+    step_closed_frame(core);
+    core->frame_due_us = INT64_MAX;
+    if (open_frame(core) && hold_us > 0 && now_us < INT64_MAX - wait_us) {
+        core->frame_due_us = now_us + wait_us;
+    }
+}
+
+/* ---- Scans of plots beside frames ---- */
+
+static void keep_waiting(struct node_core *core, const struct rho_feed_item *item)
+{
+    struct waiting *waiting = &core->waiting[core->num_waiting++];
+
+    waiting->scan = item->scan;
+    waiting->sensor = item->sensor;
+    waiting->has_sensor = item->has_sensor;
+    memcpy(waiting->plots, item->scan.plots, item->scan.num_plots * sizeof *waiting->plots);
+    waiting->scan.plots = waiting->plots;
+}
+
+static void step_first_waiting(struct node_core *core)
+{
+    struct waiting first = core->waiting[0];
+
+    core->num_waiting--;
+    memmove(core->waiting, core->waiting + 1, core->num_waiting * sizeof first);
+    core->waiting[core->num_waiting] = first; /* its memory */
+    step_scan(core, &first.scan, first.has_sensor ? &first.sensor : NULL);
+}
+
+/* Steps what waits until the next one has to go on waiting; a frame that no scan can join any more is closed. */
+static void settle(struct node_core *core)
+{
+    while (core->num_waiting > 0) {
+        const struct rho_frames_slot *frame = open_frame(core);
+        int64_t time_us = core->waiting[0].scan.time_us;
+
+        if (!frame || frame->time_us >= time_us) {
+            step_first_waiting(core);
+        } else if (core->num_waiting == WAITING_MAX ||
+                   time_us > frame->time_us + core->frames.config.tolerance_us) {
+            close_frame(core);
+        } else {
+            return;
+        }
+    }
+}
+
+static void take_plots(struct node_core *core, const struct rho_feed_item *item)
+{
+    if (core->num_waiting > 0 || open_frame(core)) {
+        keep_waiting(core, item);
+        settle(core);
+    } else {
+        step_scan(core, &item->scan, item->has_sensor ? &item->sensor : NULL);
+    }
+}
+
+/* ---- Items of the feed ---- */
+
+static void step_all_waiting(struct node_core *core)
+{
+    close_frame(core);
+    settle(core);
+}
+
+static void restart(struct node_core *core)
+{
+    struct rho_frames_counters counters;
+
+    step_all_waiting(core);
+    counters = core->frames.counters;
+    open_frames(core);
+    core->frames.counters = counters;
+    start_anew(core);
+}
+
+static void take_item(struct node_core *core, const struct rho_feed_item *item, int64_t now_us)
+{
+    if (item->is_restart) {
+        restart(core);
+    }
+    if (item->kind == RHO_FEED_BEARINGS) {
+        push_bearings(core, item, now_us);
+        settle(core);
+    } else {
+        take_plots(core, item);
+    }
+}
+
+static void step_due(struct node_core *core, int64_t now_us)
+{
+    struct rho_feed_item item;
+
+    while (rho_feed_next(&core->feed, now_us, &item)) {
+        take_item(core, &item, now_us);
+    }
+}
+
+void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,
+                    int64_t now_us)
+{
+    struct rho_feed_item item;
+
+    while (rho_feed_take(&core->feed, channel, data, size, now_us) == RHO_ERROR_CAPACITY &&
+           rho_feed_next(&core->feed, now_us, &item)) {
+        take_item(core, &item, now_us);
+    }
+    node_core_tick(core, now_us);
+}
+
+void node_core_tick(struct node_core *core, int64_t now_us)
+{
+    step_due(core, now_us);
+    if (now_us >= core->frame_due_us) {
+        step_all_waiting(core);
+    }
+}
+
+int64_t node_core_due_us(const struct node_core *core)
+{
+    int64_t due_us = rho_feed_due_us(&core->feed);
+
+    return due_us < core->frame_due_us ? due_us : core->frame_due_us;
+}
+
+void node_core_flush(struct node_core *core)
+{
+    step_due(core, INT64_MAX);
+    step_all_waiting(core);
+}
+
+/* ---- What it says of itself ---- */
+
+static int32_t round_origin(const struct parameters *parameters, enum parameter_id id, double scale)
+{
+    return parameters_is_set(parameters, id) ? (int32_t)lround(parameters->value[id] * scale) : 0;
+}
+
+void node_core_status(struct node_core *core, uint64_t refused)
+{
+    struct rho_message_status status;
+    struct timing *lately = &core->lately;
+    uint8_t buffer[RHO_MESSAGE_STATUS_MAX_SIZE];
+    size_t size;
+
+    rho_publish_status(&core->feed, &core->frames, core->chain.tracker, core->chain.initiator,
+                       &status);
+    status.scan = core->step;
+    status.epoch = core->epoch;
+    status.fragments_refused = refused < INT32_MAX ? (int32_t)refused : INT32_MAX;
+    status.step_us = lately->steps ? (float)lately->sum_us / (float)lately->steps : 0.0f;
+    status.step_max_us = (float)lately->max_us;
+    status.origin_lat_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LAT_DEG, 1e7);
+    status.origin_lon_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LON_DEG, 1e7);
+    status.origin_alt_mm = round_origin(core->parameters, PARAMETER_ORIGIN_ALT_M, 1e3);
+    *lately = (struct timing){0};
+    if (rho_message_status_encode(&status, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_STATUS_CHANNEL, buffer, size);
+    }
+}
+
+const struct rho_report *node_core_report(const struct node_core *core)
+{
+    return core->chain.report;
+}
+
+const struct rho_feed_counters *node_core_feed(const struct node_core *core)
+{
+    return &core->feed.counters;
+}
+
+const struct rho_frames_counters *node_core_frames(const struct node_core *core)
+{
+    return &core->frames.counters;
+}
+
+const struct rho_tracker_counters *node_core_tracker(const struct node_core *core)
+{
+    return &core->chain.tracker->counters;
+}
+
+const struct node_core_counters *node_core_counters(const struct node_core *core)
+{
+    return &core->counters;
+}
+
+double node_core_mean_us(const struct node_core *core)
+{
+    return core->total.steps ? (double)core->total.sum_us / (double)core->total.steps : 0;
+}
+
+double node_core_max_us(const struct node_core *core)
+{
+    return (double)core->total.max_us;
+}
+
+void node_core_close(struct node_core *core)
+{
+    for (int i = 0; i < WAITING_MAX; i++) {
+        free(core->waiting[i].plots);
+    }
+    chain_free(&core->chain);
+    free(core);
+}

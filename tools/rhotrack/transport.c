@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+#include "transport.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "common.h"
+#include "transport_parts.h"
+
+void transport_refuse(const struct transport *transport, const char *format, ...)
+{
+    char reason[512];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(reason, sizeof reason, format, arguments);
+    va_end(arguments);
+    fail(EXIT_USAGE, "%s %s: %s", transport->source, transport->url, reason);
+}
+
+/* ---- The reception clock ---- */
+
+static int64_t system_us(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+int64_t transport_now_us(struct transport *transport)
+{
+    int64_t now_us = system_us() + transport->ahead_us;
+
+    if (now_us < transport->last_us) { /* set back */
+        transport->ahead_us += transport->last_us - now_us;
+        now_us = transport->last_us;
+    }
+    transport->last_us = now_us;
+    return now_us;
+}
+
+int64_t transport_time_us(struct transport *transport, int64_t time_us)
+{
+    int64_t before_us = transport->last_us, now_us = transport_now_us(transport);
+
+    time_us += transport->ahead_us;
+    transport->last_us = time_us < before_us ? before_us : time_us > now_us ? now_us : time_us;
+    return transport->last_us;
+}
+
+/* ---- All providers ---- */
+
+struct transport *transport_open(const char *url, enum transport_use use)
+{
+    struct transport *transport = must_calloc(1, sizeof *transport);
+    const char *variable = getenv("LCM_DEFAULT_URL");
+
+    transport->source = url ? "--lcm" : "LCM_DEFAULT_URL";
+    if (!url) {
+        url = variable && *variable ? variable : TRANSPORT_DEFAULT_URL;
+    }
+    transport->url = must_copy(url);
+    transport->last_us = INT64_MIN;
+    if (!strstr(url, "://")) {
+        transport_refuse(transport, "no LCM URL; it looks like %s", TRANSPORT_DEFAULT_URL);
+    }
+    if (strncmp(url, "udpm://", 7) == 0) {
+        transport_open_udpm(transport, use);
+    } else {
+        transport_open_lcm(transport, use);
+    }
+    return transport;
+}
+
+const char *transport_url(const struct transport *transport)
+{
+    return transport->url;
+}
+
+bool transport_can_send(const struct transport *transport)
+{
+    return transport->can_send;
+}
+
+int transport_descriptor(const struct transport *transport)
+{
+    return transport->provider->descriptor(transport->object);
+}
+
+enum transport_found transport_receive(struct transport *transport,
+                                       struct transport_message *message)
+{
+    enum transport_found found =
+        transport->provider->receive(transport, transport->object, message);
+
+    transport->counters.received += found == TRANSPORT_MESSAGE;
+    return found;
+}
+
+bool transport_send(struct transport *transport, const char *channel, const uint8_t *data,
+                    size_t size)
+{
+    bool is_sent = false;
+
+    errno = EROFS;
+    if (transport->can_send) {
+        is_sent = transport->provider->send(transport->object, channel, data, size);
+    }
+    transport->counters.sent += is_sent;
+    transport->counters.not_sent += !is_sent;
+    return is_sent;
+}
+
+struct transport_counters transport_counters(const struct transport *transport)
+{
+    return transport->counters;
+}
+
+void transport_report(const struct transport *transport)
+{
+    const struct transport_counters *counters = &transport->counters;
+
+    if (counters->refused) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " datagrams refused: fragments, or no LCM\n",
+                counters->refused);
+    }
+    if (counters->dropped) {
+        fprintf(stderr,
+                "rhotrack: %" PRIu64
+                " datagrams dropped by the kernel: the receive buffer was full; "
+                "a larger one: sysctl net.core.rmem_max, and recv_buf_size=BYTES in the URL\n",
+                counters->dropped);
+    }
+    if (counters->not_sent && transport->can_send) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " messages could not be sent\n", counters->not_sent);
+    }
+}
+
+void transport_close(struct transport *transport)
+{
+    transport->provider->close(transport->object);
+    free(transport->url);
+    free(transport);
+}
