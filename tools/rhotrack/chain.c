@@ -31,6 +31,17 @@ void chain_free(struct chain *chain)
     free(chain->plots);
 }
 
+void chain_set_gate(struct parameters *parameters, const char *gate)
+{
+    if (gate) {
+        parameters_set_gate(parameters, gate);
+    }
+    if (parameters->value[PARAMETER_GATE] >= RHO_NUM_TRACKER_GATES) {
+        fail(EXIT_USAGE, "gate none draws plots at random: that is for `maintain`; there are best, "
+                         "hough and nearest");
+    }
+}
+
 void chain_open(struct chain *chain, const struct parameters *parameters)
 {
     struct rho_initiator_config start;

@@ -17,6 +17,9 @@ struct chain {
 struct chain chain_start(void);
 void chain_free(struct chain *chain);
 
+/* The parameter gate from --gate, where that was given; gates that the tracker has not: exit 2. */
+void chain_set_gate(struct parameters *parameters, const char *gate);
+
 /* Ready for a first scan. */
 void chain_open(struct chain *chain, const struct parameters *parameters);
 

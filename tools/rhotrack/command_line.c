@@ -10,7 +10,7 @@
 #include "hint.h"
 #include "method.h"
 
-enum { NUM_OPTIONS = 14, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 20, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -30,6 +30,13 @@ static const struct {
     {'k', "keep-going", NULL, "skip and count bad rows instead of stopping at the first"},
     {'s', "set", "KEY=VALUE", "a parameter; may be repeated; `rhotrack config` lists them"},
     {'C', "config", "FILE", "parameters from an INI file; --set goes before it"},
+    {'l', "lcm", "URL",
+     "LCM network; without it $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0"},
+    {'p', "print", NULL, "tracks as they come: a table on a terminal, else as CSV"},
+    {'L', "log", "FILE", "an LCM log of what comes in and goes out"},
+    {'x', "speed", "X", "so many times as fast as it was; 0: without waiting (default 1)"},
+    {'O', "loop", NULL, "again and again; times and numbers of scans go on"},
+    {'T', "for", "SECONDS", "ends by itself"},
     {'h', "help", NULL, "this text"},
 };
 
@@ -93,6 +100,46 @@ static uint64_t read_count(const char *option, const char *text, uint64_t min, u
     return number;
 }
 
+static double read_decimal(const char *option, const char *text, double min, double max)
+{
+    char *end;
+    double number = strtod(text, &end);
+
+    if (((*text < '0' || *text > '9') && *text != '.') || *end || strchr(text, 'x')) {
+        fail(EXIT_USAGE, "--%s '%s' is not a number", option, text);
+    }
+    if (!(number >= min && number <= max)) {
+        fail(EXIT_USAGE, "--%s %s is outside %g .. %g", option, text, min, max);
+    }
+    return number;
+}
+
+static bool take_live_option(struct command_line *line, char letter, char *argument)
+{
+    switch (letter) {
+    case 'l':
+        line->lcm = argument;
+        return true;
+    case 'p':
+        line->print = true;
+        return true;
+    case 'L':
+        line->log = argument;
+        return true;
+    case 'x':
+        line->speed = read_decimal("speed", argument, 0, 1e6);
+        return true;
+    case 'O':
+        line->loop = true;
+        return true;
+    case 'T':
+        line->seconds = read_decimal("for", argument, 1e-3, 1e9);
+        return true;
+    default:
+        return false;
+    }
+}
+
 static void take_option(struct command_line *line, char letter, char *argument)
 {
     switch (letter) {
@@ -133,7 +180,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         parameters_load(&line->parameters, argument);
         break;
     default:
-        fail(EXIT_USAGE, "--follow is not in this version");
+        if (!take_live_option(line, letter, argument)) {
+            fail(EXIT_USAGE, "--follow is not in this version");
+        }
     }
 }
 
@@ -214,7 +263,7 @@ static void read_options(struct command_line *line, const struct command *comman
 void command_line_read(struct command_line *line, const struct command *command, int argc,
                        char **argv)
 {
-    *line = (struct command_line){.seed = 1};
+    *line = (struct command_line){.seed = 1, .speed = 1};
     parameters_default(&line->parameters);
     read_options(line, command, argc, argv);
     line->arguments = argv + optind;

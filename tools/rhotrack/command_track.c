@@ -19,18 +19,6 @@ struct tracking {
     int64_t sum_us, max_us;
 };
 
-/* --gate, else the parameter. */
-static void set_gate(struct command_line *line)
-{
-    if (line->gate) {
-        parameters_set_gate(&line->parameters, line->gate);
-    }
-    if (line->parameters.value[PARAMETER_GATE] >= RHO_NUM_TRACKER_GATES) {
-        fail(EXIT_USAGE, "gate none draws plots at random: that is for `maintain`; there are best, "
-                         "hough and nearest");
-    }
-}
-
 /* ---- Steps ---- */
 
 /* What is known of the sensor goes before its scan; it may have moved. */
@@ -214,7 +202,7 @@ int command_track(struct command_line *line)
     struct tracks_output *tracks;
     struct tracking tracking = {.chain = chain_start()};
 
-    set_gate(line);
+    chain_set_gate(&line->parameters, line->gate);
     inputs = inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     open_chain(&tracking, inputs, &line->parameters);
     counts = inputs_counts(inputs);

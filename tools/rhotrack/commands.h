@@ -15,6 +15,10 @@ struct command_line {
     const char *method;       /* --method; NULL where not given */
     const char *gate;         /* --gate */
     const char *kind;         /* --kind; NULL where not given */
+    const char *lcm, *log;    /* --lcm, --log; NULL where not given */
+    double speed;             /* --speed; default 1; 0: without waiting */
+    double seconds;           /* --for; 0 where not given */
+    bool print, loop;         /* --print, --loop */
     uint64_t seed;            /* --seed; default 1 */
     long runs;                /* --runs; 0 where not given */
     bool json;                /* --json */
@@ -34,6 +38,8 @@ int command_experiment(struct command_line *line);
 int command_plot(struct command_line *line);
 int command_bench(struct command_line *line);
 int command_convert(struct command_line *line);
+int command_node(struct command_line *line);
+int command_publish(struct command_line *line);
 int command_config(struct command_line *line);
 
 #endif

@@ -76,13 +76,30 @@ static const struct command commands[] = {
      "Damaged\n"
      "places of a log are skipped and reported; bad messages are refused, or with --keep-going\n"
      "skipped and counted.\n"},
+    {"node", command_node, "[--lcm URL] [--print] [--log FILE] [--gate best|hough|nearest]", 0, 0,
+     "lpLTgsC", "the live tracker: LCM messages in, LCM messages out",
+     "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
+     "RHO_TRACKS and RHO_PEAKS at each scan and RHO_STATUS once a second. Bad, late and lost\n"
+     "messages are counted and end nothing. It ends on SIGINT and SIGTERM, or at the end of a log\n"
+     "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
+     "udpm:// URLs have the options ttl=N (0: this machine, 1: this network) and\n"
+     "recv_buf_size=BYTES.\n"},
+    {"publish", command_publish, "INPUT... [--lcm URL] [--speed X] [--loop]", 1, INT_MAX, "lxOTksC",
+     "plays files as sensors, live",
+     "Sends the messages of LCM logs and CSV files (plots, polar plots, bearings, truth) in time, "
+     "the\n"
+     "first one at once. Messages are sent as they are. With --loop times and numbers of scans go "
+     "on\n"
+     "from pass to pass, as of sensors that go on. A CSV file without a column epoch has the "
+     "program's\n"
+     "own, so that a second run is a restart of its sensors: a node follows after follow_scans "
+     "(3)\n"
+     "scans that agree, and does not use those before. To a file: --lcm file://NAME.lcm?mode=w.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",
      "every parameter with unit, default and range",
      "Prints each parameter's unit, default, range, and its value now with where it came from; "
      "with\n"
      "--method, that method's customary values.\n"},
-    {"node", NULL, "", 0, 0, "", "", ""},
-    {"publish", NULL, "", 0, 0, "", "", ""},
     {"register", NULL, "", 0, 0, "", "", ""},
 };
 

@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: MIT */
+/* node: the live tracker: LCM messages of sensors in, LCM messages of tracks out. */
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/signalfd.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "chain.h"
+#include "commands.h"
+#include "common.h"
+#include "lcm_log.h"
+#include "node_core.h"
+#include "node_print.h"
+#include "node_tally.h"
+#include "rhotrack/message.h"
+#include "transport.h"
+
+/* Messages that are taken before signals and clocks are looked at again. */
+enum { TURN_MESSAGES = 256, STATUS_US = 1000000, COMPLAINT_US = 1000000 };
+
+struct complaint {
+    uint64_t said;
+    int64_t said_us;
+};
+
+struct node {
+    struct transport *transport;
+    struct node_core *core;
+    struct node_print print;
+    struct lcm_log_writer log; /* file NULL: none */
+    const char *log_path;
+    struct complaint complaints[NODE_TALLIES];
+    int signals;               /* descriptor */
+    int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
+    bool is_over, is_waiting;  /* waiting: nothing is left to receive */
+    int exit_code;
+    uint64_t taken; /* messages */
+};
+
+/* ---- Log ---- */
+
+/* A log that cannot be written does not end the tracking. */
+static void give_up_log(struct node *node)
+{
+    fprintf(stderr, "rhotrack: %s: %s; it goes on without the log\n", node->log_path,
+            strerror(errno));
+    fclose(node->log.file);
+    node->log.file = NULL;
+    node->exit_code = EXIT_RUNTIME;
+}
+
+static void write_log(struct node *node, int64_t time_us, const char *channel, const uint8_t *data,
+                      size_t size)
+{
+    if (node->log.file && !lcm_log_write(&node->log, time_us, channel, data, size)) {
+        give_up_log(node);
+    }
+}
+
+static void flush_log(struct node *node)
+{
+    if (node->log.file && fflush(node->log.file)) {
+        give_up_log(node);
+    }
+}
+
+static void close_log(struct node *node)
+{
+    flush_log(node);
+    if (node->log.file && fclose(node->log.file)) {
+        fail(EXIT_RUNTIME, "%s: %s", node->log_path, strerror(errno));
+    }
+}
+
+/* ---- What the core says ---- */
+
+static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
+{
+    struct node *node = context;
+
+    (void)transport_send(node->transport, channel, data, size); /* counted */
+    if (node->log.file) {
+        write_log(node, transport_now_us(node->transport), channel, data, size);
+    }
+}
+
+static void on_step(void *context, const struct rho_report *report)
+{
+    struct node *node = context;
+
+    node_print_step(&node->print, report);
+}
+
+/* ---- Complaints and the summary ---- */
+
+/* A cause speaks at most once a second, and not into a table. */
+static void complain(struct node *node)
+{
+    struct node_tally tallies[NODE_TALLIES];
+    int64_t now_us = clock_us();
+
+    if (node->print.is_terminal) {
+        return;
+    }
+    node_tally(node->core, node->transport, tallies);
+    for (int i = 0; i < NODE_TALLIES; i++) {
+        struct complaint *complaint = &node->complaints[i];
+
+        if (tallies[i].is_fault && tallies[i].count > complaint->said &&
+            now_us >= complaint->said_us + COMPLAINT_US) {
+            *complaint = (struct complaint){tallies[i].count, now_us};
+            fprintf(stderr, "rhotrack: %s: %" PRIu64 " so far\n", tallies[i].name,
+                    tallies[i].count);
+        }
+    }
+}
+
+static void print_summary(const struct node *node)
+{
+    const struct rho_tracker_counters *tracker = node_core_tracker(node->core);
+    struct transport_counters network = transport_counters(node->transport);
+    struct node_tally tallies[NODE_TALLIES];
+
+    fprintf(stderr,
+            "rhotrack: %" PRIu64 " messages in, %" PRIu64 " out; %" PRIu64 " steps, %" PRIu32
+            " plots, %" PRIu32 " tracks confirmed; %.0f us a step, %.0f at most\n",
+            node->taken, network.sent, node_core_counters(node->core)->steps, tracker->plots_in,
+            tracker->tracks_confirmed, node_core_mean_us(node->core), node_core_max_us(node->core));
+    node_tally(node->core, node->transport, tallies);
+    for (int i = 0; i < NODE_TALLIES; i++) {
+        if (tallies[i].count) {
+            fprintf(stderr, "rhotrack: %s: %" PRIu64 "\n", tallies[i].name, tallies[i].count);
+        }
+    }
+}
+
+/* ---- The loop ---- */
+
+/*
+ * Signals become readable before liblcm starts threads, which inherit that. They stay blocked: what an unfinished output
+ * would do about them (common.c) is not needed, for the log is written under its own name.
+ */
+static int open_signals(void)
+{
+    sigset_t set;
+    int descriptor;
+
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGHUP);
+    sigprocmask(SIG_BLOCK, &set, NULL);
+    signal(SIGPIPE, SIG_IGN); /* standard output that ends shows as a write error */
+    descriptor = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+    if (descriptor < 0) {
+        fail(EXIT_RUNTIME, "signalfd: %s", strerror(errno));
+    }
+    return descriptor;
+}
+
+static int64_t least(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Until a message, a signal, or whatever is due first. */
+static void wait_for_work(struct node *node)
+{
+    struct pollfd here[2] = {{.fd = node->signals, .events = POLLIN},
+                             {.fd = transport_descriptor(node->transport), .events = POLLIN}};
+    int64_t due_us = least(least(node->status_us, node->end_us), node_print_due_us(&node->print));
+    int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - clock_us();
+
+    if (core_due_us != INT64_MAX) {
+        wait_us = least(wait_us, core_due_us - transport_now_us(node->transport));
+    }
+    if (!node->is_waiting || wait_us < 0) {
+        wait_us = 0;
+    }
+    struct timespec wait = {wait_us / 1000000, wait_us % 1000000 * 1000};
+    if (ppoll(here, 2, &wait, NULL) > 0 && here[0].revents) {
+        node->is_over = true;
+    }
+}
+
+static void end_of_messages(struct node *node)
+{
+    if (strncmp(transport_url(node->transport), "file://", 7) != 0) {
+        fprintf(stderr, "rhotrack: %s: the connection is gone\n", transport_url(node->transport));
+        node->exit_code = EXIT_RUNTIME;
+    }
+    node->is_over = true;
+}
+
+/* What this node, or another one, has published: it comes back over multicast. */
+static bool is_output(const char *channel)
+{
+    return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_PEAK_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0;
+}
+
+/* Other programs' channels are left out of the log, and what was published is there as it was sent. */
+static void take_message(struct node *node, const struct transport_message *message)
+{
+    if (is_output(message->channel)) {
+        return;
+    }
+    node->taken++;
+    if (strncmp(message->channel, "RHO_", 4) == 0) {
+        write_log(node, message->received_us, message->channel, message->data, message->size);
+    }
+    node_core_take(node->core, message->channel, message->data, message->size,
+                   message->received_us);
+}
+
+static void take_messages(struct node *node)
+{
+    struct transport_message message;
+    enum transport_found found = TRANSPORT_MESSAGE;
+
+    for (int i = 0; i < TURN_MESSAGES && found == TRANSPORT_MESSAGE; i++) {
+        found = transport_receive(node->transport, &message);
+        if (found == TRANSPORT_MESSAGE) {
+            take_message(node, &message);
+        }
+    }
+    node->is_waiting = found == TRANSPORT_NOTHING;
+    if (found == TRANSPORT_NOTHING) {
+        node_core_tick(node->core, transport_now_us(node->transport));
+    } else if (found == TRANSPORT_END) {
+        end_of_messages(node);
+    }
+}
+
+static void send_status(struct node *node)
+{
+    node_core_status(node->core, transport_counters(node->transport).refused);
+}
+
+static void show(struct node *node, bool is_end)
+{
+    if (!node_print_show(&node->print, node->core, transport_url(node->transport), is_end)) {
+        node->print.is_on = node->print.is_changed = false;
+        node->is_over = true; /* whoever read it has gone */
+    }
+}
+
+static void keep_clocks(struct node *node)
+{
+    int64_t now_us = clock_us();
+
+    if (now_us >= node->status_us) {
+        node->status_us += STATUS_US;
+        if (node->status_us <= now_us) { /* the program was stopped for a while */
+            node->status_us = now_us + STATUS_US;
+        }
+        send_status(node);
+    }
+    node->is_over = node->is_over || now_us >= node->end_us;
+    show(node, false);
+    complain(node);
+    flush_log(node);
+}
+
+static void run(struct node *node)
+{
+    while (!node->is_over) {
+        keep_clocks(node);
+        wait_for_work(node);
+        take_messages(node);
+    }
+    node_core_flush(node->core);
+    send_status(node);
+    show(node, true);
+}
+
+static void open_log(struct node *node, const char *path)
+{
+    node->log_path = path;
+    if (path) {
+        node->log.file = fopen(path, "wb");
+        if (!node->log.file) {
+            fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
+        }
+    }
+}
+
+int command_node(struct command_line *line)
+{
+    struct node node = {.status_us = clock_us(), .end_us = INT64_MAX};
+    const struct node_core_events events = {&node, on_send, on_step};
+    int exit_code;
+
+    chain_set_gate(&line->parameters, line->gate);
+    node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
+    node.signals = open_signals();
+    node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
+    open_log(&node, line->log);
+    node.print = node_print_start(line->print);
+    if (line->seconds > 0) {
+        node.end_us = node.status_us + llround(line->seconds * 1e6);
+    }
+    run(&node);
+    close_log(&node);
+    print_summary(&node);
+    exit_code = node.exit_code;
+    transport_close(node.transport);
+    node_core_close(node.core);
+    close(node.signals);
+    return exit_code;
+}

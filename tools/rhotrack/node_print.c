@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: MIT */
+#include "node_print.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "common.h"
+#include "tracks_writer.h"
+
+#define DEG_PER_RAD 57.29577951308232
+
+enum { PERIOD_US = 100000, HEAD_LINES = 4, ROWS_DEFAULT = 24 };
+
+struct node_print node_print_start(bool is_on)
+{
+    struct node_print print = {.is_on = is_on, .is_terminal = is_on && isatty(STDOUT_FILENO)};
+
+    if (print.is_terminal) {
+        print.is_changed = true; /* the header shows at once that it listens */
+        fputs("\033[2J", stdout);
+    } else if (is_on) {
+        tracks_write_header(stdout, false);
+    }
+    return print;
+}
+
+void node_print_step(struct node_print *print, const struct rho_report *report)
+{
+    print->is_changed = print->is_on;
+    if (print->is_on && !print->is_terminal) {
+        tracks_write_report(stdout, report, false);
+    }
+}
+
+int64_t node_print_due_us(const struct node_print *print)
+{
+    return print->is_changed ? print->due_us : INT64_MAX;
+}
+
+/* ---- The table ---- */
+
+static int rows_of_terminal(void)
+{
+    struct winsize size = {0};
+
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > HEAD_LINES + 1
+               ? size.ws_row
+               : ROWS_DEFAULT;
+}
+
+static int count_status(const struct rho_report *report, enum rho_track_status status)
+{
+    int count = 0;
+
+    for (int i = 0; i < report->num_tracks; i++) {
+        count += report->tracks[i].status == status;
+    }
+    return count;
+}
+
+static void print_head(const struct node_core *core, const char *url)
+{
+    const struct rho_report *report = node_core_report(core);
+    const struct rho_feed_counters *feed = node_core_feed(core);
+
+    printf("\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
+    printf("%" PRIu64 " steps, %.0f us each; %d tracks confirmed, %d coasting, %d tentative; lost "
+           "%" PRIu32 ", late %" PRIu32 ", bad %" PRIu32 " scans; %" PRIu32 " bad messages\033[K\n",
+           node_core_counters(core)->steps, node_core_mean_us(core),
+           count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
+           count_status(report, RHO_TRACK_TENTATIVE), feed->scans_lost, feed->scans_late,
+           feed->scans_bad, feed->messages_bad);
+    printf("\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status", "x km",
+           "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");
+}
+
+/* Headings are clockwise from north, as people say them. */
+static void print_track(const struct rho_track_report *track)
+{
+    double vx_mps = (double)track->state[3], vy_mps = (double)track->state[4];
+    double heading_deg = atan2(vx_mps, vy_mps) * DEG_PER_RAD;
+
+    printf("%6" PRIu32 "  %-9s %10.3f %10.3f %8.0f %8.1f %7.0f\u00b0 %8.1f %5u %6u\033[K\n",
+           track->track_id, rho_track_status_name(track->status), (double)track->state[0] / 1e3,
+           (double)track->state[1] / 1e3, (double)track->state[2], hypot(vx_mps, vy_mps),
+           heading_deg < 0 ? heading_deg + 360 : heading_deg, (double)track->sigma_m,
+           (unsigned)track->hits, (unsigned)track->misses);
+}
+
+/* As many as there is room for, tentative ones last. Returns how many these are. */
+static int print_tracks(const struct rho_report *report, int room)
+{
+    int shown = 0;
+
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < report->num_tracks && shown < room; i++) {
+            if ((report->tracks[i].status == RHO_TRACK_TENTATIVE) == (pass == 1)) {
+                print_track(&report->tracks[i]);
+                shown++;
+            }
+        }
+    }
+    return shown;
+}
+
+static void print_table(const struct node_core *core, const char *url)
+{
+    const struct rho_report *report = node_core_report(core);
+    int room = rows_of_terminal() - HEAD_LINES - 2, shown;
+
+    print_head(core, url);
+    shown = print_tracks(report, room);
+    if (shown < report->num_tracks) {
+        printf("%6s  and %d more\033[K\n", "", report->num_tracks - shown);
+    }
+    fputs("\033[J", stdout);
+}
+
+bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
+                     bool is_end)
+{
+    int64_t now_us = clock_us();
+
+    if (print->is_changed && (is_end || !print->is_terminal || now_us >= print->due_us)) {
+        if (print->is_terminal) {
+            print_table(core, url);
+        }
+        fflush(stdout);
+        print->is_changed = false;
+        print->due_us = now_us + PERIOD_US;
+    }
+    return !ferror(stdout);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * node_print: tracks on standard output as they come. On a terminal a table in one place, renewed at most 10 times a second;
+ * else rows as `track` writes them.
+ */
+#ifndef RHOTRACK_TOOL_NODE_PRINT_H
+#define RHOTRACK_TOOL_NODE_PRINT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "node_core.h"
+
+struct node_print {
+    bool is_on, is_terminal, is_changed;
+    int64_t due_us; /* clock_us: when the table may be renewed */
+};
+
+/* is_on false: all others do nothing. */
+struct node_print node_print_start(bool is_on);
+
+/* A step was made. */
+void node_print_step(struct node_print *print, const struct rho_report *report);
+
+/* Renews the table where it is time, or at the end, and hands all on. False: standard output takes no more. */
+bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
+                     bool is_end);
+
+/* When node_print_show is wanted, on clock_us; INT64_MAX: not before a step. */
+int64_t node_print_due_us(const struct node_print *print);
+
+#endif

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* node_tally: everything that a node counts and that says of a loss, by name: for its complaints and its last words. */
+#ifndef RHOTRACK_TOOL_NODE_TALLY_H
+#define RHOTRACK_TOOL_NODE_TALLY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "node_core.h"
+#include "transport.h"
+
+#define NODE_TALLIES 31
+
+struct node_tally {
+    const char *name;
+    uint64_t count;
+    bool is_fault; /* of messages or the network; else of the tracker's usual work */
+};
+
+/* All of them, always in the same order. */
+void node_tally(const struct node_core *core, const struct transport *transport,
+                struct node_tally tallies[NODE_TALLIES]);
+
+#endif
