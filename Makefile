@@ -65,7 +65,7 @@ comma := ,
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib codegen bench-opencv test-programs test fuzz demo layers poison size instructions examples determinism lint format \
+.PHONY: all lib codegen bench-opencv test-programs test fuzz demo demo-live layers poison size instructions examples determinism lint format \
         format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
@@ -113,6 +113,12 @@ demo:
 	@tools/setup.sh
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo.sh $(BUILD)/demo
+
+## Set up what is missing, build, and track live for some seconds: a player, a node, LCM between them (build/demo-live)
+demo-live:
+	@tools/setup.sh
+	@$(MAKE) --no-print-directory $(jobs) all
+	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
 
 ## Install program, library, headers and pkg-config file (PREFIX, DESTDIR)
 install: all

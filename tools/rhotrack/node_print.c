@@ -66,9 +66,9 @@ static void print_head(const struct node_core *core, const char *url)
     const struct rho_report *report = node_core_report(core);
     const struct rho_feed_counters *feed = node_core_feed(core);
 
-    printf("\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
-    printf("%" PRIu64 " steps, %.0f us each; %d tracks confirmed, %d coasting, %d tentative; lost "
-           "%" PRIu32 ", late %" PRIu32 ", bad %" PRIu32 " scans; %" PRIu32 " bad messages\033[K\n",
+    printf("\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
+    printf("%" PRIu64 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; scans: "
+           "%" PRIu32 " lost, %" PRIu32 " late, %" PRIu32 " bad; %" PRIu32 " bad messages\033[K\n",
            node_core_counters(core)->steps, node_core_mean_us(core),
            count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
            count_status(report, RHO_TRACK_TENTATIVE), feed->scans_lost, feed->scans_late,
@@ -116,7 +116,7 @@ static void print_table(const struct node_core *core, const char *url)
     if (shown < report->num_tracks) {
         printf("%6s  and %d more\033[K\n", "", report->num_tracks - shown);
     }
-    fputs("\033[J", stdout);
+    fputs("\033[J\033[?7h", stdout); /* long lines were cut, not wrapped */
 }
 
 bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
@@ -124,9 +124,11 @@ bool node_print_show(struct node_print *print, const struct node_core *core, con
 {
     int64_t now_us = clock_us();
 
-    if (print->is_changed && (is_end || !print->is_terminal || now_us >= print->due_us)) {
+    if (print->is_on &&
+        (is_end || (print->is_changed && (!print->is_terminal || now_us >= print->due_us)))) {
         if (print->is_terminal) {
             print_table(core, url);
+            fputs(is_end ? "\r\033[K" : "", stdout); /* a ^C */
         }
         fflush(stdout);
         print->is_changed = false;
