@@ -19,4 +19,7 @@ void bench_hough(const struct bench *bench);
 /* Searches of bearings; in JSON an object of its own. */
 void bench_passive(const struct bench *bench);
 
+/* From a scan's datagrams to its tracks, with a node as a process of its own; and the codec. In JSON an object. */
+void bench_node(const struct bench *bench);
+
 #endif

@@ -259,11 +259,8 @@ static void bench_track(const struct bench *bench)
 static const struct {
     const char *name;
     void (*run)(const struct bench *bench);
-} benches[] = {{"kalman", bench_kalman},
-               {"initiate", bench_initiate},
-               {"track", bench_track},
-               {"hough", bench_hough},
-               {"passive", bench_passive}};
+} benches[] = {{"kalman", bench_kalman}, {"initiate", bench_initiate}, {"track", bench_track},
+               {"hough", bench_hough},   {"passive", bench_passive},   {"node", bench_node}};
 
 #define NUM_BENCHES (sizeof benches / sizeof benches[0])
 
@@ -292,7 +289,8 @@ static void check_name(const char *name)
             return;
         }
     }
-    fail(EXIT_USAGE, "no bench '%s'; there is: kalman, initiate, track, hough, passive", name);
+    fail(EXIT_USAGE, "no bench '%s'; there is: kalman, initiate, track, hough, passive, node",
+         name);
 }
 
 int command_bench(struct command_line *line)
@@ -301,8 +299,8 @@ int command_bench(struct command_line *line)
     const char *wanted = line->num_arguments > 0 ? line->arguments[0] : NULL;
     struct bench bench = {.seed = line->seed};
     if (line->num_arguments > 1) {
-        fail(EXIT_USAGE,
-             "bench: give one name or none; there is: kalman, initiate, track, hough, passive");
+        fail(EXIT_USAGE, "bench: give one name or none; there is: kalman, initiate, track, hough, "
+                         "passive, node");
     }
     if (wanted) {
         check_name(wanted);
