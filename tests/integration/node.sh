@@ -1,0 +1,174 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# node and publish: the same tracks live as from a file, a clean end, logs, other providers, bad URLs.
+if [ -z "${NODE_TEST_INSIDE:-}" ] && command -v ip >/dev/null && unshare -Urn true 2>/dev/null; then
+    NODE_TEST_INSIDE=1 exec unshare -Urn bash "$0"
+fi
+if [ -n "${NODE_TEST_INSIDE:-}" ]; then
+    ip link set lo up && ip route add 224.0.0.0/4 dev lo
+fi
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+# Also where the network is not this script's own, nobody else is there.
+export LCM_DEFAULT_URL="udpm://239.255.76.67:$((20000 + $$ % 10000))?ttl=0"
+
+# wait_until SECONDS COMMAND...: until it succeeds.
+wait_until() {
+    local tries=$(($1 * 20))
+    shift
+    until "$@" 2>/dev/null; do
+        [ $((tries -= 1)) -gt 0 ] || return 1
+        sleep 0.05
+    done
+}
+
+# start NAME OPTIONS...: a node with NAME.csv, NAME.lcm, NAME.err; $node is its process. It listens when it returns.
+start() {
+    local name=$1
+    shift
+    "$program" node --print --log "$name.lcm" --config scene/scenario.ini "$@" >"$name.csv" 2>"$name.err" </dev/null &
+    node=$!
+    wait_until 5 test -s "$name.lcm" # its first status
+}
+
+# stop SIGNAL PROCESS: exit code in $status.
+stop() {
+    status=0
+    kill "-$1" "$2"
+    wait "$2" || status=$?
+}
+
+# Rows of tracks, all columns equal as float32 but for what is made of others (sigma_m, sigma_mps).
+same_tracks() { # file of track, file of convert
+    python3 - "$1" "$2" <<'PYTHON'
+import csv, struct, sys
+f32 = lambda text: struct.unpack("f", struct.pack("f", float(text)))[0]
+def rows(path):
+    table = {}
+    for row in csv.DictReader(open(path)):
+        if row["status"] != "deleted":
+            table.setdefault(round(float(row["t_s"]) * 1e6), []).append(row)
+    return table
+a, b = rows(sys.argv[1]), rows(sys.argv[2])
+assert a and a.keys() == b.keys(), (sorted(a), sorted(b))
+words = ("track_id", "status", "hits", "misses", "sensor_id", "plot")
+numbers = [q + s for q, s in (("x", "_m"), ("y", "_m"), ("z", "_m"), ("vx", "_mps"), ("vy", "_mps"), ("vz", "_mps"),
+                              ("ax", "_mps2"), ("ay", "_mps2"), ("az", "_mps2"))]
+for t in a:
+    assert len(a[t]) == len(b[t]), t
+    for p, q in zip(a[t], b[t]):
+        assert [p[w] for w in words] == [q[w] for w in words], (t, p, q)
+        assert [f32(p[n]) for n in numbers] == [f32(q[n]) for n in numbers], (t, p, q)
+        for n in ("sigma_m", "sigma_mps"):
+            assert abs(float(p[n]) - float(q[n])) <= 1e-4 * float(p[n]), (t, n, p, q)
+PYTHON
+}
+
+"$program" simulate traffic --seed 3 --set targets=6 --set num_scans=15 --set clutter_per_scan=60 -o scene
+run track scene/plots.csv --config scene/scenario.ini
+cp stdout tracks.csv
+check 'there is something to track' test "$(wc -l <tracks.csv)" -gt 20
+
+# ---- a sensor, two nodes, a stranger who listens ----
+start one
+one=$node
+start two
+two=$node
+logger=''
+if [ -x /usr/bin/lcm-logger ]; then
+    /usr/bin/lcm-logger --lcm-url="$LCM_DEFAULT_URL" -f -q stock.lcm >/dev/null 2>&1 &
+    logger=$!
+    wait_until 5 test -e stock.lcm
+fi
+run publish scene/plots.csv --speed 100
+check 'publish ends with 0' exits 0
+check 'publish says what it sent' matches "$(cat stderr)" \
+    'rhotrack: 3? messages on 1 channels in 1.4 s, 1 passes; * ms late at most'
+sleep 0.3
+[ -z "$logger" ] || { kill -INT "$logger"; wait "$logger"; } 2>/dev/null
+stop INT "$one"
+check 'SIGINT ends a node with 0' exits 0
+stop TERM "$two"
+check 'SIGTERM as well' exits 0
+check 'the tracks are those of track' cmp tracks.csv one.csv
+check 'both nodes of a machine hear the sensor' cmp tracks.csv two.csv
+check 'last words' matches "$(cat one.err)" \
+    'rhotrack: 3? messages in, * out; 15 steps, * plots, * tracks confirmed; * us a step, * at most'
+run convert one.lcm logged.csv --kind tracks
+check 'the log holds the tracks' same_tracks tracks.csv logged.csv
+run convert one.lcm plots.csv --kind plots
+check 'and the plots' test "$(wc -l <plots.csv)" -eq "$(wc -l <scene/plots.csv)"
+if [ -n "$logger" ]; then
+    run convert stock.lcm stock.csv --kind tracks
+    # It hears both nodes: each list twice.
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "epoch") e = i } NR == 1 || !seen[$1, $2]++' stock.csv >once.csv
+    check 'lcm-logger has recorded the tracks' same_tracks tracks.csv once.csv
+fi
+
+# count LOG CHANNEL: how often the name stands in the log.
+count() { grep -aoF "$2" "$1" | wc -l; }
+
+# ---- status ----
+start idle
+sleep 1.2
+check 'a status at once, and one a second, though nothing comes' test "$(count idle.lcm RHO_STATUS)" -eq 2
+stop INT "$node"
+check 'and a last one' test "$(count idle.lcm RHO_STATUS)" -eq 3
+check 'an idle node ends with 0' exits 0
+run node --for 0.2
+check '--for ends it' exits 0
+
+# ---- a second run of publish is a restart of its sensors ----
+start again
+run publish scene/plots.csv --speed 200
+run publish scene/plots.csv --speed 200
+sleep 0.2
+stop INT "$node"
+check 'it is followed' grep -q 'sensor restarts: 1' again.err
+check 'tracks again' test "$(awk -F, '$1 == "140.000000" && $3 == "confirmed"' again.csv | wc -l)" -ge 10
+
+# ---- a loop goes on ----
+start loop
+timeout -s INT 1.5 "$program" publish scene/plots.csv --speed 400 --loop 2>/dev/null
+sleep 0.2
+stop INT "$node"
+check 'a loop has times that go on' awk -F, 'NR > 1 { if ($1 + 0 < t) exit 1; t = $1 + 0 } END { exit !(t > 300) }' loop.csv
+check 'and numbers without gaps' test -z "$(grep -E 'lost|late|restart|double' loop.err)"
+
+# ---- bearings ----
+"$program" simulate passive-two --seed 2 -o passive
+run track passive/bearings.csv --config passive/scenario.ini
+cp stdout passive.csv
+"$program" convert passive/bearings.csv passive.lcm
+run node --lcm 'file://passive.lcm?speed=0' --print --config passive/scenario.ini
+check 'tracks of bearings are those of track' writes_same_as passive.csv
+
+# ---- files instead of a network ----
+run publish scene/plots.csv --speed 0 --lcm 'file://played.lcm?mode=w'
+check 'publish writes a log' exits 0
+run node --lcm 'file://played.lcm?speed=0' --print --config scene/scenario.ini
+check 'a node reads it, and ends with it' writes_same_as tracks.csv
+
+# ---- what is no URL ----
+refused() { # name, URL, message
+    run node --for 1 --lcm "$2"
+    check "$1" exits 2
+    check "$1: what is said" matches "$(tail -n 1 stderr)" "rhotrack: --lcm $2: $3"
+}
+refused 'no scheme' bogus 'no LCM URL; *'
+refused 'no group' udpm://10.1.2.3:7667 '* is no multicast group *'
+refused 'a port that is none' udpm://239.255.76.67:99999 "port '99999' *"
+refused 'an option that is none' 'udpm://239.255.76.67:7667?colour=red' 'unknown option *'
+refused 'a ttl that is none' 'udpm://239.255.76.67:7667?ttl=-1' "ttl '-1' *"
+refused 'a provider that is none' nix://there 'liblcm does not open it'
+refused 'a file that is not there' file://nothing.lcm 'liblcm does not open it'
+run publish scene/plots.csv --lcm file://played.lcm
+check 'publish does not write where it would read' says 2 'rhotrack: --lcm file://played.lcm: *mode=w*'
+run publish nothing.csv
+check 'publish without its input' exits 2
+run node --log nowhere/at.lcm
+check 'a log that cannot be' exits 1
+LCM_DEFAULT_URL=bogus run node
+check 'the environment is named' says 2 'rhotrack: LCM_DEFAULT_URL bogus: *'
+
+finish
