@@ -143,6 +143,19 @@ cp stdout passive.csv
 run node --lcm 'file://passive.lcm?speed=0' --print --config passive/scenario.ini
 check 'tracks of bearings are those of track' writes_same_as passive.csv
 
+# Plots within a frame's scans: each waits for the frame that began before it.
+"$program" simulate passive-three --seed 4 --set num_scans=20 -o three
+awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 0.012 * $2) } { print }' three/bearings.csv >bearings.csv
+awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 0.02); $2 = 9 } { print }' scene/plots.csv >plots.csv
+run track plots.csv bearings.csv --config scene/scenario.ini
+cp stdout merged.csv
+start both
+run publish plots.csv bearings.csv --speed 100
+sleep 0.2
+stop INT "$node"
+check 'plots and bearings together as well, though live' cmp merged.csv both.csv
+check 'without a loss' matches "$(wc -l <both.err)" 1
+
 # ---- files instead of a network ----
 run publish scene/plots.csv --speed 0 --lcm 'file://played.lcm?mode=w'
 check 'publish writes a log' exits 0

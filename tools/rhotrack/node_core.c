@@ -14,6 +14,9 @@
 /* Scans of plots that wait for the open frame; one more closes it. */
 #define WAITING_MAX 4
 
+/* Fewer passive sensors give no positions. */
+#define SENSORS_MIN 2
+
 struct waiting {
     struct rho_scan scan;
     struct rho_sensor sensor;
@@ -43,6 +46,10 @@ struct node_core {
 
 /* ---- Start ---- */
 
+/*
+ * Nobody knows how many passive sensors there are before the first frame: it waits for as many as there can be, until the
+ * next frame's scans come, or for its time. Were it closed by the second sensor, the others would be late.
+ */
 static void open_frames(struct node_core *core)
 {
     const double *value = core->parameters->value;
@@ -52,6 +59,7 @@ static void open_frames(struct node_core *core)
     config.tolerance_us = llround(value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
     config.jump_max_us = llround(value[PARAMETER_JUMP_MAX_S] * 1e6);
     config.follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS];
+    config.sensors_min = RHO_MAX_PASSIVE_SENSORS;
     if (rho_frames_init(&core->frames, sizeof core->frames, &config) != RHO_OK) {
         fail(EXIT_USAGE, "node: frame_tolerance_s has to be 10 s at most, and below jump_max_s");
     }
@@ -190,6 +198,7 @@ static void step_closed_frame(struct node_core *core)
     if (!rho_frames_closed(&core->frames, &view)) {
         return;
     }
+    core->frames.config.sensors_min = SENSORS_MIN; /* what the first frame held is known now */
     if (view.is_restart) {
         start_anew(core);
     }
