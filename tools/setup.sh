@@ -21,7 +21,6 @@ libcjson-dev        # ... and writes JSON
 liblcm-dev          # LCM: providers other than UDP multicast
 libcmocka-dev       # unit and scenario tests
 liblcm-bin          # lcm-gen: tests of the codec beside the C and the Python that it makes
-liblcm-dev          # ... and what that C includes
 gnuplot-nox         # pictures
 librsvg2-bin        # pictures: SVG to PNG
 python3             # make layers, reference vectors

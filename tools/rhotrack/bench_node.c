@@ -68,7 +68,7 @@ static struct rho_message_plot plot_of(struct session *session, int scan, int in
         double along_m = -HALF_AREA_M + 2 * HALF_AREA_M * (scan + 0.5) / SCANS;
 
         x_m = along_m + SIGMA_M * random_normal(&session->random);
-        y_m = (index - TARGETS / 2) * 40e3 + SIGMA_M * random_normal(&session->random);
+        y_m = (index - 0.5 * TARGETS) * 40e3 + SIGMA_M * random_normal(&session->random);
     }
     return (struct rho_message_plot){
         .x_m = (float)x_m, .y_m = (float)y_m, .sigma_m = (float)SIGMA_M};
@@ -120,7 +120,7 @@ static _Noreturn void run_node(const char *url, pid_t parent)
         dup2(nowhere, STDERR_FILENO);
         dup2(nowhere, STDOUT_FILENO);
     }
-    line = (struct command_line){.lcm = url, .seconds = READY_NS / 1e9 + 3 * SCANS / SCANS_PER_S};
+    line = (struct command_line){.lcm = url, .seconds = READY_NS / 1e9 + 3.0 * SCANS / SCANS_PER_S};
     set_parameters(&line.parameters);
     _exit(getppid() == parent ? command_node(&line) : EXIT_RUNTIME);
 }

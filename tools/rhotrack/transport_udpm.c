@@ -302,7 +302,7 @@ static bool send_message(void *object, const char *channel, const uint8_t *data,
     struct udpm *udpm = object;
     uint8_t head[RHO_UDPM_MAX_HEAD];
     size_t head_bytes;
-    struct iovec parts[2] = {{.iov_base = head}, {.iov_base = (void *)(uintptr_t)data}};
+    struct iovec parts[2] = {{.iov_base = head}, {.iov_base = (void *)data}};
     struct msghdr header = {.msg_name = &udpm->group,
                             .msg_namelen = sizeof udpm->group,
                             .msg_iov = parts,
