@@ -293,6 +293,6 @@
      RHO_RAM_HYPOTHESES_BYTES + 640)
 #define RHO_RAM_FEED_BYTES                                                                         \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
-     164 * RHO_MAX_SENSORS + 400)
+     240 * RHO_MAX_SENSORS + 520)
 
 #endif

@@ -12,25 +12,35 @@
  *     }
  *
  * Nobody is trusted: LCM does not say who sent a message. What a message can do is bounded, and one sensor that fails or
- * lies leaves the scans of the others as they are.
+ * lies leaves the scans of the others as they are. Who sends in a sensor's name can do harm to that sensor.
  *
  * Parts      A scan is complete when all its parts are here. It goes out incomplete, and is counted, when a newer scan of
- *            its sensor begins or hold_us has passed since its last part. Plots are in the order of the parts.
+ *            its sensor begins or hold_us has passed since its last part. Plots are in the order of the parts. The part
+ *            that comes first counts: those that say something else of the scan are refused.
  * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans of
- *            different sensors go out in the order of time. With one sensor nothing waits.
- * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps) and its time
- *            later, by jump_max_us at most. Numbers that were skipped are lost; 0 or up to 31 lower is double or late.
- *            Anything else, and another epoch, is refused until follow_scans of them in a row agree: the sensor restarted.
- * Clock      A scan more than jump_max_us off the time of the last accepted one is refused, so that one wrong clock does
- *            not make all other sensors late. When more sensors agree on another time than on the present one, that time is
- *            followed: is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as
- *            the other, the reception clock decides if it is near one of them, and else who came first.
+ *            different sensors go out in the order of time. With one sensor nothing waits. A sensor is live for
+ *            jump_max_us after its last scan.
+ * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps), its time
+ *            later, and both go together: it took no longer than half as long again as its numbers usually take, or as
+ *            nothing was heard of the sensor, and where it skips numbers no shorter than three quarters of that. Numbers
+ *            that were skipped are lost; 0 or up to 31 lower is double or late. Anything else, and another epoch, is
+ *            refused until follow_scans such scans agree with one another: the sensor restarted, or goes another pace.
+ *            So one damaged message, or one that was not the sensor's, does not make those that follow it look old.
+ * Clock      A scan is refused where most other live sensors say that its time is another one: more than
+ *            jump_max_us / 8 + hold_us ahead of what their last scans and the reception clock make it now, or as far before
+ *            their last scans. So is one more than jump_max_us off the last accepted one. One wrong clock does not make the
+ *            other sensors late. When more sensors agree on another time than on the present one, that time is followed:
+ *            is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as the other,
+ *            the reception clock decides if it is near one of them alone, and else who came first. A clock that is ahead by
+ *            less makes the other sensors late in the tracker for as long as it goes on.
  * Flood      More than flood_per_s messages of one sensor in a second are not looked at. Sensors that are not known
  *            share one such measure. A new sensor takes the place of one that was not heard for longest, never that of one
- *            that is heard and has proved itself by follow_scans scans.
+ *            that is heard, tells the common time and has proved itself by follow_scans scans; nor does it cut short a scan
+ *            of such a one for want of room.
  *
  * Which sensor sent a message is told by its channel: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n>, with n the
- * message's sensor_id. The reception clock only has to go on; microseconds, any epoch.
+ * message's sensor_id. The reception clock: microseconds, any epoch. It has to go on, and should go as fast as the sensors'
+ * clocks do: who replays a record gives the times at which it was recorded.
  * The object holds no pointers: a memcpy is a snapshot.
  */
 #ifndef RHOTRACK_FEED_H
@@ -45,6 +55,9 @@
 
 /* Numbers that a sensor may skip and still be believed at once. */
 #define RHO_FEED_SKIP_MAX 64
+
+/* Of a sensor's scans that were not believed, so many are remembered: others between them do no harm. */
+#define RHO_FEED_STRAYS 4
 
 /* Noise where the messages say 0; each above 0 and within the limits of types.h. */
 struct rho_feed_noise {
@@ -78,16 +91,17 @@ struct rho_feed_counters {
     uint32_t messages_bad;        /* length, count, a value, the sensor's number */
     uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
     uint32_t messages_flooded;
-    uint32_t scans_accepted;   /* of which a first part came */
-    uint32_t scans_late;       /* older than one of the same sensor that was accepted */
-    uint32_t scans_duplicate;  /* scans, or parts of one, that were there before */
+    uint32_t scans_accepted; /* of which a first part came */
+    uint32_t scans_late;     /* older than one of the same sensor that was accepted */
+    /* scans, or parts of one, that were there before; parts that come when the scan is closed */
+    uint32_t scans_duplicate;
     uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
     uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers */
     uint32_t scans_incomplete; /* went out without some of their parts */
     uint32_t
         clock_jumps; /* refused for their time: far off the sensor's own, or the common clock */
     uint32_t sensor_restarts; /* new numbers or times followed */
-    uint32_t sensors_no_room; /* messages of more sensors than RHO_MAX_SENSORS */
+    uint32_t sensors_no_room; /* messages of sensors beyond RHO_MAX_SENSORS or RHO_MAX_OPEN_SCANS */
     uint32_t bearings_in;     /* of accepted scans */
     /* of accepted scans beyond RHO_MAX_PLOTS or RHO_MAX_BEARINGS: the last ones */
     uint32_t plots_no_room;
@@ -101,17 +115,24 @@ struct rho_feed_place {
     int32_t scan, epoch;
 };
 
+/* Scans that were not believed, and agree with each other. */
+struct rho_feed_stray {
+    struct rho_feed_place place; /* the newest of them */
+    uint32_t scans;              /* how many; 0: none */
+    uint32_t reserved;           /* 0 */
+};
+
 /* One sensor's stream of messages. */
 struct rho_feed_source {
-    struct rho_feed_place place; /* its newest scan whose number was believed */
-    struct rho_feed_place stray; /* the newest that was not */
-    int64_t heard_us;            /* reception clock: its last believed scan */
-    int64_t bucket_us;           /* reception clock: when the bucket was full */
-    uint32_t bucket;    /* messages that may still come before the bucket is filled again */
-    uint32_t seen;      /* bit i: number place.scan - i was there */
-    uint16_t scans;     /* believed; saturates */
-    uint16_t strays;    /* in a row, that agree with each other */
-    uint16_t off_clock; /* scans in a row; saturates; 0: it tells the common time */
+    struct rho_feed_place place;                   /* its newest scan whose number was believed */
+    struct rho_feed_stray strays[RHO_FEED_STRAYS]; /* the last one first */
+    int64_t heard_us;                              /* reception clock: its last believed scan */
+    int64_t bucket_us;                             /* reception clock: when the bucket was full */
+    uint32_t bucket;      /* messages that may still come before the bucket is filled again */
+    uint32_t seen;        /* bit i: number place.scan - i was there */
+    uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
+    uint16_t scans;       /* believed; saturates */
+    uint16_t off_clock;   /* scans in a row; saturates; 0: it tells the common time */
     int16_t sensor_id;
     uint8_t kind; /* enum rho_feed_kind */
     uint8_t is_used;
@@ -129,7 +150,8 @@ struct rho_feed_slot {
     uint16_t num_inputs; /* plots or bearings that are kept */
     uint8_t state;       /* private */
     uint8_t kind;        /* enum rho_feed_kind */
-    uint8_t has_sensor, is_restart;
+    uint8_t has_sensor;
+    uint8_t reserved; /* 0 */
     uint16_t
         parts[RHO_MAX_PARTS]; /* of each part that is here, 1 more than its inputs; 0: missing */
     struct rho_bearing bearings[RHO_MAX_BEARINGS];
@@ -142,7 +164,7 @@ struct rho_feed {
     uint16_t is_pressed; /* a scan found no room: the oldest goes out at the next call */
     int64_t clock_us;    /* of the newest accepted scan */
     uint16_t has_clock;
-    uint16_t is_restart; /* the next scan that is accepted is the first on another clock */
+    uint16_t is_restart; /* the next scan that goes out is the first on another clock */
     uint32_t reserved;   /* 0 */
     struct rho_feed_config config;
     struct rho_feed_counters counters;
@@ -191,7 +213,8 @@ RHO_MUST_CHECK enum rho_status rho_feed_set_sensor(struct rho_feed *feed,
  *   channel  ends with NUL
  *   now_us   reception clock
  * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel), CAPACITY (no room for another open scan: call
- * rho_feed_next once, step what it gives, and take the message again); nothing is changed but for that call.
+ * rho_feed_next once, step what it gives, if anything, and take the message again; two such calls make room); nothing is
+ * changed but for that call.
  * Cost: the message's bytes, RHO_MAX_SENSORS, and where parts come out of order the scan's plots moved.
  * Stack: 2 KB: the message as a struct.
  */

@@ -179,7 +179,7 @@ static struct rho_feed_source *find_source(struct rho_feed *feed, enum rho_feed_
 static int gives_way(const struct rho_feed *feed, const struct rho_feed_source *source,
                      int64_t now_us)
 {
-    return source->scans < feed->config.follow_scans ||
+    return !rho_feed_is_proven(&feed->config, source) || source->off_clock > 0 ||
            rho_feed_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us;
 }
 
@@ -206,7 +206,10 @@ static struct rho_feed_source *find_room(struct rho_feed *feed, int64_t now_us)
 static void refuse(struct rho_feed *feed, struct rho_feed_source *source, enum feed_verdict verdict,
                    const struct feed_heading *heading)
 {
-    if (verdict == FEED_DUPLICATE) {
+    if (verdict == FEED_DUPLICATE && source->off_clock > 0) {
+        rho_feed_count_one(
+            &feed->counters.clock_jumps); /* another part of a scan that was refused */
+    } else if (verdict == FEED_DUPLICATE) {
         rho_feed_count_one(&feed->counters.scans_duplicate);
     } else if (verdict == FEED_LATE) {
         rho_feed_count_one(&feed->counters.scans_late);
@@ -227,17 +230,15 @@ static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
     if (last) {
         rho_feed_close_slot(feed, last);
     }
-    feed->counters.scans_lost = rho_count(
-        feed->counters.scans_lost, rho_feed_note_place(source, &heading->place, verdict, now_us));
+    feed->counters.scans_lost =
+        rho_count(feed->counters.scans_lost,
+                  rho_feed_note_place(&feed->config, source, &heading->place, verdict, now_us));
     if (verdict == FEED_FOLLOW) {
         rho_feed_count_one(&feed->counters.sensor_restarts);
     }
     if (!rho_feed_is_on_clock(feed, source, heading->place.time_us, verdict, now_us)) {
         rho_feed_count_one(&feed->counters.clock_jumps);
         return;
-    }
-    if (feed->is_restart) {
-        rho_feed_drop_slots(feed);
     }
     slot = rho_feed_find_state(feed, FEED_SLOT_FREE);
     rho_feed_count_one(&feed->counters.scans_accepted);
@@ -267,6 +268,17 @@ static struct rho_feed_source *new_source(struct rho_feed *feed, const struct fe
     return source;
 }
 
+/*
+ * True where room may be made for another scan. A sensor that is not proven must not cut short a scan of one that is while
+ * its parts are still coming.
+ */
+static int may_press(struct rho_feed *feed, const struct rho_feed_source *source)
+{
+    return (source && rho_feed_is_proven(&feed->config, source)) ||
+           rho_feed_find_state(feed, FEED_SLOT_GIVEN) ||
+           rho_feed_find_state(feed, FEED_SLOT_COMPLETE) || rho_feed_find_weak(feed);
+}
+
 /* Errors: CAPACITY. */
 static enum rho_status take_part(struct rho_feed *feed, const struct feed_heading *heading,
                                  const union feed_message *message, int64_t now_us)
@@ -279,12 +291,16 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
         rho_feed_add_part(feed, slot, heading, message, now_us);
         return RHO_OK;
     }
-    verdict = source ? rho_feed_judge(&feed->config, source, &heading->place) : FEED_NEXT;
+    verdict = source ? rho_feed_judge(&feed->config, source, &heading->place, now_us) : FEED_NEXT;
     if (verdict != FEED_NEXT && verdict != FEED_FOLLOW) {
         refuse(feed, source, verdict, heading);
         return RHO_OK;
     }
     if (!rho_feed_find_state(feed, FEED_SLOT_FREE)) {
+        if (!may_press(feed, source)) {
+            rho_feed_count_one(&feed->counters.sensors_no_room);
+            return RHO_OK;
+        }
         feed->is_pressed = 1;
         return RHO_ERROR_CAPACITY;
     }
@@ -348,12 +364,17 @@ int rho_feed_next(struct rho_feed *feed, int64_t now_us, struct rho_feed_item *i
     if (slot) {
         slot->state = FEED_SLOT_FREE;
     }
+    if (rho_feed_find_state(feed, FEED_SLOT_FREE)) {
+        feed->is_pressed = 0; /* there is room */
+    }
     slot = rho_feed_find_due(feed, now_us);
     if (!slot) {
         return 0;
     }
     slot->state = FEED_SLOT_GIVEN;
     rho_feed_fill_item(slot, item);
+    item->is_restart = feed->is_restart;
+    feed->is_restart = 0;
     return 1;
 }
 

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+#include <string.h>
+
 #include "feed_parts.h"
 
 #define SECOND_US 1000000
-#define SEEN_SCANS 32 /* bits of source.seen */
+#define SEEN_SCANS 32   /* bits of source.seen */
+#define JITTER_US 10000 /* of a sensor's scans, whatever their interval */
+#define LEAD_SHARE                                                                                 \
+    8 /* of jump_max: how far clocks of different sensors may be apart, beside hold */
 
 /* ---- Times ---- */
 
@@ -38,9 +43,14 @@ int rho_feed_draw(struct rho_feed_source *source, uint32_t flood_per_s, int64_t 
 /* How far a number is from another; numbers wrap. */
 static int32_t steps(int32_t scan, int32_t from)
 {
-    uint32_t difference = (uint32_t)scan - (uint32_t)from;
+    int64_t difference = (int64_t)scan - from;
 
-    return difference <= INT32_MAX ? (int32_t)difference : -(int32_t)(UINT32_MAX - difference) - 1;
+    if (difference > INT32_MAX) {
+        difference -= (int64_t)1 << 32;
+    } else if (difference < INT32_MIN) {
+        difference += (int64_t)1 << 32;
+    }
+    return (int32_t)difference;
 }
 
 static int is_later(const struct rho_feed_config *config, int64_t time_us, int64_t from_us)
@@ -58,9 +68,37 @@ static int goes_on(const struct rho_feed_config *config, const struct rho_feed_p
            is_later(config, place->time_us, from->time_us);
 }
 
+/*
+ * Numbers and times of a sensor go on together. What takes longer than its numbers, or the silence before it, account for
+ * has a wrong time; what skips more numbers than there was time for has a wrong number. Believed, either would make the
+ * scans that follow look old.
+ */
+static enum feed_verdict judge_pace(const struct rho_feed_config *config,
+                                    const struct rho_feed_source *source,
+                                    const struct rho_feed_place *place, int64_t now_us)
+{
+    int32_t ahead = steps(place->scan, source->place.scan);
+    uint64_t took_us = rho_feed_elapsed_us(place->time_us, source->place.time_us);
+    uint64_t usual_us = (uint64_t)ahead * source->interval_us;
+    uint64_t silent_us = rho_feed_elapsed_us(now_us, source->heard_us);
+    uint64_t longest_us = usual_us > silent_us ? usual_us : silent_us;
+
+    if (!is_later(config, place->time_us, source->place.time_us)) {
+        return FEED_STRAY_TIME;
+    }
+    if (source->interval_us == 0) {
+        return FEED_NEXT;
+    }
+    if (took_us > JITTER_US && took_us - JITTER_US - (took_us - JITTER_US) / 3 > longest_us) {
+        return FEED_STRAY_TIME;
+    }
+    return ahead > 1 && took_us + JITTER_US < usual_us - usual_us / 4 ? FEED_STRAY_NUMBER
+                                                                      : FEED_NEXT;
+}
+
 static enum feed_verdict judge_known(const struct rho_feed_config *config,
                                      const struct rho_feed_source *source,
-                                     const struct rho_feed_place *place)
+                                     const struct rho_feed_place *place, int64_t now_us)
 {
     const struct rho_feed_place *newest = &source->place;
     int32_t ahead = steps(place->scan, newest->scan);
@@ -69,109 +107,204 @@ static enum feed_verdict judge_known(const struct rho_feed_config *config,
         return FEED_STRAY_NUMBER;
     }
     if (ahead > 0) {
-        return is_later(config, place->time_us, newest->time_us) ? FEED_NEXT : FEED_STRAY_TIME;
+        return judge_pace(config, source, place, now_us);
     }
-    /* An old number with a new time is no old scan: the numbers fell back. */
+    /* An old number with a new time is no old scan: the numbers fell back. With a time far back, the clock did as well. */
     if (ahead < 0 && place->time_us > newest->time_us) {
         return FEED_STRAY_NUMBER;
+    }
+    if (!is_near(place->time_us, newest->time_us, config->jump_max_us)) {
+        return FEED_STRAY_TIME;
     }
     return source->seen >> -ahead & 1u ? FEED_DUPLICATE : FEED_LATE;
 }
 
+/* Those that were not believed, and that the scan may come next after: the most; NULL: none. */
+static const struct rho_feed_stray *find_stray(const struct rho_feed_config *config,
+                                               const struct rho_feed_source *source,
+                                               const struct rho_feed_place *place)
+{
+    const struct rho_feed_stray *most = NULL;
+
+    for (unsigned i = 0; i < RHO_FEED_STRAYS; i++) {
+        const struct rho_feed_stray *stray = &source->strays[i];
+
+        if (stray->scans > (most ? most->scans : 0) && goes_on(config, place, &stray->place)) {
+            most = stray;
+        }
+    }
+    return most;
+}
+
 enum feed_verdict rho_feed_judge(const struct rho_feed_config *config,
                                  const struct rho_feed_source *source,
-                                 const struct rho_feed_place *place)
+                                 const struct rho_feed_place *place, int64_t now_us)
 {
+    const struct rho_feed_stray *stray;
     enum feed_verdict verdict;
 
     if (source->scans == 0) {
         return FEED_NEXT;
     }
-    verdict = judge_known(config, source, place);
-    if ((verdict == FEED_STRAY_NUMBER || verdict == FEED_STRAY_TIME) &&
-        source->strays + 1 >= config->follow_scans && goes_on(config, place, &source->stray)) {
-        return FEED_FOLLOW;
+    verdict = judge_known(config, source, place, now_us);
+    if (verdict == FEED_STRAY_NUMBER || verdict == FEED_STRAY_TIME) {
+        stray = find_stray(config, source, place);
+        if (stray && stray->scans + 1 >= config->follow_scans) {
+            return FEED_FOLLOW;
+        }
     }
     return verdict;
+}
+
+/* What gives way to the next stray: of the fewest scans the one that was there longest. */
+static unsigned weakest(const struct rho_feed_source *source)
+{
+    unsigned least = 0;
+
+    for (unsigned i = 1; i < RHO_FEED_STRAYS; i++) {
+        least = source->strays[i].scans <= source->strays[least].scans ? i : least;
+    }
+    return least;
 }
 
 void rho_feed_note_stray(const struct rho_feed_config *config, struct rho_feed_source *source,
                          const struct rho_feed_place *place)
 {
-    const struct rho_feed_place *stray = &source->stray;
+    const struct rho_feed_stray *agrees = find_stray(config, source, place);
+    unsigned at = agrees ? (unsigned)(agrees - source->strays) : weakest(source);
+    uint32_t scans = agrees ? agrees->scans + 1 : 1; /* below follow_scans: that one is followed */
 
-    if (source->strays > 0 && place->scan == stray->scan && place->epoch == stray->epoch &&
-        place->time_us == stray->time_us) {
-        return; /* another part of it, or a double */
+    for (unsigned i = 0; i < RHO_FEED_STRAYS; i++) {
+        const struct rho_feed_place *stray = &source->strays[i].place;
+
+        if (source->strays[i].scans > 0 && place->scan == stray->scan &&
+            place->epoch == stray->epoch && place->time_us == stray->time_us) {
+            return; /* another part of it, or a double */
+        }
     }
-    if (source->strays > 0 && goes_on(config, place, stray)) {
-        source->strays++; /* stays below follow_scans: that one is followed */
-    } else {
-        source->strays = 1;
-    }
-    source->stray = *place;
+    memmove(source->strays + 1, source->strays, at * sizeof *source->strays);
+    source->strays[0] = (struct rho_feed_stray){.place = *place, .scans = scans};
 }
 
-uint32_t rho_feed_note_place(struct rho_feed_source *source, const struct rho_feed_place *place,
-                             enum feed_verdict verdict, int64_t now_us)
+static void note_interval(struct rho_feed_source *source, int64_t took_us, int32_t ahead,
+                          int is_known)
 {
-    int32_t ahead = steps(place->scan, source->place.scan);
-    int is_next = verdict == FEED_NEXT && source->scans > 0;
+    int64_t interval_us = took_us / ahead, mean_us = source->interval_us;
 
+    mean_us = is_known && mean_us > 0 ? mean_us + (interval_us - mean_us) / 4 : interval_us;
+    source->interval_us = (uint32_t)(mean_us > 0 ? mean_us : 1);
+}
+
+uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_feed_source *source,
+                             const struct rho_feed_place *place, enum feed_verdict verdict,
+                             int64_t now_us)
+{
+    const struct rho_feed_stray *stray =
+        verdict == FEED_FOLLOW ? find_stray(config, source, place) : NULL;
+    const struct rho_feed_place *from = stray ? &stray->place : &source->place;
+    int is_next = verdict == FEED_NEXT && source->scans > 0;
+    int32_t ahead = steps(place->scan, from->scan);
+
+    if (is_next || stray) {
+        note_interval(source, place->time_us - from->time_us, ahead, is_next);
+    }
     source->seen = is_next && ahead < SEEN_SCANS ? source->seen << ahead | 1u : 1u;
     source->place = *place;
     source->heard_us = now_us;
-    source->strays = 0;
+    memset(source->strays, 0, sizeof source->strays);
     source->scans = (uint16_t)(source->scans + (source->scans < UINT16_MAX));
     return is_next ? (uint32_t)(ahead - 1) : 0;
 }
 
+int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_feed_source *source)
+{
+    return source->scans >= config->follow_scans;
+}
+
 /* ---- The common clock ---- */
 
-/* More live sensors agree on the time than on the clock; of equally many, the reception clock prefers it. */
+/* The scan's time is not this sensor's: it is farther ahead of its newest scan than that is old, or far back. */
+static int is_elsewhere(const struct rho_feed_config *config, const struct rho_feed_source *other,
+                        int64_t time_us, int64_t now_us)
+{
+    uint64_t lead_us = (uint64_t)(config->hold_us + config->jump_max_us / LEAD_SHARE);
+    uint64_t ahead_us = rho_feed_elapsed_us(time_us, other->place.time_us);
+    uint64_t old_us = rho_feed_elapsed_us(now_us, other->heard_us);
+
+    old_us = old_us > 2ull * other->interval_us ? old_us : 2ull * other->interval_us;
+    return (ahead_us > lead_us && ahead_us - lead_us > old_us) ||
+           rho_feed_elapsed_us(other->place.time_us, time_us) > lead_us;
+}
+
+static int is_live(const struct rho_feed *feed, const struct rho_feed_source *source,
+                   int64_t now_us)
+{
+    return source->is_used && source->scans > 0 &&
+           rho_feed_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us;
+}
+
+/* Most live sensors on the clock say that the time is another one. Those that are not proven have a say where none is. */
+static int is_contradicted(const struct rho_feed *feed, const struct rho_feed_source *source,
+                           int64_t time_us, int64_t now_us)
+{
+    int votes[2] = {0}, balance[2] = {0}, proven;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_feed_source *other = &feed->sources[i];
+
+        if (other != source && other->off_clock == 0 && is_live(feed, other, now_us)) {
+            proven = rho_feed_is_proven(&feed->config, other);
+            votes[proven]++;
+            balance[proven] += is_elsewhere(&feed->config, other, time_us, now_us) ? 1 : -1;
+        }
+    }
+    return balance[votes[1] > 0] > 0;
+}
+
+/* More live sensors agree on the time than proven ones on the clock; of equally many, the reception clock prefers it. */
 static int is_outvoted(const struct rho_feed *feed, const struct rho_feed_source *source,
                        int64_t time_us, int64_t now_us)
 {
-    int64_t most_us = feed->config.jump_max_us;
+    int64_t lead_us = feed->config.hold_us + feed->config.jump_max_us / LEAD_SHARE;
     unsigned with = 1, against = 0;
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_feed_source *other = &feed->sources[i];
 
-        if (!other->is_used || other == source || other->scans == 0 ||
-            rho_feed_elapsed_us(now_us, other->heard_us) > (uint64_t)most_us) {
+        if (other == source || !is_live(feed, other, now_us)) {
             continue;
         }
         if (other->off_clock == 0) {
-            against++;
-        } else if (other->off_clock >= feed->config.follow_scans &&
-                   is_near(other->place.time_us, time_us, most_us)) {
-            with++;
+            against += (unsigned)rho_feed_is_proven(&feed->config, other);
+        } else if (other->off_clock >= feed->config.follow_scans) {
+            with += !is_elsewhere(&feed->config, other, time_us, now_us);
         }
     }
-    return with > against || (with == against && is_near(time_us, now_us, most_us) &&
-                              !is_near(feed->clock_us, now_us, most_us));
+    return with > against || (with == against && is_near(time_us, now_us, lead_us) &&
+                              !is_near(feed->clock_us, now_us, lead_us));
 }
 
-/* Who tells the new time is on the clock from now on, all others are off it. */
-static void follow(struct rho_feed *feed, int64_t time_us)
+/* Who tells the new time is on the clock from now on, all others are off it, and what they sent is of no use. */
+static void follow(struct rho_feed *feed, int64_t time_us, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         struct rho_feed_source *source = &feed->sources[i];
 
-        if (is_near(source->place.time_us, time_us, feed->config.jump_max_us)) {
+        if (!is_elsewhere(&feed->config, source, time_us, now_us)) {
             source->off_clock = 0;
         } else if (source->off_clock == 0) {
             source->off_clock = 1;
         }
     }
     feed->is_restart = 1;
+    rho_feed_drop_slots(feed);
 }
 
 int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, int64_t time_us,
                          enum feed_verdict verdict, int64_t now_us)
 {
-    if (feed->has_clock && !is_near(time_us, feed->clock_us, feed->config.jump_max_us)) {
+    if (feed->has_clock && (!is_near(time_us, feed->clock_us, feed->config.jump_max_us) ||
+                            is_contradicted(feed, source, time_us, now_us))) {
         /* The scans that a sensor's new numbers were followed for have shown its new time as well. */
         if (verdict == FEED_FOLLOW && source->off_clock < feed->config.follow_scans) {
             source->off_clock = feed->config.follow_scans;
@@ -182,7 +315,7 @@ int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, 
             !is_outvoted(feed, source, time_us, now_us)) {
             return 0;
         }
-        follow(feed, time_us);
+        follow(feed, time_us, now_us);
     }
     source->off_clock = 0;
     feed->clock_us = time_us;

@@ -45,15 +45,19 @@ uint64_t rho_feed_elapsed_us(int64_t now_us, int64_t then_us);
 
 enum feed_verdict rho_feed_judge(const struct rho_feed_config *config,
                                  const struct rho_feed_source *source,
-                                 const struct rho_feed_place *place);
+                                 const struct rho_feed_place *place, int64_t now_us);
 
 /* A scan that was not believed is remembered, for those that may agree with it. */
 void rho_feed_note_stray(const struct rho_feed_config *config, struct rho_feed_source *source,
                          const struct rho_feed_place *place);
 
 /* A believed scan: the sensor has come to here. Returns how many numbers were skipped. */
-uint32_t rho_feed_note_place(struct rho_feed_source *source, const struct rho_feed_place *place,
-                             enum feed_verdict verdict, int64_t now_us);
+uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_feed_source *source,
+                             const struct rho_feed_place *place, enum feed_verdict verdict,
+                             int64_t now_us);
+
+/* It has shown by follow_scans scans that it is no chance message. */
+int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_feed_source *source);
 
 /*
  * True where a believed scan's time is the common clock's, or becomes it (then feed->is_restart is set). A scan off the clock
@@ -80,6 +84,9 @@ void rho_feed_count_one(uint32_t *counter);
 struct rho_feed_slot *rho_feed_find_state(struct rho_feed *feed, enum feed_slot_state state);
 struct rho_feed_slot *rho_feed_find_open(struct rho_feed *feed,
                                          const struct rho_feed_source *source);
+
+/* An open scan of a sensor that is not proven. */
+struct rho_feed_slot *rho_feed_find_weak(struct rho_feed *feed);
 
 /* The slot begins with this scan. */
 void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,

@@ -32,6 +32,19 @@ struct rho_feed_slot *rho_feed_find_open(struct rho_feed *feed,
     return NULL;
 }
 
+struct rho_feed_slot *rho_feed_find_weak(struct rho_feed *feed)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (slot->state == FEED_SLOT_OPEN &&
+            !rho_feed_is_proven(&feed->config, &feed->sources[slot->source])) {
+            return slot;
+        }
+    }
+    return NULL;
+}
+
 void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot)
 {
     if (slot->parts_here < slot->num_parts) {
@@ -83,11 +96,9 @@ void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
     slot->parts_here = 0;
     slot->num_inputs = 0;
     slot->kind = heading->kind;
-    slot->is_restart = (uint8_t)feed->is_restart;
     memset(slot->parts, 0, sizeof slot->parts);
     describe(feed, slot, heading);
     slot->state = FEED_SLOT_OPEN;
-    feed->is_restart = 0;
 }
 
 /* ---- Parts ---- */
@@ -162,8 +173,11 @@ static int is_turn(const struct rho_feed *feed, const struct rho_feed_slot *slot
 
 static int has_waited(const struct rho_feed *feed, const struct rho_feed_slot *slot, int64_t now_us)
 {
-    return now_us == INT64_MAX ||
-           rho_feed_elapsed_us(now_us, slot->heard_us) >= (uint64_t)feed->config.hold_us;
+    uint64_t hold_us = (uint64_t)feed->config.hold_us;
+
+    /* Nothing waits for a reception clock that was set back to come to where it was. */
+    return now_us == INT64_MAX || rho_feed_elapsed_us(now_us, slot->heard_us) >= hold_us ||
+           rho_feed_elapsed_us(slot->heard_us, now_us) > hold_us;
 }
 
 static void close_overdue(struct rho_feed *feed, int64_t now_us)
@@ -209,7 +223,8 @@ struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
     close_overdue(feed, now_us);
     slot = find_first(feed, FEED_SLOT_COMPLETE);
     if (feed->is_pressed && !slot) {
-        slot = find_first(feed, FEED_SLOT_OPEN);
+        slot = rho_feed_find_weak(feed);
+        slot = slot ? slot : find_first(feed, FEED_SLOT_OPEN);
         if (slot) {
             rho_feed_close_slot(feed, slot);
         }
@@ -228,7 +243,6 @@ void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *
         .kind = (enum rho_feed_kind)slot->kind,
         .sensor = slot->sensor,
         .has_sensor = slot->has_sensor,
-        .is_restart = slot->is_restart,
         .parts_missing = (uint16_t)(slot->num_parts - slot->parts_here),
     };
     if (slot->kind == RHO_FEED_BEARINGS) {
