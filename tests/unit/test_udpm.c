@@ -13,8 +13,8 @@
 
 #define LONGEST 63u
 
-static const uint8_t by_hand[] = {'L', 'C', '0', '2', 0x12, 0x34, 0x56, 0x78,
-                                  'A', 'B', 0,   0xca, 0xfe};
+static const uint8_t by_hand[] = {'L',  'C', '0', '2', 0x12, 0x34, 0x56,
+                                  0x78, 'A', 'B', 0,   0xca, 0xfe};
 
 /* Parses a copy of exactly that size; what it points to is gone then, but for the numbers. */
 static enum rho_status parse(const uint8_t *data, size_t size, struct rho_udpm_datagram *datagram)
@@ -27,9 +27,8 @@ static enum rho_status parse(const uint8_t *data, size_t size, struct rho_udpm_d
     status = rho_udpm_parse(exact, size, datagram);
     if (status == RHO_OK) {
         assert_ptr_equal(datagram->channel, exact + 8);
-        assert_int_equal(datagram->channel + strlen(datagram->channel) + 1 -
-                             (const char *)datagram->payload,
-                         0);
+        assert_int_equal(
+            datagram->channel + strlen(datagram->channel) + 1 - (const char *)datagram->payload, 0);
         assert_ptr_equal(datagram->payload + datagram->payload_size, exact + size);
         assert_true(rho_udpm_is_self_test(datagram) == 0);
     }
