@@ -132,10 +132,22 @@ run track radar/in.lcm -o whole.csv
 run track damaged.lcm -o again.csv
 check 'damage at the start is skipped and told' matches "$(cat stderr)" '*damaged.lcm: 500 bytes skipped*'
 check 'and what follows is read' cmp whole.csv again.csv
-cat radar/in.lcm radar/in.lcm >double.lcm
+python3 - <<'PYTHON'
+import struct
+data, at = open("radar/in.lcm", "rb").read(), 0
+with open("double.lcm", "wb") as double:
+    while at < len(data):
+        channel, size = struct.unpack_from(">II", data, at + 20)
+        end = at + 28 + channel + size
+        double.write(2 * data[at:end])
+        at = end
+PYTHON
 run track double.lcm -o again.csv
-check 'a log twice over: told' matches "$(cat stderr)" '*double.lcm: * scans or parts double*'
+check 'every message twice: told' matches "$(cat stderr)" '*double.lcm: * scans or parts double*'
 check 'and taken once' cmp whole.csv again.csv
+cat radar/in.lcm radar/in.lcm >two.lcm
+run track two.lcm
+check 'two recordings in one' says 2 "rhotrack: two.lcm: the sensors' clock starts anew at * s: two recordings in one*"
 run track radar/truth.lcm
 check 'a log without scans' says 2 'rhotrack: radar/truth.lcm: not one scan of a sensor (*'
 run track garbage.lcm

@@ -55,10 +55,20 @@ static void give_up_log(struct node *node)
     node->exit_code = EXIT_RUNTIME;
 }
 
+/* Stock readers of logs want channels that are text, which a hostile one need not be. */
+static bool is_text(const char *channel)
+{
+    while (*channel > ' ' && *channel <= '~') {
+        channel++;
+    }
+    return *channel == '\0';
+}
+
 static void write_log(struct node *node, int64_t time_us, const char *channel, const uint8_t *data,
                       size_t size)
 {
-    if (node->log.file && !lcm_log_write(&node->log, time_us, channel, data, size)) {
+    if (node->log.file && is_text(channel) &&
+        !lcm_log_write(&node->log, time_us, channel, data, size)) {
         give_up_log(node);
     }
 }
