@@ -223,11 +223,16 @@ int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_fe
 
 /* ---- The common clock ---- */
 
-/* The scan's time is not this sensor's: it is farther ahead of its newest scan than that is old, or far back. */
+/*
+ * The scan's time is not this sensor's: it is farther ahead of its newest scan than that is old, or far back. Of a sensor
+ * with one scan so far nobody knows when the next is due, nor how fast a record is played.
+ */
 static int is_elsewhere(const struct rho_feed_config *config, const struct rho_feed_source *other,
                         int64_t time_us, int64_t now_us)
 {
-    uint64_t lead_us = (uint64_t)(config->hold_us + config->jump_max_us / LEAD_SHARE);
+    int64_t share_us =
+        other->interval_us > 0 ? config->jump_max_us / LEAD_SHARE : config->jump_max_us;
+    uint64_t lead_us = (uint64_t)(config->hold_us + share_us);
     uint64_t ahead_us = rho_feed_elapsed_us(time_us, other->place.time_us);
     uint64_t old_us = rho_feed_elapsed_us(now_us, other->heard_us);
 

@@ -1,0 +1,78 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Three sensor processes at once, each with its own clock of sending: the tracks are those of the files merged by time.
+# shellcheck source=tests/integration/network.bash
+. "$(dirname "$0")/network.bash"
+here=$(realpath "$(dirname "$0")")
+. "$here/checks.bash"
+
+# play OPTIONS FILE...: a node with the options, and a publish process a file, all at the same time; live.csv, live.err
+play() {
+    local options=() players=() node
+    while [ "$1" != -- ]; do
+        options+=("$1")
+        shift
+    done
+    shift
+    "$program" node --lcm "$lcm_url" --print "${options[@]}" >live.csv 2>live.err &
+    node=$!
+    sleep 0.5
+    for file in "$@"; do
+        "$program" publish "$file" --lcm "$lcm_url" --speed 10 2>"$file.err" &
+        players+=($!)
+    done
+    status=0
+    for player in "${players[@]}"; do
+        wait "$player" || status=$?
+    done
+    sleep 0.7
+    kill -INT "$node"
+    wait "$node" || status=$?
+    cp live.err stderr
+}
+
+same_from() { # seconds: the files' tracks and the live ones, from then on
+    awk -F, -v t="$1" 'NR > 1 && $1 >= t' expected.csv >a
+    awk -F, -v t="$1" 'NR > 1 && $1 >= t' live.csv >b
+    test -s a && cmp a b
+}
+
+# ---- three radars: 1 s, a third of a second apart; four targets in clutter ----
+# They see nothing for some scans: at the first nobody knows that there are others to wait for.
+python3 - <<'PYTHON'
+import random
+random.seed(8)
+targets = [(-20000 + 9000 * i, -15000 + 7000 * i, 150 - 60 * i, 120 + 25 * i) for i in range(4)]
+for sensor in (1, 2, 3):
+    with open(f"radar{sensor}.csv", "w") as plots:
+        print("t_s,sensor_id,x_m,y_m,sigma_m", file=plots)
+        for k in range(29):
+            t = round(k + (sensor - 1) / 3, 6)
+            rows = [(x + vx * t + random.gauss(0, 20), y + vy * t + random.gauss(0, 20))
+                    for x, y, vx, vy in targets if random.random() < .95]
+            rows += [(random.uniform(-5e4, 5e4), random.uniform(-5e4, 5e4)) for _ in range(30)]
+            if k < 4:
+                print(f"{t:.6f},{sensor},,,", file=plots)
+                continue
+            for x, y in rows:
+                print(f"{t:.6f},{sensor},{x:.3f},{y:.3f},20", file=plots)
+PYTHON
+run track radar1.csv radar2.csv radar3.csv -o expected.csv
+play --set hold_ms=90 -- radar1.csv radar2.csv radar3.csv
+check 'three radars: all ends well' exits 0
+check 'three radars: every scan is stepped' grep -q ' 87 steps' live.err
+check 'three radars: nothing is lost, stale or double' test -z "$(grep -E 'lost|stale|double|bad' live.err)"
+check 'three radars: four tracks' awk -F, '$1 == "28.000000" && $3 == "confirmed" { n++ } END { exit n != 4 }' live.csv
+check 'three radars: the tracks are those of the files' same_from 0
+
+# ---- three passive sensors, which make frames ----
+run simulate passive-three --seed 4 --set num_scans=16 -o passive
+for sensor in 1 2 3; do
+    awk -F, -v s="$sensor" 'NR == 1 || $2 == s' passive/bearings.csv >"passive$sensor.csv"
+done
+run track passive1.csv passive2.csv passive3.csv --config passive/scenario.ini -o expected.csv
+play --config passive/scenario.ini --set hold_ms=90 -- passive1.csv passive2.csv passive3.csv
+check 'three passive sensors: all ends well' exits 0
+check 'three passive sensors: whole frames' test -z "$(grep -E 'incomplete|lost|late' live.err)"
+check 'three passive sensors: the tracks are those of the files' same_from 0
+finish
