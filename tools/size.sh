@@ -49,6 +49,7 @@ bars() {
     fit kalman kalman 'state and covariance' 108
     fit track track 'in any of its modes' 512
     fit hypotheses hypothesis 'two models and its plots' 512
+    fit feed feed 'two open scans of 256 plots' $((32 * 1024)) -DRHO_MAX_OPEN_SCANS=2 -DRHO_MAX_PLOTS=256
     fit hypotheses hypotheses 'a pool of 96 for 32 tracks' $((48 * 1024)) -DRHO_MAX_HYPOTHESES=96 -DRHO_MAX_TRACKS=32
     [ -z "$missed" ] || { echo 'size: an object is larger than it may be'; exit 1; }
 }
@@ -84,7 +85,7 @@ row 'all' $(${prefix}size -t "$folder"/*.o | tail -n 1 | awk '{print $1, $2, $3}
         echo "#include \"rhotrack/$(basename "$header")\""
     done
     for object in accumulator classic window initiator frames ghost_matrix passive passive_paper kalman input \
-        imm hypothesis hypotheses assignment tracker report; do
+        imm hypothesis hypotheses assignment tracker report feed; do
         echo "char rho_sizeof_$object[sizeof(struct rho_$object)];"
     done
     # HT on 4 x 2.5 km at 5 m x 1 mrad: the object, a window of plots with their times, and 128 peaks
