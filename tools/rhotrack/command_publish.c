@@ -253,15 +253,21 @@ static bool names_epoch(const char *path)
     return false;
 }
 
-/* A sensor that begins anew says so by its epoch; logs and files that say one keep it. */
+/*
+ * A sensor that begins anew says so by its epoch; logs and files that say one keep it. It is the time in units of 2 ms: two
+ * runs may begin within a second. 0 stands for none.
+ */
 static int32_t own_epoch(const struct command_line *line)
 {
+    struct timespec now;
+
     for (int i = 0; i < line->num_arguments; i++) {
         if (lcm_log_is_log(line->arguments[i]) || names_epoch(line->arguments[i])) {
             return 0;
         }
     }
-    return (int32_t)(time(NULL) & INT32_MAX);
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (int32_t)(((int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000) & INT32_MAX) | 1;
 }
 
 static void print_summary(const struct player *player)
