@@ -257,6 +257,10 @@ static void send_status(struct node *node)
 static void show(struct node *node, bool is_end)
 {
     if (!node_print_show(&node->print, node->core, transport_url(node->transport), is_end)) {
+        if (errno != EPIPE) {
+            fprintf(stderr, "rhotrack: standard output: %s\n", strerror(errno));
+            node->exit_code = EXIT_RUNTIME;
+        }
         node->print.is_on = node->print.is_changed = false;
         node->is_over = true; /* whoever read it has gone */
     }

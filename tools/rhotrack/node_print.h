@@ -22,7 +22,7 @@ struct node_print node_print_start(bool is_on);
 /* A step was made. */
 void node_print_step(struct node_print *print, const struct rho_report *report);
 
-/* Renews the table where it is time, or at the end, and hands all on. False: standard output takes no more. */
+/* Renews the table where it is time, or at the end, and hands all on. False: standard output takes no more; errno says why. */
 bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
                      bool is_end);
 

@@ -11,7 +11,8 @@ void node_tally(const struct node_core *core, const struct transport *transport,
     struct transport_counters network = transport_counters(transport);
     const struct node_tally all[NODE_TALLIES] = {
         {"datagrams refused (fragments, or no LCM)", network.refused, true},
-        {"datagrams dropped by the kernel (the receive buffer was full)", network.dropped, true},
+        {"datagrams dropped by the kernel (receive buffer full: net.core.rmem_max, recv_buf_size)",
+         network.dropped, true},
         {"messages not sent", transport_can_send(transport) ? network.not_sent : 0, true},
         {"messages bad", feed->messages_bad, true},
         {"messages of another type or version", feed->messages_wrong_type, true},

@@ -2,7 +2,6 @@
 #include "transport.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -120,26 +119,6 @@ bool transport_send(struct transport *transport, const char *channel, const uint
 struct transport_counters transport_counters(const struct transport *transport)
 {
     return transport->counters;
-}
-
-void transport_report(const struct transport *transport)
-{
-    const struct transport_counters *counters = &transport->counters;
-
-    if (counters->refused) {
-        fprintf(stderr, "rhotrack: %" PRIu64 " datagrams refused: fragments, or no LCM\n",
-                counters->refused);
-    }
-    if (counters->dropped) {
-        fprintf(stderr,
-                "rhotrack: %" PRIu64
-                " datagrams dropped by the kernel: the receive buffer was full; "
-                "a larger one: sysctl net.core.rmem_max, and recv_buf_size=BYTES in the URL\n",
-                counters->dropped);
-    }
-    if (counters->not_sent && transport->can_send) {
-        fprintf(stderr, "rhotrack: %" PRIu64 " messages could not be sent\n", counters->not_sent);
-    }
 }
 
 void transport_close(struct transport *transport)

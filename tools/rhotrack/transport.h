@@ -71,8 +71,6 @@ bool transport_send(struct transport *transport, const char *channel, const uint
 
 struct transport_counters transport_counters(const struct transport *transport);
 
-/* What was lost, if anything, on standard error. */
-void transport_report(const struct transport *transport);
 void transport_close(struct transport *transport);
 
 #endif
