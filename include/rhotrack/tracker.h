@@ -149,6 +149,13 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
                                                       const struct rho_sensor *sensor);
 
 /*
+ * Forgets what was said of a sensor: from then on its scans use the defaults, and another one finds room.
+ * Errors: NULL, STATE (not initialised, or nothing was said of it). Cost: RHO_MAX_SENSORS.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker,
+                                                         int32_t sensor_id);
+
+/*
  * Takes one scan through all phases above.
  *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held nowhere (fate NO_ROOM)
  *   scan       num_plots plots; bad ones get the fate INVALID, those beyond RHO_MAX_PLOTS get NO_ROOM.

@@ -250,6 +250,17 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
 }
 
+/* num_sensors where nothing was said of it. */
+static unsigned place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned place = 0;
+
+    while (place < tracker->num_sensors && tracker->sensors[place].sensor_id != sensor_id) {
+        place++;
+    }
+    return place;
+}
+
 enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
 {
     if (!tracker || !sensor) {
@@ -261,16 +272,31 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
     if (!is_usable_sensor(sensor)) {
         return RHO_ERROR_CONFIG;
     }
-    unsigned place = 0;
-    while (place < tracker->num_sensors && tracker->sensors[place].sensor_id != sensor->sensor_id) {
-        place++;
-    }
+    unsigned place = place_of_sensor(tracker, sensor->sensor_id);
     if (place == RHO_MAX_SENSORS) {
         return RHO_ERROR_CAPACITY;
     }
     tracker->sensors[place] = *sensor;
     tracker->num_sensors =
         (uint16_t)(place < tracker->num_sensors ? tracker->num_sensors : place + 1u);
+    return RHO_OK;
+}
+
+enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned place;
+
+    if (!tracker) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker) ||
+        place_of_sensor(tracker, sensor_id) == tracker->num_sensors) {
+        return RHO_ERROR_STATE;
+    }
+    place = place_of_sensor(tracker, sensor_id);
+    tracker->num_sensors--;
+    tracker->sensors[place] = tracker->sensors[tracker->num_sensors];
+    memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
     return RHO_OK;
 }
 

@@ -134,6 +134,33 @@ static void init_and_sensors_refuse(void **state)
     assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
 }
 
+static void forgotten_sensors_make_room(void **state)
+{
+    struct rho_sensor sensor = {.pd = 0.9f, .range_max_m = 1000.0f};
+
+    (void)state;
+    assert_int_equal(rho_tracker_forget_sensor(NULL, 0), RHO_ERROR_NULL);
+    memset(&tracker, 0, sizeof tracker);
+    assert_int_equal(rho_tracker_forget_sensor(&tracker, 0), RHO_ERROR_STATE);
+    start();
+    before_tracker = tracker;
+    assert_int_equal(rho_tracker_forget_sensor(&tracker, 0), RHO_ERROR_STATE);
+    assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
+    for (int i = 0; i < RHO_MAX_SENSORS; i++) {
+        sensor.sensor_id = i;
+        assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+    }
+    assert_int_equal(rho_tracker_forget_sensor(&tracker, 0), RHO_OK);
+    assert_int_equal(rho_tracker_forget_sensor(&tracker, 0), RHO_ERROR_STATE);
+    assert_int_equal(tracker.num_sensors, RHO_MAX_SENSORS - 1);
+    sensor.sensor_id = RHO_MAX_SENSORS;
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+    for (int i = 1; i <= RHO_MAX_SENSORS; i++) {
+        assert_int_equal(rho_tracker_forget_sensor(&tracker, i), RHO_OK);
+    }
+    assert_memory_equal(&tracker, &before_tracker, sizeof tracker); /* as if never described */
+}
+
 static void refused_steps_change_nothing(void **state)
 {
     (void)state;
@@ -410,6 +437,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(init_and_sensors_refuse),
+        cmocka_unit_test(forgotten_sensors_make_room),
         cmocka_unit_test(refused_steps_change_nothing),
         cmocka_unit_test(every_plot_has_one_fate),
         cmocka_unit_test(plots_beyond_the_capacity_have_no_room),

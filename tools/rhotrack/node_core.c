@@ -7,15 +7,13 @@
 
 #include "chain.h"
 #include "common.h"
+#include "node_passive.h"
 #include "rhotrack/message.h"
 #include "rhotrack/publish.h"
 #include "rhotrack/udpm.h"
 
 /* Scans of plots that wait for the open frame; one more closes it. */
 #define WAITING_MAX 4
-
-/* Fewer passive sensors give no positions. */
-#define SENSORS_MIN 2
 
 struct waiting {
     struct rho_scan scan;
@@ -36,35 +34,16 @@ struct node_core {
     struct node_core_counters counters;
     struct timing total, lately; /* lately: since the last status */
     int32_t step, epoch;
+    int64_t now_us; /* reception clock, of the last call that told it */
     int64_t
         frame_due_us; /* when the open frame closes, whoever is missing; INT64_MAX: none is open */
     unsigned num_waiting;
     struct waiting waiting[WAITING_MAX]; /* in the order of time */
     struct rho_feed feed;
-    struct rho_frames frames;
+    struct node_passive passive;
 };
 
 /* ---- Start ---- */
-
-/*
- * Nobody knows how many passive sensors there are before the first frame: it waits for as many as there can be, until the
- * next frame's scans come, or for its time. Were it closed by the second sensor, the others would be late.
- */
-static void open_frames(struct node_core *core)
-{
-    const double *value = core->parameters->value;
-    struct rho_frames_config config;
-
-    rho_frames_config_default(&config);
-    config.tolerance_us = llround(value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
-    config.jump_max_us = llround(value[PARAMETER_JUMP_MAX_S] * 1e6);
-    config.follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS];
-    config.sensors_min = RHO_MAX_PASSIVE_SENSORS;
-    if (rho_frames_init(&core->frames, sizeof core->frames, &config) != RHO_OK) {
-        fail(EXIT_USAGE, "node: frame_tolerance_s has to be 10 s at most, and below jump_max_s");
-    }
-    core->frame_due_us = INT64_MAX;
-}
 
 static void open_chain(struct node_core *core)
 {
@@ -86,7 +65,8 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
         core->waiting[i].plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot));
     }
     open_chain(core);
-    open_frames(core);
+    core->frame_due_us = INT64_MAX;
+    node_passive_open(&core->passive, parameters);
     parameters_to_feed(parameters, &core->feed);
     return core;
 }
@@ -156,21 +136,43 @@ static void finish_step(struct node_core *core, int64_t start_us,
     send_peaks(core, initiator, passive);
 }
 
-static void describe(struct node_core *core, const struct rho_sensor *sensor)
+/* Descriptions of sensors that are not heard any more make room. */
+static void forget_silent(struct node_core *core)
 {
-    if (rho_tracker_set_sensor(core->chain.tracker, sensor) != RHO_OK) {
-        core->counters.sensors_refused++;
+    struct rho_tracker *tracker = core->chain.tracker;
+
+    for (unsigned i = tracker->num_sensors; i-- > 0;) {
+        int32_t sensor_id = tracker->sensors[i].sensor_id;
+
+        if (!node_is_heard(&core->feed, sensor_id, core->now_us) &&
+            rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
+            core->counters.sensors_forgotten++;
+        }
     }
 }
 
+static int describe(struct node_core *core, const struct rho_sensor *sensor)
+{
+    enum rho_status status = rho_tracker_set_sensor(core->chain.tracker, sensor);
+
+    if (status == RHO_ERROR_CAPACITY) {
+        forget_silent(core);
+        status = rho_tracker_set_sensor(core->chain.tracker, sensor);
+    }
+    core->counters.sensors_refused += status != RHO_OK;
+    return status == RHO_OK;
+}
+
+/* Without its sensor's place a scan says something else: it is not stepped. */
 static void step_scan(struct node_core *core, const struct rho_scan *scan,
                       const struct rho_sensor *sensor)
 {
     struct chain *chain = &core->chain;
     int64_t start_us;
 
-    if (sensor) {
-        describe(core, sensor);
+    if (sensor && !describe(core, sensor)) {
+        core->counters.scans_refused++;
+        return;
     }
     start_us = clock_us();
     if (rho_tracker_step(chain->tracker, chain->initiator, scan, chain->report) != RHO_OK) {
@@ -184,7 +186,7 @@ static void step_scan(struct node_core *core, const struct rho_scan *scan,
 
 static const struct rho_frames_slot *open_frame(const struct node_core *core)
 {
-    const struct rho_frames_slot *slot = &core->frames.slots[core->frames.open];
+    const struct rho_frames_slot *slot = &core->passive.frames.slots[core->passive.frames.open];
 
     return slot->num_scans > 0 ? slot : NULL;
 }
@@ -195,10 +197,10 @@ static void step_closed_frame(struct node_core *core)
     struct rho_frame_view view;
     int64_t start_us;
 
-    if (!rho_frames_closed(&core->frames, &view)) {
+    if (!rho_frames_closed(&core->passive.frames, &view)) {
         return;
     }
-    core->frames.config.sensors_min = SENSORS_MIN; /* what the first frame held is known now */
+    node_passive_has_frame(&core->passive);
     if (view.is_restart) {
         start_anew(core);
     }
@@ -214,26 +216,9 @@ static void step_closed_frame(struct node_core *core)
 static void close_frame(struct node_core *core)
 {
     core->frame_due_us = INT64_MAX;
-    if (open_frame(core) && rho_frames_close(&core->frames) == RHO_OK) {
+    if (open_frame(core) && rho_frames_close(&core->passive.frames) == RHO_OK) {
         step_closed_frame(core);
     }
-}
-
-/*
- * The cells of a search hold sensors that are not farther apart than this. A frame with one that is would be refused as a
- * whole, so the sensor is, which came last.
- */
-static int is_near(const struct node_core *core, const struct rho_bearing_scan *scan)
-{
-    for (unsigned i = 0; i < core->frames.num_sensors; i++) {
-        const struct rho_frames_sensor *known = &core->frames.sensors[i];
-        float apart_m = hypotf(known->x_m - scan->x_m, known->y_m - scan->y_m);
-
-        if (apart_m > core->chain.passive->batch.apart_max_m) {
-            return 0;
-        }
-    }
-    return 1;
 }
 
 /* As `track` describes them: passive sensors see as far as bearings are searched. */
@@ -245,7 +230,7 @@ static void describe_passive(struct node_core *core, const struct rho_feed_item 
         sensor.range_max_m =
             (float)parameters_of_sensor(core->parameters, sensor.sensor_id, SENSOR_RANGE_MAX_M,
                                         core->parameters->value[PARAMETER_RANGE_MAX_M]);
-        describe(core, &sensor);
+        (void)describe(core, &sensor);
     }
 }
 
@@ -253,12 +238,20 @@ static void describe_passive(struct node_core *core, const struct rho_feed_item 
 static void push_bearings(struct node_core *core, const struct rho_feed_item *item, int64_t now_us)
 {
     int64_t hold_us = core->feed.config.hold_us;
-    int64_t wait_us = hold_us + core->frames.config.tolerance_us;
+    int64_t wait_us = hold_us + core->passive.frames.config.tolerance_us;
+    float apart_max_m = core->chain.passive->batch.apart_max_m;
 
-    if (!is_near(core, &item->bearings) ||
-        rho_frames_push(&core->frames, &item->bearings) != RHO_OK) {
+    if (!node_passive_take(&core->passive, &item->bearings, apart_max_m)) {
         core->counters.bearings_refused++;
-        return;
+        if (!node_passive_is_blocked(&core->passive, &core->feed, &item->bearings, now_us)) {
+            return;
+        }
+        close_frame(core);
+        node_passive_forget(&core->passive);
+        chain_open_passive(&core->chain, core->parameters);
+        if (!node_passive_take(&core->passive, &item->bearings, apart_max_m)) {
+            return;
+        }
     }
     describe_passive(core, item);
     step_closed_frame(core);
@@ -301,7 +294,7 @@ static void settle(struct node_core *core)
         if (!frame || frame->time_us >= time_us) {
             step_first_waiting(core);
         } else if (core->num_waiting == WAITING_MAX ||
-                   time_us > frame->time_us + core->frames.config.tolerance_us) {
+                   time_us > frame->time_us + core->passive.frames.config.tolerance_us) {
             close_frame(core);
         } else {
             return;
@@ -329,12 +322,8 @@ static void step_all_waiting(struct node_core *core)
 
 static void restart(struct node_core *core)
 {
-    struct rho_frames_counters counters;
-
     step_all_waiting(core);
-    counters = core->frames.counters;
-    open_frames(core);
-    core->frames.counters = counters;
+    node_passive_forget(&core->passive);
     start_anew(core);
 }
 
@@ -365,15 +354,18 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
 {
     struct rho_feed_item item;
 
-    while (rho_feed_take(&core->feed, channel, data, size, now_us) == RHO_ERROR_CAPACITY &&
-           rho_feed_next(&core->feed, now_us, &item)) {
-        take_item(core, &item, now_us);
+    core->now_us = now_us;
+    while (rho_feed_take(&core->feed, channel, data, size, now_us) == RHO_ERROR_CAPACITY) {
+        if (rho_feed_next(&core->feed, now_us, &item)) {
+            take_item(core, &item, now_us);
+        }
     }
     node_core_tick(core, now_us);
 }
 
 void node_core_tick(struct node_core *core, int64_t now_us)
 {
+    core->now_us = now_us;
     step_due(core, now_us);
     if (now_us >= core->frame_due_us) {
         step_all_waiting(core);
@@ -407,8 +399,8 @@ void node_core_status(struct node_core *core, uint64_t refused)
     uint8_t buffer[RHO_MESSAGE_STATUS_MAX_SIZE];
     size_t size;
 
-    rho_publish_status(&core->feed, &core->frames, core->chain.tracker, core->chain.initiator,
-                       &status);
+    rho_publish_status(&core->feed, &core->passive.frames, core->chain.tracker,
+                       core->chain.initiator, &status);
     status.scan = core->step;
     status.epoch = core->epoch;
     status.fragments_refused = refused < INT32_MAX ? (int32_t)refused : INT32_MAX;
@@ -435,7 +427,7 @@ const struct rho_feed_counters *node_core_feed(const struct node_core *core)
 
 const struct rho_frames_counters *node_core_frames(const struct node_core *core)
 {
-    return &core->frames.counters;
+    return &core->passive.frames.counters;
 }
 
 const struct rho_tracker_counters *node_core_tracker(const struct node_core *core)

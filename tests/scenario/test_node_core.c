@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+/* The live tracker without its network: passive sensors that were there first do not keep others out for ever. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "node_core.h"
+#include "rhotrack/message.h"
+
+#define SECOND_US INT64_C(1000000)
+
+struct heard {
+    unsigned lists, tracks; /* tracks: in the last list */
+};
+
+static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
+{
+    static struct rho_message_track_list list;
+    struct heard *heard = context;
+
+    if (strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0) {
+        assert_int_equal(rho_message_track_list_decode(data, size, &list), RHO_OK);
+        assert_int_equal(rho_message_track_list_validate(&list, NULL), RHO_OK);
+        heard->lists++;
+        heard->tracks = (unsigned)list.num_tracks_total;
+    }
+}
+
+struct live {
+    struct parameters parameters;
+    struct heard heard;
+    struct node_core *core;
+};
+
+static void start(struct live *live)
+{
+    const struct node_core_events events = {.context = &live->heard, .send = on_send};
+
+    *live = (struct live){.core = NULL};
+    parameters_default(&live->parameters);
+    live->core = node_core_open(&live->parameters, 1, &events);
+}
+
+/* The k-th look of a sensor at a target that flies north at 200 m/s, 30 km east. */
+static void look(struct live *live, int16_t sensor_id, float x_m, float y_m, int32_t k)
+{
+    static struct rho_message_bearing_scan scan;
+    uint8_t buffer[RHO_MESSAGE_BEARING_SCAN_MAX_SIZE];
+    char channel[32];
+    size_t size;
+
+    scan = (struct rho_message_bearing_scan){.utime = k * SECOND_US,
+                                             .scan = k,
+                                             .sensor_id = sensor_id,
+                                             .sensor_x_m = x_m,
+                                             .sensor_y_m = y_m,
+                                             .num_bearings = 1};
+    scan.bearing_rad[0] = atan2f(200.0f * (float)k - y_m, 30000.0f - x_m);
+    assert_int_equal(rho_message_bearing_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
+    snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id);
+    node_core_take(live->core, channel, buffer, size, k * SECOND_US);
+}
+
+static void sensors_that_are_gone_make_room(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    for (int16_t i = 0; i < RHO_MAX_PASSIVE_SENSORS; i++) {
+        look(&live, (int16_t)(100 + i), 1000.0f * (float)i, 5000.0f, 0);
+    }
+    for (int32_t k = 1; k < 90; k++) {
+        look(&live, 1, 0.0f, -10000.0f, k);
+        look(&live, 2, 0.0f, 10000.0f, k);
+    }
+    /* heard for 30 s, they are in the way for as long */
+    assert_in_range(node_core_counters(live.core)->bearings_refused, 30, 70);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+static void sensors_that_are_heard_stay(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    for (int32_t k = 0; k < 90; k++) {
+        for (int16_t i = 0; i < RHO_MAX_PASSIVE_SENSORS; i++) {
+            look(&live, i, 0.0f, -15000.0f + 10000.0f * (float)i, k);
+        }
+        if (k > 20 && k % 4 == 0) { /* one too many; the others are heard in between */
+            look(&live, 50, 3000.0f, 3000.0f, k);
+        }
+    }
+    assert_true(node_core_counters(live.core)->bearings_refused > 10);
+    assert_int_equal(node_core_frames(live.core)->frames_incomplete, 0);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+static void a_sensor_that_has_moved_is_believed_in_the_end(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    look(&live, 1, 7000.0f, 0.0f, 0); /* a wrong place, or not the sensor's own word */
+    for (int32_t k = 1; k < 60; k++) {
+        look(&live, 1, 0.0f, -10000.0f, k);
+        look(&live, 2, 0.0f, 10000.0f, k);
+    }
+    assert_in_range(node_core_counters(live.core)->bearings_refused, 10, 17);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+/* A radar's plot of a target that stands 5 km north of it. */
+static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
+{
+    static struct rho_message_polar_scan scan;
+    uint8_t buffer[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
+    char channel[32];
+    size_t size;
+
+    scan = (struct rho_message_polar_scan){.utime = k * SECOND_US,
+                                           .scan = k,
+                                           .sensor_id = sensor_id,
+                                           .num_parts = 1,
+                                           .sensor_x_m = x_m,
+                                           .num_polar_plots = 1};
+    scan.polar_plots[0].range_m = 5000.0f;
+    scan.polar_plots[0].azimuth_rad = 1.5707964f;
+    assert_int_equal(rho_message_polar_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
+    snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id);
+    node_core_take(live->core, channel, buffer, size, k * SECOND_US);
+}
+
+static void radars_that_are_gone_make_room(void **state)
+{
+    struct live live;
+    const struct rho_report *report;
+
+    (void)state;
+    start(&live);
+    for (int16_t i = 0; i < RHO_MAX_SENSORS; i++) {
+        plot(&live, (int16_t)(1000 + i), 50000.0f + 1000.0f * (float)i, 0);
+    }
+    for (int32_t k = 1; k < 60; k++) {
+        plot(&live, 1, -20000.0f, k);
+    }
+    assert_true(node_core_counters(live.core)->sensors_forgotten > 0);
+    assert_int_equal(node_core_counters(live.core)->scans_refused, 0);
+    report = node_core_report(live.core);
+    assert_int_equal(report->num_tracks, 1);
+    assert_float_equal(report->tracks[0].state[0], -20000.0f, 50.0f);
+    node_core_close(live.core);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sensors_that_are_gone_make_room),
+        cmocka_unit_test(sensors_that_are_heard_stay),
+        cmocka_unit_test(radars_that_are_gone_make_room),
+        cmocka_unit_test(a_sensor_that_has_moved_is_believed_in_the_end),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
