@@ -120,11 +120,13 @@ enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step
 
 static struct rho_message_peak peak_of(float x_m, float y_m, float vx_mps, float vy_mps)
 {
-    struct rho_line line = rho_angle_line(x_m, y_m, vx_mps, vy_mps);
+    float speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
+    /* What stands still has no direction: any line through it will do. */
+    struct rho_line line = speed_mps > 0.0f ? rho_angle_line(x_m, y_m, vx_mps, vy_mps)
+                                            : (struct rho_line){.rho_m = x_m, .theta_rad = 0.0f};
 
-    return (struct rho_message_peak){.rho_m = line.rho_m,
-                                     .theta_rad = line.theta_rad,
-                                     .speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps)};
+    return (struct rho_message_peak){
+        .rho_m = line.rho_m, .theta_rad = line.theta_rad, .speed_mps = speed_mps};
 }
 
 static enum rho_status add_candidates(const struct rho_initiator *initiator,
@@ -237,7 +239,8 @@ static void add_tracker(const struct rho_tracker *tracker, struct rho_message_st
     status->inputs_invalid = long_count(counters->fates[RHO_FATE_INVALID]);
     status->inputs_no_room = sum(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
     status->ghosts_pruned = long_count(counters->fates[RHO_FATE_GHOST]);
-    for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
+    /* Behind the live tracks stand copies of some that have ended. */
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
         if (tracker->tracks[i].status < RHO_NUM_TRACK_STATUS) {
             count[tracker->tracks[i].status]++;
         }
@@ -251,6 +254,9 @@ void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *fr
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status)
 {
+    if (!status) {
+        return;
+    }
     *status = (struct rho_message_status){.utime = 0};
     if (feed) {
         fill_feed(&feed->counters, status);
