@@ -13,7 +13,13 @@
 
 uint64_t rho_feed_elapsed_us(int64_t now_us, int64_t then_us)
 {
-    return now_us > then_us ? (uint64_t)now_us - (uint64_t)then_us : 0;
+    if (now_us <= then_us) {
+        return 0;
+    }
+    if (then_us < 0 && now_us >= 0) { /* the difference may be beyond int64_t */
+        return (uint64_t)now_us + (uint64_t)(-(then_us + 1)) + 1u;
+    }
+    return (uint64_t)(now_us - then_us);
 }
 
 static int is_near(int64_t a_us, int64_t b_us, int64_t most_us)
