@@ -1,0 +1,590 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What feed.h says, once more and in the plainest way: lists, wide integers, no memory saved. Good messages alone are shown
+ * to it; what is no message is counted by the test.
+ */
+#ifndef FEED_MODEL_H
+#define FEED_MODEL_H
+
+#include "feed_setup.h"
+
+#define MODEL_NUMBERS 4096
+
+typedef __int128 wide;
+
+enum model_verdict { M_NEXT, M_FOLLOW, M_DOUBLE, M_LATE, M_NUMBER, M_TIME };
+enum model_state { M_FREE, M_OPEN, M_WHOLE, M_OUT };
+
+struct model_stray {
+    struct rho_feed_place place;
+    unsigned count;
+};
+
+struct model_source {
+    int used, kind, id;
+    unsigned believed, off;
+    int64_t heard_us, bucket_us;
+    wide interval_us;
+    uint32_t bucket;
+    struct rho_feed_place place;
+    int32_t numbers[MODEL_NUMBERS]; /* believed since it began or was followed */
+    unsigned num_numbers;
+    struct model_stray strays[RHO_FEED_STRAYS]; /* the last one first */
+    unsigned num_strays;
+};
+
+struct model_scan {
+    enum model_state state;
+    struct model_source *source;
+    int kind, id, num_parts;
+    struct rho_feed_place place;
+    int64_t heard_us;
+    int is_here[8];
+    struct look parts[8];
+};
+
+static struct {
+    struct rho_feed_config config;
+    struct rho_feed_counters counters;
+    struct model_source sources[RHO_MAX_SENSORS], stranger;
+    struct model_scan scans[RHO_MAX_OPEN_SCANS];
+    int64_t clock_us;
+    int has_clock, is_restart, is_pressed;
+} model;
+
+static inline void model_start(const struct rho_feed_config *config)
+{
+    memset(&model, 0, sizeof model);
+    model.config = *config;
+    model.stranger.bucket = config->flood_per_s;
+}
+
+/* ---- numbers and times of one sensor ---------------------------------------------------------- */
+
+static inline wide model_past(int64_t from_us, int64_t to_us)
+{
+    return to_us > from_us ? (wide)to_us - from_us : 0;
+}
+
+static inline wide model_apart(int64_t a, int64_t b)
+{
+    return a > b ? (wide)a - b : (wide)b - a;
+}
+
+/* The shorter way round from one number to another. */
+static inline wide model_ahead(int32_t scan, int32_t from)
+{
+    wide ahead = (wide)scan - from;
+    const wide turn = (wide)1 << 32;
+
+    return ahead >= turn / 2 ? ahead - turn : ahead < -turn / 2 ? ahead + turn : ahead;
+}
+
+static inline int model_agrees(const struct rho_feed_place *next, const struct rho_feed_place *last)
+{
+    wide ahead = model_ahead(next->scan, last->scan);
+
+    return next->epoch == last->epoch && ahead > 0 && ahead <= RHO_FEED_SKIP_MAX &&
+           next->time_us > last->time_us &&
+           model_apart(next->time_us, last->time_us) <= model.config.jump_max_us;
+}
+
+/* The stray with the most scans that it agrees with; of equals the last one. */
+static inline int model_find_stray(const struct model_source *source,
+                                   const struct rho_feed_place *place)
+{
+    int found = -1;
+
+    for (unsigned i = 0; i < source->num_strays; i++) {
+        if (model_agrees(place, &source->strays[i].place) &&
+            (found < 0 || source->strays[i].count > source->strays[found].count)) {
+            found = (int)i;
+        }
+    }
+    return found;
+}
+
+static inline enum model_verdict model_judge_ahead(const struct model_source *source,
+                                                   const struct rho_feed_place *place, wide ahead,
+                                                   int64_t now_us)
+{
+    wide took = (wide)place->time_us - source->place.time_us;
+    wide usual = ahead * source->interval_us, silent = model_past(source->heard_us, now_us);
+    wide longest = usual > silent ? usual : silent, most = longest + longest / 2 + 10000;
+
+    if (took <= 0 || took > model.config.jump_max_us) {
+        return M_TIME;
+    }
+    if (source->interval_us > 0 && took > most) {
+        return M_TIME;
+    }
+    /* less than three quarters of the usual time, but for jitter */
+    return source->interval_us > 0 && ahead > 1 && took + 10000 < usual - usual / 4 ? M_NUMBER
+                                                                                    : M_NEXT;
+}
+
+static inline enum model_verdict model_judge(const struct model_source *source,
+                                             const struct rho_feed_place *place, int64_t now_us)
+{
+    wide ahead = model_ahead(place->scan, source->place.scan);
+    enum model_verdict verdict;
+    int stray = model_find_stray(source, place);
+
+    if (source->believed == 0) {
+        return M_NEXT;
+    }
+    if (place->epoch != source->place.epoch || ahead > RHO_FEED_SKIP_MAX || ahead < -31) {
+        verdict = M_NUMBER;
+    } else if (ahead > 0) {
+        verdict = model_judge_ahead(source, place, ahead, now_us);
+    } else if (ahead < 0 && place->time_us > source->place.time_us) {
+        verdict = M_NUMBER;
+    } else if (model_apart(place->time_us, source->place.time_us) > model.config.jump_max_us) {
+        verdict = M_TIME;
+    } else {
+        verdict = M_LATE;
+        for (unsigned i = 0; i < source->num_numbers; i++) {
+            verdict = source->numbers[i] == place->scan ? M_DOUBLE : verdict;
+        }
+    }
+    if ((verdict == M_NUMBER || verdict == M_TIME) && stray >= 0 &&
+        source->strays[stray].count + 1 >= model.config.follow_scans) {
+        return M_FOLLOW;
+    }
+    return verdict;
+}
+
+static inline void model_remember_stray(struct model_source *source,
+                                        const struct rho_feed_place *place)
+{
+    int at = model_find_stray(source, place);
+    struct model_stray stray = {*place, at >= 0 ? source->strays[at].count + 1 : 1};
+
+    for (unsigned i = 0; i < source->num_strays; i++) {
+        if (memcmp(&source->strays[i].place, place, sizeof *place) == 0) {
+            return;
+        }
+    }
+    if (at < 0 && source->num_strays < RHO_FEED_STRAYS) {
+        at = (int)source->num_strays++;
+    } else if (at < 0) { /* of the fewest scans the one that is there longest */
+        at = 0;
+        for (int i = 1; i < RHO_FEED_STRAYS; i++) {
+            at = source->strays[i].count <= source->strays[at].count ? i : at;
+        }
+    }
+    for (int i = at; i > 0; i--) {
+        source->strays[i] = source->strays[i - 1];
+    }
+    source->strays[0] = stray;
+}
+
+static inline void model_believe(struct model_source *source, const struct rho_feed_place *place,
+                                 enum model_verdict verdict, int64_t now_us)
+{
+    int stray = model_find_stray(source, place), is_first = source->believed == 0;
+    struct rho_feed_place from = verdict == M_FOLLOW ? source->strays[stray].place : source->place;
+    wide ahead = model_ahead(place->scan, from.scan);
+
+    if (!is_first) {
+        wide interval_us = ((wide)place->time_us - from.time_us) / ahead;
+        if (verdict == M_NEXT && source->interval_us > 0) {
+            interval_us = source->interval_us + (interval_us - source->interval_us) / 4;
+        }
+        source->interval_us = interval_us > 0 ? interval_us : 1;
+    }
+    if (verdict == M_NEXT && !is_first) {
+        model.counters.scans_lost += (uint32_t)(ahead - 1);
+    }
+    if (verdict == M_FOLLOW || source->num_numbers == MODEL_NUMBERS) {
+        source->num_numbers = 0;
+    }
+    source->numbers[source->num_numbers++] = place->scan;
+    source->num_strays = 0;
+    source->place = *place;
+    source->heard_us = now_us;
+    source->believed++;
+}
+
+/* ---- the common clock ------------------------------------------------------------------------- */
+
+static inline wide model_lead(void)
+{
+    return model.config.jump_max_us / 8 + model.config.hold_us;
+}
+
+static inline int model_says_other(const struct model_source *other, int64_t time_us,
+                                   int64_t now_us)
+{
+    wide now_there = model_past(other->heard_us, now_us);
+
+    if (now_there < 2 * other->interval_us) {
+        now_there = 2 * other->interval_us;
+    }
+    return (wide)time_us > other->place.time_us + now_there + model_lead() ||
+           (wide)time_us < other->place.time_us - model_lead();
+}
+
+static inline int model_is_live(const struct model_source *source, int64_t now_us)
+{
+    return source->used && source->believed > 0 &&
+           model_past(source->heard_us, now_us) <= model.config.jump_max_us;
+}
+
+static inline int model_is_proven(const struct model_source *source)
+{
+    return source->believed >= model.config.follow_scans;
+}
+
+static inline int model_is_off(const struct model_source *source, int64_t time_us, int64_t now_us)
+{
+    int yes[2] = {0}, no[2] = {0};
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct model_source *other = &model.sources[i];
+        if (other != source && other->off == 0 && model_is_live(other, now_us)) {
+            int p = model_is_proven(other);
+            yes[p] += !model_says_other(other, time_us, now_us);
+            no[p] += model_says_other(other, time_us, now_us);
+        }
+    }
+    int p = yes[1] + no[1] > 0;
+    return model.has_clock &&
+           (no[p] > yes[p] || model_apart(time_us, model.clock_us) > model.config.jump_max_us);
+}
+
+static inline int model_wins(const struct model_source *source, int64_t time_us, int64_t now_us)
+{
+    unsigned with = 1, against = 0;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct model_source *other = &model.sources[i];
+        if (other != source && model_is_live(other, now_us)) {
+            against += other->off == 0 && model_is_proven(other);
+            with += other->off >= model.config.follow_scans &&
+                    !model_says_other(other, time_us, now_us);
+        }
+    }
+    if (with != against) {
+        return with > against;
+    }
+    return model_apart(time_us, now_us) <= model_lead() &&
+           model_apart(model.clock_us, now_us) > model_lead();
+}
+
+static inline void model_set_clock(int64_t time_us, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct model_source *source = &model.sources[i];
+        if (!model_says_other(source, time_us, now_us)) {
+            source->off = 0;
+        } else if (source->off == 0) {
+            source->off = 1;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model.scans[i].state == M_OPEN || model.scans[i].state == M_WHOLE) {
+            model.scans[i].state = M_FREE;
+            model.counters.scans_late++;
+        }
+    }
+    model.is_restart = 1;
+}
+
+static inline int model_keeps_clock(struct model_source *source, int64_t time_us,
+                                    enum model_verdict verdict, int64_t now_us)
+{
+    if (model_is_off(source, time_us, now_us)) {
+        source->off = verdict == M_FOLLOW && source->off < model.config.follow_scans
+                          ? model.config.follow_scans
+                          : source->off + 1;
+        if (source->off < model.config.follow_scans || !model_wins(source, time_us, now_us)) {
+            return 0;
+        }
+        model_set_clock(time_us, now_us);
+    }
+    source->off = 0;
+    model.clock_us = time_us;
+    model.has_clock = 1;
+    return 1;
+}
+
+/* ---- messages --------------------------------------------------------------------------------- */
+
+static inline struct model_scan *model_in_state(enum model_state state)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model.scans[i].state == state) {
+            return &model.scans[i];
+        }
+    }
+    return NULL;
+}
+
+static inline unsigned model_parts_here(const struct model_scan *scan)
+{
+    unsigned count = 0;
+
+    for (int i = 0; i < scan->num_parts; i++) {
+        count += (unsigned)scan->is_here[i];
+    }
+    return count;
+}
+
+static inline void model_close(struct model_scan *scan)
+{
+    scan->state = M_WHOLE;
+    model.counters.scans_incomplete += model_parts_here(scan) < (unsigned)scan->num_parts;
+}
+
+static inline struct model_source *model_find(int kind, int id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct model_source *source = &model.sources[i];
+        if (source->used && source->kind == kind && source->id == id) {
+            return source;
+        }
+    }
+    return NULL;
+}
+
+static inline struct model_scan *model_open_of(const struct model_source *source)
+{
+    for (unsigned i = 0; source && i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model.scans[i].state == M_OPEN && model.scans[i].source == source) {
+            return &model.scans[i];
+        }
+    }
+    return NULL;
+}
+
+static inline struct model_source *model_add(const struct look *look, int64_t now_us)
+{
+    struct model_source *room = NULL;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct model_source *source = &model.sources[i];
+        if (!source->used) {
+            room = source;
+            break;
+        }
+        int is_kept = model_is_proven(source) && source->off == 0 &&
+                      model_past(source->heard_us, now_us) <= model.config.jump_max_us;
+        if (!is_kept && (!room || source->heard_us < room->heard_us)) {
+            room = source;
+        }
+    }
+    if (!room) {
+        model.counters.sensors_no_room++;
+        return NULL;
+    }
+    if (model_open_of(room)) {
+        model_close(model_open_of(room));
+    }
+    memset(room, 0, sizeof *room);
+    room->used = 1;
+    room->kind = look->kind;
+    room->id = look->sensor_id;
+    room->bucket = model.config.flood_per_s;
+    room->bucket_us = model.stranger.bucket_us;
+    return room;
+}
+
+static inline void model_add_part(struct model_scan *scan, const struct look *look, int64_t now_us)
+{
+    if (scan->is_here[look->part]) {
+        model.counters.scans_duplicate++;
+    } else if (model_parts_here(scan) > 0 &&
+               (look->time_us != scan->place.time_us || parts_of(look) != scan->num_parts)) {
+        model.counters.scans_bad++;
+    } else {
+        scan->is_here[look->part] = 1;
+        scan->parts[look->part] = *look;
+        scan->heard_us = now_us;
+        model.counters.bearings_in += look->kind == RHO_FEED_BEARINGS ? look->count : 0;
+        if (model_parts_here(scan) == (unsigned)scan->num_parts) {
+            model_close(scan);
+        }
+    }
+}
+
+static inline void model_begin(struct model_source *source, const struct look *look,
+                               enum model_verdict verdict, int64_t now_us)
+{
+    struct rho_feed_place place = {look->time_us, look->scan, look->epoch};
+    struct model_scan *scan = model_open_of(source);
+
+    if (scan) {
+        model_close(scan);
+    }
+    model_believe(source, &place, verdict, now_us);
+    model.counters.sensor_restarts += verdict == M_FOLLOW;
+    if (!model_keeps_clock(source, look->time_us, verdict, now_us)) {
+        model.counters.clock_jumps++;
+        return;
+    }
+    model.counters.scans_accepted++;
+    scan = model_in_state(M_FREE);
+    *scan = (struct model_scan){.state = M_OPEN,
+                                .source = source,
+                                .kind = look->kind,
+                                .id = look->sensor_id,
+                                .num_parts = parts_of(look),
+                                .place = place};
+    model_add_part(scan, look, now_us);
+}
+
+static inline void model_refuse(struct model_source *source, const struct look *look,
+                                enum model_verdict verdict)
+{
+    struct rho_feed_place place = {look->time_us, look->scan, look->epoch};
+
+    if (verdict == M_NUMBER || verdict == M_TIME) {
+        model_remember_stray(source, &place);
+    }
+    model.counters.scans_bad += verdict == M_NUMBER;
+    model.counters.clock_jumps += verdict == M_TIME || (verdict == M_DOUBLE && source->off > 0);
+    model.counters.scans_duplicate += verdict == M_DOUBLE && source->off == 0;
+    model.counters.scans_late += verdict == M_LATE;
+}
+
+static inline int model_draw(struct model_source *source, int64_t now_us)
+{
+    if (now_us < source->bucket_us || (wide)now_us - source->bucket_us >= SECOND_US) {
+        source->bucket_us = now_us;
+        source->bucket = model.config.flood_per_s;
+    }
+    if (source->bucket == 0) {
+        model.counters.messages_flooded++;
+        return 0;
+    }
+    source->bucket--;
+    return 1;
+}
+
+static inline struct model_scan *model_weak_one(void)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model.scans[i].state == M_OPEN && !model_is_proven(model.scans[i].source)) {
+            return &model.scans[i];
+        }
+    }
+    return NULL;
+}
+
+static inline enum rho_status model_take(const struct look *look, int64_t now_us)
+{
+    struct model_source *source = model_find(look->kind, look->sensor_id);
+    struct model_source *drawn = source ? source : &model.stranger;
+    struct model_scan *open = model_open_of(source);
+    struct rho_feed_place place = {look->time_us, look->scan, look->epoch};
+    enum model_verdict verdict;
+
+    if (!model_draw(drawn, now_us)) {
+        return RHO_OK;
+    }
+    if (open && open->place.scan == look->scan && open->place.epoch == look->epoch) {
+        model_add_part(open, look, now_us);
+        return RHO_OK;
+    }
+    verdict = source ? model_judge(source, &place, now_us) : M_NEXT;
+    if (verdict != M_NEXT && verdict != M_FOLLOW) {
+        model_refuse(source, look, verdict);
+        return RHO_OK;
+    }
+    if (!model_in_state(M_FREE)) {
+        if (!(source && model_is_proven(source)) && !model_in_state(M_OUT) &&
+            !model_in_state(M_WHOLE) && !model_weak_one()) {
+            model.counters.sensors_no_room++;
+            return RHO_OK;
+        }
+        model.is_pressed = 1;
+        drawn->bucket++;
+        return RHO_ERROR_CAPACITY;
+    }
+    source = source ? source : model_add(look, now_us);
+    if (source) {
+        model_begin(source, look, verdict, now_us);
+    }
+    return RHO_OK;
+}
+
+/* ---- what goes out ---------------------------------------------------------------------------- */
+
+static inline int model_was_held(const struct model_scan *scan, int64_t now_us)
+{
+    return now_us == INT64_MAX || (wide)now_us - scan->heard_us >= model.config.hold_us ||
+           (wide)scan->heard_us - now_us > model.config.hold_us;
+}
+
+static inline struct model_scan *model_first(enum model_state state)
+{
+    struct model_scan *first = NULL;
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct model_scan *scan = &model.scans[i];
+        if (scan->state != state) {
+            continue;
+        }
+        if (!first || scan->place.time_us < first->place.time_us ||
+            (scan->place.time_us == first->place.time_us &&
+             (scan->id < first->id || (scan->id == first->id && scan->kind < first->kind)))) {
+            first = scan;
+        }
+    }
+    return first;
+}
+
+static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct model_source *other = &model.sources[i];
+        if (model_is_live(other, now_us) && other->off == 0 &&
+            other->place.time_us < scan->place.time_us) {
+            return 0;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model.scans[i].state == M_OPEN && model.scans[i].place.time_us < scan->place.time_us) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The scan that goes out; NULL: none. It stays readable until the next call. */
+static inline const struct model_scan *model_next(int64_t now_us, int *is_restart)
+{
+    struct model_scan *scan = model_in_state(M_OUT);
+
+    if (scan) {
+        scan->state = M_FREE;
+    }
+    model.is_pressed = model.is_pressed && !model_in_state(M_FREE);
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model.scans[i].state == M_OPEN && model_was_held(&model.scans[i], now_us) &&
+            (model.config.hold_us > 0 || now_us == INT64_MAX)) {
+            model_close(&model.scans[i]);
+        }
+    }
+    scan = model_first(M_WHOLE);
+    if (!scan && model.is_pressed) {
+        scan = model_weak_one() ? model_weak_one() : model_first(M_OPEN);
+        if (scan) {
+            model_close(scan);
+        }
+    }
+    if (scan && !model.is_pressed && !model_was_held(scan, now_us) &&
+        !model_has_turn(scan, now_us)) {
+        return NULL;
+    }
+    model.is_pressed = 0;
+    if (scan) {
+        scan->state = M_OUT;
+        *is_restart = model.is_restart;
+        model.is_restart = 0;
+    }
+    return scan;
+}
+
+#endif
