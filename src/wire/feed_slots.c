@@ -229,12 +229,10 @@ struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
             rho_feed_close_slot(feed, slot);
         }
     }
-    if (!slot || feed->is_pressed || has_waited(feed, slot, now_us) ||
-        is_turn(feed, slot, now_us)) {
-        feed->is_pressed = 0;
-        return slot;
-    }
-    return NULL;
+    return slot && (feed->is_pressed || has_waited(feed, slot, now_us) ||
+                    is_turn(feed, slot, now_us))
+               ? slot
+               : NULL;
 }
 
 void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *item)

@@ -215,6 +215,18 @@ static void the_reception_clock_decides_between_two(void **state)
     }
 }
 
+/* As near the one as the other. */
+static void who_came_first_decides_where_the_reception_clock_does_not(void **state)
+{
+    (void)state;
+    begin();
+    for (int64_t t = 0; t < 20; t++) {
+        assert_true(push(0, t * SECOND_US + 3200000, t * SECOND_US));
+        assert_int_equal(push(1, t * SECOND_US - 3200000, t * SECOND_US), 0);
+    }
+    COUNTERS_ARE(.scans_accepted = 20, .clock_jumps = 20);
+}
+
 static void who_came_first_decides_else(void **state)
 {
     (void)state;
@@ -236,6 +248,16 @@ static void a_sensor_that_is_gone_has_no_vote(void **state)
     }
     assert_int_equal(restarts, 1);
     assert_in_range(feed.counters.clock_jumps, 29, 32);
+}
+
+static void a_sensor_has_a_vote_for_jump_max(void **state)
+{
+    (void)state;
+    for (int more_us = 0; more_us < 2; more_us++) {
+        begin();
+        run(1, 0, 5, 0);
+        assert_int_equal(push(1, -6 * SECOND_US, 4 * SECOND_US + JUMP_US + more_us), more_us);
+    }
 }
 
 static void the_first_scan_on_another_clock_says_so_whosever_it_is(void **state)
@@ -357,7 +379,9 @@ int main(void)
         cmocka_unit_test(the_majority_moves_the_clock),
         cmocka_unit_test(all_clocks_set_together_are_followed_once),
         cmocka_unit_test(the_reception_clock_decides_between_two),
+        cmocka_unit_test(who_came_first_decides_where_the_reception_clock_does_not),
         cmocka_unit_test(who_came_first_decides_else),
+        cmocka_unit_test(a_sensor_has_a_vote_for_jump_max),
         cmocka_unit_test(a_sensor_that_is_gone_has_no_vote),
         cmocka_unit_test(the_first_scan_on_another_clock_says_so_whosever_it_is),
         cmocka_unit_test(what_waits_when_the_clock_is_set_is_late),
