@@ -17,6 +17,9 @@
 #define CLUTTER 6
 #define PARTS 3
 
+/* Up to the gap at the struct's end. */
+#define TRACK_BYTES (offsetof(struct rho_track_report, num_hypotheses) + sizeof(uint16_t))
+
 enum radar { FAULTY, GOOD, NUM_RADARS };
 
 static const float radar_x_m[NUM_RADARS] = {0.0f, 200000.0f};
@@ -111,7 +114,7 @@ static void record_good(void)
     memcpy(record->fates, report.fates_total, sizeof record->fates);
     for (unsigned i = 0; i < report.num_tracks; i++) {
         if (fabsf(report.tracks[i].state[0] - radar_x_m[GOOD]) < 2.0f * REACH_M) {
-            record->tracks[record->num_tracks] = report.tracks[i];
+            memcpy(&record->tracks[record->num_tracks], &report.tracks[i], TRACK_BYTES);
             record->tracks[record->num_tracks++].track_id = 0;
         }
     }

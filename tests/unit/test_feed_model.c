@@ -123,7 +123,7 @@ static void damage(struct look *look)
         look->sensor_id = (int16_t)(100 + any_of(20));
         break;
     default:
-        look->scan += (int32_t)any_of(5) - 2;
+        look->scan = (int32_t)((uint32_t)look->scan + random_below(5) - 2u);
         break;
     }
 }
