@@ -26,13 +26,14 @@
  *            that were skipped are lost; 0 or up to 31 lower is double or late. Anything else, and another epoch, is
  *            refused until follow_scans such scans agree with one another: the sensor restarted, or goes another pace.
  *            So one damaged message, or one that was not the sensor's, does not make those that follow it look old.
- * Clock      A scan is refused where most other live sensors say that its time is another one: more than
- *            jump_max_us / 8 + hold_us ahead of what their last scans and the reception clock make it now, or two of their
- *            intervals, or as far before their last scans. So is one more than jump_max_us off the last accepted one. One wrong clock does not make the
- *            other sensors late. When more sensors agree on another time than on the present one, that time is followed:
- *            is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as the other,
- *            the reception clock decides if it is near one of them alone, and else who came first. A clock that is ahead by
- *            less makes the other sensors late in the tracker for as long as it goes on.
+ * Clock      A scan is refused where most other live sensors say that its time is another one: more than jump_max_us
+ *            / 8 + hold_us ahead of what their last scans and the reception clock make it now, or two of their
+ *            intervals, or as far before their last scans; jump_max_us of one that has sent one scan so far. So is
+ *            one more than jump_max_us off the last accepted one. One wrong clock does not make the other sensors
+ *            late. When more sensors agree on another time than on the present one, that time is followed:
+ *            is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as the
+ *            other, the reception clock decides if it is near one of them alone, and else who came first. A clock
+ *            that is ahead by less makes the other sensors late in the tracker for as long as it goes on.
  * Flood      More than flood_per_s messages of one sensor in a second are not looked at. Sensors that are not known
  *            share one such measure. A new sensor takes the place of one that was not heard for longest, never that of one
  *            that is heard, tells the common time and has proved itself by follow_scans scans; nor does it cut short a scan

@@ -217,12 +217,14 @@ static inline int model_says_other(const struct model_source *other, int64_t tim
                                    int64_t now_us)
 {
     wide now_there = model_past(other->heard_us, now_us);
+    wide lead = other->interval_us > 0 ? model_lead()
+                                       : (wide)model.config.jump_max_us + model.config.hold_us;
 
     if (now_there < 2 * other->interval_us) {
         now_there = 2 * other->interval_us;
     }
-    return (wide)time_us > other->place.time_us + now_there + model_lead() ||
-           (wide)time_us < other->place.time_us - model_lead();
+    return (wide)time_us > other->place.time_us + now_there + lead ||
+           (wide)time_us < other->place.time_us - lead;
 }
 
 static inline int model_is_live(const struct model_source *source, int64_t now_us)
