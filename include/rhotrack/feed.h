@@ -26,9 +26,9 @@
  *            that were skipped are lost; 0 or up to 31 lower is double or late. Anything else, and another epoch, is
  *            refused until follow_scans such scans agree with one another: the sensor restarted, or goes another pace.
  *            So one damaged message, or one that was not the sensor's, does not make those that follow it look old.
- * Clock      A scan is refused where most other live sensors say that its time is another one: more than jump_max_us
- *            / 8 + hold_us ahead of what their last scans and the reception clock make it now, or two of their
- *            intervals, or as far before their last scans; jump_max_us of one that has sent one scan so far. So is
+ * Clock      A scan is refused where most other live sensors say that its time is another one: more than an
+ *            eighth of jump_max_us and hold_us ahead of what their last scans and the reception clock make it now, or
+ *            two of their intervals, or as far before their last scans; jump_max_us of one that has sent one scan so far. So is
  *            one more than jump_max_us off the last accepted one. One wrong clock does not make the other sensors
  *            late. When more sensors agree on another time than on the present one, that time is followed:
  *            is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as the
