@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "common.h"
 #include "lcm_log.h"
@@ -35,6 +36,7 @@ static uint64_t collect(struct lcm_log_reader *log, const char *path,
 
 static struct table *to_table(const char *path, const struct rows *rows, bool keep_going)
 {
+    struct table *table;
     size_t bytes;
     char *text;
     FILE *file = open_memstream(&text, &bytes);
@@ -46,7 +48,9 @@ static struct table *to_table(const char *path, const struct rows *rows, bool ke
     if (fclose(file)) {
         fail(EXIT_RUNTIME, "%s: no memory for its rows", path);
     }
-    return table_from_text(path, text, bytes, keep_going);
+    table = table_from_text(path, text, bytes, keep_going);
+    free(text);
+    return table;
 }
 
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going)

@@ -321,14 +321,15 @@ static struct table *read_table(const char *path, bool keep_going, bool header_o
     return parse(&reading);
 }
 
-struct table *table_from_text(const char *path, char *text, size_t bytes, bool keep_going)
+struct table *table_from_text(const char *path, const char *text, size_t bytes, bool keep_going)
 {
     struct reading reading = {.table = must_calloc(1, sizeof *reading.table),
                               .keep_going = keep_going,
                               .line = 1,
-                              .content = text,
+                              .content = must_alloc(bytes + 1),
                               .bytes = bytes};
 
+    memcpy(reading.content, text, bytes);
     reading.table->path = must_copy(path);
     return parse(&reading);
 }

@@ -33,8 +33,8 @@ struct table {
  */
 struct table *table_read(const char *path, bool keep_going);
 
-/* The same from text in memory, which becomes the table's (as from malloc); the path is for messages. */
-struct table *table_from_text(const char *path, char *text, size_t bytes, bool keep_going);
+/* The same from text in memory; the path is for messages. */
+struct table *table_from_text(const char *path, const char *text, size_t bytes, bool keep_going);
 
 /* The columns alone, without rows. */
 struct table *table_read_header(const char *path);
