@@ -186,7 +186,7 @@ sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 # too; elsewhere loops and the square root wrap on purpose.
 fuzz_readers := bearing_row frame_reader frame_reader_frames hint lcm_log log_scans log_table parameters plot_data \
                 plot_row row_check rows rows_bearings rows_collect rows_plots rows_polar rows_read rows_scans rows_tracks \
-                rows_truth rows_write scan_reader table
+                rows_truth rows_write scan_numbers scan_reader table
 fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c)
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))

@@ -53,6 +53,22 @@ t_s,sensor_id,x_m,y_m,scan
 CSV
 run track late.csv
 check 'a scan may hold times in any order, scans may not' says 2 'rhotrack: late.csv:6: time goes back from 4.000000 s to 3.900000 s'
+# A scan may begin before the last plots of the one before; its utime may be within it.
+for first in 0.0 -0.6; do
+    python3 - "$first" >mixed.csv <<'PYTHON'
+import sys
+rows = [(i + float(sys.argv[1]) + 0.3 * k, 100 * (i + 0.3 * k), 3000 * k, i) for i in range(8) for k in range(5)]
+rows += [(float(i), "", "", i) for i in range(8)]
+print("t_s,sensor_id,x_m,y_m,scan")
+for t_s, x_m, y_m, scan in sorted(rows, key=lambda row: (row[0], str(row[1]))):
+    print(f"{t_s:.6f},1,{x_m},{y_m},{scan}")
+PYTHON
+    run convert mixed.csv mixed.lcm
+    run track mixed.lcm --covariance -o tracks.csv
+    run track mixed.csv --covariance -o same.csv
+    check "scans that begin at $first s and overlap: none is torn apart" grep -q 'rhotrack: 8 scans, 40 plots' stderr
+    check "scans that begin at $first s and overlap: the same as out of a log" cmp tracks.csv same.csv
+done
 
 # two radars and their targets' bearings together, all in one log
 run track radar/in.csv passive-three/in.csv -o both.csv

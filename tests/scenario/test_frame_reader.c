@@ -171,6 +171,25 @@ static void rows_within_the_scan_interval_are_one_scan(void **state)
 
 static const char late_text[] = HEADER "0,1,0,0,1\n0.05,2,9,0,1\n1,1,0,0,1\n1.050001,2,9,0,1\n";
 
+/* Rows of one number are one scan, whatever comes between them; its time is that of the row that saw nothing. */
+static void numbered_scans_may_come_mixed(void **state)
+{
+    struct given given = read_text("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan\n"
+                                   "1,1,0,0,1,7\n1,2,90,0,2,7\n1.3,1,0,0,1,8\n1.5,1,0,0,1.25,7\n"
+                                   "1.5,2,90,0,2,8\n1.75,1,0,0,,8\n");
+    const struct rho_frame *frame = frame_reader_next(given.reader);
+    (void)state;
+
+    assert_int_equal(frame_reader_counts(given.reader).scans, 4);
+    assert_int_equal(frame->scans[0].num_bearings, 2);
+    assert_int_equal(frame->scans[0].bearings[1].offset_us, 500000);
+    assert_string_equal(next_text(&given), "1500: 2(1)");
+    frame = frame_reader_next(given.reader);
+    assert_int_equal(frame->time_us, 1750000);
+    assert_int_equal(frame->scans[0].bearings[0].offset_us, -450000);
+    end(&given);
+}
+
 static void scans_within_the_tolerance_are_one_frame(void **state)
 {
     struct given given = read_text(late_text);
@@ -405,6 +424,7 @@ int main(void)
         cmocka_unit_test(a_frame_has_what_the_rows_say),
         cmocka_unit_test(a_sigma_is_the_rows_or_the_sensors_or_that_for_all),
         cmocka_unit_test(rows_within_the_scan_interval_are_one_scan),
+        cmocka_unit_test(numbered_scans_may_come_mixed),
         cmocka_unit_test(scans_within_the_tolerance_are_one_frame),
         cmocka_unit_test(the_tolerance_is_a_parameter),
         cmocka_unit_test(a_frame_is_as_long_as_the_tolerance),

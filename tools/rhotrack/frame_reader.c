@@ -97,17 +97,22 @@ static bool check_sensor(struct frame_reader *reader, const char *path,
 
 /* ---- Rows to scans ---- */
 
-static bool joins(const struct frame_reader *reader, const struct known_sensor *known,
-                  const struct bearing_row *row)
+/* The scan that a row belongs to: that of its number, else the sensor's newest; NULL: it begins one. */
+static struct frame_entry *find_entry(const struct frame_reader *reader,
+                                      const struct known_sensor *known,
+                                      const struct bearing_row *row)
 {
-    const struct frame_entry *entry;
+    size_t index = scan_numbers_find(&reader->numbers, row->sensor_id, &row->number);
+    struct frame_entry *entry;
 
     if (!known || known->open == NO_ENTRY) {
-        return false;
+        return NULL;
     }
-    entry = &reader->entries[known->open];
-    return row_joins(&row->number, row->time_us, &entry->number, entry->scan.time_us,
-                     reader->interval_us);
+    entry = &reader->entries[index == SCAN_NUMBERS_NONE ? known->open : index];
+    return row_joins(&row->number, row->time_us, &entry->number, entry->start_us,
+                     reader->interval_us)
+               ? entry
+               : NULL;
 }
 
 static struct known_sensor *have_sensor(struct frame_reader *reader, const char *path,
@@ -140,49 +145,53 @@ static size_t add_entry(struct frame_reader *reader, const char *path, uint32_t 
         .number = row->number,
         .path = path,
         .line = line,
+        .start_us = row->time_us,
         .order = reader->num_entries,
     };
     return reader->num_entries++;
+}
+
+static void add_member(struct frame_reader *reader, size_t index, const struct bearing_row *row)
+{
+    reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
+                                sizeof *reader->members);
+    reader->members[reader->num_members++] =
+        (struct frame_member){index, row->time_us, row->bearing};
+    reader->entries[index].scan.num_bearings++;
 }
 
 static void add_row(struct frame_reader *reader, const char *path, uint32_t line,
                     const struct bearing_row *row)
 {
     struct known_sensor *known = have_sensor(reader, path, line, row);
-    struct frame_member *member;
+    struct frame_entry *entry = find_entry(reader, known, row);
 
-    if (!joins(reader, known, row)) {
+    if (!entry) {
         known->open = add_entry(reader, path, line, row);
+        scan_numbers_set(&reader->numbers, row->sensor_id, &row->number, known->open);
+        entry = &reader->entries[known->open];
     }
-    if (!row->has_bearing) {
-        return;
+    if (row->has_bearing) {
+        add_member(reader, (size_t)(entry - reader->entries), row);
+    } else if (row->number.is_given && !entry->has_time) {
+        entry->has_time = true;
+        entry->scan.time_us = row->time_us;
     }
-    reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
-                                sizeof *reader->members);
-    member = &reader->members[reader->num_members++];
-    *member = (struct frame_member){known->open, row->bearing};
-    member->bearing.offset_us +=
-        (int32_t)(row->time_us - reader->entries[known->open].scan.time_us);
-    reader->entries[known->open].scan.num_bearings++;
 }
 
 static bool check_order(struct frame_reader *reader, const struct bearing_row *row,
                         const int64_t *last_us, const struct row_check *check)
 {
-    const struct known_sensor *known = find_sensor(reader, row->sensor_id);
-    const struct rho_bearing_scan *scan;
-    bool is_within = row->number.is_given && joins(reader, known, row);
+    const struct frame_entry *entry = find_entry(reader, find_sensor(reader, row->sensor_id), row);
+    bool is_within = row->number.is_given && entry;
 
     if (last_us && row->time_us < *last_us && !is_within) {
         return row_refuse(check, "time goes back from %.6f s to %.6f s", (double)*last_us * 1e-6,
                           (double)row->time_us * 1e-6);
     }
-    if (!joins(reader, known, row)) {
-        return true;
-    }
-    scan = &reader->entries[known->open].scan;
-    return (row->sector_from_rad == scan->sector_from_rad &&
-            row->sector_to_rad == scan->sector_to_rad) ||
+    return !entry ||
+           (row->sector_from_rad == entry->scan.sector_from_rad &&
+            row->sector_to_rad == entry->scan.sector_to_rad) ||
            row_refuse(check, "the sector is not that of the scan's first row");
 }
 
@@ -276,6 +285,7 @@ static void read_path(struct frame_reader *reader, const char *path)
     for (size_t i = 0; i < reader->num_sensors; i++) {
         reader->known[i].open = NO_ENTRY;
     }
+    scan_numbers_clear(&reader->numbers);
     read_table(reader, table, path);
     table_free(table);
 }
@@ -377,6 +387,7 @@ void frame_reader_close(struct frame_reader *reader)
     if (!reader) {
         return;
     }
+    scan_numbers_clear(&reader->numbers);
     free(reader->entries);
     free(reader->bearings);
     free(reader->scans);

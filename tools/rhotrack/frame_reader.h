@@ -4,7 +4,8 @@
  *
  * columns by name: t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad[,sigma_rad][,sector_from_rad,sector_to_rad][,snr_db];
  * others are ignored. Bearings are counter-clockwise from +x. Rows of one sensor with the same t_s (or within
- * scan_interval_s) are one scan; a row without a bearing is a scan that saw nothing. Scans of different sensors within
+ * scan_interval_s) are one scan; with a column scan those of the same scan and epoch. A row without a bearing is a scan
+ * that saw nothing. Scans of different sensors within
  * frame_tolerance_s of the first are one frame, which closes when all sensors of the files have reported, or one of them
  * reports again, or time has moved on.
  */

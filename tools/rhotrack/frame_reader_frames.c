@@ -16,9 +16,12 @@ void frame_reader_place_bearings(struct frame_reader *reader)
         start += reader->entries[i].scan.num_bearings;
     }
     for (size_t i = 0; i < reader->num_members; i++) {
-        struct frame_entry *entry = &reader->entries[reader->members[i].entry];
+        const struct frame_member *member = &reader->members[i];
+        struct frame_entry *entry = &reader->entries[member->entry];
+        struct rho_bearing *bearing = &reader->bearings[entry->first_bearing++];
 
-        reader->bearings[entry->first_bearing++] = reader->members[i].bearing;
+        *bearing = member->bearing;
+        bearing->offset_us += (int32_t)(member->time_us - entry->scan.time_us);
     }
     free(reader->members);
     reader->members = NULL;

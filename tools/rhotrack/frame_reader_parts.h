@@ -9,6 +9,7 @@
 
 #include "frame_reader.h"
 #include "row_check.h"
+#include "scan_numbers.h"
 
 #define NO_ENTRY SIZE_MAX
 
@@ -18,17 +19,20 @@ struct frame_entry {
     struct row_number number;
     const char *path; /* of its first row, as are */
     uint32_t line;
+    int64_t start_us;
     size_t order; /* over all files */
     size_t first_bearing;
+    bool has_time; /* scan.time_us is settled, by a row that saw nothing; else it is start_us */
 };
 
 /* A bearing and the scan that it belongs to. */
 struct frame_member {
     size_t entry;
+    int64_t time_us; /* of its row */
     struct rho_bearing bearing;
 };
 
-/* A sensor, where it was first named, and its scan in this file that further rows may join. */
+/* A sensor, where it was first named, and its newest scan in this file. */
 struct known_sensor {
     struct frame_sensor sensor;
     const char *path;
@@ -43,6 +47,7 @@ struct frame_reader {
     struct known_sensor known[RHO_MAX_SENSORS];
     struct frame_sensor sensors[RHO_MAX_SENSORS]; /* the same, sorted */
     size_t num_sensors;
+    struct scan_numbers numbers; /* of this file */
     struct frame_entry *entries;
     size_t num_entries, entries_capacity;
     struct frame_member *members;

@@ -10,15 +10,19 @@
 #include "lcm_log.h"
 #include "log_scans.h"
 #include "plot_row.h"
+#include "scan_numbers.h"
 #include "table.h"
 
 /* A scan while its rows are collected. */
 struct entry {
     struct rho_scan scan;
     struct row_number number;
-    size_t order; /* of its first row, over all files */
+    int64_t start_us; /* of its first row */
+    size_t order;     /* the same, over all files */
     size_t first_plot;
     bool has_measures; /* scan.measures is settled, by its first plot */
+    bool
+        has_time; /* scan.time_us is settled, by a row that saw nothing; else it is the first row's */
     bool has_sensor;
     struct rho_sensor sensor;
 };
@@ -26,10 +30,11 @@ struct entry {
 /* A plot and the scan that it belongs to. */
 struct member {
     size_t entry;
+    int64_t time_us; /* of its row */
     struct rho_plot plot;
 };
 
-/* The scan of a sensor that further rows may join. */
+/* A sensor's newest scan. */
 struct open_scan {
     int32_t sensor_id;
     size_t entry;
@@ -45,6 +50,7 @@ struct scan_reader {
     size_t num_members, members_capacity;
     struct open_scan *open;
     size_t num_open, open_capacity;
+    struct scan_numbers numbers;
     struct rho_plot *plots; /* all, scan by scan */
     size_t next;
     uint64_t rows_skipped;
@@ -65,6 +71,7 @@ static size_t add_entry(struct scan_reader *reader, const struct plot_row *row)
                  .sector_from_rad = row->sector_from_rad,
                  .sector_to_rad = row->sector_to_rad},
         .number = row->number,
+        .start_us = row->time_us,
         .order = reader->num_entries,
         .has_sensor = row->has_sensor,
         .sensor = row->sensor,
@@ -82,29 +89,36 @@ static struct open_scan *find_open(const struct scan_reader *reader, int32_t sen
     return NULL;
 }
 
-static bool joins(const struct scan_reader *reader, size_t entry, const struct plot_row *row)
+/* The scan that a row belongs to: that of its number, else the sensor's newest; NULL: it begins one. */
+static struct entry *find_entry(const struct scan_reader *reader, const struct plot_row *row)
 {
-    const struct entry *scan = &reader->entries[entry];
+    const struct open_scan *open = find_open(reader, row->sensor_id);
+    size_t index = scan_numbers_find(&reader->numbers, row->sensor_id, &row->number);
+    struct entry *entry;
 
-    return row_joins(&row->number, row->time_us, &scan->number, scan->scan.time_us,
-                     reader->interval_us);
+    if (index == SCAN_NUMBERS_NONE && !open) {
+        return NULL;
+    }
+    entry = &reader->entries[index == SCAN_NUMBERS_NONE ? open->entry : index];
+    return row_joins(&row->number, row->time_us, &entry->number, entry->start_us,
+                     reader->interval_us)
+               ? entry
+               : NULL;
 }
 
-/* The scan that a good row belongs to. */
-static size_t entry_of(struct scan_reader *reader, const struct plot_row *row)
+static size_t begin_entry(struct scan_reader *reader, const struct plot_row *row)
 {
     struct open_scan *open = find_open(reader, row->sensor_id);
 
-    if (open && joins(reader, open->entry, row)) {
-        return open->entry;
-    }
     if (!open) {
         reader->open =
             must_grow(reader->open, reader->num_open, &reader->open_capacity, sizeof *reader->open);
         open = &reader->open[reader->num_open++];
         open->sensor_id = row->sensor_id;
     }
-    return open->entry = add_entry(reader, row);
+    open->entry = add_entry(reader, row);
+    scan_numbers_set(&reader->numbers, row->sensor_id, &row->number, open->entry);
+    return open->entry;
 }
 
 static void add_member(struct scan_reader *reader, size_t index, const struct plot_row *row)
@@ -115,9 +129,7 @@ static void add_member(struct scan_reader *reader, size_t index, const struct pl
     reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
                                 sizeof *reader->members);
     member = &reader->members[reader->num_members++];
-    member->entry = index;
-    member->plot = row->plot;
-    member->plot.offset_us += (int32_t)(row->time_us - entry->scan.time_us);
+    *member = (struct member){index, row->time_us, row->plot};
     entry->scan.num_plots++;
     entry->scan.measures = row->measures;
     entry->has_measures = true;
@@ -125,23 +137,26 @@ static void add_member(struct scan_reader *reader, size_t index, const struct pl
 
 static void add_row(struct scan_reader *reader, const struct plot_row *row)
 {
-    size_t entry = entry_of(reader, row);
+    const struct entry *found = find_entry(reader, row);
+    size_t index = found ? (size_t)(found - reader->entries) : begin_entry(reader, row);
+    struct entry *entry = &reader->entries[index];
 
     if (row->has_plot) {
-        add_member(reader, entry, row);
+        add_member(reader, index, row);
+    } else if (row->number.is_given && !entry->has_time) {
+        entry->has_time = true;
+        entry->scan.time_us = row->time_us;
     }
 }
 
 /* What a row must have in common with the scan that it would join. */
 static const char *why_not_same_scan(const struct scan_reader *reader, const struct plot_row *row)
 {
-    const struct open_scan *open = find_open(reader, row->sensor_id);
-    const struct entry *entry;
+    const struct entry *entry = find_entry(reader, row);
 
-    if (!open || !joins(reader, open->entry, row)) {
+    if (!entry) {
         return NULL;
     }
-    entry = &reader->entries[open->entry];
     if (row->sector_from_rad != entry->scan.sector_from_rad ||
         row->sector_to_rad != entry->scan.sector_to_rad) {
         return "the sector is not that of the scan's first row";
@@ -160,8 +175,7 @@ static bool check_order(const struct scan_reader *reader, const struct plot_row 
                         const int64_t *last_us, char *reason)
 {
     const char *why = why_not_same_scan(reader, row);
-    const struct open_scan *open = find_open(reader, row->sensor_id);
-    bool is_within = row->number.is_given && open && joins(reader, open->entry, row);
+    bool is_within = row->number.is_given && find_entry(reader, row);
 
     if (last_us && row->time_us < *last_us && !is_within) {
         snprintf(reason, PLOT_ROW_REASON_BYTES, "time goes back from %.6f s to %.6f s",
@@ -216,7 +230,8 @@ static void add_item(struct scan_reader *reader, const struct rho_feed_item *ite
     for (uint32_t i = 0; i < item->scan.num_plots; i++) {
         reader->members = must_grow(reader->members, reader->num_members, &reader->members_capacity,
                                     sizeof *reader->members);
-        reader->members[reader->num_members++] = (struct member){index, item->scan.plots[i]};
+        reader->members[reader->num_members++] =
+            (struct member){index, item->scan.time_us, item->scan.plots[i]};
         reader->entries[index].scan.num_plots++;
     }
 }
@@ -248,6 +263,7 @@ static void read_path(struct scan_reader *reader, const char *path)
 
     reader->rows_skipped += table->rows_skipped;
     reader->num_open = 0;
+    scan_numbers_clear(&reader->numbers);
     read_table(reader, table);
     table_free(table);
 }
@@ -266,9 +282,12 @@ static void place_plots(struct scan_reader *reader)
         start += reader->entries[i].scan.num_plots;
     }
     for (size_t i = 0; i < reader->num_members; i++) {
-        struct entry *entry = &reader->entries[reader->members[i].entry];
+        const struct member *member = &reader->members[i];
+        struct entry *entry = &reader->entries[member->entry];
+        struct rho_plot *plot = &reader->plots[entry->first_plot++];
 
-        reader->plots[entry->first_plot++] = reader->members[i].plot;
+        *plot = member->plot;
+        plot->offset_us += (int32_t)(member->time_us - entry->scan.time_us);
     }
     free(reader->members);
     reader->members = NULL;
@@ -343,6 +362,7 @@ void scan_reader_close(struct scan_reader *reader)
     }
     free(reader->entries);
     free(reader->open);
+    scan_numbers_clear(&reader->numbers);
     free(reader->plots);
     free(reader);
 }
