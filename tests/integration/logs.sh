@@ -135,15 +135,20 @@ check 'maintain: its track as a log' sh -c "
     cut -d, -f1-12,15-18 one.csv >a; cut -d, -f1-12,15-18 one.again.csv >b; cmp a b"
 run maintain passive-three/in.lcm
 check 'maintain: bearings are refused' says 2 'rhotrack: passive-three/in.lcm: maintain takes plots, and these are bearings'
+head -c 500 /dev/zero >garbage.bytes
 run plot tracks radar/in.lcm radar/tracks.lcm radar/truth.lcm -o map.svg
 check 'plot' sh -c 'grep -q "<svg" map.svg'
+cat garbage.bytes passive-three/in.lcm radar/tracks.lcm radar/in.lcm >node.lcm
+run plot tracks node.lcm -o map.svg
+check 'plot: tracks of a log with bearings, too; damage is told once' says 0 'rhotrack: node.lcm: 500 bytes skipped at byte 0'
+run plot tracks passive-three/in.lcm -o map.svg
+check 'plot: a log of bearings alone' says 2 'rhotrack: plot tracks: bearings * are shown by plot scans alone'
 run plot tracks peaks.lcm -o map.svg
 check 'plot: nothing to draw in it' says 2 'rhotrack: peaks.lcm: no messages of plots, bearings, truth or tracks in it'
 
 # ---- what may be wrong with a log ----
 
-head -c 500 /dev/zero >garbage
-cat garbage radar/in.lcm >damaged.lcm
+cat garbage.bytes radar/in.lcm >damaged.lcm
 run track radar/in.lcm -o whole.csv
 run track damaged.lcm -o again.csv
 check 'damage at the start is skipped and told' matches "$(cat stderr)" '*damaged.lcm: 500 bytes skipped*'
@@ -164,8 +169,24 @@ check 'and taken once' cmp whole.csv again.csv
 cat radar/in.lcm radar/in.lcm >two.lcm
 run track two.lcm
 check 'two recordings in one' says 2 "rhotrack: two.lcm: the sensors' clock starts anew at * s: two recordings in one*"
+cat garbage.bytes radar/in.lcm passive-three/in.lcm >damaged.lcm
+run track damaged.lcm -o again.csv
+check 'a log with plots and bearings: damage is told once' matches "$(grep -c skipped stderr) $(wc -l <stderr)" '1 [12]'
+printf 't_s,sensor_id,x_m,y_m\n' >pause.csv
+for t in 0 1 2 3 4 9000 9001 9002 9003 9004 9005; do echo "$t,1,$t,5"; done >>pause.csv
+run convert pause.csv pause.lcm
+run track pause.lcm
+check 'a log with a long pause goes on behind it' matches "$(tail -n 1 stderr)" 'rhotrack: 9 scans, 9 plots, *'
+check 'and says what the pause cost' grep -q 'rhotrack: pause.lcm: 2 scans with bad times' stderr
+mkfifo pipe.lcm
+for command in track initiate maintain; do
+    cat radar/in.lcm >pipe.lcm 2>pipe.error &
+    run "$command" pipe.lcm
+    check "$command: a log through a pipe" says 2 'rhotrack: pipe.lcm: a log is looked at twice, so that a pipe will not do'
+    kill $! 2>/dev/null
+done
 run track radar/truth.lcm
 check 'a log without scans' says 2 'rhotrack: radar/truth.lcm: not one scan of a sensor (*'
-run track garbage.lcm
-check 'a log that is not there' says 2 'rhotrack: garbage.lcm: *'
+run track none.lcm
+check 'a log that is not there' says 2 'rhotrack: none.lcm: No such file or directory'
 finish

@@ -373,7 +373,7 @@ static void need(const struct plot_points *points, const char *kind, const char 
 
 static void check_content(const char *kind, const struct plot_data *data)
 {
-    if (data->bearings.num_sensors && strcmp(kind, "scans") != 0) {
+    if (data->bearings.has_own_file && strcmp(kind, "scans") != 0) {
         fail(EXIT_USAGE, "plot %s: bearings (column 'bearing_rad') are shown by plot scans alone",
              kind);
     }

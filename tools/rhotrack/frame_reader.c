@@ -256,9 +256,11 @@ static void add_item(struct frame_reader *reader, const char *path, uint32_t num
     }
 }
 
+/* Of a log that has plots, too, their reader says what is wrong. */
 static void read_log(struct frame_reader *reader, const char *path)
 {
-    struct log_scans scans = log_scans_read(path, reader->parameters, reader->keep_going);
+    struct log_scans scans = log_scans_read(path, reader->parameters, reader->keep_going,
+                                            log_scans_kinds(path) == LOG_HAS_BEARINGS);
     uint32_t number = 0;
 
     for (size_t i = 0; i < scans.count; i++) {

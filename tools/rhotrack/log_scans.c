@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "common.h"
 #include "lcm_log.h"
@@ -19,10 +20,15 @@ static bool begins_with(const char *channel, const char *prefix)
 
 unsigned log_scans_kinds(const char *path)
 {
-    struct lcm_log_reader *reader = lcm_log_open(path);
+    struct lcm_log_reader *reader;
     struct lcm_log_event event;
+    struct stat status;
     unsigned kinds = 0;
 
+    if (!stat(path, &status) && S_ISFIFO(status.st_mode)) {
+        fail(EXIT_USAGE, "%s: a log is looked at twice, so that a pipe will not do", path);
+    }
+    reader = lcm_log_open(path);
     while (lcm_log_next(reader, &event)) {
         if (begins_with(event.channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) ||
             begins_with(event.channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL)) {
@@ -72,12 +78,22 @@ static void add_item(struct log_scans *scans, const struct rho_feed_item *item)
     }
 }
 
-/* Two recordings in one file cannot be stepped as one. */
+static int64_t time_of(const struct rho_feed_item *item)
+{
+    return item->kind == RHO_FEED_BEARINGS ? item->bearings.time_us : item->scan.time_us;
+}
+
+/* The clock was set back: two recordings in one file cannot be stepped as one. */
+static bool goes_back(const struct log_scans *scans, const struct rho_feed_item *item)
+{
+    return item->is_restart && scans->count > 0 &&
+           time_of(item) < time_of(&scans->items[scans->count - 1]);
+}
+
 static void start_anew(struct log_scans *scans, const char *path, const struct rho_feed_item *item,
                        bool keep_going)
 {
-    double time_s = 1e-6 * (double)(item->kind == RHO_FEED_BEARINGS ? item->bearings.time_us
-                                                                    : item->scan.time_us);
+    double time_s = 1e-6 * (double)time_of(item);
 
     if (!keep_going) {
         fail(EXIT_USAGE,
@@ -99,7 +115,7 @@ static void take_due(struct log_scans *scans, struct rho_feed *feed, const char 
     struct rho_feed_item item;
 
     while (rho_feed_next(feed, now_us, &item)) {
-        if (item.is_restart && scans->count > 0) {
+        if (goes_back(scans, &item)) {
             start_anew(scans, path, &item, keep_going);
         }
         add_item(scans, &item);
@@ -162,7 +178,7 @@ static void say_counters(const char *path, const struct rho_feed_counters *count
 }
 
 struct log_scans log_scans_read(const char *path, const struct parameters *parameters,
-                                bool keep_going)
+                                bool keep_going, bool is_told)
 {
     struct rho_feed *feed = must_alloc(sizeof *feed);
     struct lcm_log_reader *reader = lcm_log_open(path);
@@ -170,8 +186,10 @@ struct log_scans log_scans_read(const char *path, const struct parameters *param
 
     parameters_to_feed(parameters, feed);
     read_events(&scans, feed, reader, path, keep_going);
-    lcm_log_report(reader);
-    say_counters(path, &feed->counters);
+    if (is_told) {
+        lcm_log_report(reader);
+        say_counters(path, &feed->counters);
+    }
     lcm_log_close(reader);
     free(feed);
     if (scans.count == 0) {

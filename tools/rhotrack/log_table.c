@@ -53,7 +53,8 @@ static struct table *to_table(const char *path, const struct rows *rows, bool ke
     return table;
 }
 
-struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going)
+struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
+                             bool is_told)
 {
     struct rows_collection collection;
     struct lcm_log_reader *log = lcm_log_open(path);
@@ -62,7 +63,9 @@ struct table *log_table_read(const char *path, const struct rows_kind *kind, boo
 
     rows_collect_start(&collection, kind);
     bad = collect(log, path, &collection, keep_going);
-    lcm_log_report(log);
+    if (is_told) {
+        lcm_log_report(log);
+    }
     if (bad > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " bad messages skipped\n", path, bad);
     }
@@ -81,7 +84,7 @@ struct table *log_table_or_csv(const char *path, const struct rows_kind *kind, b
     if (!lcm_log_is_log(path)) {
         return table_read(path, keep_going);
     }
-    table = log_table_read(path, kind, keep_going);
+    table = log_table_read(path, kind, keep_going, true);
     if (!table) {
         fail(EXIT_USAGE, "%s: no messages of %s in it (channel %s)", path, kind->name,
              kind->channel);

@@ -10,9 +10,10 @@
 
 /*
  * The table, or NULL where the log has no message of the kind. Bad messages: exit 2, or skipped and counted on standard
- * error with keep_going, as are damaged places of the log.
+ * error with keep_going. is_told: damaged places of the log are, too; once will do for all kinds.
  */
-struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going);
+struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
+                             bool is_told);
 
 /* A CSV file's table, or a log's of the kind; exit 2 where it has none. */
 struct table *log_table_or_csv(const char *path, const struct rows_kind *kind, bool keep_going);

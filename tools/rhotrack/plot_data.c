@@ -91,18 +91,21 @@ static void add_file(struct plot_data *data, const char *path, const struct para
     static const struct rows_kind *const kinds[] = {&rows_kind_plots, &rows_kind_polar,
                                                     &rows_kind_truth, &rows_kind_tracks};
     size_t found = 0;
+    unsigned scans;
     if (!lcm_log_is_log(path)) {
         add_table(data, table_read(path, false), parameters);
         return;
     }
+    scans = log_scans_kinds(path);
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-        struct table *table = log_table_read(path, kinds[i], false);
+        struct table *table =
+            log_table_read(path, kinds[i], false, i == 0 && scans != LOG_HAS_BEARINGS);
         if (table != NULL) {
             add_table(data, table, parameters);
             found++;
         }
     }
-    if (found == 0 && log_scans_kinds(path) == 0) {
+    if (found == 0 && scans == 0) {
         fail(EXIT_USAGE, "%s: no messages of plots, bearings, truth or tracks in it", path);
     }
 }
@@ -211,6 +214,11 @@ static void sort_points(struct plot_points *points)
     }
 }
 
+static size_t count_points(const struct plot_data *data)
+{
+    return data->plots.count + data->tracks.count + data->truth.count;
+}
+
 struct plot_data plot_data_read(char *const *paths, int num_paths,
                                 const struct parameters *parameters)
 {
@@ -224,9 +232,11 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
         if (has_bearings) {
             bearings[num_bearings++] = paths[i];
         }
+        size_t before = count_points(&data);
         if (is_log || !has_bearings) {
             add_file(&data, paths[i], parameters);
         }
+        data.bearings.has_own_file |= has_bearings && count_points(&data) == before;
     }
     if (num_bearings > 0) {
         read_bearings(&data.bearings, bearings, num_bearings, parameters);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* plot_data: what the plot command draws: plots, bearings, tracks and truth from CSV files, told apart by their columns. */
+/* plot_data: what the plot command draws: plots, bearings, tracks and truth from CSV files, told apart by their columns, and LCM logs. */
 #ifndef RHOTRACK_TOOL_PLOT_DATA_H
 #define RHOTRACK_TOOL_PLOT_DATA_H
 
@@ -35,6 +35,7 @@ struct plot_rays {
     size_t count;
     struct plot_point *sensors;
     size_t num_sensors;
+    bool has_own_file; /* one of the files has bearings and nothing else to draw */
 };
 
 struct plot_data {

@@ -238,7 +238,7 @@ static void add_item(struct scan_reader *reader, const struct rho_feed_item *ite
 
 static void read_log(struct scan_reader *reader, const char *path)
 {
-    struct log_scans scans = log_scans_read(path, reader->parameters, reader->keep_going);
+    struct log_scans scans = log_scans_read(path, reader->parameters, reader->keep_going, true);
 
     for (size_t i = 0; i < scans.count; i++) {
         if (scans.items[i].kind != RHO_FEED_BEARINGS) {
