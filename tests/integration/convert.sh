@@ -130,6 +130,7 @@ run convert unnamed back.csv
 check 'a log is known by its content' exits 0
 "$program" convert /dev/stdin piped.csv <one.lcm 2>stderr
 check 'a log from a pipe' cmp back.csv piped.csv
+rm piped.csv
 cat one.lcm | "$program" convert /dev/stdin piped.csv 2>stderr
 check 'a log from a real pipe' cmp back.csv piped.csv
 run convert one.lcm -

@@ -16,6 +16,9 @@ make_files() {
     mv "$scenario/$name.csv" "$scenario/in.csv"
 }
 
+# The last run was good (else a file of an earlier one would do), and two files are the same.
+made_same() { exits 0 && cmp "$1" "$2"; }
+
 # ---- the tracker ----
 
 same_tracks() { # scenario, options
@@ -42,7 +45,7 @@ done
 # A CSV file of a log says which rows are one scan, whatever their own times.
 run convert polar/in.lcm polar/numbered.csv
 run track polar/numbered.csv --config polar/scenario.ini --set scan_interval_s=0 --covariance -o polar/same.csv
-check 'rows of one number are one scan' cmp polar/tracks.csv polar/same.csv
+check 'rows of one number are one scan' made_same polar/tracks.csv polar/same.csv
 cat >late.csv <<CSV
 t_s,sensor_id,x_m,y_m,scan
 1.0,1,0,0,7
@@ -67,17 +70,32 @@ PYTHON
     run track mixed.lcm --covariance -o tracks.csv
     run track mixed.csv --covariance -o same.csv
     check "scans that begin at $first s and overlap: none is torn apart" grep -q 'rhotrack: 8 scans, 40 plots' stderr
-    check "scans that begin at $first s and overlap: the same as out of a log" cmp tracks.csv same.csv
+    check "scans that begin at $first s and overlap: the same as out of a log" made_same tracks.csv same.csv
 done
 
 # two radars and their targets' bearings together, all in one log
 run track radar/in.csv passive-three/in.csv -o both.csv
 check 'plots and bearings of two files' exits 0
 run track radar/in.lcm passive-three/in.lcm -o both.again.csv
-check 'the same of two logs' cmp both.csv both.again.csv
-cat radar/in.lcm passive-three/in.lcm radar/truth.lcm >one.lcm
-run track one.lcm -o both.again.csv
-check 'the same of one log with plots, bearings and truth' cmp both.csv both.again.csv
+check 'the same of two logs' made_same both.csv both.again.csv
+# merge LOG...: their events in the order of time, as of one recording
+merge() {
+    python3 - "$@" <<'PYTHON'
+import struct, sys
+events = []
+for path in sys.argv[1:]:
+    data, at = open(path, "rb").read(), 0
+    while at < len(data):
+        utime, channel, size = struct.unpack_from(">qII", data, at + 12)
+        end = at + 28 + channel + size
+        events.append((utime, data[at:end]))
+        at = end
+sys.stdout.buffer.write(b"".join(event for utime, event in sorted(events, key=lambda event: event[0])))
+PYTHON
+}
+merge radar/in.lcm passive-three/in.lcm radar/truth.lcm >mixed.lcm
+run track mixed.lcm -o both.again.csv
+check 'the same of one log with plots, bearings and truth' made_same both.csv both.again.csv
 
 # ---- tracks as a log, evaluate ----
 
@@ -152,7 +170,7 @@ cat garbage.bytes radar/in.lcm >damaged.lcm
 run track radar/in.lcm -o whole.csv
 run track damaged.lcm -o again.csv
 check 'damage at the start is skipped and told' matches "$(cat stderr)" '*damaged.lcm: 500 bytes skipped*'
-check 'and what follows is read' cmp whole.csv again.csv
+check 'and what follows is read' made_same whole.csv again.csv
 python3 - <<'PYTHON'
 import struct
 data, at = open("radar/in.lcm", "rb").read(), 0
@@ -165,13 +183,14 @@ with open("double.lcm", "wb") as double:
 PYTHON
 run track double.lcm -o again.csv
 check 'every message twice: told' matches "$(cat stderr)" '*double.lcm: * scans or parts double*'
-check 'and taken once' cmp whole.csv again.csv
+check 'and taken once' made_same whole.csv again.csv
 cat radar/in.lcm radar/in.lcm >two.lcm
 run track two.lcm
 check 'two recordings in one' says 2 "rhotrack: two.lcm: the sensors' clock starts anew at * s: two recordings in one*"
-cat garbage.bytes radar/in.lcm passive-three/in.lcm >damaged.lcm
+merge radar/in.lcm passive-three/in.lcm >mixed.lcm
+cat garbage.bytes mixed.lcm >damaged.lcm
 run track damaged.lcm -o again.csv
-check 'a log with plots and bearings: damage is told once' matches "$(grep -c skipped stderr) $(wc -l <stderr)" '1 [12]'
+check 'a log with plots and bearings: damage is told once' matches "$(head -n 1 stderr) $(grep -c skipped stderr)" 'rhotrack: damaged.lcm: 500 bytes skipped at byte 0 1'
 printf 't_s,sensor_id,x_m,y_m\n' >pause.csv
 for t in 0 1 2 3 4 9000 9001 9002 9003 9004 9005; do echo "$t,1,$t,5"; done >>pause.csv
 run convert pause.csv pause.lcm
