@@ -119,6 +119,9 @@ printf 't_s,track_id,status,x_m,y_m,update_age_us,score_nat,maneuver_probability
     $'1,5,confirmed,1,2,250000,12.5,0.75\n' $'1,6,deleted,1,2,0,0,0\n' >tracks.csv
 check 'optional columns of tracks' there_and_back tracks.csv
 check 'optional columns of tracks: values' same_values tracks.csv back.csv
+printf 't_s,track_id,status,x_m,y_m,sigma_m,sigma_mps\n1,5,confirmed,1,2,0,4\n1,6,confirmed,1,2,4,0\n' >sigmas.csv
+check 'a place that is known beside a speed that is not' there_and_back sigmas.csv
+check 'a place that is known beside a speed that is not: values' same_values sigmas.csv back.csv
 printf 't_s,target_id,x_m,y_m\n1,1,1,2\n' >truth.csv
 run evaluate truth.csv tracks.csv
 check 'evaluate: a track that is named for the last time does not count' grep -q 'tracks *1$' stdout
@@ -165,6 +168,7 @@ polar='t_s,sensor_id,range_m,azimuth_rad\n'
 bearings='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n'
 truth='t_s,target_id,x_m,y_m\n'
 tracks='t_s,track_id,status,x_m,y_m\n'
+refuse 'geographic plots' '1: geographic plots (column *' 't_s,sensor_id,lat_deg,lon_deg\n1,1,50,8\n'
 refuse 'no kind' '2: neither plots, polar plots, bearings, truth nor tracks: *' '# no\nt_s,sensor_id\n1,2\n'
 refuse 'no number' "4: x_m 'abc' is not a number" "# plots\n${plots}1,1,1,1\n1,1,abc,3\n"
 refuse 'beyond the range' '3: x_m 3000000 is outside the range of a plot_scan_t' "${plots}1,1,1,1\n1,1,3000000,1\n"
@@ -210,6 +214,12 @@ refuse 'unknown status' "2: status 'lost' is none of tentative, confirmed, coast
 refuse 'hits beyond int16' "2: hits '40000' is outside -32768 .. 32767, which messages hold" \
     't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,40000\n'
 refuse 'hits below 0' '2: hits -1 is outside the range of a track_list_t' 't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,-1\n'
+for sigma in -5 1e-19 1e19; do
+    refuse "a sigma of $sigma, whose square is no variance" '3: sigma_m is neither 0 nor within 1e-18 .. 1e18' \
+        "t_s,track_id,status,x_m,y_m,sigma_m\n1,1,confirmed,0,0,5\n1,2,confirmed,0,0,$sigma\n"
+done
+refuse 'a sigma of velocity below 0' '2: sigma_mps is neither 0 nor *' \
+    't_s,track_id,status,x_m,y_m,sigma_mps\n1,2,confirmed,0,0,-1\n'
 printf 't_s,sensor_id,range_m,azimuth_rad,sigma_range_m\n' >parts.csv
 for i in $(seq 32768); do echo "1,1,$i,0,$((1 + i % 2))"; done >>parts.csv
 echo before >out.lcm

@@ -122,6 +122,8 @@ for scenario in radar polar weave; do
     cp stdout again
     check "$scenario: evaluate finds the same in logs" same_figures
 done
+run track radar/in.lcm --config radar/scenario.ini -o .lcm
+check 'a log that is named .lcm and nothing else' cmp radar/tracks.lcm .lcm
 run evaluate radar/truth.lcm radar/in.lcm
 check 'evaluate: a log without tracks' says 2 'rhotrack: radar/in.lcm: no messages of tracks in it*'
 

@@ -15,13 +15,6 @@
 
 /* ---- Which way ---- */
 
-static bool ends_with(const char *path, const char *suffix)
-{
-    size_t length = strlen(path), end = strlen(suffix);
-
-    return length >= end && strcmp(path + length - end, suffix) == 0;
-}
-
 static bool is_regular(const char *path)
 {
     struct stat status;
@@ -34,13 +27,13 @@ static bool is_regular(const char *path)
 static bool input_is_log(const char *input, const char *output)
 {
     return lcm_log_is_log(input) ||
-           (!is_regular(input) && !ends_with(input, ".csv") && ends_with(output, ".csv"));
+           (!is_regular(input) && !path_ends_with(input, ".csv") && path_ends_with(output, ".csv"));
 }
 
 /* An output with another name, as standard output, is what the input is not. */
 static void check_output(const char *output, bool from_log)
 {
-    if (ends_with(output, from_log ? ".lcm" : ".csv")) {
+    if (path_ends_with(output, from_log ? ".lcm" : ".csv")) {
         fail(EXIT_USAGE,
              "convert: %s would be %s, and so is the input; CSV files end with .csv, LCM logs with "
              ".lcm",
@@ -86,7 +79,7 @@ struct reading {
     const struct rows_kind *kind; /* wanted, or the first that was found; NULL before */
     struct rows_collection collection;
     uint64_t num_messages[NUM_ROWS_KINDS]; /* on channels of each kind */
-    uint64_t messages_bad, others;
+    uint64_t others;
 };
 
 static const struct rows_kind *find_kind(const char *name)
@@ -105,22 +98,6 @@ static void choose_kind(struct reading *reading, const struct rows_kind *kind)
     rows_collect_start(&reading->collection, kind);
 }
 
-static void take_message(struct reading *reading, const struct lcm_log_event *event)
-{
-    char reason[ROWS_COLLECT_REASON_BYTES];
-    const char *why =
-        rows_collect(&reading->collection, event->channel, event->data, event->size, reason);
-
-    if (!why) {
-        return;
-    }
-    if (!reading->line->keep_going) {
-        fail(EXIT_USAGE, "%s: event %" PRId64 " at byte %" PRIu64 ", %s: %s", reading->path,
-             event->number, event->offset, event->channel, why);
-    }
-    reading->messages_bad++;
-}
-
 static void take_event(struct reading *reading, const struct lcm_log_event *event)
 {
     const struct rows_kind *kind = rows_kind_of_channel(event->channel);
@@ -135,9 +112,7 @@ static void take_event(struct reading *reading, const struct lcm_log_event *even
     if (!reading->kind) {
         choose_kind(reading, kind);
     }
-    if (reading->kind == kind) {
-        take_message(reading, event);
-    }
+    rows_collect_event(&reading->collection, reading->path, event, reading->line->keep_going);
 }
 
 /* "12 plots, 3 truth" */
@@ -172,7 +147,8 @@ static void check_kinds(struct reading *reading)
              " on other channels",
              reading->path, reading->others);
     }
-    if (reading->line->kind && reading->collection.count == 0 && reading->messages_bad == 0) {
+    if (reading->line->kind && reading->collection.count == 0 &&
+        reading->collection.messages_bad == 0) {
         fail(EXIT_USAGE, "%s: no messages of %s in it, but %s", reading->path, reading->kind->name,
              text);
     }
@@ -196,7 +172,7 @@ static void say_count(const struct reading *reading, uint64_t count, const char 
 static void report(const struct reading *reading, const struct lcm_log_reader *log)
 {
     lcm_log_report(log);
-    say_count(reading, reading->messages_bad, "bad messages skipped");
+    say_count(reading, reading->collection.messages_bad, "bad messages skipped");
     say_count(reading, reading->others, "messages on other channels left out");
     say_count(reading, reading->collection.messages_again,
               "messages that were there before left out");

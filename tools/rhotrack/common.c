@@ -243,6 +243,13 @@ void make_folder(const char *path)
     free(partial);
 }
 
+bool path_ends_with(const char *path, const char *suffix)
+{
+    size_t length = strlen(path), end = strlen(suffix);
+
+    return length >= end && strcmp(path + length - end, suffix) == 0;
+}
+
 char *path_join(const char *folder, const char *name)
 {
     size_t length = strlen(folder), bytes = length + strlen(name) + 2;

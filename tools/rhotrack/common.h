@@ -62,6 +62,9 @@ struct cJSON *json_descending(int *values, int count);
 #define FLOAT_TEXT_BYTES 24
 const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);
 
+/* A name that ends so, "NAME.lcm" with ".lcm". */
+bool path_ends_with(const char *path, const char *suffix);
+
 /* "folder/name" in new memory. */
 char *path_join(const char *folder, const char *name);
 

@@ -182,13 +182,6 @@ struct lcm_log_reader {
     bool last_has_sync;
 };
 
-static bool ends_with_lcm(const char *path)
-{
-    size_t length = strlen(path);
-
-    return length >= 4 && strcmp(path + length - 4, ".lcm") == 0;
-}
-
 bool lcm_log_is_log(const char *path)
 {
     uint8_t start[SYNC_BYTES];
@@ -196,7 +189,7 @@ bool lcm_log_is_log(const char *path)
     bool is_log;
     FILE *file;
 
-    if (ends_with_lcm(path)) {
+    if (path_ends_with(path, ".lcm")) {
         return true;
     }
     if (stat(path, &status) || !S_ISREG(status.st_mode) || !(file = fopen(path, "rb"))) {

@@ -10,28 +10,15 @@
 #include "rows_collect.h"
 #include "rows_write.h"
 
-/* Returns how many bad messages were left out. */
-static uint64_t collect(struct lcm_log_reader *log, const char *path,
-                        struct rows_collection *collection, bool keep_going)
+static void collect(struct lcm_log_reader *log, const char *path,
+                    struct rows_collection *collection, bool keep_going)
 {
-    char reason[ROWS_COLLECT_REASON_BYTES];
     struct lcm_log_event event;
-    uint64_t bad = 0;
 
     while (lcm_log_next(log, &event)) {
-        const char *why = NULL;
-
-        if (rows_kind_of_channel(event.channel) == collection->rows.kind) {
-            why = rows_collect(collection, event.channel, event.data, event.size, reason);
-        }
-        if (why && !keep_going) {
-            fail(EXIT_USAGE, "%s: event %" PRId64 " at byte %" PRIu64 ", %s: %s", path,
-                 event.number, event.offset, event.channel, why);
-        }
-        bad += why != NULL;
+        rows_collect_event(collection, path, &event, keep_going);
     }
     rows_collect_finish(collection);
-    return bad;
 }
 
 static struct table *to_table(const char *path, const struct rows *rows, bool keep_going)
@@ -59,15 +46,15 @@ struct table *log_table_read(const char *path, const struct rows_kind *kind, boo
     struct rows_collection collection;
     struct lcm_log_reader *log = lcm_log_open(path);
     struct table *table = NULL;
-    uint64_t bad;
 
     rows_collect_start(&collection, kind);
-    bad = collect(log, path, &collection, keep_going);
+    collect(log, path, &collection, keep_going);
     if (is_told) {
         lcm_log_report(log);
     }
-    if (bad > 0) {
-        fprintf(stderr, "rhotrack: %s: %" PRIu64 " bad messages skipped\n", path, bad);
+    if (collection.messages_bad > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " bad messages skipped\n", path,
+                collection.messages_bad);
     }
     if (collection.rows.count > 0) {
         table = to_table(path, &collection.rows, keep_going);

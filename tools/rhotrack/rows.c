@@ -12,6 +12,23 @@ const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS] = {
     [ROWS_TRACKS] = &rows_kind_tracks,
 };
 
+const char *rows_status_name(int status)
+{
+    static const char *const names[ROWS_STATUS_MAX + 1] = {
+        [RHO_MESSAGE_TRACK_TENTATIVE] = "tentative",
+        [RHO_MESSAGE_TRACK_CONFIRMED] = "confirmed",
+        [RHO_MESSAGE_TRACK_COASTING] = "coasting",
+        [RHO_MESSAGE_TRACK_DELETED] = "deleted",
+    };
+
+    return names[status];
+}
+
+int rows_compare(int64_t one, int64_t other)
+{
+    return (one > other) - (one < other);
+}
+
 void rows_start(struct rows *rows, const struct rows_kind *kind)
 {
     *rows = (struct rows){.kind = kind};

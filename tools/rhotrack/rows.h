@@ -88,10 +88,10 @@ struct rows_kind {
     const struct rows_column *columns;
     int num_columns;
 
-    /* Why a row cannot be, or NULL. */
+    /* Why a row cannot be, or NULL. No function: all can. */
     const char *(*why_not)(const double *cells);
 
-    /* What a row measures, the same in all of a scan. */
+    /* What a row measures, the same in all of a scan. No function: all measure the same. */
     int (*pattern)(const double *cells);
 
     /* How many of the scan's rows from this one on go into one message: at least one. */
@@ -112,6 +112,13 @@ enum { ROWS_PLOTS = 0, ROWS_POLAR, ROWS_BEARINGS, ROWS_TRUTH, ROWS_TRACKS, NUM_R
 extern const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS];
 extern const struct rows_kind rows_kind_plots, rows_kind_polar, rows_kind_bearings, rows_kind_truth,
     rows_kind_tracks;
+
+/* "confirmed" and so on of RHO_MESSAGE_TRACK_CONFIRMED ..., which are 1 .. ROWS_STATUS_MAX. */
+#define ROWS_STATUS_MAX RHO_MESSAGE_TRACK_DELETED
+const char *rows_status_name(int status);
+
+/* How two numbers are ordered, for qsort. */
+int rows_compare(int64_t one, int64_t other);
 
 void rows_start(struct rows *rows, const struct rows_kind *kind);
 void rows_free(struct rows *rows);

@@ -25,18 +25,6 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [SNR_DB] = {"snr_db", COLUMN_NO_ROOM, 0, NULL, NULL},
 };
 
-static const char *why_not(const double *cells)
-{
-    (void)cells;
-    return NULL;
-}
-
-static int pattern(const double *cells)
-{
-    (void)cells;
-    return 0;
-}
-
 static size_t fit(const struct rows_part *rest)
 {
     return rest->count;
@@ -119,8 +107,6 @@ const struct rows_kind rows_kind_bearings = {
     .rows_max = RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .why_not = why_not,
-    .pattern = pattern,
     .fit = fit,
     .encode = encode,
     .decode = decode,

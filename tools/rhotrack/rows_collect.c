@@ -105,20 +105,32 @@ const char *rows_collect(struct rows_collection *collection, const char *channel
     return NULL;
 }
 
-/* ---- Messages that belong together ---- */
-
-static int compare(int64_t one, int64_t other)
+void rows_collect_event(struct rows_collection *collection, const char *path,
+                        const struct lcm_log_event *event, bool keep_going)
 {
-    return (one > other) - (one < other);
+    char reason[ROWS_COLLECT_REASON_BYTES];
+    const char *why;
+
+    if (rows_kind_of_channel(event->channel) != collection->rows.kind) {
+        return;
+    }
+    why = rows_collect(collection, event->channel, event->data, event->size, reason);
+    if (why && !keep_going) {
+        fail(EXIT_USAGE, "%s: event %" PRId64 " at byte %" PRIu64 ", %s: %s", path, event->number,
+             event->offset, event->channel, why);
+    }
+    collection->messages_bad += why != NULL;
 }
+
+/* ---- Messages that belong together ---- */
 
 static int by_scan(const struct rows_message *one, const struct rows_message *other)
 {
-    int order = compare(one->key.sensor_id, other->key.sensor_id);
+    int order = rows_compare(one->key.sensor_id, other->key.sensor_id);
 
-    order = order ? order : compare(one->key.epoch, other->key.epoch);
-    order = order ? order : compare(one->key.scan, other->key.scan);
-    return order ? order : compare(one->key.time_us, other->key.time_us);
+    order = order ? order : rows_compare(one->key.epoch, other->key.epoch);
+    order = order ? order : rows_compare(one->key.scan, other->key.scan);
+    return order ? order : rows_compare(one->key.time_us, other->key.time_us);
 }
 
 static int by_part(const void *a, const void *b)
@@ -126,8 +138,8 @@ static int by_part(const void *a, const void *b)
     const struct rows_message *one = a, *other = b;
     int order = by_scan(one, other);
 
-    order = order ? order : compare(one->part, other->part);
-    return order ? order : compare((int64_t)one->arrival, (int64_t)other->arrival);
+    order = order ? order : rows_compare(one->part, other->part);
+    return order ? order : rows_compare((int64_t)one->arrival, (int64_t)other->arrival);
 }
 
 /* Rows that are wanted, in their order. */
@@ -196,9 +208,9 @@ static void take_scan(struct ordering *ordering, const struct rows_message *mess
 static int by_time(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = compare(one->time_us, other->time_us);
+    int order = rows_compare(one->time_us, other->time_us);
 
-    return order ? order : compare((int64_t)one->order, (int64_t)other->order);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
 }
 
 void rows_collect_finish(struct rows_collection *collection)

@@ -8,18 +8,27 @@
 #ifndef RHOTRACK_TOOL_ROWS_COLLECT_H
 #define RHOTRACK_TOOL_ROWS_COLLECT_H
 
+#include "lcm_log.h"
 #include "rows.h"
 
 struct rows_collection {
     struct rows rows;
     struct rows_message *messages;
     size_t count, capacity;
+    uint64_t messages_bad;     /* left out */
     uint64_t messages_again;   /* parts that were there before: left out */
     uint64_t scans_incomplete; /* scans and lists that lack parts */
     uint64_t lists_empty;
 };
 
 void rows_collect_start(struct rows_collection *collection, const struct rows_kind *kind);
+
+/*
+ * Takes the message of an event of a log, if it is of the kind. A bad one: exit 2, with file, event and byte; with
+ * keep_going it is counted in messages_bad instead.
+ */
+void rows_collect_event(struct rows_collection *collection, const char *path,
+                        const struct lcm_log_event *event, bool keep_going);
 
 /* Takes a message. Returns NULL, or why it is bad, in constant memory or reason. */
 #define ROWS_COLLECT_REASON_BYTES 120

@@ -42,6 +42,10 @@ static const struct rows_kind *kind_of(const struct table *table)
             return rows_kinds[marks[i].kind];
         }
     }
+    if (table_find(table, "lat_deg") >= 0) {
+        table_fail(table, TABLE_HEADER,
+                   "geographic plots (column 'lat_deg'): columns 'x_m' and 'y_m' are missing");
+    }
     table_fail(table, TABLE_HEADER,
                "neither plots, polar plots, bearings, truth nor tracks: no column 'x_m', "
                "'range_m', 'bearing_rad', 'target_id' or 'track_id'");
@@ -93,13 +97,8 @@ static void find_columns(struct reading *reading)
 
 static bool read_status(const struct row_check *check, int column, double *value)
 {
-    static const char *const names[] = {[RHO_MESSAGE_TRACK_TENTATIVE] = "tentative",
-                                        [RHO_MESSAGE_TRACK_CONFIRMED] = "confirmed",
-                                        [RHO_MESSAGE_TRACK_COASTING] = "coasting",
-                                        [RHO_MESSAGE_TRACK_DELETED] = "deleted"};
-
-    for (int i = RHO_MESSAGE_TRACK_TENTATIVE; i <= RHO_MESSAGE_TRACK_DELETED; i++) {
-        if (strcmp(table_cell(check->table, check->row, column), names[i]) == 0) {
+    for (int i = 1; i <= ROWS_STATUS_MAX; i++) {
+        if (strcmp(table_cell(check->table, check->row, column), rows_status_name(i)) == 0) {
             *value = i;
             return true;
         }
@@ -262,14 +261,15 @@ static bool check_row(const struct reading *reading, const struct row_check *che
                       const struct row *row, double *cells)
 {
     const struct rows *rows = &reading->file->rows;
-    const char *why;
+    const char *why = NULL;
 
     if (!check_order(reading, check, row) || !read_cells(reading, check, cells)) {
         return false;
     }
     fill_place(reading, row->sensor_id, cells);
-    why =
-        rows_saw_something(rows, &rows->list[rows->count - 1]) ? rows->kind->why_not(cells) : NULL;
+    if (rows->kind->why_not && rows_saw_something(rows, &rows->list[rows->count - 1])) {
+        why = rows->kind->why_not(cells);
+    }
     return why ? row_refuse(check, "%s", why) : check_ranges(reading, check);
 }
 

@@ -17,36 +17,30 @@ struct making {
     const struct rows_kind *kind;
     int64_t interval_us;
     struct row *rows;
-    size_t *
-        before; /* of tracks without numbers: the row that names the same one before, at the same time */
+    size_t *before; /* of lists without numbers: the row before of the same name and time */
 };
 
 /* ---- Rows that belong together ---- */
 
-static int compare(int64_t one, int64_t other)
-{
-    return (one > other) - (one < other);
-}
-
 static int by_key(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = compare(one->sensor_id, other->sensor_id);
+    int order = rows_compare(one->sensor_id, other->sensor_id);
 
-    order = order ? order : compare(one->epoch, other->epoch);
-    order = order ? order : compare(one->scan, other->scan);
-    return order ? order : compare((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare(one->epoch, other->epoch);
+    order = order ? order : rows_compare(one->scan, other->scan);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
 }
 
 /* Of lists the time counts, too: their rows may be in any order. */
 static int by_list(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = compare(one->epoch, other->epoch);
+    int order = rows_compare(one->epoch, other->epoch);
 
-    order = order ? order : compare(one->scan, other->scan);
-    order = order ? order : compare(one->time_us, other->time_us);
-    return order ? order : compare((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare(one->scan, other->scan);
+    order = order ? order : rows_compare(one->time_us, other->time_us);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
 }
 
 struct named {
@@ -58,7 +52,7 @@ struct named {
 static int by_name(const void *a, const void *b)
 {
     const struct named *one = a, *other = b;
-    int order = compare(one->time_us, other->time_us);
+    int order = rows_compare(one->time_us, other->time_us);
 
     order = order ? order : (one->name > other->name) - (one->name < other->name);
     return order ? order : (one->row > other->row) - (one->row < other->row);
@@ -137,7 +131,7 @@ static bool check_plot(struct making *making, const struct rows_scan *scan, cons
                     name);
         return false;
     }
-    if (making->kind->pattern(cells) != making->kind->pattern(others)) {
+    if (making->kind->pattern && making->kind->pattern(cells) != making->kind->pattern(others)) {
         rows_refuse(
             making->file, row,
             "height, velocity or range rate must be given in all rows of a scan or in none");
@@ -247,9 +241,9 @@ static void number_scans(const struct making *making)
 static int by_time(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
-    int order = compare(one->utime, other->utime);
+    int order = rows_compare(one->utime, other->utime);
 
-    return order ? order : compare((int64_t)one->order, (int64_t)other->order);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
 }
 
 void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t interval_us)

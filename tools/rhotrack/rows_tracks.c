@@ -85,16 +85,22 @@ static int diagonal(int state)
     return state * (state + 1) / 2 + state;
 }
 
-static const char *why_not(const double *cells)
+/* Their squares are in the covariance. */
+#define SIGMA_MIN 1e-18
+#define SIGMA_MAX 1e18
+
+static bool is_sigma(double cell)
 {
-    (void)cells;
-    return NULL;
+    return !(cell < 0.0) && !(cell > 0.0 && cell < SIGMA_MIN) && !(cell > SIGMA_MAX);
 }
 
-static int pattern(const double *cells)
+static const char *why_not(const double *cells)
 {
-    (void)cells;
-    return 0;
+    if (!is_sigma(cells[SIGMA_M]) || !is_sigma(cells[SIGMA_MPS])) {
+        return is_sigma(cells[SIGMA_M]) ? "sigma_mps is neither 0 nor within 1e-18 .. 1e18"
+                                        : "sigma_m is neither 0 nor within 1e-18 .. 1e18";
+    }
+    return NULL;
 }
 
 static size_t fit(const struct rows_part *rest)
@@ -188,14 +194,14 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
 
 /* ---- Messages to rows ---- */
 
-/* Root mean variance over the measured axes, as the tracker's own: those whose place has a variance. */
+/* Root mean variance over the measured axes, as the tracker's own: those whose place or speed has a variance. */
 static double sigma_of(const float *covariance, int first)
 {
     float sum = 0.0f;
     int axes = 0;
 
     for (int axis = 0; axis < AXES; axis++) {
-        if (covariance[diagonal(axis)] > 0.0f) {
+        if (covariance[diagonal(axis)] > 0.0f || covariance[diagonal(AXES + axis)] > 0.0f) {
             sum += covariance[diagonal(first + axis)];
             axes++;
         }
@@ -265,7 +271,6 @@ const struct rows_kind rows_kind_tracks = {
     .columns = columns,
     .num_columns = NUM_COLUMNS,
     .why_not = why_not,
-    .pattern = pattern,
     .fit = fit,
     .encode = encode,
     .decode = decode,

@@ -16,18 +16,6 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [VZ_MPS] = {"vz_mps", COLUMN_NOT_ZERO, 0, NULL, NULL},
 };
 
-static const char *why_not(const double *cells)
-{
-    (void)cells;
-    return NULL;
-}
-
-static int pattern(const double *cells)
-{
-    (void)cells;
-    return 0;
-}
-
 static size_t fit(const struct rows_part *rest)
 {
     return rest->count < RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS ? rest->count
@@ -116,8 +104,6 @@ const struct rows_kind rows_kind_truth = {
     .has_one_time = true,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .why_not = why_not,
-    .pattern = pattern,
     .fit = fit,
     .encode = encode,
     .decode = decode,

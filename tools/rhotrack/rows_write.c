@@ -50,10 +50,6 @@ static void choose_columns(const struct rows *rows, bool with_covariance, bool *
 
 static void write_cell(FILE *file, const struct rows_column *column, double cell)
 {
-    static const char *const states[] = {[RHO_MESSAGE_TRACK_TENTATIVE] = "tentative",
-                                         [RHO_MESSAGE_TRACK_CONFIRMED] = "confirmed",
-                                         [RHO_MESSAGE_TRACK_COASTING] = "coasting",
-                                         [RHO_MESSAGE_TRACK_DELETED] = "deleted"};
     char text[FLOAT_TEXT_BYTES];
 
     fputc(',', file);
@@ -61,7 +57,7 @@ static void write_cell(FILE *file, const struct rows_column *column, double cell
         return;
     }
     if (column->flags & COLUMN_STATUS) {
-        fputs(states[(int)cell], file);
+        fputs(rows_status_name((int)cell), file);
     } else if (column->flags & (COLUMN_INT16 | COLUMN_INT32)) {
         fprintf(file, "%" PRId32, (int32_t)cell);
     } else if (!(cell < 0.0) && !(cell > 0.0) && !rows_is_zero((float)cell)) {

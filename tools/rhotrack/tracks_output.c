@@ -24,9 +24,7 @@ struct tracks_output {
 
 bool tracks_output_is_log(const char *path)
 {
-    size_t length = path ? strlen(path) : 0;
-
-    return length > 4 && strcmp(path + length - 4, ".lcm") == 0;
+    return path && path_ends_with(path, ".lcm");
 }
 
 struct tracks_output *tracks_output_open(const char *path, bool with_covariance)
