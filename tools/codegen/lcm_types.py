@@ -13,6 +13,7 @@ import sys
 PRIMITIVES = {"int8_t": 1, "int16_t": 2, "int32_t": 4, "int64_t": 8, "float": 4}
 NAME = r"[A-Za-z_]\w*"
 MASK = (1 << 64) - 1
+ARRAY_MAX = 255  # a run of the codec's tables counts in a byte
 
 
 @dataclasses.dataclass
@@ -102,12 +103,15 @@ def parse_field(path, number, code, comment):
 
 def parse_constants(path, number, code):
     constants = {}
-    found = re.fullmatch(r"const\s+int(?:8|16)_t\s+(.*)", code)
-    for item in found.group(1).split(",") if found else [""]:
+    found = re.fullmatch(r"const\s+int(8|16)_t\s+(.*)", code)
+    for item in found.group(2).split(",") if found else [""]:
         pair = re.fullmatch(rf"\s*({NAME})\s*=\s*(-?\d+)\s*", item)
         if not pair:
             fail(path, number, f"no constant that is understood: {code}")
         constants[pair.group(1)] = int(pair.group(2))
+        most = 1 << int(found.group(1)) - 1
+        if not -most <= constants[pair.group(1)] < most:
+            fail(path, number, f"a constant beyond its type: {code}")
     return constants
 
 
@@ -133,7 +137,7 @@ def parse(path):
             fail(path, number, f"no ; at the end: {code}")
         code = code[:-1].strip()
         if code.split()[0] == "package":
-            struct.package = code.split()[1]
+            struct.package = code.removeprefix("package").strip()
         elif code.split()[0] == "const":
             struct.constants.update(parse_constants(path, number, code))
         else:
@@ -148,6 +152,11 @@ def check(struct):
         fail(struct.path, 1, f"struct {struct.name} belongs into {struct.name}.lcm, and ends with _t")
     if struct.package != "rhotrack":
         fail(struct.path, 1, "package rhotrack is missing")
+    check_comment(struct)
+    names = [field.name for field in struct.fields]
+    for field in struct.fields:
+        if names.count(field.name) > 1:
+            fail(struct.path, field.line, f"{field.name} is there twice")
     if not struct.head:
         fail(struct.path, 1, f"{struct.name} has no members, or only a list")
     for field in struct.fields:
@@ -155,6 +164,17 @@ def check(struct):
         check_values(struct, field)
     if struct.list:
         check_list(struct)
+
+
+def check_comment(struct):
+    """What stands before the package: it goes into the C header, and names the channel."""
+    text = " ".join(struct.comment)
+    if not struct.comment:
+        fail(struct.path, 1, "a comment before the package is missing: what the struct is")
+    if "*/" in text or "/*" in text:
+        fail(struct.path, 1, "the comment before the package would end the one in C")
+    if "Channel " in text and not struct.channel[0]:
+        fail(struct.path, 1, "no channel that is understood: Channel RHO_NAME. or Channel RHO_NAME_<sensor_id>.")
 
 
 def check_kind(struct, field):
@@ -167,6 +187,8 @@ def check_kind(struct, field):
         fail(struct.path, field.line, f"{field.name}: a list of bare numbers must be of float")
     if field.dimension and field.length == 0:
         fail(struct.path, field.line, f"{field.name}: an array of nothing")
+    if field.length > ARRAY_MAX:
+        fail(struct.path, field.line, f"{field.name}: an array of more than {ARRAY_MAX}")
 
 
 def check_values(struct, field):
