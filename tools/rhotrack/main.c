@@ -20,10 +20,9 @@ static const struct command commands[] = {
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
-     "and writes one row a track and scan (CSV) to OUTPUT or standard output. A summary goes to\n"
-     "standard error. With --json the results go to standard output as one JSON object, and "
-     "tracks\n"
-     "only to OUTPUT.\n"},
+     "and writes one row a track and scan (CSV) to OUTPUT or standard output. Inputs may be LCM\n"
+     "logs, and OUTPUT is one where it is named NAME.lcm. A summary goes to standard error. With\n"
+     "--json the results go to standard output as one JSON object, and tracks only to OUTPUT.\n"},
     {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method METHOD]", 1, 1, "omjksC",
      "initiation alone, on the last scans as one batch",
      "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks "
