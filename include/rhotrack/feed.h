@@ -15,10 +15,11 @@
  * lies leaves the scans of the others as they are. Who sends in a sensor's name can do harm to that sensor.
  *
  * Parts      A scan is complete when all its parts are here. It goes out incomplete, and is counted, when a newer scan of
- *            its sensor begins or hold_us has passed since its last part. Plots are in the order of the parts. The part
- *            that comes first counts: those that say something else of the scan are refused.
- * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans of
- *            different sensors go out in the order of time. With one sensor nothing waits. A sensor is live for
+ *            its sensor begins, hold_us has passed since its last part, or a later scan of another sensor has been held
+ *            that long (but with hold_us 0). Plots are in the order of the parts. The part that comes first counts:
+ *            those that say something else of the scan are refused.
+ * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans
+ *            of different sensors go out in the order of time. With one sensor nothing waits. A sensor is live for
  *            jump_max_us after its last scan.
  * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps), its time
  *            later, and both go together: it took no longer than half as long again as its numbers usually take, or as

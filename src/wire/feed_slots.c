@@ -216,23 +216,48 @@ static struct rho_feed_slot *find_first(struct rho_feed *feed, enum feed_slot_st
     return first;
 }
 
-struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
+/* A scan that goes out makes older ones late, so one whose parts are still coming goes before it, without them. */
+static struct rho_feed_slot *or_older_open(struct rho_feed *feed, struct rho_feed_slot *slot)
 {
-    struct rho_feed_slot *slot;
+    struct rho_feed_slot *open = find_first(feed, FEED_SLOT_OPEN);
 
-    close_overdue(feed, now_us);
-    slot = find_first(feed, FEED_SLOT_COMPLETE);
-    if (feed->is_pressed && !slot) {
+    if (!open || open->place.time_us >= slot->place.time_us) {
+        return slot;
+    }
+    rho_feed_close_slot(feed, open);
+    return open;
+}
+
+static struct rho_feed_slot *press(struct rho_feed *feed)
+{
+    struct rho_feed_slot *slot = find_first(feed, FEED_SLOT_COMPLETE);
+
+    if (!slot) {
         slot = rho_feed_find_weak(feed);
         slot = slot ? slot : find_first(feed, FEED_SLOT_OPEN);
         if (slot) {
             rho_feed_close_slot(feed, slot);
         }
     }
-    return slot && (feed->is_pressed || has_waited(feed, slot, now_us) ||
-                    is_turn(feed, slot, now_us))
-               ? slot
-               : NULL;
+    return slot;
+}
+
+struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
+{
+    struct rho_feed_slot *slot;
+
+    close_overdue(feed, now_us);
+    if (feed->is_pressed) {
+        return press(feed);
+    }
+    slot = find_first(feed, FEED_SLOT_COMPLETE);
+    if (!slot) {
+        return NULL;
+    }
+    if (has_waited(feed, slot, now_us)) {
+        return feed->config.hold_us > 0 ? or_older_open(feed, slot) : slot;
+    }
+    return is_turn(feed, slot, now_us) ? slot : NULL;
 }
 
 void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *item)

@@ -557,7 +557,7 @@ static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
 /* The scan that goes out; NULL: none. It stays readable until the next call. */
 static inline const struct model_scan *model_next(int64_t now_us, int *is_restart)
 {
-    struct model_scan *scan = model_in_state(M_OUT);
+    struct model_scan *scan = model_in_state(M_OUT), *open;
 
     if (scan) {
         scan->state = M_FREE;
@@ -570,14 +570,19 @@ static inline const struct model_scan *model_next(int64_t now_us, int *is_restar
         }
     }
     scan = model_first(M_WHOLE);
+    open = model_first(M_OPEN);
     if (!scan && model.is_pressed) {
-        scan = model_weak_one() ? model_weak_one() : model_first(M_OPEN);
+        scan = model_weak_one() ? model_weak_one() : open;
         if (scan) {
             model_close(scan);
         }
-    }
-    if (scan && !model.is_pressed && !model_was_held(scan, now_us) &&
-        !model_has_turn(scan, now_us)) {
+    } else if (scan && !model.is_pressed && model.config.hold_us > 0 &&
+               model_was_held(scan, now_us) && open &&
+               open->place.time_us < scan->place.time_us) {
+        model_close(open); /* it would be late */
+        scan = open;
+    } else if (scan && !model.is_pressed && !model_was_held(scan, now_us) &&
+               !model_has_turn(scan, now_us)) {
         return NULL;
     }
     model.is_pressed = 0;

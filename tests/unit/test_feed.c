@@ -325,6 +325,49 @@ static void an_older_scan_is_waited_for_while_its_parts_come(void **state)
     next_is(HOLD_US, 4, 5 * SECOND_US + 1);
 }
 
+/* Were the complete one to go out first, the others would be late for the tracker. */
+static void older_scans_go_out_before_one_that_was_held(void **state)
+{
+    const unsigned num_older = RHO_MAX_OPEN_SCANS > 2 ? 2 : 1;
+    struct look older[2] = {part_of(0, 2), part_of(1, 2)},
+                later = {.time_us = 5 * SECOND_US + 2, .scan = 1, .sensor_id = 2};
+
+    (void)state;
+    start();
+    older[1].sensor_id = 1;
+    older[1].time_us++;
+    take(&later, 0);
+    for (unsigned i = num_older; i-- > 0;) {
+        take(&older[i], 7);
+    }
+    next_is_none(HOLD_US - 1);
+    assert_int_equal(rho_feed_due_us(&feed), HOLD_US);
+    for (unsigned i = 0; i < num_older; i++) {
+        next_is(HOLD_US, older[i].sensor_id, older[i].time_us);
+        assert_int_equal(item.parts_missing, 1);
+    }
+    next_is(HOLD_US, 2, later.time_us);
+    next_is_none(INT64_MAX);
+    COUNTERS_ARE(.scans_accepted = num_older + 1, .scans_incomplete = num_older);
+}
+
+/* One of the same time would not be late. */
+static void younger_scans_are_not_cut_short(void **state)
+{
+    struct look part = part_of(0, 2),
+                first = {.time_us = 5 * SECOND_US, .scan = 1, .sensor_id = 9};
+
+    (void)state;
+    start();
+    take(&first, 0);
+    take(&part, 5);
+    next_is(HOLD_US, 9, first.time_us);
+    next_is_none(HOLD_US);
+    take_part(1, 2, HOLD_US);
+    next_is(HOLD_US, part.sensor_id, part.time_us);
+    assert_int_equal(item.parts_missing, 0);
+}
+
 static void hold_0_waits_for_nobody(void **state)
 {
     struct rho_feed_config config = usual();
@@ -440,6 +483,8 @@ int main(void)
         cmocka_unit_test(equal_times_wait_for_nobody),
         cmocka_unit_test(of_one_sensor_plots_come_before_bearings),
         cmocka_unit_test(an_older_scan_is_waited_for_while_its_parts_come),
+        cmocka_unit_test(older_scans_go_out_before_one_that_was_held),
+        cmocka_unit_test(younger_scans_are_not_cut_short),
         cmocka_unit_test(hold_0_waits_for_nobody),
         cmocka_unit_test(a_sensor_that_died_delays_no_more_than_hold),
         cmocka_unit_test(delays_within_hold_keep_the_order),
