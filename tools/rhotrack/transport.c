@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #include "common.h"
@@ -34,7 +35,8 @@ static int64_t system_us(void)
 
 int64_t transport_now_us(struct transport *transport)
 {
-    int64_t now_us = system_us() + transport->ahead_us;
+    int64_t now_us =
+        transport->has_own_clock ? transport->last_us : system_us() + transport->ahead_us;
 
     if (now_us < transport->last_us) { /* set back */
         transport->ahead_us += transport->last_us - now_us;
@@ -55,15 +57,37 @@ int64_t transport_time_us(struct transport *transport, int64_t time_us)
 
 /* ---- All providers ---- */
 
+static const char *or_default(const char *url)
+{
+    const char *variable = getenv("LCM_DEFAULT_URL");
+
+    return url ? url : variable && *variable ? variable : TRANSPORT_DEFAULT_URL;
+}
+
+bool transport_is_file(const char *url, const char *path)
+{
+    struct stat one, other;
+    char *name;
+    bool is_same;
+
+    url = or_default(url);
+    if (strncmp(url, "file://", 7) != 0) {
+        return false;
+    }
+    name = must_copy(url + 7);
+    name[strcspn(name, "?")] = '\0';
+    is_same = stat(name, &one) == 0 && stat(path, &other) == 0 && S_ISREG(one.st_mode) &&
+              one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+    free(name);
+    return is_same;
+}
+
 struct transport *transport_open(const char *url, enum transport_use use)
 {
     struct transport *transport = must_calloc(1, sizeof *transport);
-    const char *variable = getenv("LCM_DEFAULT_URL");
 
     transport->source = url ? "--lcm" : "LCM_DEFAULT_URL";
-    if (!url) {
-        url = variable && *variable ? variable : TRANSPORT_DEFAULT_URL;
-    }
+    url = or_default(url);
     transport->url = must_copy(url);
     transport->last_us = INT64_MIN;
     if (!strstr(url, "://")) {

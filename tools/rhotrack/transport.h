@@ -4,7 +4,8 @@
  *
  * udpm://GROUP:PORT?ttl=N&recv_buf_size=BYTES goes over a multicast socket of this program with the library's module udpm:
  * liblcm puts fragments together before any of its users can look at them, and one that is forged makes it write beyond
- * its memory. All other providers (file://, memq://, tcpq://) are liblcm's.
+ * its memory. The other providers (file://, memq://, tcpq://) are liblcm's, but for file://NAME?speed=0: it does not tell
+ * the times of a log's events.
  */
 #ifndef RHOTRACK_TOOL_TRANSPORT_H
 #define RHOTRACK_TOOL_TRANSPORT_H
@@ -46,6 +47,9 @@ struct transport_counters {
  *   url  NULL: that of the environment (LCM_DEFAULT_URL), else TRANSPORT_DEFAULT_URL
  */
 struct transport *transport_open(const char *url, enum transport_use use);
+
+/* Whether this URL is that file: opening it may empty it, so it is asked before. */
+bool transport_is_file(const char *url, const char *path);
 
 const char *transport_url(const struct transport *transport);
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* transport_lcm: LCM's other providers, through liblcm; messages stay bytes, for this program's own decoders. */
+/*
+ * transport_lcm: LCM's other providers, through liblcm; messages stay bytes, for this program's own decoders. But a log that
+ * is read without waiting is transport_log's: liblcm does not tell the times of its events.
+ */
 #include <errno.h>
 #include <lcm/lcm.h>
 #include <poll.h>
@@ -16,8 +19,7 @@ enum { QUEUE_MESSAGES = 10000, MESSAGE_BYTES = 65536 };
 struct provider {
     lcm_t *lcm;
     struct transport *transport;
-    int64_t last_us; /* of a file: its own times */
-    bool is_file, has_ended, has_message;
+    bool has_ended, has_message;
     size_t size;
     int64_t time_us;
     char channel[RHO_UDPM_MAX_CHANNEL + 1];
@@ -42,17 +44,6 @@ static void on_message(const lcm_recv_buf_t *buffer, const char *channel, void *
     provider->has_message = true;
 }
 
-static int64_t received_us(struct transport *transport, struct provider *provider)
-{
-    if (!provider->is_file) {
-        return transport_time_us(transport, provider->time_us);
-    }
-    if (provider->time_us > provider->last_us) {
-        provider->last_us = provider->time_us;
-    }
-    return provider->last_us;
-}
-
 static int descriptor_of(const void *object)
 {
     return lcm_get_fileno(((const struct provider *)object)->lcm);
@@ -74,10 +65,11 @@ static enum transport_found receive(struct transport *transport, void *object,
     if (!provider->has_message) {
         return TRANSPORT_END;
     }
-    *message = (struct transport_message){.channel = provider->channel,
-                                          .data = provider->data,
-                                          .size = provider->size,
-                                          .received_us = received_us(transport, provider)};
+    *message =
+        (struct transport_message){.channel = provider->channel,
+                                   .data = provider->data,
+                                   .size = provider->size,
+                                   .received_us = transport_time_us(transport, provider->time_us)};
     return TRANSPORT_MESSAGE;
 }
 
@@ -99,12 +91,33 @@ static void close_lcm(void *object)
     free(provider);
 }
 
+/* The value of one of the URL's options, and what is behind it; "" where it is not said. */
+static const char *option_of(const char *url, const char *name)
+{
+    size_t length = strlen(name);
+
+    for (const char *rest = strpbrk(url, "?&"); rest; rest = strpbrk(rest, "?&")) {
+        rest++;
+        if (strncmp(rest, name, length) == 0 && rest[length] == '=') {
+            return rest + length + 1;
+        }
+    }
+    return "";
+}
+
 /* A file is read, or written from its start or its end: liblcm's option mode, r where it is not said. */
 static char file_mode(const char *url)
 {
-    const char *options = strchr(url, '?'), *mode = options ? strstr(options, "mode=") : NULL;
+    const char *mode = option_of(url, "mode");
 
-    return mode ? mode[strlen("mode=")] : 'r';
+    return *mode ? *mode : 'r';
+}
+
+static bool is_instant(const char *url)
+{
+    const char *speed = option_of(url, "speed");
+
+    return *speed && !(strtod(speed, NULL) > 0);
 }
 
 static void check_file(const struct transport *transport, enum transport_use use)
@@ -123,15 +136,19 @@ void transport_open_lcm(struct transport *transport, enum transport_use use)
 {
     static const struct transport_provider methods = {descriptor_of, receive, send_message,
                                                       close_lcm};
-    struct provider *provider = must_calloc(1, sizeof *provider);
+    bool is_file = strncmp(transport->url, "file://", 7) == 0;
+    struct provider *provider;
     lcm_subscription_t *all;
 
-    provider->transport = transport;
-    provider->last_us = INT64_MIN;
-    provider->is_file = strncmp(transport->url, "file://", 7) == 0;
-    if (provider->is_file) {
+    if (is_file) {
         check_file(transport, use);
+        if (use == TRANSPORT_SEND_AND_RECEIVE && is_instant(transport->url)) {
+            transport_open_log(transport);
+            return;
+        }
     }
+    provider = must_calloc(1, sizeof *provider);
+    provider->transport = transport;
     provider->lcm = lcm_create(transport->url);
     if (!provider->lcm) {
         transport_refuse(transport, "liblcm does not open it");
@@ -144,5 +161,5 @@ void transport_open_lcm(struct transport *transport, enum transport_use use)
     }
     transport->provider = &methods;
     transport->object = provider;
-    transport->can_send = !provider->is_file || file_mode(transport->url) != 'r';
+    transport->can_send = !is_file || file_mode(transport->url) != 'r';
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* transport_parts: what the providers share. For transport.c, transport_udpm.c and transport_lcm.c alone. */
+/* transport_parts: what the providers share. For transport*.c alone. */
 #ifndef RHOTRACK_TOOL_TRANSPORT_PARTS_H
 #define RHOTRACK_TOOL_TRANSPORT_PARTS_H
 
@@ -9,6 +9,7 @@ struct transport_provider {
     int (*descriptor)(const void *object);
     enum transport_found (*receive)(struct transport *transport, void *object,
                                     struct transport_message *message);
+    /* NULL: it can not */
     bool (*send)(void *object, const char *channel, const uint8_t *data, size_t size);
     void (*close)(void *object);
 };
@@ -20,7 +21,8 @@ struct transport {
     const char *source; /* of the URL, for messages: "--lcm" or the variable's name */
     bool can_send;
     int64_t last_us,
-        ahead_us; /* the reception clock: its last time, and how far the system's is behind */
+        ahead_us;       /* the reception clock: its last time, and how far the system's is behind */
+    bool has_own_clock; /* it is the messages' own times: last_us */
     struct transport_counters counters;
 };
 
@@ -34,5 +36,6 @@ int64_t transport_time_us(struct transport *transport, int64_t time_us);
 /* Open the URL of the transport, and set provider, object and can_send. */
 void transport_open_udpm(struct transport *transport, enum transport_use use);
 void transport_open_lcm(struct transport *transport, enum transport_use use);
+void transport_open_log(struct transport *transport);
 
 #endif
