@@ -165,6 +165,56 @@ check 'publish writes a log' exits 0
 run node --lcm 'file://played.lcm?speed=0' --print --config scene/scenario.ini
 check 'a node reads it, and ends with it' writes_same_as tracks.csv
 
+"$program" convert scene/plots.csv scene.lcm
+cp scene.lcm both.lcm
+run node --lcm 'file://both.lcm?speed=0' --log ./both.lcm
+check 'a node does not log over what it reads' says 2 'rhotrack: node: ./both.lcm would be written over *'
+run publish scene/plots.csv both.lcm --lcm 'file://both.lcm?mode=w'
+check 'nor does publish write over what it plays' says 2 'rhotrack: publish: both.lcm would be written over *'
+check 'and it is as it was' cmp scene.lcm both.lcm
+
+# Prints a log's first and last time in seconds.
+span_of() {
+    python3 - "$1" <<'PYTHON'
+import struct, sys
+data = open(sys.argv[1], "rb").read()
+at, times = 0, []
+while at < len(data):
+    _, _, time, channel, size = struct.unpack_from(">IqqII", data, at)
+    at += 28 + channel + size
+    times.append(time / 1e6)
+print(min(times), max(times))
+PYTHON
+}
+
+# 12000 messages of one sensor in 20 minutes of a log are no flood, however fast they are read.
+awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"
+             for (k = 0; k < 12000; k++) printf "%.6f,1,%d,5000\n", 100 + k / 10, 5 * k }' >many.csv
+"$program" convert many.csv many.lcm
+run node --lcm 'file://many.lcm?speed=0' --log again.lcm
+check 'a log that is read without waiting is heard at its own times' grep -q ' 12000 steps' stderr
+check 'and so is its log' matches "$(span_of again.lcm)" '100.0 1299.9'
+
+# ---- a hang-up ----
+hang_up() { # COMMAND...: $status is its exit code, or 'gone' where the hang-up ended it
+    "$@" >/dev/null 2>hung.err &
+    local process=$!
+    sleep 0.5
+    kill -HUP "$process"
+    sleep 0.3
+    status=0
+    kill -TERM "$process" 2>/dev/null || status=gone
+    wait "$process" || status=$?
+}
+hang_up "$program" node
+check 'a hang-up ends a node' matches "$status" gone
+hang_up nohup "$program" node
+check 'but not beside nohup' matches "$status" 0
+hang_up "$program" publish scene/plots.csv
+check 'a hang-up ends publish' matches "$status" gone
+hang_up nohup "$program" publish scene/plots.csv
+check 'but not beside nohup, either' matches "$status" 0
+
 # ---- what is no URL ----
 refused() { # name, URL, message
     run node --for 1 --lcm "$2"

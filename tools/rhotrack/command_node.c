@@ -164,7 +164,9 @@ static int open_signals(void)
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
-    sigaddset(&set, SIGHUP);
+    if (!is_ignored(SIGHUP)) {
+        sigaddset(&set, SIGHUP);
+    }
     sigprocmask(SIG_BLOCK, &set, NULL);
     signal(SIGPIPE, SIG_IGN); /* standard output that ends shows as a write error */
     descriptor = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
@@ -312,6 +314,9 @@ int command_node(struct command_line *line)
     const struct node_core_events events = {&node, on_send, on_step};
     int exit_code;
 
+    if (line->log && transport_is_file(line->lcm, line->log)) {
+        fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
+    }
     chain_set_gate(&line->parameters, line->gate);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
     node.signals = open_signals();

@@ -60,7 +60,9 @@ static void watch_signals(void)
 
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
+    if (!is_ignored(SIGHUP)) {
+        sigaction(SIGHUP, &action, NULL);
+    }
 }
 
 /* ---- Time ---- */
@@ -198,6 +200,9 @@ static void send_event(struct player *player, const struct message_event *event)
             player->skipped++;
             return;
         }
+        if (errno == EINTR) {
+            continue;
+        }
         if ((errno != ENOBUFS && errno != EAGAIN) || tries++ == TRIES) {
             fail(EXIT_RUNTIME, "%s: %s: %s", transport_url(player->transport), event->channel,
                  strerror(errno));
@@ -289,6 +294,11 @@ int command_publish(struct command_line *line)
 {
     struct player player = {.line = line, .epoch = own_epoch(line)};
 
+    for (int i = 0; i < line->num_arguments; i++) {
+        if (transport_is_file(line->lcm, line->arguments[i])) {
+            fail(EXIT_USAGE, "publish: %s would be written over what is read", line->arguments[i]);
+        }
+    }
     watch_signals();
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
     do {

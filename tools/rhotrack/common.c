@@ -39,6 +39,13 @@ static void on_signal(int number)
     raise(number);
 }
 
+bool is_ignored(int number)
+{
+    struct sigaction action;
+
+    return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 void fail(int exit_code, const char *format, ...)
 {
     char message[8192];

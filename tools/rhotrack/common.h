@@ -45,6 +45,9 @@ struct output {
 struct output output_open(const char *path);
 void output_close(struct output *output); /* checks for write errors, renames */
 
+/* Whether the signal is ignored, as nohup has it; it should stay so. */
+bool is_ignored(int number);
+
 /* mkdir -p. Exit 1 with the reason. */
 void make_folder(const char *path);
 
