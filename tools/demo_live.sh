@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The live side for a few seconds: `publish` plays a simulated radar, `node` tracks what it hears, over LCM on this machine.
-# In a network namespace of its own where that is allowed, else on the machine's network with ttl 0, which leaves no machine.
+# The live side for a few seconds: `publish` plays a simulated radar, `node` tracks what it hears, over LCM on this
+# machine. In a network namespace of its own where that is allowed, else on the machine's network with ttl 0, which
+# leaves no machine.
 # Usage: RHOTRACK=program demo_live.sh OUTPUT
 set -euo pipefail
 program=$(realpath "${RHOTRACK:-build/rhotrack}")

@@ -11,38 +11,39 @@
  *         }
  *     }
  *
- * Nobody is trusted: LCM does not say who sent a message. What a message can do is bounded, and one sensor that fails or
- * lies leaves the scans of the others as they are. Who sends in a sensor's name can do harm to that sensor.
+ * Nobody is trusted: LCM does not say who sent a message. What a message can do is bounded, and one sensor that fails
+ * or lies leaves the scans of the others as they are. Who sends in a sensor's name can do harm to that sensor.
  *
- * Parts      A scan is complete when all its parts are here. It goes out incomplete, and is counted, when a newer scan of
- *            its sensor begins, hold_us has passed since its last part, or a later scan of another sensor has been held
- *            that long (but with hold_us 0). Plots are in the order of the parts. The part that comes first counts:
- *            those that say something else of the scan are refused.
+ * Parts      A scan is complete when all its parts are here. It goes out incomplete, and is counted, when a newer scan
+ *            of its sensor begins, hold_us has passed since its last part, or a later scan of another sensor has been
+ *            held that long (but with hold_us 0). Plots are in the order of the parts. The part that comes first
+ *            counts: those that say something else of the scan are refused.
  * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans
  *            of different sensors go out in the order of time. With one sensor nothing waits. A sensor is live for
  *            jump_max_us after its last scan.
- * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps), its time
- *            later, and both go together: it took no longer than half as long again as its numbers usually take, or as
- *            nothing was heard of the sensor, and where it skips numbers no shorter than three quarters of that. Numbers
- *            that were skipped are lost; 0 or up to 31 lower is double or late. Anything else, and another epoch, is
- *            refused until follow_scans such scans agree with one another: the sensor restarted, or goes another pace.
- *            So one damaged message, or one that was not the sensor's, does not make those that follow it look old.
+ * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps), its
+ *            time later, and both go together: it took no longer than half as long again as its numbers usually take,
+ *            or as nothing was heard of the sensor, and where it skips numbers no shorter than three quarters of that.
+ *            Numbers that were skipped are lost; 0 or up to 31 lower is double or late. Anything else, and another
+ *            epoch, is refused until follow_scans such scans agree with one another: the sensor restarted, or goes
+ *            another pace. So one damaged message, or one that was not the sensor's, does not make those that follow it
+ *            look old.
  * Clock      A scan is refused where most other live sensors say that its time is another one: more than an
  *            eighth of jump_max_us and hold_us ahead of what their last scans and the reception clock make it now, or
- *            two of their intervals, or as far before their last scans; jump_max_us of one that has sent one scan so far. So is
- *            one more than jump_max_us off the last accepted one. One wrong clock does not make the other sensors
- *            late. When more sensors agree on another time than on the present one, that time is followed:
+ *            two of their intervals, or as far before their last scans; jump_max_us of one that has sent one scan so
+ *            far. So is one more than jump_max_us off the last accepted one. One wrong clock does not make the other
+ *            sensors late. When more sensors agree on another time than on the present one, that time is followed:
  *            is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as the
  *            other, the reception clock decides if it is near one of them alone, and else who came first. A clock
  *            that is ahead by less makes the other sensors late in the tracker for as long as it goes on.
  * Flood      More than flood_per_s messages of one sensor in a second are not looked at. Sensors that are not known
- *            share one such measure. A new sensor takes the place of one that was not heard for longest, never that of one
- *            that is heard, tells the common time and has proved itself by follow_scans scans; nor does it cut short a scan
- *            of such a one for want of room.
+ *            share one such measure. A new sensor takes the place of one that was not heard for longest, never that of
+ *            one that is heard, tells the common time and has proved itself by follow_scans scans; nor does it cut
+ *            short a scan of such a one for want of room.
  *
  * Which sensor sent a message is told by its channel: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n>, with n the
- * message's sensor_id. The reception clock: microseconds, any epoch. It has to go on, and should go as fast as the sensors'
- * clocks do: who replays a record gives the times at which it was recorded.
+ * message's sensor_id. The reception clock: microseconds, any epoch. It has to go on, and should go as fast as the
+ * sensors' clocks do: who replays a record gives the times at which it was recorded.
  * The object holds no pointers: a memcpy is a snapshot.
  */
 #ifndef RHOTRACK_FEED_H
@@ -69,8 +70,8 @@ struct rho_feed_noise {
 };
 
 /*
- * What is known of a sensor beforehand. A polar message or bearing says the sensor's place itself; the place here counts for
- * plots, and for polar messages that say 0, 0, 0. Biases are taken off polar plots and bearings.
+ * What is known of a sensor beforehand. A polar message or bearing says the sensor's place itself; the place here
+ * counts for plots, and for polar messages that say 0, 0, 0. Biases are taken off polar plots and bearings.
  */
 struct rho_feed_sensor {
     struct rho_sensor sensor;
@@ -189,8 +190,8 @@ struct rho_feed_item {
 };
 
 /*
- * hold 20 ms, jump_max 30 s, flood 10 000 a second, follow_scans 3; other sensors: at the origin, looking everywhere, pd 0.9,
- * no biases; noise 10 m, 1 m/s, 15 m, 3 mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0. Constant cost.
+ * hold 20 ms, jump_max 30 s, flood 10 000 a second, follow_scans 3; other sensors: at the origin, looking everywhere,
+ * pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3 mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0. Constant cost.
  */
 void rho_feed_config_default(struct rho_feed_config *config);
 
@@ -215,8 +216,8 @@ RHO_MUST_CHECK enum rho_status rho_feed_set_sensor(struct rho_feed *feed,
  *   channel  ends with NUL
  *   now_us   reception clock
  * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel), CAPACITY (no room for another open scan: call
- * rho_feed_next once, step what it gives, if anything, and take the message again; two such calls make room); nothing is
- * changed but for that call.
+ * rho_feed_next once, step what it gives, if anything, and take the message again; two such calls make room); nothing
+ * is changed but for that call.
  * Cost: the message's bytes, RHO_MAX_SENSORS, and where parts come out of order the scan's plots moved.
  * Stack: 2 KB: the message as a struct.
  */
@@ -224,13 +225,16 @@ RHO_MUST_CHECK enum rho_status rho_feed_take(struct rho_feed *feed, const char *
                                              const uint8_t *data, size_t size, int64_t now_us);
 
 /*
- * The next scan that is due, if there is one; it is valid until the next call of this function. now_us INT64_MAX: all that
- * is there goes out.
+ * The next scan that is due, if there is one; it is valid until the next call of this function. now_us INT64_MAX: all
+ * that is there goes out.
  * Returns 0 where nothing is due, or feed is not initialised. Cost: RHO_MAX_OPEN_SCANS, RHO_MAX_SENSORS.
  */
 int rho_feed_next(struct rho_feed *feed, int64_t now_us, struct rho_feed_item *item);
 
-/* When rho_feed_next should be called though no message comes; INT64_MAX: not before one does. Cost: RHO_MAX_OPEN_SCANS. */
+/*
+ * When rho_feed_next should be called though no message comes; INT64_MAX: not before one does.
+ * Cost: RHO_MAX_OPEN_SCANS.
+ */
 int64_t rho_feed_due_us(const struct rho_feed *feed);
 
 #endif

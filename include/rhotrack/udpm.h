@@ -3,8 +3,8 @@
  * udpm: datagrams of LCM's UDP multicast, one message each.
  *
  * A datagram is "LC02", a sequence number (4 bytes, big endian), the channel's name with a NUL, and the message. Longer
- * messages go out in fragments ("LC03"), which this module refuses: all of rhotrack's messages fit one datagram. Group and
- * port are the caller's socket's; LCM's defaults are below.
+ * messages go out in fragments ("LC03"), which this module refuses: all of rhotrack's messages fit one datagram. Group
+ * and port are the caller's socket's; LCM's defaults are below.
  *
  * The message is written behind the head in place:
  *
@@ -37,16 +37,16 @@ struct rho_udpm_datagram {
 
 /*
  * Writes the head of a datagram to the buffer; *head: its length, behind which the message goes.
- * Errors: NULL, VALUE (a channel of no or more than 63 characters), CAPACITY (the buffer is shorter than the head); nothing
- * is written. Cost: the head's bytes. Stack: 24 bytes.
+ * Errors: NULL, VALUE (a channel of no or more than 63 characters), CAPACITY (the buffer is shorter than the head);
+ * nothing is written. Cost: the head's bytes. Stack: 24 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequence,
                                               const char *channel, size_t *head);
 
 /*
  * Opens a datagram; any bytes of any length may be given. The message itself is not looked into, and may be empty.
- * Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or no LCM), VALUE (a channel that is empty, longer than
- * 63 characters, or without its end); *datagram is unchanged. Cost: the channel's length. Stack: 24 bytes.
+ * Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or no LCM), VALUE (a channel that is empty, longer
+ * than 63 characters, or without its end); *datagram is unchanged. Cost: the channel's length. Stack: 24 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_udpm_parse(const uint8_t *data, size_t size,
                                               struct rho_udpm_datagram *datagram);

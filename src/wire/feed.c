@@ -116,7 +116,7 @@ enum rho_status rho_feed_set_sensor(struct rho_feed *feed, const struct rho_feed
 
 /* ---- Channels ---- */
 
-/* The number behind the prefix, as a sensor writes it: no sign but -, no leading zeros, within int16_t. 0: it is none. */
+/* The number behind the prefix, as a sensor writes it: no sign but -, no leading zeros, within int16_t. 0: none. */
 static int read_number(const char *text, int16_t *number)
 {
     int is_negative = text[0] == '-';
@@ -269,8 +269,8 @@ static struct rho_feed_source *new_source(struct rho_feed *feed, const struct fe
 }
 
 /*
- * True where room may be made for another scan. A sensor that is not proven must not cut short a scan of one that is while
- * its parts are still coming.
+ * True where room may be made for another scan. A sensor that is not proven must not cut short a scan of one that is
+ * while its parts are still coming.
  */
 static int may_press(struct rho_feed *feed, const struct rho_feed_source *source)
 {

@@ -75,9 +75,9 @@ static int goes_on(const struct rho_feed_config *config, const struct rho_feed_p
 }
 
 /*
- * Numbers and times of a sensor go on together. What takes longer than its numbers, or the silence before it, account for
- * has a wrong time; what skips more numbers than there was time for has a wrong number. Believed, either would make the
- * scans that follow look old.
+ * Numbers and times of a sensor go on together. What takes longer than its numbers, or the silence before it, account
+ * for has a wrong time; what skips more numbers than there was time for has a wrong number. Believed, either would make
+ * the scans that follow look old.
  */
 static enum feed_verdict judge_pace(const struct rho_feed_config *config,
                                     const struct rho_feed_source *source,
@@ -115,7 +115,7 @@ static enum feed_verdict judge_known(const struct rho_feed_config *config,
     if (ahead > 0) {
         return judge_pace(config, source, place, now_us);
     }
-    /* An old number with a new time is no old scan: the numbers fell back. With a time far back, the clock did as well. */
+    /* An old number with a new time is no old scan: the numbers fell back. With one far back, the clock did, too. */
     if (ahead < 0 && place->time_us > newest->time_us) {
         return FEED_STRAY_NUMBER;
     }
@@ -230,8 +230,8 @@ int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_fe
 /* ---- The common clock ---- */
 
 /*
- * The scan's time is not this sensor's: it is farther ahead of its newest scan than that is old, or far back. Of a sensor
- * with one scan so far nobody knows when the next is due, nor how fast a record is played.
+ * The scan's time is not this sensor's: it is farther ahead of its newest scan than that is old, or far back. Of a
+ * sensor with one scan so far nobody knows when the next is due, nor how fast a record is played.
  */
 static int is_elsewhere(const struct rho_feed_config *config, const struct rho_feed_source *other,
                         int64_t time_us, int64_t now_us)
@@ -254,7 +254,7 @@ static int is_live(const struct rho_feed *feed, const struct rho_feed_source *so
            rho_feed_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us;
 }
 
-/* Most live sensors on the clock say that the time is another one. Those that are not proven have a say where none is. */
+/* Most live sensors on the clock say that the time is another one. Where none is proven the others have a say. */
 static int is_contradicted(const struct rho_feed *feed, const struct rho_feed_source *source,
                            int64_t time_us, int64_t now_us)
 {
@@ -272,7 +272,7 @@ static int is_contradicted(const struct rho_feed *feed, const struct rho_feed_so
     return balance[votes[1] > 0] > 0;
 }
 
-/* More live sensors agree on the time than proven ones on the clock; of equally many, the reception clock prefers it. */
+/* More live sensors agree on the time than proven ones on the clock; of equally many the reception clock decides. */
 static int is_outvoted(const struct rho_feed *feed, const struct rho_feed_source *source,
                        int64_t time_us, int64_t now_us)
 {

@@ -60,8 +60,8 @@ uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_fe
 int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_feed_source *source);
 
 /*
- * True where a believed scan's time is the common clock's, or becomes it (then feed->is_restart is set). A scan off the clock
- * is counted in its source.
+ * True where a believed scan's time is the common clock's, or becomes it (then feed->is_restart is set). A scan off the
+ * clock is counted in its source.
  */
 int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, int64_t time_us,
                          enum feed_verdict verdict, int64_t now_us);

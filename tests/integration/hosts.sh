@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Several hosts on one bridge: two radars, the tracker, a stock logger. 0, 1 and 10 % of the datagrams to the tracker are
-# lost: tracks go on, losses are counted.
+# Several hosts on one bridge: two radars, the tracker, a stock logger. 0, 1 and 10 % of the datagrams to the tracker
+# are lost: tracks go on, losses are counted.
 # shellcheck source=tests/integration/network.bash
 . "$(dirname "$0")/network.bash"
 here=$(realpath "$(dirname "$0")")

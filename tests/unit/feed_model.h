@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What feed.h says, once more and in the plainest way: lists, wide integers, no memory saved. Good messages alone are shown
- * to it; what is no message is counted by the test.
+ * What feed.h says, once more and in the plainest way: lists, wide integers, no memory saved. Good messages alone are
+ * shown to it; what is no message is counted by the test.
  */
 #ifndef FEED_MODEL_H
 #define FEED_MODEL_H
@@ -577,8 +577,7 @@ static inline const struct model_scan *model_next(int64_t now_us, int *is_restar
             model_close(scan);
         }
     } else if (scan && !model.is_pressed && model.config.hold_us > 0 &&
-               model_was_held(scan, now_us) && open &&
-               open->place.time_us < scan->place.time_us) {
+               model_was_held(scan, now_us) && open && open->place.time_us < scan->place.time_us) {
         model_close(open); /* it would be late */
         scan = open;
     } else if (scan && !model.is_pressed && !model_was_held(scan, now_us) &&

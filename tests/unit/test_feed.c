@@ -354,8 +354,7 @@ static void older_scans_go_out_before_one_that_was_held(void **state)
 /* One of the same time would not be late. */
 static void younger_scans_are_not_cut_short(void **state)
 {
-    struct look part = part_of(0, 2),
-                first = {.time_us = 5 * SECOND_US, .scan = 1, .sensor_id = 9};
+    struct look part = part_of(0, 2), first = {.time_us = 5 * SECOND_US, .scan = 1, .sensor_id = 9};
 
     (void)state;
     start();

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Copies of a sensor's own messages with random bits flipped, before and behind the real ones. A copy that comes first and is
- * a good message takes the place of the real one: nothing tells them apart. What is looked at is how many real scans are
- * missing, and how many go out as they were sent.
+ * Copies of a sensor's own messages with random bits flipped, before and behind the real ones. A copy that comes first
+ * and is a good message takes the place of the real one: nothing tells them apart. What is looked at is how many real
+ * scans are missing, and how many go out as they were sent.
  */
 #include "feed_setup.h"
 

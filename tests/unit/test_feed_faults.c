@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two radars that see nothing of each other, and faults of every kind in the messages of one: what the tracker makes of the
- * other's is compared, bit by bit, with what it makes without faults.
+ * Two radars that see nothing of each other, and faults of every kind in the messages of one: what the tracker makes of
+ * the other's is compared, bit by bit, with what it makes without faults.
  */
 #include <math.h>
 
@@ -390,9 +390,9 @@ static double distance_m(const struct rho_track_report *a, const struct rho_trac
 }
 
 /*
- * Where scans of one radar are missing, the tracks of the other are not predicted in the same steps, and the common map of
- * clutter is another one. Gate best mixes its models at each step: its tracks differ by 0.7 m at most here, at noise of
- * 10 m; those of the others by one unit in the last place at 200 km, 1/64 m.
+ * Where scans of one radar are missing, the tracks of the other are not predicted in the same steps, and the common map
+ * of clutter is another one. Gate best mixes its models at each step: its tracks differ by 0.7 m at most here, at noise
+ * of 10 m; those of the others by one unit in the last place at 200 km, 1/64 m.
  */
 static void where_scans_are_lost_the_other_radar_loses_nothing(void **state)
 {

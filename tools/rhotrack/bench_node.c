@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_node: how long a node takes from a scan's last datagram to its tracks, over UDP multicast on this machine. The node
- * is a process of its own, as it would be; the bench is the sensor and the viewer.
+ * bench_node: how long a node takes from a scan's last datagram to its tracks, over UDP multicast on this machine. The
+ * node is a process of its own, as it would be; the bench is the sensor and the viewer.
  */
 #include "bench_node.h"
 
@@ -28,8 +28,8 @@
 #include "transport.h"
 
 /*
- * 50 scans a second of 100 plots each, in three parts. Scans are 10 s apart by their own clock, as those of `bench track`,
- * so that the tracker has a surveillance radar's work: targets move on, and clutter does not stand still.
+ * 50 scans a second of 100 plots each, in three parts. Scans are 10 s apart by their own clock, as those of `bench
+ * track`, so that the tracker has a surveillance radar's work: targets move on, and clutter does not stand still.
  */
 enum { SCANS = 550, WARM_UP = 50, SCANS_PER_S = 50, PLOTS = 100, TARGETS = 8, PARTS = 3 };
 enum { PERIOD_NS = 1000000000 / SCANS_PER_S, READY_NS = 2000000000, NS_PER_US = 1000 };

@@ -153,8 +153,8 @@ static void print_summary(const struct node *node)
 /* ---- The loop ---- */
 
 /*
- * Signals become readable before liblcm starts threads, which inherit that. They stay blocked: what an unfinished output
- * would do about them (common.c) is not needed, for the log is written under its own name.
+ * Signals become readable before liblcm starts threads, which inherit that. They stay blocked: what an unfinished
+ * output would do about them (common.c) is not needed, for the log is written under its own name.
  */
 static int open_signals(void)
 {

@@ -259,8 +259,8 @@ static bool names_epoch(const char *path)
 }
 
 /*
- * A sensor that begins anew says so by its epoch; logs and files that say one keep it. It is the time in units of 2 ms: two
- * runs may begin within a second. 0 stands for none.
+ * A sensor that begins anew says so by its epoch; logs and files that say one keep it. It is the time in units of 2 ms:
+ * two runs may begin within a second. 0 stands for none.
  */
 static int32_t own_epoch(const struct command_line *line)
 {

@@ -6,9 +6,9 @@
  *     node_core_tick(core, now_us);                         when nothing has come, at node_core_due_us at the latest
  *     node_core_status(core, refused);                      once a second
  *
- * Any bytes may be given: what they do wrong is counted, and nothing of it ends the program. Scans go out of the feed in
- * the order of time; bearings become frames on the way, and scans of plots wait for the frame that began before them, so
- * that the tracker sees what `track` shows it of the same messages.
+ * Any bytes may be given: what they do wrong is counted, and nothing of it ends the program. Scans go out of the feed
+ * in the order of time; bearings become frames on the way, and scans of plots wait for the frame that began before
+ * them, so that the tracker sees what `track` shows it of the same messages.
  */
 #ifndef RHOTRACK_TOOL_NODE_CORE_H
 #define RHOTRACK_TOOL_NODE_CORE_H

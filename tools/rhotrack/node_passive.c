@@ -12,8 +12,8 @@
 #define MOVED_SCANS 16
 
 /*
- * Nobody knows how many passive sensors there are before the first frame: it waits for as many as there can be, until the
- * next frame's scans come, or for its time. Were it closed by the second sensor, the others would be late.
+ * Nobody knows how many passive sensors there are before the first frame: it waits for as many as there can be, until
+ * the next frame's scans come, or for its time. Were it closed by the second sensor, the others would be late.
  */
 static void open_frames(struct node_passive *passive)
 {
@@ -52,8 +52,8 @@ void node_passive_has_frame(struct node_passive *passive)
 }
 
 /*
- * The cells of a search hold sensors that are not farther apart than this. A frame with one that is would be refused as a
- * whole, so the sensor is, which came last.
+ * The cells of a search hold sensors that are not farther apart than this. A frame with one that is would be refused as
+ * a whole, so the sensor is, which came last.
  */
 static int is_near(const struct node_passive *passive, const struct rho_bearing_scan *scan,
                    float apart_max_m)

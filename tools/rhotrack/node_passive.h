@@ -2,8 +2,8 @@
 /*
  * node_passive: the frames of the live tracker's passive sensors, and which of these sensors are in them.
  *
- * Places of passive sensors are taken from the first scan that says them, be it a wrong or a hostile one. A sensor that is
- * not heard any more must not keep another one out for ever, nor a place that was wrong the sensor itself.
+ * Places of passive sensors are taken from the first scan that says them, be it a wrong or a hostile one. A sensor that
+ * is not heard any more must not keep another one out for ever, nor a place that was wrong the sensor itself.
  */
 #ifndef RHOTRACK_TOOL_NODE_PASSIVE_H
 #define RHOTRACK_TOOL_NODE_PASSIVE_H

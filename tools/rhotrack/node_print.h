@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_print: tracks on standard output as they come. On a terminal a table in one place, renewed at most 10 times a second;
- * else rows as `track` writes them.
+ * node_print: tracks on standard output as they come. On a terminal a table in one place, renewed at most 10 times a
+ * second; else rows as `track` writes them.
  */
 #ifndef RHOTRACK_TOOL_NODE_PRINT_H
 #define RHOTRACK_TOOL_NODE_PRINT_H
@@ -22,7 +22,10 @@ struct node_print node_print_start(bool is_on);
 /* A step was made. */
 void node_print_step(struct node_print *print, const struct rho_report *report);
 
-/* Renews the table where it is time, or at the end, and hands all on. False: standard output takes no more; errno says why. */
+/*
+ * Renews the table where it is time, or at the end, and hands all on.
+ * False: standard output takes no more; errno says why.
+ */
 bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
                      bool is_end);
 

@@ -2,10 +2,10 @@
 /*
  * transport: LCM messages in and out.
  *
- * udpm://GROUP:PORT?ttl=N&recv_buf_size=BYTES goes over a multicast socket of this program with the library's module udpm:
- * liblcm puts fragments together before any of its users can look at them, and one that is forged makes it write beyond
- * its memory. The other providers (file://, memq://, tcpq://) are liblcm's, but for file://NAME?speed=0: it does not tell
- * the times of a log's events.
+ * udpm://GROUP:PORT?ttl=N&recv_buf_size=BYTES goes over a multicast socket of this program with the library's module
+ * udpm: liblcm puts fragments together before any of its users can look at them, and one that is forged makes it write
+ * beyond its memory. The other providers (file://, memq://, tcpq://) are liblcm's, but for file://NAME?speed=0: it does
+ * not tell the times of a log's events.
  */
 #ifndef RHOTRACK_TOOL_TRANSPORT_H
 #define RHOTRACK_TOOL_TRANSPORT_H
@@ -60,8 +60,8 @@ bool transport_can_send(const struct transport *transport);
 int transport_descriptor(const struct transport *transport);
 
 /*
- * The reception clock: microseconds since 1970, and never back, even where the system's clock is set back. A file that is
- * read at speed 0 has its own times instead.
+ * The reception clock: microseconds since 1970, and never back, even where the system's clock is set back. A file that
+ * is read at speed 0 has its own times instead.
  */
 int64_t transport_now_us(struct transport *transport);
 

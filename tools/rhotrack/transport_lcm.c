@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * transport_lcm: LCM's other providers, through liblcm; messages stay bytes, for this program's own decoders. But a log that
- * is read without waiting is transport_log's: liblcm does not tell the times of its events.
+ * transport_lcm: LCM's other providers, through liblcm; messages stay bytes, for this program's own decoders. But a log
+ * that is read without waiting is transport_log's: liblcm does not tell the times of its events.
  */
 #include <errno.h>
 #include <lcm/lcm.h>

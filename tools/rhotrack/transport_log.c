@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * transport_log: an LCM log read without waiting. The reception clock is that of its events, which may have been recorded over
- * days: nothing of it comes too fast, and what waits does so in their time.
+ * transport_log: an LCM log read without waiting. The reception clock is that of its events, which may have been
+ * recorded over days: nothing of it comes too fast, and what waits does so in their time.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -17,13 +17,13 @@
 #include "transport_parts.h"
 
 /*
- * Datagrams taken from the kernel at a time. What is longer than DATAGRAM_BYTES is no message of rhotrack's; a short LCM
- * message may have SHORT_MESSAGE_BYTES with its channel, and longer ones go in fragments, which are not sent.
+ * Datagrams taken from the kernel at a time. What is longer than DATAGRAM_BYTES is no message of rhotrack's; a short
+ * LCM message may have SHORT_MESSAGE_BYTES with its channel, and longer ones go in fragments, which are not sent.
  */
 enum { BATCH = 64, DATAGRAM_BYTES = 2048, SHORT_MESSAGE_BYTES = 65499 };
 
-/* A burst of large scans, and what gathers while this program waits for a processor: 2 MiB are a second of 1500 datagrams
- * as the kernel counts them. Below LITTLE_BYTES, half of what Debian allows, a word is in order. */
+/* A burst of large scans, and what gathers while this program waits for a processor: 2 MiB are a second of 1500
+ * datagrams as the kernel counts them. Below LITTLE_BYTES, half of what Debian allows, a word is in order. */
 enum { WANTED_BYTES = 2 << 20, LITTLE_BYTES = 100 << 10 };
 
 union control {
