@@ -14,6 +14,7 @@
 #include "rhotrack/message.h"
 
 #define SECOND_US INT64_C(1000000)
+#define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
 
 struct heard {
     unsigned lists, tracks; /* tracks: in the last list */
@@ -55,7 +56,7 @@ static void look(struct live *live, int16_t sensor_id, float x_m, float y_m, int
     char channel[32];
     size_t size;
 
-    scan = (struct rho_message_bearing_scan){.utime = k * SECOND_US,
+    scan = (struct rho_message_bearing_scan){.utime = START_US + k * SECOND_US,
                                              .scan = k,
                                              .sensor_id = sensor_id,
                                              .sensor_x_m = x_m,
@@ -64,7 +65,7 @@ static void look(struct live *live, int16_t sensor_id, float x_m, float y_m, int
     scan.bearing_rad[0] = atan2f(200.0f * (float)k - y_m, 30000.0f - x_m);
     assert_int_equal(rho_message_bearing_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id);
-    node_core_take(live->core, channel, buffer, size, k * SECOND_US);
+    node_core_take(live->core, channel, buffer, size, START_US + k * SECOND_US);
 }
 
 static void sensors_that_are_gone_make_room(void **state)
@@ -82,6 +83,8 @@ static void sensors_that_are_gone_make_room(void **state)
     }
     /* heard for 30 s, they are in the way for as long */
     assert_in_range(node_core_counters(live.core)->bearings_refused, 30, 70);
+    assert_int_equal(node_core_counters(live.core)->restarts, 0);
+    assert_int_equal(node_core_frames(live.core)->scans_off_clock, 0);
     assert_int_equal(live.heard.tracks, 1);
     node_core_close(live.core);
 }
@@ -118,6 +121,25 @@ static void a_sensor_that_has_moved_is_believed_in_the_end(void **state)
         look(&live, 2, 0.0f, 10000.0f, k);
     }
     assert_in_range(node_core_counters(live.core)->bearings_refused, 10, 17);
+    assert_int_equal(node_core_counters(live.core)->restarts, 0);
+    assert_int_equal(node_core_frames(live.core)->scans_off_clock, 0);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+/* Each is refused after the other, and both are heard: neither is in the way of the other one. */
+static void sensors_that_have_moved_together_are_believed(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    for (int32_t k = 0; k < 80; k++) {
+        look(&live, 1, k < 20 ? 7000.0f : 0.0f, -10000.0f, k);
+        look(&live, 2, k < 20 ? 7000.0f : 0.0f, 10000.0f, k);
+    }
+    assert_in_range(node_core_counters(live.core)->bearings_refused, 20, 33);
+    assert_int_equal(node_core_counters(live.core)->restarts, 0);
     assert_int_equal(live.heard.tracks, 1);
     node_core_close(live.core);
 }
@@ -130,7 +152,7 @@ static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
     char channel[32];
     size_t size;
 
-    scan = (struct rho_message_polar_scan){.utime = k * SECOND_US,
+    scan = (struct rho_message_polar_scan){.utime = START_US + k * SECOND_US,
                                            .scan = k,
                                            .sensor_id = sensor_id,
                                            .num_parts = 1,
@@ -140,7 +162,7 @@ static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
     scan.polar_plots[0].azimuth_rad = 1.5707964f;
     assert_int_equal(rho_message_polar_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id);
-    node_core_take(live->core, channel, buffer, size, k * SECOND_US);
+    node_core_take(live->core, channel, buffer, size, START_US + k * SECOND_US);
 }
 
 static void radars_that_are_gone_make_room(void **state)
@@ -171,6 +193,7 @@ int main(void)
         cmocka_unit_test(sensors_that_are_heard_stay),
         cmocka_unit_test(radars_that_are_gone_make_room),
         cmocka_unit_test(a_sensor_that_has_moved_is_believed_in_the_end),
+        cmocka_unit_test(sensors_that_have_moved_together_are_believed),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,7 @@
 #include "node_passive.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "common.h"
 
@@ -33,7 +34,7 @@ static void open_frames(struct node_passive *passive)
 void node_passive_open(struct node_passive *passive, const struct parameters *parameters)
 {
     passive->parameters = parameters;
-    passive->refused_scans = 0;
+    memset(passive->refused_scans, 0, sizeof passive->refused_scans);
     open_frames(passive);
 }
 
@@ -42,8 +43,9 @@ void node_passive_forget(struct node_passive *passive)
     struct rho_frames_counters counters = passive->frames.counters;
 
     open_frames(passive);
+    counters.scans_taken = 0; /* by this frames know that there is no clock yet */
     passive->frames.counters = counters;
-    passive->refused_scans = 0;
+    memset(passive->refused_scans, 0, sizeof passive->refused_scans);
 }
 
 void node_passive_has_frame(struct node_passive *passive)
@@ -75,8 +77,10 @@ int node_passive_take(struct node_passive *passive, const struct rho_bearing_sca
     if (!is_near(passive, scan, apart_max_m) || rho_frames_push(&passive->frames, scan) != RHO_OK) {
         return 0;
     }
-    if (passive->refused_id == scan->sensor_id) {
-        passive->refused_scans = 0;
+    for (unsigned i = 0; i < passive->frames.num_sensors; i++) {
+        if (passive->frames.sensors[i].sensor_id == scan->sensor_id) {
+            passive->refused_scans[i] = 0;
+        }
     }
     return 1;
 }
@@ -98,14 +102,10 @@ int node_is_heard(const struct rho_feed *feed, int32_t sensor_id, int64_t now_us
 int node_passive_is_blocked(struct node_passive *passive, const struct rho_feed *feed,
                             const struct rho_bearing_scan *scan, int64_t now_us)
 {
-    int is_again = passive->refused_id == scan->sensor_id;
-
-    passive->refused_scans = is_again ? passive->refused_scans + 1 : 1;
-    passive->refused_id = scan->sensor_id;
     for (unsigned i = 0; i < passive->frames.num_sensors; i++) {
         int32_t sensor_id = passive->frames.sensors[i].sensor_id;
 
-        if (sensor_id == scan->sensor_id ? passive->refused_scans >= MOVED_SCANS
+        if (sensor_id == scan->sensor_id ? ++passive->refused_scans[i] >= MOVED_SCANS
                                          : !node_is_heard(feed, sensor_id, now_us)) {
             return 1;
         }

@@ -17,8 +17,7 @@
 struct node_passive {
     const struct parameters *parameters;
     struct rho_frames frames;
-    int32_t refused_id;     /* sensor that was refused last */
-    unsigned refused_scans; /* of it, in a row */
+    unsigned refused_scans[RHO_MAX_PASSIVE_SENSORS]; /* in a row, of each of the frames' sensors */
 };
 
 /* Whether a believed scan of the sensor, of any kind, came in the last jump_max_us. */
