@@ -32,7 +32,7 @@ uint16_t rho_publish_num_parts(const struct rho_report *report);
  * the identity is said. sensor_id beyond int16_t becomes -1, counts stay at 32767.
  *   part  0 .. rho_publish_num_parts - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the message's bytes.
- * Stack: 200 bytes.
+ * Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step,
                                                   int32_t epoch, uint16_t part, uint8_t *buffer,
