@@ -180,6 +180,18 @@ static int has_waited(const struct rho_feed *feed, const struct rho_feed_slot *s
            rho_feed_elapsed_us(slot->heard_us, now_us) > hold_us;
 }
 
+/* What was held goes out, and what is older before it, however long that has waited. */
+static int is_one_held(const struct rho_feed *feed, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (feed->slots[i].state == FEED_SLOT_COMPLETE &&
+            has_waited(feed, &feed->slots[i], now_us)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static void close_overdue(struct rho_feed *feed, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
@@ -254,7 +266,7 @@ struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
     if (!slot) {
         return NULL;
     }
-    if (has_waited(feed, slot, now_us)) {
+    if (is_one_held(feed, now_us)) {
         return feed->config.hold_us > 0 ? or_older_open(feed, slot) : slot;
     }
     return is_turn(feed, slot, now_us) ? slot : NULL;

@@ -519,6 +519,16 @@ static inline int model_was_held(const struct model_scan *scan, int64_t now_us)
            (wide)scan->heard_us - now_us > model.config.hold_us;
 }
 
+static inline int model_one_was_held(int64_t now_us)
+{
+    int count = 0;
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        count += model.scans[i].state == M_WHOLE && model_was_held(&model.scans[i], now_us);
+    }
+    return count > 0;
+}
+
 static inline struct model_scan *model_first(enum model_state state)
 {
     struct model_scan *first = NULL;
@@ -577,10 +587,10 @@ static inline const struct model_scan *model_next(int64_t now_us, int *is_restar
             model_close(scan);
         }
     } else if (scan && !model.is_pressed && model.config.hold_us > 0 &&
-               model_was_held(scan, now_us) && open && open->place.time_us < scan->place.time_us) {
+               model_one_was_held(now_us) && open && open->place.time_us < scan->place.time_us) {
         model_close(open); /* it would be late */
         scan = open;
-    } else if (scan && !model.is_pressed && !model_was_held(scan, now_us) &&
+    } else if (scan && !model.is_pressed && !model_one_was_held(now_us) &&
                !model_has_turn(scan, now_us)) {
         return NULL;
     }

@@ -351,6 +351,27 @@ static void older_scans_go_out_before_one_that_was_held(void **state)
     COUNTERS_ARE(.scans_accepted = num_older + 1, .scans_incomplete = num_older);
 }
 
+/* The younger one has waited long enough: nothing is held longer, or is due in the past. */
+static void an_older_scan_that_came_later_holds_nothing_up(void **state)
+{
+    struct look older = {.time_us = 2 * SECOND_US, .scan = 2, .sensor_id = 1};
+    int64_t now_us = 2 * SECOND_US + 1;
+
+    (void)state;
+    start();
+    for (int16_t sensor_id = 1; sensor_id <= 3; sensor_id++) {
+        take_scan(sensor_id, 1, SECOND_US + sensor_id);
+        assert_int_equal(drain(INT64_MAX), 1);
+    }
+    take_scan(2, 2, now_us);
+    take(&older, now_us + HOLD_US / 2);
+    next_is_none(now_us + HOLD_US - 1); /* nothing of the third sensor yet */
+    assert_int_equal(rho_feed_due_us(&feed), now_us + HOLD_US);
+    next_is(now_us + HOLD_US, 1, older.time_us);
+    next_is(now_us + HOLD_US, 2, now_us);
+    COUNTERS_ARE(.scans_accepted = 5);
+}
+
 /* One of the same time would not be late. */
 static void younger_scans_are_not_cut_short(void **state)
 {
@@ -483,6 +504,7 @@ int main(void)
         cmocka_unit_test(of_one_sensor_plots_come_before_bearings),
         cmocka_unit_test(an_older_scan_is_waited_for_while_its_parts_come),
         cmocka_unit_test(older_scans_go_out_before_one_that_was_held),
+        cmocka_unit_test(an_older_scan_that_came_later_holds_nothing_up),
         cmocka_unit_test(younger_scans_are_not_cut_short),
         cmocka_unit_test(hold_0_waits_for_nobody),
         cmocka_unit_test(a_sensor_that_died_delays_no_more_than_hold),

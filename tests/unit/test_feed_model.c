@@ -51,6 +51,7 @@ static int next(int64_t at_us)
     const struct model_scan *scan = model_next(at_us, &is_restart);
 
     assert_int_equal(is_there, scan != NULL);
+    assert_true(is_there || rho_feed_due_us(&feed) > at_us || at_us == INT64_MAX);
     if (scan) {
         assert_int_equal(item.kind, scan->kind);
         assert_int_equal(item_sensor(), scan->id);
