@@ -23,10 +23,12 @@ wait_until() {
 }
 
 # start NAME OPTIONS...: a node with NAME.csv, NAME.lcm, NAME.err; $node is its process. It listens when it returns.
+# It waits long for parts and other sensors: on a machine that is busy publish may pause for more than 20 ms.
 start() {
     local name=$1
     shift
-    "$program" node --print --log "$name.lcm" --config scene/scenario.ini "$@" >"$name.csv" 2>"$name.err" </dev/null &
+    "$program" node --print --log "$name.lcm" --config scene/scenario.ini --set hold_ms=500 "$@" \
+        >"$name.csv" 2>"$name.err" </dev/null &
     node=$!
     wait_until 5 test -s "$name.lcm" # its first status
 }

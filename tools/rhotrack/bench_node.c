@@ -11,6 +11,7 @@
 #include <math.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -45,7 +46,7 @@ struct session {
     struct random random;
     int64_t sent_ns[SCANS], done_ns[SCANS]; /* CLOCK_MONOTONIC; done 0: nothing came */
     int tracks;                             /* of the last list */
-    int64_t is_ready;
+    bool is_ready;
 };
 
 static int64_t now_ns(void)
@@ -171,7 +172,7 @@ static void listen_until(struct session *session, int64_t end_ns)
             if (strcmp(message.channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0) {
                 take_tracks(session, &message);
             } else if (strcmp(message.channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
-                session->is_ready = 1;
+                session->is_ready = true;
             }
         }
     }
