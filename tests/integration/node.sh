@@ -217,6 +217,10 @@ check 'a hang-up ends publish' matches "$status" gone
 hang_up nohup "$program" publish scene/plots.csv
 check 'but not beside nohup, either' matches "$status" 0
 
+run publish scene/plots.csv --speed 0 --lcm 'file:///dev/full?mode=w'
+check 'a full disk is told' exits 1
+check 'a full disk: what is said' matches "$(tail -n 1 stderr)" 'rhotrack: *No space left on device'
+
 # ---- what is no URL ----
 refused() { # name, URL, message
     run node --for 1 --lcm "$2"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * transport_lcm: LCM's other providers, through liblcm; messages stay bytes, for this program's own decoders. But a log
- * that is read without waiting is transport_log's: liblcm does not tell the times of its events.
+ * that is read without waiting, or written, is transport_log's: liblcm tells neither the times of its events nor errors.
  */
 #include <errno.h>
 #include <lcm/lcm.h>
@@ -124,6 +124,9 @@ static void check_file(const struct transport *transport, enum transport_use use
 {
     bool is_read = file_mode(transport->url) == 'r';
 
+    if (!strchr("rwa", file_mode(transport->url))) {
+        transport_refuse(transport, "unknown mode; there are r, w and a");
+    }
     if (is_read && use == TRANSPORT_SEND) {
         transport_refuse(transport, "the file would be read; ?mode=w writes it");
     }
@@ -142,7 +145,11 @@ void transport_open_lcm(struct transport *transport, enum transport_use use)
 
     if (is_file) {
         check_file(transport, use);
-        if (use == TRANSPORT_SEND_AND_RECEIVE && is_instant(transport->url)) {
+        if (use == TRANSPORT_SEND) {
+            transport_open_written_log(transport, file_mode(transport->url) == 'a' ? "ab" : "wb");
+            return;
+        }
+        if (is_instant(transport->url)) {
             transport_open_log(transport);
             return;
         }
@@ -161,5 +168,5 @@ void transport_open_lcm(struct transport *transport, enum transport_use use)
     }
     transport->provider = &methods;
     transport->object = provider;
-    transport->can_send = !is_file || file_mode(transport->url) != 'r';
+    transport->can_send = !is_file;
 }

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * transport_log: an LCM log read without waiting. The reception clock is that of its events, which may have been
- * recorded over days: nothing of it comes too fast, and what waits does so in their time.
+ * transport_log: an LCM log read without waiting, or written. The reception clock is that of its events, which may have
+ * been recorded over days: nothing of it comes too fast, and what waits does so in their time. Written it is not through
+ * liblcm, which does not say that a disk is full.
  */
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,13 +53,21 @@ static void close_log(void *object)
     free(log);
 }
 
+/* The URL's file, in new memory. */
+static char *path_of(const struct transport *transport)
+{
+    char *path = must_copy(transport->url + strlen("file://"));
+
+    path[strcspn(path, "?")] = '\0';
+    return path;
+}
+
 void transport_open_log(struct transport *transport)
 {
     static const struct transport_provider provider = {descriptor_of, receive, NULL, close_log};
     struct log *log = must_calloc(1, sizeof *log);
-    char *path = must_copy(transport->url + strlen("file://"));
+    char *path = path_of(transport);
 
-    path[strcspn(path, "?")] = '\0';
     log->reader = lcm_log_open(path);
     log->has_event = lcm_log_next(log->reader, &log->event);
     if (!log->has_event) {
@@ -67,4 +78,56 @@ void transport_open_log(struct transport *transport)
     transport->last_us = log->event.utime;
     transport->has_own_clock = true;
     free(path);
+}
+
+/* ---- Writing ---- */
+
+struct written_log {
+    struct transport *transport;
+    char *path;
+    struct lcm_log_writer writer;
+};
+
+static enum transport_found receive_nothing(struct transport *transport, void *object,
+                                            struct transport_message *message)
+{
+    (void)transport;
+    (void)object;
+    (void)message;
+    return TRANSPORT_NOTHING;
+}
+
+static bool write_message(void *object, const char *channel, const uint8_t *data, size_t size)
+{
+    struct written_log *log = object;
+
+    return lcm_log_write(&log->writer, transport_now_us(log->transport), channel, data, size);
+}
+
+static void close_written(void *object)
+{
+    struct written_log *log = object;
+
+    if (fclose(log->writer.file)) {
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", log->path, strerror(errno));
+    }
+    free(log->path);
+    free(log);
+}
+
+void transport_open_written_log(struct transport *transport, const char *mode)
+{
+    static const struct transport_provider provider = {descriptor_of, receive_nothing,
+                                                       write_message, close_written};
+    struct written_log *log = must_calloc(1, sizeof *log);
+
+    log->transport = transport;
+    log->path = path_of(transport);
+    log->writer.file = fopen(log->path, mode);
+    if (!log->writer.file) {
+        fail(EXIT_RUNTIME, "%s: %s", log->path, strerror(errno));
+    }
+    transport->provider = &provider;
+    transport->object = log;
+    transport->can_send = true;
 }

@@ -37,5 +37,6 @@ int64_t transport_time_us(struct transport *transport, int64_t time_us);
 void transport_open_udpm(struct transport *transport, enum transport_use use);
 void transport_open_lcm(struct transport *transport, enum transport_use use);
 void transport_open_log(struct transport *transport);
+void transport_open_written_log(struct transport *transport, const char *mode); /* of fopen */
 
 #endif
