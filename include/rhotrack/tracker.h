@@ -9,7 +9,7 @@
  *     rho_tracker_step(&tracker, &initiator, &scan, &report);
  *
  * One step a scan, in the order of time:
- *   predict   every live track to the scan's time
+ *   predict   every live track to the scan's time that the sensor may see (its sector and range, and some way beyond)
  *   claim     gate the plots and assign them exclusively
  *   update    the tracks that claimed one
  *   age       the others, where the sensor looked; the dead make room

@@ -30,6 +30,10 @@ void rho_tracker_predict(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
+        if (!rho_tracker_reaches(step, track)) {
+            continue;
+        }
+        step->reached[i / 32] |= 1u << i % 32;
         /* an estimate that time has made worthless cannot be carried on */
         if (rho_track_predict(track, step->time_us, &step->model) != RHO_OK) {
             rho_tracker_end_track(step, track, (enum rho_track_status)track->status);
@@ -226,7 +230,7 @@ void rho_tracker_claim(struct step *step)
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status == RHO_TRACK_FREE) {
+        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
             continue;
         }
         if (tracker->tracks[row].filter == RHO_TRACK_HYPOTHESES) {
@@ -338,6 +342,9 @@ void rho_tracker_update(struct step *step)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         int plot = rho_assignment_column(&tracker->assignment, row);
+        if (!rho_tracker_is_reached(step, row)) {
+            continue;
+        }
         if (track->status != RHO_TRACK_FREE && track->filter == RHO_TRACK_HYPOTHESES) {
             commit(step, row);
         } else if (plot == RHO_ASSIGNMENT_NONE) {

@@ -77,7 +77,7 @@ void rho_tracker_age(struct step *step)
         if (track->status == RHO_TRACK_FREE) {
             continue;
         }
-        if (step->scan && track->plot < 0 &&
+        if (step->scan && track->plot < 0 && rho_tracker_is_reached(step, i) &&
             rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
                                   track)) {
             /* what a miss says of a track of hypotheses is in its score already */

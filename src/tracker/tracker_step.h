@@ -22,6 +22,8 @@ struct step {
     const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
     uint32_t num_inputs;             /* plots or bearings */
     uint32_t num_gated;              /* of them: have a place in report->fates */
+    /* bit i: track i is within the scan's reach, or there is no scan but a frame */
+    uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
     struct rho_track_model model;
     float log_pd;
     float log_miss; /* ln(1 - pd) */
@@ -45,6 +47,10 @@ void rho_tracker_smooth(float *mean, float newest);
 /* A report begins; 0 where the inputs are late, and have their fates. It ends with rho_tracker_close in any case. */
 int rho_tracker_open(struct step *step);
 void rho_tracker_close(struct step *step);
+
+/* tracker_reach.c: whether the scan can say anything of a track; as found by rho_tracker_predict, by its row */
+int rho_tracker_reaches(const struct step *step, const struct rho_track *track);
+int rho_tracker_is_reached(const struct step *step, unsigned row);
 
 /* tracker_claim.c: existing tracks take their plots */
 void rho_tracker_predict(struct step *step);

@@ -383,25 +383,26 @@ static void faults_that_lose_nothing_change_no_bit(void **state)
 }
 
 /* How far a track is off what it is without the fault. */
-static double distance_m(const struct rho_track_report *a, const struct rho_track_report *b)
+/* The score alone may be another one: it is held against the clutter, of which there is one map for all sensors. */
+static void is_same_but_for_its_score(const struct rho_track_report *is,
+                                      const struct rho_track_report *was)
 {
-    return hypot((double)a->state[0] - (double)b->state[0],
-                 (double)a->state[1] - (double)b->state[1]);
+    assert_int_equal(is->status, was->status);
+    assert_int_equal(is->hits, was->hits);
+    assert_int_equal(is->misses, was->misses);
+    assert_int_equal(is->plot, was->plot);
+    assert_int_equal(is->update_age_us, was->update_age_us);
+    assert_memory_equal(is->state, was->state, sizeof was->state);
+    assert_memory_equal(is->covariance, was->covariance, sizeof was->covariance);
+    assert_memory_equal(is->accel_mps2, was->accel_mps2, sizeof was->accel_mps2);
+    assert_memory_equal(&is->maneuver_probability, &was->maneuver_probability, sizeof(float));
 }
 
-/*
- * Where scans of one radar are missing, the tracks of the other are not predicted in the same steps, and the common map
- * of clutter is another one. Gate best mixes its models at each step: its tracks differ by 0.7 m at most here, at noise
- * of 10 m; those of the others by one unit in the last place at 200 km, 1/64 m.
- */
-static void where_scans_are_lost_the_other_radar_loses_nothing(void **state)
+/* Where scans of one radar are missing, tracks that it cannot see are the same to the last bit. */
+static void where_scans_are_lost_no_bit_of_the_others_tracks_changes(void **state)
 {
-    static const double most_m[RHO_NUM_TRACKER_GATES] = {1.0, 0.05, 0.05};
-
     (void)state;
     for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        double worst_m = 0.0;
-
         run(gate, NONE);
         memcpy(clean, records, sizeof clean);
         for (unsigned fault = NUM_HARMLESS; fault < NUM_FAULTS; fault++) {
@@ -412,18 +413,10 @@ static void where_scans_are_lost_the_other_radar_loses_nothing(void **state)
                 assert_int_equal(records[i].time_us, clean[i].time_us);
                 assert_int_equal(records[i].num_tracks, clean[i].num_tracks);
                 for (unsigned k = 0; k < clean[i].num_tracks; k++) {
-                    const struct rho_track_report *was = &clean[i].tracks[k];
-                    const struct rho_track_report *is = &records[i].tracks[k];
-
-                    assert_int_equal(is->status, was->status);
-                    assert_int_equal(is->hits, was->hits);
-                    assert_int_equal(is->misses, was->misses);
-                    assert_int_equal(is->plot, was->plot);
-                    worst_m = fmax(worst_m, distance_m(is, was));
+                    is_same_but_for_its_score(&records[i].tracks[k], &clean[i].tracks[k]);
                 }
             }
         }
-        assert_true(worst_m <= most_m[gate]);
     }
 }
 
@@ -474,7 +467,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(faults_that_lose_nothing_change_no_bit),
-        cmocka_unit_test(where_scans_are_lost_the_other_radar_loses_nothing),
+        cmocka_unit_test(where_scans_are_lost_no_bit_of_the_others_tracks_changes),
         cmocka_unit_test(every_fault_has_its_counter),
     };
 

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_reach: which tracks a scan can say anything of.
+ *
+ * A track that is well out of the sensor's reach is left where it is: neither moved, nor offered plots, nor missed. So
+ * what a sensor sends, or does not send, changes no bit of the estimates of tracks that it cannot see; and sectors of a turn
+ * cost what is in them. The less is known of a track's place the sooner it may be in reach: one that nobody sees is moved in
+ * the end, until it is worthless.
+ */
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+#include "tracker_step.h"
+
+/* Around the reach: standard deviations of the track's place, and a share of the range for what its plots may be off. */
+#define REACH_SIGMAS 8.0f
+#define REACH_SHARE 0.05f
+
+static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float margin_rad)
+{
+    float to_first_rad = rho_angle_difference(azimuth_rad, from_rad);
+    float to_last_rad = rho_angle_difference(azimuth_rad, to_rad);
+
+    return rho_angle_in_sector(azimuth_rad, from_rad, to_rad) ||
+           (to_first_rad <= margin_rad && to_first_rad >= -margin_rad) ||
+           (to_last_rad <= margin_rad && to_last_rad >= -margin_rad);
+}
+
+int rho_tracker_reaches(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_sensor *sensor = step->sensor;
+    const float *state = track->kalman.state;
+    float dt_s = rho_seconds_between(track->time_us, step->time_us);
+    float dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
+    float dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
+    float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m), azimuth_rad, margin_m, margin_rad;
+
+    if (!step->scan) {
+        return 1;
+    }
+    margin_m = REACH_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
+               step->tracker->config.accel_max_mps2 * dt_s * dt_s + REACH_SHARE * range_m;
+    if (sensor &&
+        (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
+        return 0;
+    }
+    if (!(margin_m < range_m)) {
+        return 1; /* the sensor's own place may be its: any direction */
+    }
+    azimuth_rad = rho_atan2(dy_m, dx_m);
+    margin_rad = margin_m / range_m * (0.5f * RHO_PI); /* of the arc, at least */
+    return is_near_sector(azimuth_rad, step->scan->sector_from_rad, step->scan->sector_to_rad,
+                          margin_rad) &&
+           (!sensor || is_near_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad,
+                                      margin_rad));
+}
+
+int rho_tracker_is_reached(const struct step *step, unsigned row)
+{
+    return (step->reached[row / 32] >> row % 32 & 1u) != 0;
+}
