@@ -25,33 +25,55 @@ static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float
            (to_last_rad <= margin_rad && to_last_rad >= -margin_rad);
 }
 
+static int is_whole_circle(float from_rad, float to_rad)
+{
+    return from_rad <= to_rad && from_rad >= to_rad;
+}
+
+/* A sector is looked through, of the scan or the sensor's own. */
+static int has_sector(const struct step *step)
+{
+    const struct rho_scan *scan = step->scan;
+    const struct rho_sensor *sensor = step->sensor;
+
+    return !is_whole_circle(scan->sector_from_rad, scan->sector_to_rad) ||
+           (sensor && !is_whole_circle(sensor->sector_from_rad, sensor->sector_to_rad));
+}
+
+static int reaches_sector(const struct step *step, float azimuth_rad, float margin_rad)
+{
+    const struct rho_scan *scan = step->scan;
+    const struct rho_sensor *sensor = step->sensor;
+
+    return is_near_sector(azimuth_rad, scan->sector_from_rad, scan->sector_to_rad, margin_rad) &&
+           (!sensor || is_near_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad,
+                                      margin_rad));
+}
+
 int rho_tracker_reaches(const struct step *step, const struct rho_track *track)
 {
     const struct rho_sensor *sensor = step->sensor;
     const float *state = track->kalman.state;
-    float dt_s = rho_seconds_between(track->time_us, step->time_us);
-    float dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
-    float dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
-    float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m), azimuth_rad, margin_m, margin_rad;
+    float dt_s, dx_m, dy_m, range_m, margin_m;
 
-    if (!step->scan) {
+    if (!step->scan || (!sensor && !has_sector(step))) {
         return 1;
     }
+    dt_s = rho_seconds_between(track->time_us, step->time_us);
+    dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
+    dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
+    range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     margin_m = REACH_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
                step->tracker->config.accel_max_mps2 * dt_s * dt_s + REACH_SHARE * range_m;
     if (sensor &&
         (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
         return 0;
     }
-    if (!(margin_m < range_m)) {
-        return 1; /* the sensor's own place may be its: any direction */
+    if (!(margin_m < range_m) || !has_sector(step)) {
+        return 1; /* nearer than the margin, its plots may be in any direction */
     }
-    azimuth_rad = rho_atan2(dy_m, dx_m);
-    margin_rad = margin_m / range_m * (0.5f * RHO_PI); /* of the arc, at least */
-    return is_near_sector(azimuth_rad, step->scan->sector_from_rad, step->scan->sector_to_rad,
-                          margin_rad) &&
-           (!sensor || is_near_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad,
-                                      margin_rad));
+    /* the angle that the margin is seen under, asin(margin / range), is no larger than this */
+    return reaches_sector(step, rho_atan2(dy_m, dx_m), margin_m / range_m * (0.5f * RHO_PI));
 }
 
 int rho_tracker_is_reached(const struct step *step, unsigned row)
