@@ -5,11 +5,7 @@
 . "$(dirname "$0")/network.bash"
 here=$(realpath "$(dirname "$0")")
 . "$here/checks.bash"
-python=$("$here/../python.sh")
-[ -n "$python" ] || { echo 'skipped: hostile.sh: no Python package lcm'; finish; }
-for type in "$here"/../../lcm_types/*.lcm; do
-    "${LCM_GEN:-/usr/bin/lcm-gen}" -p --ppath bindings "$type" || exit 1
-done
+need_bindings
 
 # Five targets and 40 clutter plots, 20 scans a second, for five seconds.
 "$python" - <<'PYTHON'

@@ -4,13 +4,8 @@
 # are lost: tracks go on, losses are counted.
 # shellcheck source=tests/integration/network.bash
 . "$(dirname "$0")/network.bash"
-here=$(realpath "$(dirname "$0")")
-. "$here/checks.bash"
-python=$("$here/../python.sh")
-[ -n "$python" ] || { echo 'skipped: hosts.sh: no Python package lcm'; finish; }
-for type in "$here"/../../lcm_types/*.lcm; do
-    "${LCM_GEN:-/usr/bin/lcm-gen}" -p --ppath bindings "$type" || exit 1
-done
+. "$(dirname "$0")/checks.bash"
+need_bindings
 
 scans=80
 # Five targets, two radars half a second apart, 50 clutter plots each: two messages a scan.

@@ -4,6 +4,7 @@
 # multicast goes over lo. Where the system allows none they say so and end: `skipped: ...`.
 # Source it before checks.bash, with the script's arguments.
 
+tests_folder=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 lcm_url='udpm://239.255.76.67:7667?ttl=1'
 
 if [ -z "${RHO_IN_NETWORK:-}" ]; then
@@ -51,8 +52,18 @@ NFT
 
 lost() { ip netns exec "$1" nft list table ip loss | sed -n 's/.*counter packets \([0-9]*\).*/\1/p'; }
 
+# The Python that has the package lcm, as $python, and the messages' bindings by lcm-gen in the folder bindings; where
+# there is no such Python the script ends. After checks.bash.
+need_bindings() {
+    local type
+    python=$("$tests_folder/python.sh")
+    [ -n "$python" ] || { echo "skipped: $(basename "$0"): no Python package lcm"; finish; }
+    for type in "$tests_folder"/../lcm_types/*.lcm; do
+        "${LCM_GEN:-/usr/bin/lcm-gen}" -p --ppath bindings "$type" || exit 1
+    done
+}
+
 # The newest RHO_STATUS of a log as NAME=VALUE lines in the file status, by the Python bindings of lcm-gen.
-# bindings: the folder with them.
 read_status() { # log
     "$python" - "$1" >status <<'PYTHON'
 import sys

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* convert: a CSV file as an LCM log, or the messages of one kind of a log as a CSV file. */
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -50,9 +49,7 @@ static void write_log(struct message_source *source, const char *path)
     struct message_event event;
 
     while (message_source_next(source, &event)) {
-        if (!lcm_log_write(&writer, event.utime, event.channel, event.data, event.size)) {
-            fail(EXIT_RUNTIME, "%s: cannot be written: %s", path, strerror(errno));
-        }
+        lcm_log_must_write(&writer, path, event.utime, event.channel, event.data, event.size);
     }
     output_close(&output);
 }

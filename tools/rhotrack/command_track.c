@@ -52,9 +52,7 @@ static void describe_passive(struct tracking *tracking, const struct inputs *inp
         if (parameters_to_sensor(parameters, sensors[i].sensor_id, &sensor)) {
             sensor.x_m = sensors[i].x_m;
             sensor.y_m = sensors[i].y_m;
-            sensor.range_max_m =
-                (float)parameters_of_sensor(parameters, sensors[i].sensor_id, SENSOR_RANGE_MAX_M,
-                                            parameters->value[PARAMETER_RANGE_MAX_M]);
+            sensor.range_max_m = (float)parameters_range_max_m(parameters, sensors[i].sensor_id);
             describe(tracking, &sensor);
         }
     }

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "initiated_output.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "chain.h"
 #include "common.h"
@@ -41,10 +39,8 @@ static void write_list(struct initiated_output *found)
     size_t size;
 
     must_succeed(rho_message_peak_list_encode(&found->list, buffer, sizeof buffer, &size), "peaks");
-    if (!lcm_log_write(&found->log, found->list.utime, RHO_MESSAGE_PEAK_LIST_CHANNEL, buffer,
-                       size)) {
-        fail(EXIT_RUNTIME, "%s: %s", found->path, strerror(errno));
-    }
+    lcm_log_must_write(&found->log, found->path, found->list.utime, RHO_MESSAGE_PEAK_LIST_CHANNEL,
+                       buffer, size);
     found->list.num_peaks = 0;
 }
 

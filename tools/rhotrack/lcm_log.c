@@ -370,3 +370,11 @@ bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *cha
     writer->number = writer->number < INT64_MAX ? writer->number + 1 : 0;
     return true;
 }
+
+void lcm_log_must_write(struct lcm_log_writer *writer, const char *path, int64_t utime,
+                        const char *channel, const uint8_t *data, size_t size)
+{
+    if (!lcm_log_write(writer, utime, channel, data, size)) {
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", path, strerror(errno));
+    }
+}

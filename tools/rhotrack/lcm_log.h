@@ -78,4 +78,8 @@ struct lcm_log_writer {
 bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *channel,
                    const uint8_t *data, size_t size);
 
+/* The same; where it would return false: exit 1 with the file's name. */
+void lcm_log_must_write(struct lcm_log_writer *writer, const char *path, int64_t utime,
+                        const char *channel, const uint8_t *data, size_t size);
+
 #endif

@@ -227,9 +227,7 @@ static void describe_passive(struct node_core *core, const struct rho_feed_item 
     struct rho_sensor sensor = item->sensor;
 
     if (item->has_sensor) {
-        sensor.range_max_m =
-            (float)parameters_of_sensor(core->parameters, sensor.sensor_id, SENSOR_RANGE_MAX_M,
-                                        core->parameters->value[PARAMETER_RANGE_MAX_M]);
+        sensor.range_max_m = (float)parameters_range_max_m(core->parameters, sensor.sensor_id);
         (void)describe(core, &sensor);
     }
 }

@@ -275,6 +275,9 @@ bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_i
 double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,
                             enum sensor_parameter_id id, double otherwise);
 
+/* How far a sensor sees: its own range_max_m, or the one for all. */
+double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id);
+
 /*
  * The library's configs from the parameters, checked (parameters_check). A sensor is described only
  * where somebody set something of it, or the range limits of all: else false, and *sensor is

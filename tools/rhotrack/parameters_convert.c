@@ -71,6 +71,12 @@ static bool is_asked_for(const struct parameters *parameters, enum parameter_id 
     return parameters->source[id] > SOURCE_DEFAULT;
 }
 
+double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id)
+{
+    return parameters_of_sensor(parameters, sensor_id, SENSOR_RANGE_MAX_M,
+                                parameters->value[PARAMETER_RANGE_MAX_M]);
+}
+
 void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
                               struct rho_sensor *sensor)
 {

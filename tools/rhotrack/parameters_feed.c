@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <math.h>
 
-#include "common.h"
+#include "chain.h"
 #include "parameters.h"
 
 static struct rho_feed_noise noise_of(const struct parameters *parameters, int32_t sensor_id)
@@ -50,7 +50,5 @@ void parameters_to_feed(const struct parameters *parameters, struct rho_feed *fe
 
         status = rho_feed_set_sensor(feed, &known);
     }
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "feed: the library says '%s'", rho_status_name(status));
-    }
+    must_succeed(status, "feed");
 }

@@ -150,10 +150,8 @@ static void read_bearings(struct plot_rays *rays, char *const *paths, int num_pa
     rays->list = must_calloc(frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
     while ((frame = frame_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
-            double range_m =
-                parameters_of_sensor(parameters, frame->scans[i].sensor_id, SENSOR_RANGE_MAX_M,
-                                     parameters->value[PARAMETER_RANGE_MAX_M]);
-            add_rays(rays, &frame->scans[i], range_m);
+            const struct rho_bearing_scan *scan = &frame->scans[i];
+            add_rays(rays, scan, parameters_range_max_m(parameters, scan->sensor_id));
         }
     }
     frame_reader_close(reader);

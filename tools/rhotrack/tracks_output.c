@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "tracks_output.h"
 
-#include <errno.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "chain.h"
 #include "common.h"
@@ -58,10 +56,8 @@ static void write_list(struct tracks_output *tracks, const struct rho_report *re
         must_succeed(
             rho_publish_tracks(report, tracks->step, EPOCH, part, buffer, sizeof buffer, &size),
             "publish");
-        if (!lcm_log_write(&tracks->log, report->time_us, RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer,
-                           size)) {
-            fail(EXIT_RUNTIME, "%s: %s", tracks->path, strerror(errno));
-        }
+        lcm_log_must_write(&tracks->log, tracks->path, report->time_us,
+                           RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer, size);
     }
 }
 
