@@ -41,15 +41,23 @@ int rho_tracker_is_time(int64_t time_us)
 
 /* ---- sensors ---------------------------------------------------------------------------------- */
 
+/* num_sensors where nothing was said of it. */
+static unsigned place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned place = 0;
+
+    while (place < tracker->num_sensors && tracker->sensors[place].sensor_id != sensor_id) {
+        place++;
+    }
+    return place;
+}
+
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
                                                  int32_t sensor_id)
 {
-    for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        if (tracker->sensors[i].sensor_id == sensor_id) {
-            return &tracker->sensors[i];
-        }
-    }
-    return 0;
+    unsigned place = place_of_sensor(tracker, sensor_id);
+
+    return place < tracker->num_sensors ? &tracker->sensors[place] : NULL;
 }
 
 static int is_usable_sensor(const struct rho_sensor *sensor)
@@ -250,17 +258,6 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
 }
 
-/* num_sensors where nothing was said of it. */
-static unsigned place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
-{
-    unsigned place = 0;
-
-    while (place < tracker->num_sensors && tracker->sensors[place].sensor_id != sensor_id) {
-        place++;
-    }
-    return place;
-}
-
 enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
 {
     if (!tracker || !sensor) {
@@ -284,16 +281,16 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
 
 enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t sensor_id)
 {
-    unsigned place;
-
     if (!tracker) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_tracker_is_ready(tracker) ||
-        place_of_sensor(tracker, sensor_id) == tracker->num_sensors) {
+    if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    place = place_of_sensor(tracker, sensor_id);
+    unsigned place = place_of_sensor(tracker, sensor_id);
+    if (place == tracker->num_sensors) {
+        return RHO_ERROR_STATE;
+    }
     tracker->num_sensors--;
     tracker->sensors[place] = tracker->sensors[tracker->num_sensors];
     memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
