@@ -326,6 +326,10 @@ spy-test: spy
 
 .PHONY: spy spy-run spy-view spy-test
 
+# --- firmware --------------------------------------------------------------------------------
+
+include tools/firmware/firmware.mk
+
 # --- the rest --------------------------------------------------------------------------------
 
 ## Remove everything that was built

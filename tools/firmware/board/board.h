@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * board: what the radar node asks of the hardware. To bring it to another processor, write these functions; nothing
+ * else of the node knows where it runs. All are called from one thread.
+ */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Opens network and clock. Returns 0 where the hardware does not answer. */
+int board_open(void);
+
+/* Microseconds since the start; goes on as long as it is called, or board_wait, at least once a minute. */
+int64_t board_time_us(void);
+
+/*
+ * A datagram to LCM's group and port that has come. It goes into the buffer; what is longer than capacity is left out
+ * whole. Returns its bytes, 0: none has come.
+ */
+size_t board_receive(uint8_t *buffer, size_t capacity);
+
+/* Sends a datagram to LCM's group and port. */
+void board_send(const uint8_t *datagram, size_t size);
+
+/* Sleeps until a datagram may have come, or that time. May return earlier. */
+void board_wait(int64_t until_us);
+
+/* A line for whoever maintains the node. */
+void board_say(const char *text);
+
+/* The most of the stack that was in use so far, and what there is, in bytes. */
+size_t board_stack_used(void);
+size_t board_stack_size(void);
+
+#endif

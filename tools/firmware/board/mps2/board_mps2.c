@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/* board_mps2: the radar node's board (board.h) on an MPS2 with its own Ethernet. */
+#include <string.h>
+
+#include "../board.h"
+#include "../udp_frame.h"
+#include "lan9118.h"
+#include "mps2.h"
+
+#define SYSTICK_RUN 7u /* on, with interrupts, at the processor's clock */
+#define TICKS_PER_MS (MPS2_CLOCK_HZ / 1000u)
+#define TICKS_PER_US (MPS2_CLOCK_HZ / 1000000u)
+#define JOIN_INTERVAL_US 60000000
+#define UART_SENDS 1u
+#define UART_FULL 1u
+
+/* Where there are several nodes on a network, each needs its own. */
+#ifndef BOARD_ADDRESS
+#define BOARD_ADDRESS 10, 9, 0, 100
+#endif
+static const struct udp_frame_host host = {.mac = {0x02, 0x52, 0x48, 0x4f, 0x00, 0x01},
+                                           .address = {BOARD_ADDRESS}};
+
+static volatile uint32_t ticks_ms; /* since the start; wraps */
+static uint32_t last_ms;
+static int64_t time_ms;
+static int64_t join_due_us;
+static uint16_t frames_sent;
+
+/* ---- Clock ---- */
+
+void mps2_systick(void)
+{
+    ticks_ms++;
+}
+
+int64_t board_time_us(void)
+{
+    uint32_t now_ms, value;
+    do { /* both of the same millisecond */
+        now_ms = ticks_ms;
+        value = SYSTICK_VALUE;
+    } while (now_ms != ticks_ms);
+    time_ms += (uint32_t)(now_ms - last_ms);
+    last_ms = now_ms;
+    return time_ms * 1000 + (TICKS_PER_MS - 1 - value) / TICKS_PER_US;
+}
+
+/* ---- Network ---- */
+
+/* The chip goes on asking until its frames are read: so the line is off until the next wait. */
+void mps2_ethernet(void)
+{
+    NVIC_DISABLE = 1u << MPS2_ETHERNET_IRQ;
+}
+
+int board_open(void)
+{
+    UART0_DIVIDER = 16;
+    UART0_CONTROL = UART_SENDS;
+    SYSTICK_RELOAD = TICKS_PER_MS - 1;
+    SYSTICK_VALUE = 0;
+    SYSTICK_CONTROL = SYSTICK_RUN;
+    return lan9118_open(host.mac);
+}
+
+size_t board_receive(uint8_t *buffer, size_t capacity)
+{
+    static uint8_t frame[UDP_FRAME_MAX];
+    const uint8_t *payload;
+    size_t size, length;
+    while ((size = lan9118_receive(frame, sizeof frame)) > 0) {
+        length = udp_frame_open(frame, size, &payload);
+        if (length > 0 && length <= capacity) {
+            memcpy(buffer, payload, length);
+            return length;
+        }
+    }
+    return 0;
+}
+
+void board_send(const uint8_t *datagram, size_t size)
+{
+    static uint8_t frame[UDP_FRAME_MAX];
+    if (size <= sizeof frame - UDP_FRAME_HEAD) {
+        memcpy(frame + UDP_FRAME_HEAD, datagram, size);
+        (void)lan9118_send(frame, udp_frame_build(frame, &host, frames_sent++, size));
+    }
+}
+
+/* Switches forget who wants the group's datagrams where nobody says so again. */
+static void join(int64_t now_us)
+{
+    static uint8_t frame[UDP_FRAME_JOIN];
+    if (now_us >= join_due_us) {
+        join_due_us = now_us + JOIN_INTERVAL_US;
+        udp_frame_join(frame, &host);
+        (void)lan9118_send(frame, sizeof frame);
+    }
+}
+
+void board_wait(int64_t until_us)
+{
+    int64_t now_us = board_time_us();
+    join(now_us);
+    if (now_us < until_us) {
+        NVIC_UNPEND = 1u << MPS2_ETHERNET_IRQ;
+        NVIC_ENABLE = 1u << MPS2_ETHERNET_IRQ;
+        __asm__ volatile("wfi" ::: "memory"); /* a millisecond at most: the clock's own interrupt */
+    }
+}
+
+/* ---- Words ---- */
+
+static void put(char character)
+{
+    while (UART0_STATE & UART_FULL) {
+    }
+    UART0_DATA = (uint32_t)character;
+}
+
+void board_say(const char *text)
+{
+    while (*text) {
+        put(*text++);
+    }
+    put('\r');
+    put('\n');
+}
+
+/* ---- Start and end ---- */
+
+int main(void);
+
+void mps2_run(void)
+{
+    (void)main();
+    for (;;) {
+    }
+}
+
+void mps2_fault(unsigned exception)
+{
+    char text[] = "fault 00";
+    text[6] = (char)('0' + exception / 10 % 10);
+    text[7] = (char)('0' + exception % 10);
+    board_say(text);
+    for (;;) { /* a product's watchdog starts it again */
+    }
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+#include "lan9118.h"
+
+#include <string.h>
+
+#include "mps2.h"
+
+#define CHIP(offset) MPS2_REGISTER(MPS2_ETHERNET + (offset))
+#define RX_DATA CHIP(0x00u)
+#define TX_DATA CHIP(0x20u)
+#define RX_STATUS CHIP(0x40u)
+#define TX_STATUS CHIP(0x48u)
+#define IRQ_CONFIG CHIP(0x54u)
+#define IRQ_STATUS CHIP(0x58u)
+#define IRQ_ENABLE CHIP(0x5Cu)
+#define BYTE_TEST CHIP(0x64u)
+#define FIFO_LEVELS CHIP(0x68u)
+#define TX_CONFIG CHIP(0x70u)
+#define HW_CONFIG CHIP(0x74u)
+#define RX_LEVEL CHIP(0x7Cu)
+#define TX_LEVEL CHIP(0x80u)
+#define MAC_COMMAND CHIP(0xA4u)
+#define MAC_VALUE CHIP(0xA8u)
+
+#define BYTE_TEST_VALUE 0x87654321u
+#define HW_RESET 1u
+#define HW_TX_FIFO_5K (5u << 16 | 1u << 20)
+#define TX_ON 2u
+#define TX_WHOLE_FRAME (1u << 13 | 1u << 12) /* first and last of its pieces */
+#define RX_DAMAGED (1u << 15)
+#define IRQ_LINE_ON (1u << 8 | 1u << 4 | 1u) /* active high, pushed */
+#define IRQ_RX_LEVEL (1u << 3)
+#define MAC_BUSY (1u << 31)
+#define MAC_CONTROL 1u
+#define MAC_HIGH 2u
+#define MAC_LOW 3u
+#define MAC_RX_TX_MULTICAST (1u << 2 | 1u << 3 | 1u << 19)
+#define TRIES 100000
+
+static int wait_while(volatile uint32_t *chip_register, uint32_t bits)
+{
+    for (int i = 0; i < TRIES; i++) {
+        if ((*chip_register & bits) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static int set_mac(uint32_t mac_register, uint32_t value)
+{
+    MAC_VALUE = value;
+    MAC_COMMAND = MAC_BUSY | mac_register;
+    return wait_while(&MAC_COMMAND, MAC_BUSY);
+}
+
+int lan9118_open(const uint8_t mac[6])
+{
+    if (BYTE_TEST != BYTE_TEST_VALUE) {
+        return 0;
+    }
+    HW_CONFIG = HW_RESET;
+    if (!wait_while(&HW_CONFIG, HW_RESET)) {
+        return 0;
+    }
+    HW_CONFIG = HW_TX_FIFO_5K;
+    FIFO_LEVELS = 0; /* an interrupt from the first frame on */
+    IRQ_STATUS = 0xffffffffu;
+    IRQ_ENABLE = IRQ_RX_LEVEL;
+    IRQ_CONFIG = IRQ_LINE_ON;
+    TX_CONFIG = TX_ON;
+    return set_mac(MAC_HIGH, (uint32_t)mac[5] << 8 | mac[4]) &&
+           set_mac(MAC_LOW, (uint32_t)mac[3] << 24 | (uint32_t)mac[2] << 16 | (uint32_t)mac[1] << 8 | mac[0]) &&
+           set_mac(MAC_CONTROL, MAC_RX_TX_MULTICAST);
+}
+
+static void discard(size_t words)
+{
+    while (words-- > 0) {
+        (void)RX_DATA;
+    }
+}
+
+size_t lan9118_receive(uint8_t *frame, size_t capacity)
+{
+    size_t size = 0;
+    while (size == 0 && (RX_LEVEL >> 16 & 0xff) > 0) {
+        uint32_t status = RX_STATUS;
+        size_t length = status >> 16 & 0x3fff, words = (length + 3) / 4; /* with 4 bytes of checksum */
+        if ((status & RX_DAMAGED) || length <= 4 || length - 4 > capacity) {
+            discard(words);
+            continue;
+        }
+        size = length - 4;
+        for (size_t at = 0; at < 4 * words; at += 4) {
+            uint32_t word = RX_DATA;
+            if (at < size) {
+                memcpy(frame + at, &word, size - at < 4 ? size - at : 4);
+            }
+        }
+    }
+    IRQ_STATUS = IRQ_RX_LEVEL;
+    return size;
+}
+
+int lan9118_send(const uint8_t *frame, size_t size)
+{
+    if ((TX_LEVEL & 0xffff) < size + 16) {
+        return 0;
+    }
+    TX_DATA = TX_WHOLE_FRAME | (uint32_t)size;
+    TX_DATA = (uint32_t)size;
+    for (size_t at = 0; at < size; at += 4) {
+        uint32_t word = 0;
+        memcpy(&word, frame + at, size - at < 4 ? size - at : 4);
+        TX_DATA = word;
+    }
+    while (TX_LEVEL >> 16 & 0xff) { /* what became of frames sent before; full, it would stop the sender */
+        (void)TX_STATUS;
+    }
+    return 1;
+}

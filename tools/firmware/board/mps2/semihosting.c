@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * semihosting: files.h, arguments and exit through the debugger or QEMU: a breakpoint with the operation in r0 and its
+ * operands in r1. Without either a breakpoint is a fault, so no product has this part.
+ */
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "../board.h"
+#include "../files.h"
+#include "mps2.h"
+
+#define SYS_OPEN 0x01
+#define SYS_CLOSE 0x02
+#define SYS_WRITE0 0x04
+#define SYS_WRITE 0x05
+#define SYS_READ 0x06
+#define SYS_GET_CMDLINE 0x15
+#define SYS_EXIT_EXTENDED 0x20
+#define OPEN_READ_BINARY 1
+#define OPEN_WRITE_BINARY 5
+#define EXIT_BY_PROGRAM 0x20026u
+
+#define TIMER_RUN 1u
+#define ARGUMENTS_MAX 8
+#define EXIT_FAULT 120u /* and the exception's number */
+
+static uint32_t call(uint32_t operation, const void *operands)
+{
+    register uint32_t r0 __asm__("r0") = operation;
+    register const void *r1 __asm__("r1") = operands;
+    __asm__ volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
+}
+
+static uint32_t to_word(const void *pointer)
+{
+    return (uint32_t)(uintptr_t)pointer;
+}
+
+/* ---- Files ---- */
+
+/* The machine's numbers are 0 and above, -1 where it did not work. */
+static int open_file(const char *path, uint32_t mode)
+{
+    const uint32_t operands[3] = {to_word(path), mode, (uint32_t)strlen(path)};
+    return (int)call(SYS_OPEN, operands) + 1;
+}
+
+int files_open_to_read(const char *path)
+{
+    return open_file(path, OPEN_READ_BINARY);
+}
+
+int files_open_to_write(const char *path)
+{
+    return open_file(path, OPEN_WRITE_BINARY);
+}
+
+/* Both operations say how many bytes are missing. */
+size_t files_read(int file, uint8_t *bytes, size_t size)
+{
+    const uint32_t operands[3] = {(uint32_t)file - 1, to_word(bytes), (uint32_t)size};
+    return size - call(SYS_READ, operands);
+}
+
+int files_write(int file, const uint8_t *bytes, size_t size)
+{
+    const uint32_t operands[3] = {(uint32_t)file - 1, to_word(bytes), (uint32_t)size};
+    return call(SYS_WRITE, operands) == 0;
+}
+
+int files_close(int file)
+{
+    const uint32_t operands[1] = {(uint32_t)file - 1};
+    return call(SYS_CLOSE, operands) == 0;
+}
+
+void files_say(const char *text)
+{
+    (void)call(SYS_WRITE0, text);
+}
+
+size_t files_stack_used(void)
+{
+    return board_stack_used();
+}
+
+/* ---- Instructions ---- */
+
+/* QEMU with -icount shift=6 takes 64 ns of its own time for each instruction; a tick of the timer is 40 ns. */
+uint32_t files_instructions(void)
+{
+    return UINT32_MAX - TIMER0_VALUE;
+}
+
+uint32_t files_instructions_between(uint32_t from, uint32_t to)
+{
+    return (uint32_t)((uint64_t)(to - from) * 40 / 64);
+}
+
+/* ---- Start and end ---- */
+
+int main(int argc, char **argv);
+
+static void stop(uint32_t status) __attribute__((noreturn));
+static void stop(uint32_t status)
+{
+    const uint32_t operands[2] = {EXIT_BY_PROGRAM, status};
+    (void)call(SYS_EXIT_EXTENDED, operands);
+    for (;;) {
+    }
+}
+
+void mps2_fault(unsigned exception)
+{
+    stop(EXIT_FAULT + exception);
+}
+
+/* Words of the command line, in place. */
+static int split(char *line, char **words)
+{
+    int count = 0;
+    for (char *next = line; *next && count < ARGUMENTS_MAX; count++) {
+        words[count] = next;
+        next += strcspn(next, " ");
+        while (*next == ' ') {
+            *next++ = '\0';
+        }
+    }
+    return count;
+}
+
+void mps2_run(void)
+{
+    static char line[1024];
+    static char *words[ARGUMENTS_MAX + 1];
+    const uint32_t operands[2] = {to_word(line), sizeof line};
+    (void)call(SYS_GET_CMDLINE, operands);
+    TIMER0_RELOAD = UINT32_MAX;
+    TIMER0_VALUE = UINT32_MAX;
+    TIMER0_CONTROL = TIMER_RUN;
+    stop((uint32_t)main(split(line, words), words));
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/* startup: from reset to the image's main, and the table of interrupts. */
+#include <stdint.h>
+#include <string.h>
+
+#include "../board.h"
+#include "mps2.h"
+
+#define STACK_PATTERN 0x5AA55AA5u
+
+/* Of the linker script. */
+extern uint32_t link_data_from[], link_data[], link_data_end[], link_bss[], link_bss_end[];
+extern uint32_t link_stack[], link_stack_top[];
+
+static void fault(void)
+{
+    unsigned exception;
+    __asm__ volatile("mrs %0, ipsr" : "=r"(exception));
+    mps2_fault(exception);
+}
+
+/* Never called where an image enables neither. */
+__attribute__((weak)) void mps2_systick(void)
+{
+}
+__attribute__((weak)) void mps2_ethernet(void)
+{
+}
+
+/* So that board_stack_used sees how far down it was ever written. */
+static inline void paint_stack(void)
+{
+    uint32_t *here;
+    __asm__ volatile("mov %0, sp" : "=r"(here));
+    for (uint32_t *word = link_stack; word < here; word++) {
+        *word = STACK_PATTERN;
+    }
+}
+
+size_t board_stack_size(void)
+{
+    return (size_t)((uintptr_t)link_stack_top - (uintptr_t)link_stack);
+}
+
+size_t board_stack_used(void)
+{
+    const uint32_t *word = link_stack;
+    while (word < link_stack_top && *word == STACK_PATTERN) {
+        word++;
+    }
+    return (size_t)((uintptr_t)link_stack_top - (uintptr_t)word);
+}
+
+/* The FPU has to be on before code that uses it is entered: nothing else happens here. */
+__attribute__((noreturn, naked)) void mps2_reset(void);
+__attribute__((naked)) void mps2_reset(void)
+{
+    __asm__ volatile("ldr r0, =0xE000ED88\n" /* SCB_CPACR */
+                     "ldr r1, [r0]\n"
+                     "orr r1, r1, #0xF00000\n"
+                     "str r1, [r0]\n"
+                     "dsb\n"
+                     "isb\n"
+                     "b mps2_start\n");
+}
+
+__attribute__((noreturn, used)) void mps2_start(void);
+void mps2_start(void)
+{
+    paint_stack();
+    memcpy(link_data, link_data_from, (size_t)((uintptr_t)link_data_end - (uintptr_t)link_data));
+    memset(link_bss, 0, (size_t)((uintptr_t)link_bss_end - (uintptr_t)link_bss));
+    mps2_run();
+}
+
+typedef void (*handler)(void);
+
+__attribute__((section(".vectors"), used)) static const struct {
+    uint32_t *stack_top;
+    handler exceptions[15];
+    handler interrupts[MPS2_ETHERNET_IRQ + 1];
+} vectors = {
+    .stack_top = link_stack_top,
+    /* reset; then from 2 on: NMI, the faults, calls of the supervisor, and at 15 the clock */
+    .exceptions = {mps2_reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
+                   fault, fault, mps2_systick},
+    .interrupts = {[0 ... MPS2_ETHERNET_IRQ - 1] = fault, [MPS2_ETHERNET_IRQ] = mps2_ethernet},
+};

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The radar node: hears scans over LCM, publishes tracks. Where to start from for a node of your own: the radars that
+ * it knows are in the table below, the tracker's settings in start(), the hardware in board/.
+ */
+#include "board/board.h"
+#include "node.h"
+#include "rhotrack/udpm.h"
+
+#define REPORT_INTERVAL_US 60000000
+
+/* One radar at the origin. Sensors that are not in the table are taken at their word, with the feed's defaults. */
+static const struct rho_feed_sensor radars[] = {
+    {.sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 150000.0f},
+     .noise = {.sigma_m = 20.0f,
+               .sigma_mps = 1.0f,
+               .sigma_range_m = 15.0f,
+               .sigma_azimuth_rad = 0.003f,
+               .sigma_elevation_rad = 0.003f,
+               .sigma_range_rate_mps = 1.0f,
+               .sigma_rad = 0.002f}},
+};
+
+static void send_datagram(void *context, const uint8_t *datagram, size_t size)
+{
+    (void)context;
+    board_send(datagram, size);
+}
+
+static int64_t clock_us(void *context)
+{
+    (void)context;
+    return board_time_us();
+}
+
+static enum rho_status start(void)
+{
+    struct node_config config;
+    node_config_default(&config);
+    config.sensors = radars;
+    config.num_sensors = sizeof radars / sizeof *radars;
+    config.send = send_datagram;
+    config.clock_us = clock_us;
+    return node_start(&config);
+}
+
+/* "stack: 3904 of 8192 bytes" */
+static void say_stack(void)
+{
+    char text[48] = "stack: ";
+    const size_t numbers[2] = {board_stack_used(), board_stack_size()};
+    size_t length = 7;
+    for (int i = 0; i < 2; i++) {
+        size_t scale = 1;
+        while (numbers[i] / scale >= 10) {
+            scale *= 10;
+        }
+        for (; scale > 0; scale /= 10) {
+            text[length++] = (char)('0' + numbers[i] / scale % 10);
+        }
+        for (const char *unit = i == 0 ? " of " : " bytes"; *unit; unit++) {
+            text[length++] = *unit;
+        }
+    }
+    text[length] = '\0';
+    board_say(text);
+}
+
+int main(void)
+{
+    static uint8_t datagram[RHO_UDPM_MAX_DATAGRAM];
+    int64_t report_us = 0;
+    if (!board_open()) {
+        board_say("the network does not answer");
+        return 1;
+    }
+    if (start() != RHO_OK) {
+        board_say("the node's settings are not taken");
+        return 1;
+    }
+    board_say("the node listens");
+    for (;;) {
+        int64_t now_us = board_time_us();
+        size_t size = board_receive(datagram, sizeof datagram);
+        if (size > 0) {
+            node_receive(datagram, size, now_us);
+        }
+        node_tick(now_us);
+        if (now_us >= report_us) {
+            report_us = now_us + REPORT_INTERVAL_US;
+            say_stack();
+        }
+        if (size == 0) {
+            board_wait(node_due_us());
+        }
+    }
+}

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: MIT */
+#include "node.h"
+
+#include "node_bearings.h"
+#include "node_step.h"
+#include "rhotrack/message.h"
+#include "rhotrack/publish.h"
+#include "rhotrack/udpm.h"
+
+#define STATUS_INTERVAL_US 1000000
+
+static struct node_config settings;
+static struct rho_feed feed;
+static struct rho_tracker tracker;
+static struct rho_initiator initiator;
+static struct rho_report report;
+
+static uint8_t buffer[RHO_UDPM_MAX_DATAGRAM]; /* the datagram that goes out */
+static struct {
+    int is_started;
+    int32_t step, epoch;
+    uint32_t datagrams_sent, datagrams_refused;
+    int64_t step_us, step_max_us; /* of the last step; the longest since the last status */
+    int64_t status_due_us;
+    int has_status_due;
+} node;
+
+/* ---- Messages that go out ---- */
+
+/* Sends what write makes behind the datagram's head. */
+typedef enum rho_status (*writer)(uint8_t *message, size_t capacity, size_t *size, const void *what);
+
+static void publish(const char *channel, writer write, const void *what)
+{
+    size_t head, size;
+    if (rho_udpm_begin(buffer, sizeof buffer, node.datagrams_sent, channel, &head) == RHO_OK &&
+        write(buffer + head, sizeof buffer - head, &size, what) == RHO_OK) {
+        node.datagrams_sent++;
+        settings.send(settings.context, buffer, head + size);
+    }
+}
+
+static enum rho_status write_tracks(uint8_t *message, size_t capacity, size_t *size,
+                                    const void *part)
+{
+    return rho_publish_tracks(&report, node.step, node.epoch, *(const uint16_t *)part, message,
+                              capacity, size);
+}
+
+static enum rho_status write_peaks(uint8_t *message, size_t capacity, size_t *size,
+                                   const void *searched)
+{
+    const struct node_searched *of = searched;
+    return rho_publish_peaks(of->initiator, of->passive, report.time_us, node.step, message,
+                             capacity, size);
+}
+
+static enum rho_status write_status(uint8_t *message, size_t capacity, size_t *size,
+                                    const void *status)
+{
+    return rho_message_status_encode(status, message, capacity, size);
+}
+
+static int32_t to_int32(int64_t value)
+{
+    return value < INT32_MAX ? (int32_t)value : INT32_MAX;
+}
+
+static void publish_status(void)
+{
+    struct rho_message_status status;
+    rho_publish_status(&feed, node_bearings_frames(), &tracker, &initiator, &status);
+    status.utime = report.time_us;
+    status.scan = node.step;
+    status.epoch = node.epoch;
+    status.fragments_refused =
+        node.datagrams_refused < INT32_MAX ? (int32_t)node.datagrams_refused : INT32_MAX;
+    status.step_us = to_int32(node.step_us);
+    status.step_max_us = to_int32(node.step_max_us);
+    node.step_max_us = 0;
+    publish(RHO_MESSAGE_STATUS_CHANNEL, write_status, &status);
+}
+
+/* ---- Steps ---- */
+
+/* A step that began at start_us was made. */
+static void finish_step(int64_t start_us, const struct node_searched *searched)
+{
+    node.step_us = settings.clock_us(settings.context) - start_us;
+    if (node.step_us > node.step_max_us) {
+        node.step_max_us = node.step_us;
+    }
+    node.step = node.step == INT32_MAX ? INT32_MIN : node.step + 1;
+    if (settings.stepped) {
+        settings.stepped(settings.context, &report);
+    }
+    for (uint16_t part = 0; part < rho_publish_num_parts(&report); part++) {
+        publish(RHO_MESSAGE_TRACK_LIST_CHANNEL, write_tracks, &part);
+    }
+    publish(RHO_MESSAGE_PEAK_LIST_CHANNEL, write_peaks, searched);
+}
+
+void node_step_scan(const struct rho_scan *scan)
+{
+    const struct node_searched searched = {&initiator, NULL};
+    int64_t start_us = settings.clock_us(settings.context);
+    if (rho_tracker_step(&tracker, &initiator, scan, &report) == RHO_OK) {
+        finish_step(start_us, &searched);
+    }
+}
+
+void node_step_frame(struct rho_passive *passive, const struct rho_frame *frame)
+{
+    const struct node_searched searched = {NULL, passive};
+    int64_t start_us = settings.clock_us(settings.context);
+    if (rho_tracker_step_frame(&tracker, passive, frame, &report) == RHO_OK) {
+        finish_step(start_us, &searched);
+    }
+}
+
+int node_describe(const struct rho_sensor *sensor)
+{
+    return rho_tracker_set_sensor(&tracker, sensor) == RHO_OK;
+}
+
+/* ---- Scans that come in ---- */
+
+static enum rho_status open_tracker(void)
+{
+    struct rho_tracker_counters counters = tracker.counters;
+    enum rho_status status = rho_tracker_init(&tracker, sizeof tracker, &settings.tracker);
+    if (status == RHO_OK) {
+        tracker.counters = counters;
+        status = rho_initiator_init(&initiator, sizeof initiator, &settings.initiator);
+    }
+    return status;
+}
+
+/* The config was taken once already: it is again. */
+void node_restart(void)
+{
+    node.is_started = open_tracker() == RHO_OK && node_bearings_open_search() == RHO_OK;
+    node.epoch = node.epoch == INT32_MAX ? 0 : node.epoch + 1;
+}
+
+static void take_item(const struct rho_feed_item *item)
+{
+    if (item->is_restart) {
+        node_bearings_close_before(INT64_MAX);
+        node_restart();
+        node.is_started &= node_bearings_open_frames() == RHO_OK;
+    }
+    if (item->kind == RHO_FEED_BEARINGS) {
+        node_bearings_take(item);
+        return;
+    }
+    node_bearings_close_before(item->scan.time_us);
+    /* without its sensor's place a scan would say something else */
+    if (!item->has_sensor || node_describe(&item->sensor)) {
+        node_step_scan(&item->scan);
+    }
+}
+
+static void step_due(int64_t now_us)
+{
+    struct rho_feed_item item;
+    while (rho_feed_next(&feed, now_us, &item)) {
+        take_item(&item);
+    }
+}
+
+void node_receive(const uint8_t *bytes, size_t size, int64_t now_us)
+{
+    struct rho_udpm_datagram datagram;
+    struct rho_feed_item item;
+    if (!node.is_started) {
+        return;
+    }
+    if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
+        node.datagrams_refused += node.datagrams_refused < UINT32_MAX;
+        return;
+    }
+    while (rho_feed_take(&feed, datagram.channel, datagram.payload, datagram.payload_size,
+                         now_us) == RHO_ERROR_CAPACITY) {
+        if (rho_feed_next(&feed, now_us, &item)) {
+            take_item(&item);
+        }
+    }
+    step_due(now_us);
+}
+
+void node_tick(int64_t now_us)
+{
+    if (!node.is_started) {
+        return;
+    }
+    step_due(now_us);
+    if (!node.has_status_due || now_us >= node.status_due_us) {
+        node.has_status_due = 1;
+        node.status_due_us = now_us + STATUS_INTERVAL_US;
+        publish_status();
+    }
+}
+
+int64_t node_due_us(void)
+{
+    int64_t due_us = rho_feed_due_us(&feed);
+    return due_us < node.status_due_us ? due_us : node.status_due_us;
+}
+
+void node_flush(void)
+{
+    if (node.is_started) {
+        step_due(INT64_MAX);
+        node_bearings_close_before(INT64_MAX);
+        publish_status();
+    }
+}
+
+/* ---- Start ---- */
+
+void node_config_default(struct node_config *config)
+{
+    *config = (struct node_config){.epoch = 0};
+    rho_feed_config_default(&config->feed);
+    rho_tracker_config_default(&config->tracker);
+    rho_initiator_config_default(&config->initiator);
+}
+
+enum rho_status node_start(const struct node_config *config)
+{
+    enum rho_status status;
+    if (!config || !config->send || !config->clock_us) {
+        return RHO_ERROR_NULL;
+    }
+    settings = *config;
+    node.epoch = config->epoch;
+    status = rho_feed_init(&feed, sizeof feed, &config->feed);
+    for (uint16_t i = 0; i < config->num_sensors && status == RHO_OK; i++) {
+        status = rho_feed_set_sensor(&feed, &config->sensors[i]);
+    }
+    if (status == RHO_OK) {
+        status = open_tracker();
+    }
+    if (status == RHO_OK) {
+        status = node_bearings_open_search();
+    }
+    if (status == RHO_OK) {
+        status = node_bearings_open_frames();
+    }
+    node.is_started = status == RHO_OK;
+    return status;
+}

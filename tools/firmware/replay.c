@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * replay: the node on a record instead of a network, on any machine: `replay IN.lcm OUT.lcm [GATE]`.
+ *
+ * IN.lcm is an LCM log of scans; each message goes into the node as the datagram that it would be, at the time at which
+ * it was recorded. OUT.lcm holds the node's own datagrams as messages, and beside them on the channel FATES what the
+ * messages do not say: a byte a plot or bearing of each step. Both machines right, both files are the same bytes.
+ * At the end one line: steps, tracks' reports, and where the machine can count them instructions and stack.
+ */
+#include <string.h>
+
+#include "board/files.h"
+#include "node.h"
+#include "rhotrack/udpm.h"
+
+#define LOG_SYNC 0xEDA1DA01u
+#define LOG_HEAD 28u
+#define CHANNEL_MAX 63u
+#define WARM_UP_STEPS 7 /* not in the mean: a window that is not full costs less */
+
+static int output;
+static int64_t now_us, events_written;
+static int has_failed;
+static struct {
+    uint32_t steps, track_reports;
+    uint32_t instructions_max, instructions_aside; /* aside: in the functions that the node calls */
+    uint64_t instructions_sum;
+    uint32_t instructions_steps;
+    uint32_t stepped; /* in the call that is measured */
+} tally;
+
+/* ---- The log ---- */
+
+static void put32(uint8_t *out, uint32_t value)
+{
+    for (int i = 0; i < 4; i++) {
+        out[i] = (uint8_t)(value >> (24 - 8 * i));
+    }
+}
+
+static void put64(uint8_t *out, int64_t value)
+{
+    put32(out, (uint32_t)((uint64_t)value >> 32));
+    put32(out + 4, (uint32_t)value);
+}
+
+static uint32_t get32(const uint8_t *in)
+{
+    return (uint32_t)in[0] << 24 | (uint32_t)in[1] << 16 | (uint32_t)in[2] << 8 | in[3];
+}
+
+static void write_event(const char *channel, const uint8_t *data, size_t size)
+{
+    uint8_t head[LOG_HEAD];
+    size_t length = strlen(channel);
+    put32(head, LOG_SYNC);
+    put64(head + 4, events_written++);
+    put64(head + 12, now_us);
+    put32(head + 20, (uint32_t)length);
+    put32(head + 24, (uint32_t)size);
+    has_failed |= !files_write(output, head, sizeof head) ||
+                  !files_write(output, (const uint8_t *)channel, length) ||
+                  (size > 0 && !files_write(output, data, size));
+}
+
+/* Reads an event as a datagram. Returns its bytes, 0 at the end of the log, or where it is none. */
+static size_t read_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DATAGRAM])
+{
+    static uint32_t sequence;
+    uint8_t event[LOG_HEAD];
+    char channel[CHANNEL_MAX + 1] = "";
+    size_t head, size, length, got = files_read(input, event, sizeof event);
+    if (got == 0) {
+        return 0;
+    }
+    length = get32(event + 20);
+    size = get32(event + 24);
+    if (got < sizeof event || get32(event) != LOG_SYNC || length > CHANNEL_MAX ||
+        files_read(input, (uint8_t *)channel, length) < length ||
+        rho_udpm_begin(datagram, RHO_UDPM_MAX_DATAGRAM, sequence++, channel, &head) != RHO_OK ||
+        size > RHO_UDPM_MAX_DATAGRAM - head || files_read(input, datagram + head, size) < size) {
+        files_say("replay: the input is no log of rhotrack's messages\n");
+        has_failed = 1;
+        return 0;
+    }
+    now_us = (int64_t)((uint64_t)get32(event + 12) << 32 | get32(event + 16));
+    return head + size;
+}
+
+/* ---- What the node calls: not counted as its work ---- */
+
+static void send_datagram(void *context, const uint8_t *bytes, size_t size)
+{
+    struct rho_udpm_datagram datagram;
+    uint32_t from = files_instructions();
+    (void)context;
+    if (rho_udpm_parse(bytes, size, &datagram) == RHO_OK) {
+        write_event(datagram.channel, datagram.payload, datagram.payload_size);
+    } else {
+        has_failed = 1;
+    }
+    tally.instructions_aside += files_instructions_between(from, files_instructions());
+}
+
+static void count_step(void *context, const struct rho_report *report)
+{
+    uint32_t from = files_instructions();
+    (void)context;
+    tally.steps++;
+    tally.stepped++;
+    tally.track_reports += report->num_tracks;
+    write_event("FATES", report->fates,
+                report->num_plots < RHO_MAX_PLOTS ? report->num_plots : RHO_MAX_PLOTS);
+    tally.instructions_aside += files_instructions_between(from, files_instructions());
+}
+
+/* Step times would differ from machine to machine. */
+static int64_t no_clock(void *context)
+{
+    (void)context;
+    return 0;
+}
+
+/* ---- Run ---- */
+
+static int start(const char *gate)
+{
+    struct node_config config;
+    node_config_default(&config);
+    config.initiator.v_min_mps = 20.0f;
+    if (strcmp(gate, "hough") == 0) {
+        config.tracker.gate = RHO_TRACKER_HOUGH;
+    } else if (strcmp(gate, "nearest") == 0) {
+        config.tracker.gate = RHO_TRACKER_NEAREST;
+    } else if (strcmp(gate, "best") != 0) {
+        return 0;
+    }
+    config.tracker.input.is_estimated = strcmp(gate, "best") != 0;
+    config.send = send_datagram;
+    config.stepped = count_step;
+    config.clock_us = no_clock;
+    return node_start(&config) == RHO_OK;
+}
+
+/* A datagram that made a step counts with it; parts of a scan before its last are added to the next. */
+static void measure(const uint8_t *datagram, size_t size)
+{
+    static uint32_t since_step;
+    uint32_t from;
+    tally.instructions_aside = 0;
+    tally.stepped = 0;
+    from = files_instructions();
+    node_receive(datagram, size, now_us);
+    since_step += files_instructions_between(from, files_instructions()) - tally.instructions_aside;
+    if (tally.stepped == 0) {
+        return;
+    }
+    if (tally.steps > WARM_UP_STEPS) {
+        tally.instructions_sum += since_step;
+        tally.instructions_steps += tally.stepped;
+    }
+    if (since_step > tally.instructions_max) {
+        tally.instructions_max = since_step;
+    }
+    since_step = 0;
+}
+
+static void say(const char *text, uint32_t number)
+{
+    char digits[11];
+    char *first = digits + sizeof digits - 1;
+    *first = '\0';
+    do {
+        *--first = (char)('0' + number % 10);
+        number /= 10;
+    } while (number > 0);
+    files_say(text);
+    files_say(first);
+}
+
+static void report(void)
+{
+    say("steps ", tally.steps);
+    say(" reports ", tally.track_reports);
+    if (tally.instructions_max > 0 && tally.instructions_steps > 0) {
+        say(" instructions mean ", (uint32_t)(tally.instructions_sum / tally.instructions_steps));
+        say(" max ", tally.instructions_max);
+    }
+    if (files_stack_used() > 0) {
+        say(" stack ", (uint32_t)files_stack_used());
+    }
+    files_say("\n");
+}
+
+int main(int argc, char **argv)
+{
+    static uint8_t datagram[RHO_UDPM_MAX_DATAGRAM];
+    int input = argc >= 3 ? files_open_to_read(argv[1]) : 0;
+    size_t size;
+    output = input ? files_open_to_write(argv[2]) : 0;
+    if (!output || !start(argc > 3 ? argv[3] : "best")) {
+        files_say("usage: replay IN.lcm OUT.lcm [best|hough|nearest]; or a file does not open\n");
+        return 2;
+    }
+    while ((size = read_datagram(input, datagram)) > 0) {
+        measure(datagram, size);
+    }
+    node_flush();
+    has_failed |= !files_close(output);
+    report();
+    return has_failed;
+}
