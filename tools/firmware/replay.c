@@ -127,7 +127,7 @@ static int start(const char *gate)
 {
     struct node_config config;
     node_config_default(&config);
-    config.initiator.v_min_mps = 20.0f;
+    config.initiator.v_min_mps = 100.0f; config.initiator.v_max_mps = 400.0f; config.tracker.v_max_mps=400.0f; config.tracker.accel_max_mps2=5.0f;
     if (strcmp(gate, "hough") == 0) {
         config.tracker.gate = RHO_TRACKER_HOUGH;
     } else if (strcmp(gate, "nearest") == 0) {
