@@ -3,9 +3,9 @@
  * approx: elementary functions in float32.
  *
  * Own code, so that every target decides alike: libm differs between newlib and glibc, and newlib's versions drag in
- * errno. Only +, -, *, / of IEEE binary32 and integer operations; the same bits on every machine. No state, no loops
- * over data, constant cost. Errors below are against exact arithmetic over the whole stated range, checked by
- * tests/unit/test_approx.c. NaN in gives NaN out. Stack: 32 bytes at most.
+ * errno. Only +, -, *, / and the square root of IEEE binary32, and integer operations: the same bits on every machine.
+ * No state, no loops over data, constant cost. Errors below are against exact arithmetic over the whole stated range,
+ * checked by tests/unit/test_approx.c. NaN in gives NaN out. Stack: 32 bytes at most.
  */
 #ifndef RHOTRACK_APPROX_H
 #define RHOTRACK_APPROX_H
@@ -31,7 +31,10 @@ float rho_exp(float v);
  * +infinity: +infinity. */
 float rho_log(float v);
 
-/* Square root of v >= 0, correctly rounded (the bits of IEEE 754). v < 0: NaN. +infinity: +infinity. */
+/*
+ * Square root of v >= 0, correctly rounded (the bits of IEEE 754). v < 0: NaN. +infinity: +infinity. The processor's own
+ * instruction where gcc or clang know one, else some 40 instructions.
+ */
 float rho_sqrt(float v);
 
 /*

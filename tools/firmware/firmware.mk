@@ -1,46 +1,81 @@
 # SPDX-License-Identifier: MIT
 #
-# Images for Cortex-M4F and M7, and the replay for this machine. Part of the Makefile.
+# Images for Cortex-M4F and M7 on Arm's MPS2 boards, which QEMU emulates, and what runs in them. Part of the Makefile.
 
 firmware := $(BUILD)/firmware
-firmware_parts := tools/firmware
-board := $(firmware_parts)/board
-ARM_PREFIX ?= arm-none-eabi-
+firmware_folder := tools/firmware
+board := $(firmware_folder)/board
+ARM_CC ?= arm-none-eabi-gcc
 FIRMWARE_OPT := -Os
 
 m4_flags := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0x40200000u
 m7_flags := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0xA0000000u
-# errno: newlib's square root would ask for it where the processor has an instruction
-firmware_flags := -std=c99 $(common_flags) $(warnings) -ffreestanding -fno-math-errno -ffunction-sections \
-                  -fdata-sections -I$(firmware_parts)
-firmware_link := -nostartfiles -nodefaultlibs -Wl,--gc-sections -L$(board)/mps2
-firmware_c := $(ARM_PREFIX)gcc
+# errno: newlib's square root would ask for it, where the processor has an instruction
+firmware_flags := -std=c99 $(common_flags) $(warnings) -fno-math-errno -ffunction-sections -fdata-sections \
+                  -I$(firmware_folder)
+firmware_link := -nostartfiles -Wl,--gc-sections -L$(board)/mps2
+radar_flags := $(firmware_flags) -ffreestanding -DRHO_CONFIG_FILE='"radar_capacities.h"'
+replay_flags := $(firmware_flags) -ffreestanding -DNODE_BEARINGS=1
 
-node_parts := $(addprefix $(firmware_parts)/,node.c node_bearings.c)
-mps2_parts := $(addprefix $(board)/,mps2/startup.c mps2/board_mps2.c mps2/lan9118.c udp_frame.c)
-radar_parts := $(library_sources) $(node_parts) $(firmware_parts)/main.c $(mps2_parts)
-replay_parts := $(library_sources) $(node_parts) $(firmware_parts)/replay.c $(board)/mps2/startup.c \
-                $(board)/mps2/semihosting.c
+firmware_node := $(addprefix $(firmware_folder)/,node.c node_bearings.c)
+radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
+                 $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
+replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.c \
+                  $(addprefix $(board)/mps2/,startup.c semihosting.c)
+
+# --- images: build/firmware/CORE/IMAGE.elf ---------------------------------------------------
 
 firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf $(firmware)/$(core)/replay.elf)
 
-## Build the firmware example for Cortex-M4F and M7: a radar node, and the same on records (build/firmware)
+## Build the firmware example for Cortex-M4F and M7: a radar node, and the node on records (build/firmware)
 firmware: $(firmware_images)
-	@BUILD=$(BUILD) $(firmware_parts)/budget.sh
+	@BUILD=$(BUILD) $(firmware_folder)/budget.sh
+
+firmware_compile = @mkdir -p $(@D) && echo "  arm      $@" && $(ARM_CC) $(1) -c -o $@ $<
+firmware_bind = @echo "  link     $@" && $(ARM_CC) $(1) $(firmware_link) -Wl,-Map=$@.map -o $@ $(2)
 
 define firmware_core # m4 or m7
-$(firmware)/$(1)/radar.elf: $(radar_parts:%.c=$(firmware)/$(1)/radar/%.o)
-	@echo "  link     $$@" && $(firmware_c) $$($(1)_flags) $(firmware_link) -T node.ld -Wl,-Map=$$@.map -o $$@ $$^ -lc -lgcc
-$(firmware)/$(1)/replay.elf: $(replay_parts:%.c=$(firmware)/$(1)/replay/%.o)
-	@echo "  link     $$@" && $(firmware_c) $$($(1)_flags) $(firmware_link) -T large.ld -Wl,-Map=$$@.map -o $$@ $$^ -lc -lgcc
-$(firmware)/$(1)/radar/%.o: %.c Makefile $(firmware_parts)/firmware.mk
-	@mkdir -p $$(@D) && echo "  arm      $$@" && $(firmware_c) $$($(1)_flags) $(firmware_flags) $(FIRMWARE_OPT) -c -o $$@ $$<
-$(firmware)/$(1)/replay/%.o: %.c Makefile $(firmware_parts)/firmware.mk
-	@mkdir -p $$(@D) && echo "  arm      $$@" && $(firmware_c) $$($(1)_flags) $(firmware_flags) $(FIRMWARE_OPT) -DNODE_BEARINGS=1 -c -o $$@ $$<
+$(firmware)/$(1)/radar.elf: $(radar_sources:%.c=$(firmware)/$(1)/radar/%.o)
+	$$(call firmware_bind,$$($(1)_flags) -nodefaultlibs -T node.ld,$$^ -lc -lgcc)
+$(firmware)/$(1)/replay.elf: $(replay_sources:%.c=$(firmware)/$(1)/replay/%.o)
+	$$(call firmware_bind,$$($(1)_flags) -nodefaultlibs -T large.ld,$$^ -lc -lgcc)
+$(firmware)/$(1)/radar/%.o: %.c Makefile $(firmware_folder)/firmware.mk
+	$$(call firmware_compile,$$($(1)_flags) $(radar_flags) $(FIRMWARE_OPT))
+$(firmware)/$(1)/replay/%.o: %.c Makefile $(firmware_folder)/firmware.mk
+	$$(call firmware_compile,$$($(1)_flags) $(replay_flags) $(FIRMWARE_OPT))
 endef
-$(eval $(call firmware_core,m4))
-$(eval $(call firmware_core,m7))
+$(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 
-.PHONY: firmware
+# --- jobs of tools/instructions: build/firmware/CORE/jobs/NAME.elf ---------------------------
 
--include $(foreach core,m4 m7,$(radar_parts:%.c=$(firmware)/$(core)/radar/%.d) $(replay_parts:%.c=$(firmware)/$(core)/replay/%.d))
+job_sources := $(sort $(wildcard tools/instructions/*.c))
+job_parts := $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
+job_names := $(filter-out hough,$(basename $(notdir $(job_sources))))
+job_images := $(foreach core,m4 m7,$(job_names:%=$(firmware)/$(core)/jobs/%.elf))
+job_flags := $(firmware_flags) -DCOUNT_ON_TARGET -O2
+
+define job_core # m4 or m7
+$(firmware)/$(1)/jobs/librhotrack.a: $(library_sources:%.c=$(firmware)/$(1)/jobs/%.o)
+	@rm -f $$@ && echo "  ar       $$@" && ar rcs $$@ $$^
+$(firmware)/$(1)/jobs/%.elf: $(firmware)/$(1)/jobs/tools/instructions/%.o \
+                             $(job_parts:%.c=$(firmware)/$(1)/jobs/%.o) $(firmware)/$(1)/jobs/librhotrack.a
+	$$(call firmware_bind,$$($(1)_flags) --specs=rdimon.specs -T large.ld,$$^)
+$(firmware)/$(1)/jobs/%.o: %.c Makefile $(firmware_folder)/firmware.mk
+	$$(call firmware_compile,$$($(1)_flags) $(job_flags))
+endef
+$(foreach core,m4 m7,$(eval $(call job_core,$(core))))
+
+# --- the replay on this machine --------------------------------------------------------------
+
+replay := $(BUILD)/firmware/replay
+$(replay): $(firmware_node) $(firmware_folder)/replay.c $(board)/host/files_host.c $(library)
+	$(call compile,-std=c99 $(common_flags) $(warnings) -I$(firmware_folder) -DNODE_BEARINGS=1) $(LDFLAGS) -MF $@.d -o $@ \
+	    $(filter %.c %.a,$^)
+
+.PHONY: firmware job-images
+job-images: $(job_images)
+.SECONDARY: $(foreach core,m4 m7,$(job_sources:%.c=$(firmware)/$(core)/jobs/%.o) $(job_parts:%.c=$(firmware)/$(core)/jobs/%.o))
+
+-include $(foreach core,m4 m7,$(radar_sources:%.c=$(firmware)/$(core)/radar/%.d) \
+           $(replay_sources:%.c=$(firmware)/$(core)/replay/%.d) \
+           $(foreach source,$(library_sources) $(job_sources) $(job_parts),$(source:%.c=$(firmware)/$(core)/jobs/%.d)))

@@ -2,12 +2,13 @@
 /*
  * hough: one search of the accumulator, for tools/instructions.sh to count the instructions of: `hough POINTS plain|pruned`.
  * As in `rhotrack bench hough`: 30 x 30 km, 7 scans, 5 votes, cells of 5 m x 1 mrad. Prints the votes, points times rows
- * of theta. What is counted runs inside job(); the rest is preparation.
+ * of theta.
  */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "count.h"
+#include "draw.h"
 #include "rhotrack/accumulator.h"
 
 #define SCANS 7
@@ -21,28 +22,15 @@ static float x_m[POINTS_MAX], y_m[POINTS_MAX];
 static uint32_t scan_end[SCANS];
 static const struct rho_accumulator_points points = {x_m, y_m, SCANS, scan_end};
 
-static float uniform(float low, float high)
-{
-    static uint32_t state = 1;
-    state = state * 1664525u + 1013904223u;
-    return low + (high - low) * (float)(state >> 8) / 16777216.0f;
-}
-
 static void scatter(unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
-        x_m[i] = uniform(-15000.0f, 15000.0f);
-        y_m[i] = uniform(-15000.0f, 15000.0f);
+        x_m[i] = draw_uniform(-15000.0f, 15000.0f);
+        y_m[i] = draw_uniform(-15000.0f, 15000.0f);
     }
     for (unsigned scan = 0; scan < SCANS; scan++) {
         scan_end[scan] = count * (scan + 1) / SCANS;
     }
-}
-
-/* Counted. */
-__attribute__((noinline)) enum rho_status job(void)
-{
-    return rho_accumulator_find(&accumulator, &points, peaks, PEAKS_MAX, &result);
 }
 
 int main(int argc, char **argv)
@@ -60,11 +48,15 @@ int main(int argc, char **argv)
     config.no_pruning = strcmp(argv[2], "plain") == 0;
     scatter((unsigned)count);
     enum rho_status status = rho_accumulator_init(&accumulator, sizeof accumulator, &config);
-    status = status == RHO_OK ? job() : status;
+    count_begin();
+    status =
+        status == RHO_OK ? rho_accumulator_find(&accumulator, &points, peaks, PEAKS_MAX, &result) : status;
+    count_end();
     if (status != RHO_OK) {
         fprintf(stderr, "hough: %s\n", rho_status_name(status));
         return 1;
     }
-    printf("%u\n", (unsigned)result.votes);
+    printf("%u votes\n", (unsigned)result.votes);
+    count_report();
     return 0;
 }

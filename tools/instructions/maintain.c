@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * maintain: the default's step of one track, for tools/instructions.sh to count the instructions of: a target that flies
- * straight, and clutter uniform in its gate, each scan the same number of plots. What is counted runs inside job().
+ * straight, and clutter uniform in its gate, each scan the same number of plots.
  *
  * Arguments: plots in the gate, the target's among them; 0 for isotropic noise, 1 for noise along a line of sight.
- * Prints the scans that were counted, the hypotheses and the plots that were in a gate, a scan.
+ * Prints the hypotheses, and the plots that were in a gate, a scan.
  */
-#include <stdio.h>
 #include <stdlib.h>
 
+#include "count.h"
+#include "draw.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/hypotheses.h"
 
-#define SCANS 100
+#define SCANS 100 /* the mean of whole numbers has two decimals */
 #define PLOTS_MAX 32
 #define INTERVAL_US 250000
 #define SIGMA_M 10.0f
@@ -26,30 +27,13 @@ static struct rho_hypotheses_estimate estimate;
 static uint16_t slot;
 static int num_plots, num_in_gate, num_hypotheses;
 
-static float uniform(float low, float high)
-{
-    static uint32_t state = 1;
-    state = state * 1664525u + 1013904223u;
-    return low + (high - low) * (float)(state >> 8) / 16777216.0f;
-}
-
-/* Nearly normal, by the sum of twelve. */
-static float normal(float sigma)
-{
-    float sum = 0.0f;
-    for (int i = 0; i < 12; i++) {
-        sum += uniform(-0.5f, 0.5f);
-    }
-    return sigma * sum;
-}
-
 static void draw_in_ball(float radius, float out[3])
 {
     float size2;
     do {
         size2 = 0.0f;
         for (int i = 0; i < 3; i++) {
-            out[i] = uniform(-1.0f, 1.0f);
+            out[i] = draw_uniform(-1.0f, 1.0f);
             size2 += out[i] * out[i];
         }
     } while (size2 > 1.0f);
@@ -65,7 +49,7 @@ static void draw_scan(int scan, float sigma_cross_m)
     for (int i = 0; i < num_plots; i++) {
         float off_m[3] = {0.0f, 0.0f, 0.0f};
         for (int axis = 0; i == 0 && axis < 3; axis++) {
-            off_m[axis] = normal(SIGMA_M);
+            off_m[axis] = draw_normal(SIGMA_M);
         }
         if (i > 0) {
             draw_in_ball(GATE_M, off_m);
@@ -79,8 +63,8 @@ static void draw_scan(int scan, float sigma_cross_m)
     }
 }
 
-/* Counted: a whole step, from the prediction to the estimate that is reported. */
-__attribute__((noinline)) int job(int64_t time_us)
+/* A whole step, from the prediction to the estimate that is reported. */
+static int step(int64_t time_us)
 {
     const struct rho_hypotheses_scan scan = {.time_us = time_us,
                                              .measures = RHO_MEASURES_Z,
@@ -131,9 +115,13 @@ int main(int argc, char **argv)
     int failed = start();
     for (int scan = 1; scan <= SCANS && !failed; scan++) {
         draw_scan(scan, atoi(argv[2]) ? 1.2f * SIGMA_M : SIGMA_M);
-        failed |= job((int64_t)INTERVAL_US * scan);
+        count_begin();
+        failed |= step((int64_t)INTERVAL_US * scan);
+        count_end();
         num_hypotheses += (int)rho_hypotheses_count(&pool, slot);
     }
-    printf("%d %.2f %.2f\n", SCANS, (double)num_hypotheses / SCANS, (double)num_in_gate / SCANS);
+    printf("%d.%02d hypotheses, %d.%02d plots in the gate\n", num_hypotheses / SCANS,
+           num_hypotheses % SCANS, num_in_gate / SCANS, num_in_gate % SCANS);
+    count_report();
     return failed;
 }

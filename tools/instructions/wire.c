@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * wire: messages to bytes and back, for tools/instructions.sh to count the instructions of. What is counted runs inside
- * job(). Argument: the job's name. Prints the message's bytes.
+ * wire: messages to bytes and back, for tools/instructions.sh to count the instructions of. Argument: the job's name. Prints the message's bytes.
  */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "count.h"
 #include "rhotrack/feed.h"
 #include "rhotrack/message.h"
 #include "rhotrack/publish.h"
@@ -18,7 +17,7 @@ static uint8_t bytes[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
 static size_t size;
 static enum rho_status status;
 
-__attribute__((noinline)) static void encode_scan(void)
+static void encode_scan(void)
 {
     status = rho_message_plot_scan_encode(&scan, bytes, sizeof bytes, &size);
 }
@@ -44,13 +43,6 @@ static void take_scan(void)
 static void publish_tracks(void)
 {
     status = rho_publish_tracks(&report, 1, 1, 0, bytes, sizeof bytes, &size);
-}
-
-/* The function whose instructions count. */
-__attribute__((noinline)) static void job(void (*work)(void))
-{
-    work();
-    __asm__ volatile("" ::: "memory");
 }
 
 static void fill(void)
@@ -90,8 +82,11 @@ int main(int argc, char **argv)
     encode_scan();
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
         if (argc == 2 && status == RHO_OK && strcmp(argv[1], jobs[i].name) == 0) {
-            job(jobs[i].work);
-            printf("%zu\n", size);
+            count_begin();
+            jobs[i].work();
+            count_end();
+            printf("%lu bytes\n", (unsigned long)size);
+            count_report();
             return status == RHO_OK ? EXIT_SUCCESS : EXIT_FAILURE;
         }
     }

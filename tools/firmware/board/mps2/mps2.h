@@ -33,12 +33,16 @@
 #endif
 #define MPS2_ETHERNET_IRQ 13u
 
-/* The end of start-up: runs the image's main. In board_mps2.c, semihosting.c or run_hosted.c. */
+/* The end of start-up: runs the image's main. In board_mps2.c or semihosting.c. */
 void mps2_run(void) __attribute__((noreturn));
 
 /* Called by the interrupts of the same names; an image that enables them has them. */
 void mps2_systick(void);
 void mps2_ethernet(void);
+
+/* For printf and the like in images that measure: library_console.c. */
+void mps2_open_console(void);
+void mps2_close_console(void);
 
 /* A fault of the processor; exception: its number. */
 void mps2_fault(unsigned exception) __attribute__((noreturn));

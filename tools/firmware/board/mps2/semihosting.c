@@ -104,6 +104,14 @@ uint32_t files_instructions_between(uint32_t from, uint32_t to)
 
 int main(int argc, char **argv);
 
+/* For images with a C library whose console has to be opened and emptied: library_console.c. */
+__attribute__((weak)) void mps2_open_console(void)
+{
+}
+__attribute__((weak)) void mps2_close_console(void)
+{
+}
+
 static void stop(uint32_t status) __attribute__((noreturn));
 static void stop(uint32_t status)
 {
@@ -137,9 +145,13 @@ void mps2_run(void)
     static char line[1024];
     static char *words[ARGUMENTS_MAX + 1];
     const uint32_t operands[2] = {to_word(line), sizeof line};
+    int status;
     (void)call(SYS_GET_CMDLINE, operands);
     TIMER0_RELOAD = UINT32_MAX;
     TIMER0_VALUE = UINT32_MAX;
     TIMER0_CONTROL = TIMER_RUN;
-    stop((uint32_t)main(split(line, words), words));
+    mps2_open_console();
+    status = main(split(line, words), words);
+    mps2_close_console();
+    stop((uint32_t)status);
 }

@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * radar_capacities: the embedded profile but for what one radar does not need (RHO_CONFIG_FILE; rhotrack/config.h says
+ * what each costs). Library and node are compiled with it.
+ */
+
+/* Nobody else's scans come in between: one is put together at a time. */
+#define RHO_MAX_OPEN_SCANS 1

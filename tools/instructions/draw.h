@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* draw: random numbers for the jobs beside it, the same ones everywhere. */
+#ifndef DRAW_H
+#define DRAW_H
+
+#include <stdint.h>
+
+static inline float draw_uniform(float low, float high)
+{
+    static uint32_t state = 1;
+    state = state * 1664525u + 1013904223u;
+    return low + (high - low) * (float)(state >> 8) / 16777216.0f;
+}
+
+/* Nearly normal, by the sum of twelve. */
+static inline float draw_normal(float sigma)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < 12; i++) {
+        sum += draw_uniform(-0.5f, 0.5f);
+    }
+    return sigma * sum;
+}
+
+#endif
