@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * replay: the node on a record instead of a network, on any machine: `replay IN.lcm OUT.lcm [GATE]`.
+ * replay: the node on a record instead of a network, on any machine: `replay IN.lcm OUT.lcm [NAME=VALUE ...]`. Names are
+ * gate (best, hough, nearest; the latter two with input estimation), v_min_mps, v_max_mps, accel_mps2; whole numbers.
  *
  * IN.lcm is an LCM log of scans; each message goes into the node as the datagram that it would be, at the time at which
  * it was recorded. OUT.lcm holds the node's own datagrams as messages, and beside them on the channel FATES what the
@@ -123,19 +124,55 @@ static int64_t no_clock(void *context)
 
 /* ---- Run ---- */
 
-static int start(const char *gate)
+static float whole_number(const char *text)
+{
+    float value = 0.0f;
+    while (*text >= '0' && *text <= '9') {
+        value = 10.0f * value + (float)(*text++ - '0');
+    }
+    return *text ? -1.0f : value; /* the node refuses what is negative */
+}
+
+static int gate_of(const char *name)
+{
+    static const char *const names[RHO_NUM_TRACKER_GATES] = {"best", "hough", "nearest"};
+    int gate = 0;
+    while (gate < RHO_NUM_TRACKER_GATES && strcmp(name, names[gate]) != 0) {
+        gate++;
+    }
+    return gate;
+}
+
+/* Returns 0 where there is no such setting. */
+static int set(struct node_config *config, const char *argument)
+{
+    const char *value = strchr(argument, '=');
+    size_t length = value ? (size_t)(value - argument) : 0;
+    if (length == 4 && strncmp(argument, "gate", length) == 0) {
+        config->tracker.gate = (uint8_t)gate_of(value + 1);
+        config->tracker.input.is_estimated = config->tracker.gate != RHO_TRACKER_BEST;
+    } else if (length == 9 && strncmp(argument, "v_min_mps", length) == 0) {
+        config->initiator.v_min_mps = whole_number(value + 1);
+    } else if (length == 9 && strncmp(argument, "v_max_mps", length) == 0) {
+        config->initiator.v_max_mps = whole_number(value + 1);
+        config->tracker.v_max_mps = config->initiator.v_max_mps;
+    } else if (length == 10 && strncmp(argument, "accel_mps2", length) == 0) {
+        config->tracker.accel_max_mps2 = whole_number(value + 1);
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
+static int start(int count, char **arguments)
 {
     struct node_config config;
     node_config_default(&config);
-    config.initiator.v_min_mps = 100.0f; config.initiator.v_max_mps = 400.0f; config.tracker.v_max_mps=400.0f; config.tracker.accel_max_mps2=5.0f;
-    if (strcmp(gate, "hough") == 0) {
-        config.tracker.gate = RHO_TRACKER_HOUGH;
-    } else if (strcmp(gate, "nearest") == 0) {
-        config.tracker.gate = RHO_TRACKER_NEAREST;
-    } else if (strcmp(gate, "best") != 0) {
-        return 0;
+    for (int i = 0; i < count; i++) {
+        if (!set(&config, arguments[i])) {
+            return 0;
+        }
     }
-    config.tracker.input.is_estimated = strcmp(gate, "best") != 0;
     config.send = send_datagram;
     config.stepped = count_step;
     config.clock_us = no_clock;
@@ -198,8 +235,12 @@ int main(int argc, char **argv)
     int input = argc >= 3 ? files_open_to_read(argv[1]) : 0;
     size_t size;
     output = input ? files_open_to_write(argv[2]) : 0;
-    if (!output || !start(argc > 3 ? argv[3] : "best")) {
-        files_say("usage: replay IN.lcm OUT.lcm [best|hough|nearest]; or a file does not open\n");
+    if (!output) {
+        files_say("usage: replay IN.lcm OUT.lcm [NAME=VALUE ...]; or a file does not open\n");
+        return 2;
+    }
+    if (!start(argc - 3, argv + 3)) {
+        files_say("replay: a setting is not known, or not taken\n");
         return 2;
     }
     while ((size = read_datagram(input, datagram)) > 0) {

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+#
+# For the scripts beside it: records of simulated sensors as LCM logs, and the images that they are played to. Source it
+# before checks.bash. Work goes on in $folder.
+root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
+status=0 # for checks of functions
+images=$(realpath -m "$root/${BUILD:-build}/firmware")
+
+# record NAME SCENARIO TABLE OPTIONS...: the log NAME.lcm.
+record() {
+    local name=$1 scenario=$2 table=$3
+    shift 3
+    "$program" simulate "$scenario" --seed 3 "$@" -o "$name" >/dev/null &&
+        "$program" convert "$name/$table.csv" "$name.lcm" --config "$name/scenario.ini"
+}
+
+# The real plots of three aircraft among 100 clutter plots; three passive sensors; one target that pulls 10 g; a turning radar.
+record_all() {
+    record table3 radar plots --set clutter_per_scan=100 &&
+        record passive passive-three bearings --set num_scans=20 &&
+        record popup popup plots --set velocity=1 &&
+        record turning polar polar --set targets=8 --set num_scans=30
+}
+
+# What the node is told of the targets of a record.
+settings_of() {
+    case $1 in
+    passive) echo v_min_mps=100 v_max_mps=400 accel_mps2=5 ;;
+    popup) echo v_min_mps=100 v_max_mps=1000 accel_mps2=118 ;;
+    *) echo v_min_mps=100 v_max_mps=400 accel_mps2=5 ;;
+    esac
+}
+
+# Each record and gate once, `NAME GATE` a line.
+runs() {
+    local name gate
+    for name in table3 passive popup turning; do
+        for gate in best hough nearest; do
+            echo "$name $gate"
+        done
+    done
+}
+
+# replay_all COMMAND...: every run with `COMMAND... IN OUT SETTINGS`, into the folder that is the last word before; the files' sums
+# on standard output, and what the replay said in DIR/said.
+replay_all() { # directory, command...
+    local directory=$1 name gate
+    shift
+    mkdir -p "$directory"
+    while read -r name gate; do
+        # shellcheck disable=SC2046 # words on purpose
+        "$@" "$name.lcm" "$directory/$name-$gate.lcm" "gate=$gate" $(settings_of "$name") </dev/null ||
+            { echo "$name $gate: exit $?"; return 1; }
+    done < <(runs) >"$directory/said" 2>&1 || { cat "$directory/said"; return 1; }
+    (cd "$directory" && sha256sum ./*.lcm)
+}
