@@ -14,6 +14,10 @@ clang-format        # make format, make lint
 cppcheck            # make lint
 make                # build
 binutils            # ar, nm, size
+gcc-arm-none-eabi   # make size, make gates: objects for Cortex-M and Cortex-R
+libnewlib-arm-none-eabi # ... and the headers of its C library
+gcc-riscv64-unknown-elf # ... for RISC-V
+picolibc-riscv64-unknown-elf # ... and the headers of its C library
 pkg-config          # test of the installed library
 libcsv-dev          # the program reads CSV
 libinih-dev         # ... and INI
