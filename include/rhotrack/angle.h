@@ -25,7 +25,7 @@ float rho_angle_difference(float a_rad, float b_rad);
  * the whole circle. All to 1e-6 rad, so that -pi .. pi and 0 .. 2 pi are whole too. False for NaN. */
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 
-/* True where both ends of a sector are finite and within a turn either way. Constant cost, no stack. */
+/* True where both ends of a sector are finite and within a turn either way. */
 int rho_angle_is_sector(float from_rad, float to_rad);
 
 /*

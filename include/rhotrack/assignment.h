@@ -9,6 +9,8 @@
  *
  * Source: Jonker and Volgenant, "A shortest augmenting path algorithm for dense and sparse linear assignment problems",
  * Computing 38, 1987.
+ *
+ * Stack: 100 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_ASSIGNMENT_H
 #define RHOTRACK_ASSIGNMENT_H
@@ -62,7 +64,7 @@ RHO_MUST_CHECK enum rho_status rho_assignment_add(struct rho_assignment *assignm
 /*
  * Solves: rho_assignment_column then answers. An object that was not initialised is left alone. Cost: a row's search
  * visits each pair of its cluster once and picks the nearest column from a list: at worst rows x (pairs + columns^2) of
- * the cluster. Stack: 112 bytes.
+ * the cluster. Stack: 130 bytes.
  */
 void rho_assignment_solve(struct rho_assignment *assignment);
 

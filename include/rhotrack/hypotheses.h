@@ -17,6 +17,8 @@
  *
  * Source: D. B. Reid, An algorithm for tracking multiple targets, IEEE Transactions on Automatic Control 24, 1979, for one
  * track, with the pruning of the last N scans.
+ *
+ * Stack: 64 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_HYPOTHESES_H
 #define RHOTRACK_HYPOTHESES_H
@@ -121,13 +123,14 @@ struct rho_hypotheses_estimate {
     float maneuver_probability;
 };
 
-/* Prepares an empty pool; the model is copied. Errors: NULL, SIZE, CONFIG. Cost: clears the object. */
+/* Prepares an empty pool; the model is copied. Errors: NULL, SIZE, CONFIG. Cost: clears the object.
+ * Stack: 220 bytes. */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
                                                    const struct rho_imm_model *model);
 
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all slots taken, or no
- * hypothesis that another track could give up). Cost: RHO_MAX_TRACKS.
+ * hypothesis that another track could give up). Cost: RHO_MAX_TRACKS. Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool,
                                                    const struct rho_kalman *estimate,
@@ -146,12 +149,13 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 /*
  * Moves all hypotheses of a slot to time_us. One that cannot be moved on is given up. Errors: NULL, STATE (slot), VALUE
  * (none is left: the slot is closed). Cost: rho_imm_predict each, and rho_imm_step_open wherever the interval is another
- * than the last one asked for: once a scan, but for hypotheses that took a plot at its own time.
+ * than the last one asked for: once a scan, but for hypotheses that took a plot at its own time. Stack: 380 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
                                                       int64_t time_us);
 
-/* Begins a scan: no plot has been weighed. *reach (may be NULL) is filled. Cost: 40 instructions a hypothesis and model. */
+/* Begins a scan: no plot has been weighed. *reach (may be NULL) is filled. Cost: 40 instructions a hypothesis and model.
+ * Stack: 240 bytes. */
 void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
                          struct rho_hypotheses_reach *reach);
 
@@ -163,7 +167,7 @@ int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struc
  * Weighs a plot of time_us, its own, with every hypothesis; each keeps its RHO_HYPOTHESES_CHILDREN best, of equals those that
  * came first. Returns 1 where the plot is in the gate of any, and then in *gain_nat what the best hypothesis with the plot
  * is worth: ln of pd times the plot's density over the clutter's, plus that hypothesis' weight.
- * Cost: rho_imm_weigh a hypothesis, and rho_imm_move for a plot with an own time.
+ * Cost: rho_imm_weigh a hypothesis, and rho_imm_move for a plot with an own time. Stack: 700 bytes.
  */
 int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
                          const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
@@ -176,7 +180,7 @@ int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t sl
 /*
  * Ends the scan: the heaviest children of all hypotheses go on. Plots that scan->claims gives to other tracks are left out.
  * An update that is refused becomes a miss (updates_refused). Errors: NULL, STATE (slot).
- * Cost: rho_imm_update for each of at most RHO_HYPOTHESES_OF_TRACK. Stack: 700 bytes.
+ * Cost: rho_imm_update for each of at most RHO_HYPOTHESES_OF_TRACK. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot,
                                                      const struct rho_hypotheses_scan *scan,
@@ -185,7 +189,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool
 /*
  * All hypotheses take a plot that is known to be the target's, at its own time. Errors: NULL, STATE (slot), and those of
  * rho_imm_update where no hypothesis could take it: then they are as they were predicted to its time, or where they were if
- * that is too far back.
+ * that is too far back. Stack: 650 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, uint16_t slot,
                                                    const struct rho_imm_plot *seen,
@@ -193,7 +197,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, 
 
 /*
  * The same with a bearing from a place: hypotheses' weights move by how well they had predicted it, and those that are too
- * light then are given up.
+ * light then are given up. Stack: 650 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool,
                                                            uint16_t slot, int64_t time_us,
@@ -202,7 +206,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses
 
 /*
  * The mean over all hypotheses, moved to time_us. Errors: NULL, STATE (slot), VALUE (none can be moved there); *estimate is
- * unchanged. Cost: 600 instructions a hypothesis.
+ * unchanged. Cost: 600 instructions a hypothesis. Stack: 460 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot,
                                                        int64_t time_us,

@@ -18,6 +18,8 @@
  * "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple Target Tracking" (votes in parameter space
  * by kernels of time-ordered scans); the score is the integrated likelihood ratio over all straight tracks with
  * speeds between v_min_mps and v_max_mps.
+ *
+ * Stack: 100 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_INITIATOR_H
 #define RHOTRACK_INITIATOR_H
@@ -111,7 +113,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config);
 /*
  * Prepares an empty initiator; the config is copied.
  *   size   sizeof(struct rho_initiator) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 96 bytes.
+ * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
                                                   const struct rho_initiator_config *config);
@@ -119,7 +121,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiato
 /* True where a scan of this time can be pushed: the initiator is initialised, and holds no newer scan. Constant cost. */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
-/* rho_window_push on the initiator's window; what an earlier search found is forgotten. */
+/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 240 bytes. */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,
                                                   const struct rho_sensor *sensor, uint8_t *fates,

@@ -12,6 +12,8 @@
  *
  * Turned into that frame a plot is two or three scalars of independent noise: no matrix has to be inverted.
  * Plots of a scan without heights lie in the horizontal plane: elevation 0, two axes.
+ *
+ * Stack: 100 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_MEASUREMENT_H
 #define RHOTRACK_MEASUREMENT_H
@@ -51,7 +53,7 @@ struct rho_measurement {
  * the line of sight, with the variance r^2 sigma^4 / 2, which sigma_range_m gets.
  * Errors: NULL, VALUE (range not in 0 .. RHO_LIMIT_POSITION_M, exclusive of 0, azimuth beyond +-pi, elevation beyond
  * +-pi/2, a sigma outside its limits, range rate beyond RHO_LIMIT_SPEED_MPS, the place or offset beyond its limit, also
- * once the biases are off; any of it not finite); *plot is unchanged. Cost: two sines and cosines. Stack: 160 bytes.
+ * once the biases are off; any of it not finite); *plot is unchanged. Cost: two sines and cosines. Stack: 220 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar,
                                                           uint32_t measures,
@@ -83,7 +85,7 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
  * state: u = (p - s) / |p - s|, rate = u . v, d rate / d v = u, d rate / d p = (v - rate u) / |p - s|.
  * use_z 0: heights are not known; the sensor and the state count as level.
  * Returns 0, and fills nothing, where the state is nearer than a metre to the sensor. Cost: a square root and two
- * divisions. Stack: 48 bytes.
+ * divisions. Stack: 56 bytes.
  */
 int rho_measurement_range_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
                                float row[6], float *rate_mps);

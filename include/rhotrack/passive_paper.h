@@ -18,6 +18,8 @@
  * voted for it, ghosts among them.
  *
  * Source: passive Hough transform paper (see crossing.h), sections 3 and 4; src/DESIGN.md says how it is read.
+ *
+ * Stack: 32 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_PASSIVE_PAPER_H
 #define RHOTRACK_PASSIVE_PAPER_H
@@ -102,12 +104,14 @@ void rho_passive_paper_config_default(struct rho_passive_paper_config *config);
  * Prepares an empty batch; the config is copied.
  *   size   sizeof(struct rho_passive_paper) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range); *paper is unchanged. Cost: sizeof(paper) bytes cleared.
+ * Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_passive_paper_init(struct rho_passive_paper *paper, size_t size,
                        const struct rho_passive_paper_config *config);
 
-/* Takes a frame: rho_batch_push of the batch, and its errors. The lines of the last search are gone. */
+/* Takes a frame: rho_batch_push of the batch, and its errors. The lines of the last search are gone.
+ * Stack: 160 bytes. */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
                                                       const struct rho_frame *frame,
                                                       uint8_t *fates);

@@ -11,6 +11,8 @@
  * density of its innovation, a miss adds ln(1 - pd), but only where the sensor looked. A tentative track is confirmed
  * when the score reaches the confirm threshold and dropped when it falls below Wald's lower one; a confirmed track is
  * dropped when its score has fallen by coast_scans_max misses from its highest, or after that many misses in a row.
+ *
+ * Stack: 64 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_TRACK_H
 #define RHOTRACK_TRACK_H
@@ -114,7 +116,7 @@ struct rho_track_plot {
  * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is
  * that plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
  * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses); *track is unchanged. Cost:
- * num_plots filter steps. Stack: 600 bytes.
+ * num_plots filter steps. Stack: 1.8 KB.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
@@ -126,7 +128,7 @@ void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
 /*
  * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later within its scan), it
  * goes back without noise. Errors: NULL, VALUE (a covariance beyond its limit); unchanged, but one of hypotheses may
- * have lost them all: end it.
+ * have lost them all: end it. Stack: 550 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                                  const struct rho_track_model *model);
@@ -137,7 +139,7 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
  * score.
  * Errors: NULL, VALUE, SINGULAR: the track is unchanged; but hypotheses have moved to the plot's time, or are lost where
  * that was refused. Cost: a prediction where the plot has an own time, and 2 to 7
- * scalar updates. Stack: 550 bytes.
+ * scalar updates. Stack: 1.4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
                                                 const struct rho_track_plot *plot,
@@ -147,7 +149,7 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
 /*
  * A track of hypotheses takes a scan whose plots it has weighed (rho_hypotheses_commit): its best hypothesis' plot is
  * claimed, if it has one, and the score changes by what all say. Then, or where the plot is refused, `plot` is -1.
- * Errors: NULL, STATE (another filter).
+ * Errors: NULL, STATE (another filter). Stack: 850 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
                                                 const struct rho_hypotheses_scan *scan,
@@ -156,12 +158,12 @@ RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
 
 /*
  * At the end of a step: `kalman`, acceleration and manoeuvre as all hypotheses have them, at time_us. With input estimation,
- * what the step's bearings tell together of inputs is decided. Else nothing.
+ * what the step's bearings tell together of inputs is decided. Else nothing. Stack: 650 bytes.
  */
 void rho_track_settle(struct rho_track *track, int64_t time_us,
                       const struct rho_track_model *model);
 
-/* The prediction as a gate has to see it: an input may have begun since. */
+/* The prediction as a gate has to see it: an input may have begun since. Stack: 140 bytes. */
 void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected);
 
 /* A bearing, when it was seen, and from where. */
@@ -176,6 +178,7 @@ struct rho_track_bearing {
 /*
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans have made; sensor_id
  * is one of those that saw it. Errors: NULL, VALUE (x or y not open, no hits); *track is unchanged. Constant cost.
+ * Stack: 550 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
                                                         const struct rho_kalman *estimate,
@@ -186,7 +189,8 @@ RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track,
  * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of several sensors in one
  * step count as one hit: the first, while plot is -1. gain_mnat is added to the score. Inputs are decided on by
  * rho_track_settle.
- * Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its hypotheses. Cost: two predictions and an update. Stack: 450 bytes.
+ * Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its hypotheses.
+ * Cost: two predictions and an update. Stack: 950 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
                                                         const struct rho_track_bearing *bearing,

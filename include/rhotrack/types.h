@@ -9,6 +9,9 @@
  *   lines     rho = x cos(theta) + y sin(theta), rho signed, theta in [0, pi); (rho, theta) and (-rho, theta +- pi)
  *             are one line; a track on it heads for theta + pi/2 or theta - pi/2
  *   scores    natural logarithms of likelihood ratios, as integer thousandths of a nat (mnat)
+ *
+ * Stack: 100 bytes at most where nothing else is said. All headers: a call with everything it calls, at most, on a Cortex-M4F,
+ * gcc 12.2 -Os, embedded profile; src/SIZES.md has other processors.
  */
 #ifndef RHOTRACK_TYPES_H
 #define RHOTRACK_TYPES_H

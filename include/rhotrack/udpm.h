@@ -11,6 +11,8 @@
  *     rho_udpm_begin(buffer, sizeof buffer, sequence++, "RHO_TRACKS", &head);
  *     rho_message_..._encode(&message, buffer + head, sizeof buffer - head, &size);
  *     send(buffer, head + size);
+ *
+ * Stack: 32 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_UDPM_H
 #define RHOTRACK_UDPM_H
@@ -38,7 +40,7 @@ struct rho_udpm_datagram {
 /*
  * Writes the head of a datagram to the buffer; *head: its length, behind which the message goes.
  * Errors: NULL, VALUE (a channel of no or more than 63 characters), CAPACITY (the buffer is shorter than the head);
- * nothing is written. Cost: the head's bytes. Stack: 24 bytes.
+ * nothing is written. Cost: the head's bytes. Stack: 88 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequence,
                                               const char *channel, size_t *head);
@@ -46,7 +48,7 @@ RHO_MUST_CHECK enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, 
 /*
  * Opens a datagram; any bytes of any length may be given. The message itself is not looked into, and may be empty.
  * Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or no LCM), VALUE (a channel that is empty, longer
- * than 63 characters, or without its end); *datagram is unchanged. Cost: the channel's length. Stack: 24 bytes.
+ * than 63 characters, or without its end); *datagram is unchanged. Cost: the channel's length. Stack: 88 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_udpm_parse(const uint8_t *data, size_t size,
                                               struct rho_udpm_datagram *datagram);

@@ -36,7 +36,7 @@ HEADER_TOP = """\
  *
  * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent of one another.
  * Cost: proportional to the bytes, 2 instructions a byte to encode or decode, 6 to validate (`make instructions`).
- * Stack: 120 bytes.
+ * Stack: 130 bytes.
  */
 #ifndef RHOTRACK_MESSAGE_H
 #define RHOTRACK_MESSAGE_H

@@ -1,0 +1,37 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# What the public headers state of stacks is an upper bound, and tools/stack.py goes red where it is not, or is missing.
+set -eu
+cd "$(dirname "$0")/../.."
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+faults=0
+
+tools/stack.py --headers | tee "$copy/output"
+if grep -q '^skipped' "$copy/output"; then exit 0; fi
+
+must_fail() { # what, file, a sed command on it, the message expected
+    local output
+    rm -rf "$copy/rhotrack"
+    cp -r include/rhotrack "$copy"
+    sed -i "$3" "$copy/rhotrack/$2"
+    if output=$(tools/stack.py --headers "$copy/rhotrack"); then
+        echo "stack.py did not see $1"
+        exit 1
+    fi
+    grep -q -- "$4" <<<"$output" || { echo "stack.py saw $1, but said: $output"; exit 1; }
+    faults=$((faults + 1))
+}
+
+must_fail 'too small a figure' frames.h 's/Stack: 120 bytes/Stack: 60 bytes/' \
+    'frames.h:[0-9]*: rho_frames_init states 60 bytes of stack; it takes [0-9]*: rho_frames_init > memset'
+must_fail 'too small a figure for a whole header' approx.h 's/Stack: 32 bytes/Stack: 8 bytes/' 'rho_sqrt states 8 bytes'
+must_fail 'too small a figure in kilobytes' tracker.h 's/Stack: 3.7 KB/Stack: 0.9 KB/' 'rho_tracker_step states 921 bytes'
+must_fail 'a function that states nothing' types.h 's/Stack: 100 bytes at most where.*/Nothing./' 'rho_count states no stack'
+
+# The path of a function adds up to its bytes.
+tools/stack.py --path rho_kalman_predict | awk '
+    NR == 1 {says = $2}
+    NR > 1 {sum += $1}
+    END {if (NR < 3 || sum != says) {print "stack.py --path does not add up"; exit 1}}'
+echo "stack.py: $faults seeded faults seen"
