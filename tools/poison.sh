@@ -9,7 +9,7 @@ root=${1:-$(dirname "$0")/..}
 library=${2:-${BUILD:-build}/librhotrack.a}
 cd "$root" || exit 1
 
-words='malloc|calloc|realloc|free|alloca|strdup|\w*printf|puts|putchar|FILE|stdio|stdlib|errno|double|goto|setjmp|longjmp'
+words='malloc|calloc|realloc|free|(__builtin_)?alloca|strdup|\w*printf|puts|putchar|FILE|stdio|stdlib|errno|double|goto|setjmp|longjmp'
 bad=0
 
 report() { # heading, findings (a line each; none: nothing wrong)
@@ -30,13 +30,14 @@ report 'forbidden words in the sources' \
 
 [ -f "$library" ] || { echo "poison: no $library: run make lib"; exit 1; }
 report 'symbols that the library takes from elsewhere' \
-    "$(nm -u "$library" | awk '$1 == "U" {print $2}' | sort -u |
-       grep -vxE 'rho_\w+|memcpy|memset|memmove|memcmp|_GLOBAL_OFFSET_TABLE_')"
+    "$(nm -A -u "$library" | sed -nE 's/.*:([^:]+:) +U (.*)/\1 \2/p' | sort -u |
+       grep -vE ' (rho_\w+|memcpy|memset|memmove|memcmp|_GLOBAL_OFFSET_TABLE_)$')"
 report 'public symbols without the prefix rho_' \
-    "$(nm -g --defined-only "$library" | awk 'NF == 3 && $3 !~ /^rho_/ {print $2, $3}')"
+    "$(nm -A -g --defined-only "$library" | sed -nE 's/.*:([^:]+:)[0-9a-f]+ (. .*)/\1 \2/p' | grep -vE ' rho_\w+$')"
 # Not .data.rel.ro: constant tables of pointers, which the dynamic loader relocates once and then protects.
 report 'mutable globals' \
-    "$(objdump -t "$library" | grep -E ' O .*\.(data|bss|tdata|tbss)|\*COM\*' | grep -vF .data.rel.ro)"
+    "$(objdump -t "$library" | awk '/file format/ {object = $1}
+       (/ O .*\.(data|bss|tdata|tbss)/ || /\*COM\*/) && !/\.data\.rel\.ro/ {print object, $NF}')"
 
 [ "$bad" -eq 0 ] || exit 1
 echo "poison: $(echo "$files" | wc -l) files and $(nm "$library" 2>/dev/null | grep -c ' T ') public functions are clean"
