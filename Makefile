@@ -65,8 +65,8 @@ comma := ,
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib codegen bench-opencv test-programs test fuzz demo demo-live layers poison size instructions examples determinism lint format \
-        format-check tidy cppcheck sanitize install clean help
+.PHONY: all lib codegen bench-opencv test-programs test fuzz demo demo-live layers poison gates size \
+        size-update instructions examples determinism lint format format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
 
@@ -142,7 +142,7 @@ test:
 	@$(MAKE) --no-print-directory -k $(jobs) all test-programs || echo "  ...  the build has failures"
 	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
 	    $(sort $(wildcard tests/integration/*.sh tests/regression/*.sh)) \
-	    tools/layers.py tools/poison.sh tools/extract_example.sh tools/determinism.sh
+	    tools/layers.py tools/poison.sh tools/gates.py tools/extract_example.sh tools/determinism.sh
 
 test-programs: $(unit_programs) $(scenario_programs)
 
@@ -229,6 +229,10 @@ layers:
 poison: $(library)
 	@BUILD=$(BUILD) tools/poison.sh
 
+## The same in the objects for Cortex-M, Cortex-R and RISC-V, and no recursion, growing frame or call by a pointer
+gates:
+	@BUILD=$(BUILD) tools/gates.py
+
 ## Build with gcc and clang, -O0 and -O3, and compare what the programs write, byte by byte
 determinism:
 	@BUILD=$(BUILD) tools/determinism.sh
@@ -237,9 +241,13 @@ determinism:
 examples: $(library)
 	@BUILD=$(BUILD) tools/extract_example.sh
 
-## Sizes of code, objects and stack, as a table; red where a passive search does not fit
+## Code, RAM and worst stack of each module; red where README.md or src/SIZES.md differ, or an object does not fit
 size:
 	@BUILD=$(BUILD) tools/size.sh
+
+## Write what `make size` measures into README.md and src/SIZES.md
+size-update:
+	@BUILD=$(BUILD) tools/size.sh --update
 
 ## Instructions that typical jobs execute (valgrind); own covariances cost at most 1.5 times isotropic noise
 instructions: $(library) $(workstation_library)
