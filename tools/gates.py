@@ -24,6 +24,7 @@ KINDS = [
     ("stdio", r"\w*(printf|scanf|putc|puts|getc|gets)|(put|get)char|f(open|close|read|write|flush)|std(in|out|err)|_impure_ptr"),
     ("errno", r"_*errno(_location)?"),
     ("double arithmetic", r"__aeabi_(c?d\w+|\w+2d)|__\w+df\w*"),
+    ("float and 64 bits, which drags in double's arithmetic", r"__aeabi_(f2u?lz|u?l2f)|__fix(uns)?sfdi|__float(un)?disf"),
     ("libm, double", LIBM),
     ("libm, float", LIBM + "f"),
 ]

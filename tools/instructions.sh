@@ -82,12 +82,16 @@ row 'Kalman: predict, polar plot in 3-D with range rate' 1 - filters predict+pol
 row 'Kalman + input + Hough gate, 4 clutter plots' 1 '?5000' filters input+hough
 
 head_of 'the tracker with 8 tracks, a track and scan (no initiation)'
-row 'nearest: polar plots with range rate, 4 in the gate' 8 '?7000' tracker nearest polar 4
-row 'hough, input estimation: places and velocities, 4' 8 '?5000' tracker hough cartesian 4
-row 'best: places and velocities, the target alone' 8 - tracker best cartesian 1
-row 'best: the same, 4 in the gate' 8 - tracker best cartesian 4
-row 'best: polar plots with range rate, the target alone' 8 - tracker best polar 1
-row 'best: the same, 4 in the gate' 8 - tracker best polar 4
+row 'nearest: polar plots with range rate, 4 in the gate' 8 '?7000' tracker nearest polar 4 1
+row 'hough, input estimation: places and velocities, 4' 8 '?5000' tracker hough cartesian 4 1
+row 'best: places and velocities, the target alone' 8 - tracker best cartesian 1 1
+row 'best: the same, 4 in the gate' 8 - tracker best cartesian 4 1
+row 'best: polar plots with range rate, the target alone' 8 - tracker best polar 1 1
+row 'best: the same, 4 in the gate' 8 - tracker best polar 4 1
+
+head_of 'a radar with 8 tracks and 32 plots a turn, gate best, a step'
+row 'the turn at once' 1 - tracker best polar 4 1
+row 'a sector of 32' 1 - tracker best polar 4 32
 
 head_of 'the default, hypotheses over imm, a track and scan: places in 3-D'
 row 'isotropic noise, the target alone' 1 - maintain 1 0

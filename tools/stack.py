@@ -24,8 +24,8 @@ import cross
 CHARGES = [
     (r"mem(cpy|set|move|cmp)", 64, 64),
     (r"__aeabi_(f(add|sub|rsub|mul|div|2iz|2uiz|cmp\w+)|u?i2f|u?idiv(mod)?|lmul)", 64, 64),
-    (r"__aeabi_(u?ldivmod|f2u?lz|u?l2f)", 64, 160),
-    (r"__(u?divdi3|u?moddi3|fixsfdi|fixunssfdi|floatdisf|floatundisf)", 64, 160),
+    (r"__aeabi_u?ldivmod", 64, 160),
+    (r"__(u?divdi3|u?moddi3)", 64, 160),
     (r"__(clz|ctz|popcount)[sd]i2|__gnu_thumb1_case_\w+", 16, 16),
 ]
 SMALL = {"m0plus", "rv32"}

@@ -5,6 +5,14 @@
 #include <stdint.h>
 #include <string.h>
 
+/* s390x by gcc -std=c99, x87, and -ffast-math, would all decide otherwise than the rest of the world. */
+#if FLT_EVAL_METHOD != 0
+#error "float has to be computed as float: -fexcess-precision=fast (s390x), -msse2 -mfpmath=sse (32-bit x86)"
+#endif
+#ifdef __FAST_MATH__
+#error "-ffast-math changes what the library computes"
+#endif
+
 #define BITS_INFINITY 0x7f800000u
 #define BITS_NAN 0x7fc00000u
 #define EXPONENT_SHIFT 23

@@ -110,8 +110,8 @@ static struct sighting sight(const struct rho_polar_plot *polar, uint32_t measur
     if (sensor) {
         seen.range_m -= sensor->range_bias_m;
         seen.azimuth_rad -= sensor->azimuth_bias_rad;
-        float bias_us = sensor->time_bias_s * 1e6f;
-        seen.offset_us -= (int64_t)(bias_us + (bias_us < 0.0f ? -0.5f : 0.5f));
+        float bias_us = sensor->time_bias_s * 1e6f; /* RHO_LIMIT_BIAS_S: 32 bits hold it */
+        seen.offset_us -= (int32_t)(bias_us + (bias_us < 0.0f ? -0.5f : 0.5f));
         seen.x_m = sensor->x_m;
         seen.y_m = sensor->y_m;
         seen.z_m = sensor->z_m;

@@ -8,10 +8,25 @@ static const char fate_names[RHO_NUM_FATES][8] = {
     [RHO_FATE_STALE] = "stale",     [RHO_FATE_INVALID] = "invalid", [RHO_FATE_NO_ROOM] = "no_room",
 };
 
+/*
+ * To the nearest float, as a conversion goes: the bits that do not fit leave a trace in the last one. Not by a conversion,
+ * since compilers' own of 64 bits drag double's arithmetic into firmware.
+ */
+static float float_of(uint64_t value)
+{
+    float scale = 1.0f;
+
+    while (value > UINT32_MAX) {
+        value = value >> 1 | (value & 1u);
+        scale *= 2.0f;
+    }
+    return (float)(uint32_t)value * scale;
+}
+
 /* Divided, not multiplied by 1e-6f, which is no binary number: one rounding up to 2^24 us. */
 static float seconds_of(uint64_t span_us)
 {
-    return (float)span_us / 1.0e6f;
+    return float_of(span_us) / 1.0e6f;
 }
 
 const char *rho_fate_name(enum rho_fate fate)
@@ -26,10 +41,6 @@ uint32_t rho_count(uint32_t counter, uint32_t n)
     return n < UINT32_MAX - counter ? counter + n : UINT32_MAX;
 }
 
-/*
- * The span of two int64_t needs 64 bits and a sign, so the sign is taken first and the rest is
- * unsigned.
- */
 /* In pairs, then by fours, eights, and all together. */
 unsigned rho_count_bits(uint32_t mask)
 {
@@ -39,6 +50,10 @@ unsigned rho_count_bits(uint32_t mask)
     return (unsigned)((mask * 0x01010101u) >> 24);
 }
 
+/*
+ * The span of two int64_t needs 64 bits and a sign, so the sign is taken first and the rest is
+ * unsigned.
+ */
 float rho_seconds_between(int64_t from_us, int64_t to_us)
 {
     const uint64_t from = (uint64_t)from_us;

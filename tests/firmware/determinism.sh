@@ -18,6 +18,8 @@ export -f build_replay
 for variant in gcc-O0 gcc-O1 gcc-O2 gcc-O3 clang-O0 clang-O1 clang-O2 clang-O3 \
     arm-linux-gnueabihf-gcc-O2 s390x-linux-gnu-gcc-O2 powerpc-linux-gnu-gcc-O2; do
     case $variant in
+    # by itself gcc computes float as double there
+    s390x-*) echo "$variant ${variant%-*} -${variant##*-} -static -fexcess-precision=fast" ;;
     *linux*) echo "$variant ${variant%-*} -${variant##*-} -static" ;;
     *) echo "$variant ${variant%-*} -${variant##*-}" ;;
     esac
@@ -52,12 +54,12 @@ done
 # Not the same nothing: every run has reports of tracks, and the gates do not all decide alike.
 has_tracks() { awk '$1 != "steps" || $4 == 0 {bad = 1; print} END {exit bad || NR != 12}' out-m4/said; }
 check 'every run has tracks' has_tracks
-check 'the gates differ' test "$(sort -u -k1,1 "$reference" | wc -l)" -ge 9
+check 'the gates differ where plots are ambiguous' test "$(sort -u -k1,1 "$reference" | wc -l)" -ge 8
 
 # The comparison can fail: the last bit of one constant of src/base/approx.c is another one.
 seeded() {
     mkdir -p seeded &&
-        sed 's/-1.6666654611e-1f/-1.6666656101e-1f/' "$root/src/base/approx.c" >seeded/approx.c &&
+        sed 's/1.6666654611e-1f/1.6666656101e-1f/' "$root/src/base/approx.c" >seeded/approx.c &&
         ! cmp -s seeded/approx.c "$root/src/base/approx.c" &&
         sed "s|.*/src/base/approx.c|$PWD/seeded/approx.c|" sources >seeded/sources &&
         mapfile -t sources <seeded/sources &&

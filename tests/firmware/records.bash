@@ -3,7 +3,6 @@
 # For the scripts beside it: records of simulated sensors as LCM logs, and the images that they are played to. Source it
 # before checks.bash. Work goes on in $folder.
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
-status=0 # for checks of functions
 images=$(realpath -m "$root/${BUILD:-build}/firmware")
 
 # record NAME SCENARIO TABLE OPTIONS...: the log NAME.lcm.
@@ -18,7 +17,7 @@ record() {
 record_all() {
     record table3 radar plots --set clutter_per_scan=100 &&
         record passive passive-three bearings --set num_scans=20 &&
-        record popup popup plots --set velocity=1 &&
+        record popup popup plots --set velocity=1 --set clutter_per_scan=30 &&
         record turning polar polar --set targets=8 --set num_scans=30
 }
 

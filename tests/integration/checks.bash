@@ -8,6 +8,8 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
 passed=0
 failed=0
+status=0 # of no run so far
+: >stderr
 
 # Runs the program: exit code in $status, output in the files stdout and stderr.
 run() {

@@ -52,6 +52,10 @@ must_fail 'a constant without f, soft float' m0plus \
     'float rho_f(float v) { return v * 0.1; }' 'src/base/sample.c:1: rho_f: calls __aeabi_dmul (double arithmetic)'
 must_fail 'a constant without f, single precision in hardware' m4f \
     'float rho_f(float v) { return v * 0.1; }' 'src/base/sample.c:1: rho_f: calls __aeabi_f2d (double arithmetic)'
+must_fail 'a float made of 64 bits' m0plus,m4f '#include <stdint.h>
+float rho_f(int64_t v) { return (float)v; }' 'src/base/sample.c:2: rho_f: calls __aeabi_l2f (float and 64 bits'
+must_fail '64 bits made of a float' m4f '#include <stdint.h>
+int64_t rho_f(float v) { return (int64_t)v; }' 'src/base/sample.c:2: rho_f: calls __aeabi_f2lz (float and 64 bits'
 must_fail 'libm, double' m7 '#include <math.h>
 float rho_f(float v) { return (float)atan2(v, 2); }' 'src/base/sample.c:2: rho_f: calls atan2 (libm, double)'
 must_fail 'libm, float' m4f '#include <math.h>

@@ -82,6 +82,25 @@ static void short_spans_are_rounded_once(void **state)
     }
 }
 
+/* The bits of the compiler's conversion, also where it is in doubt which float is the nearest. */
+static void long_spans_are_rounded_once(void **state)
+{
+    uint64_t random = 1;
+    (void)state;
+    for (int i = 0; i < 200000; i++) {
+        random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        const int width = 24 + i % 40;
+        const uint64_t half = UINT64_C(1) << (width > 24 ? width - 25 : 0);
+        uint64_t span = random >> (64 - width) | UINT64_C(1) << (width - 1);
+        if (i % 3 == 0) { /* in the middle between two floats, and just beside it */
+            span = (span & ~(2 * half - 1)) + half + (uint64_t)(i % 9) / 3 - 1;
+        }
+        span &= INT64_MAX;
+        assert_true(rho_seconds_between(0, (int64_t)span) == (float)span / 1.0e6f);
+    }
+    assert_true(rho_seconds_between(INT64_MIN, INT64_MAX) == (float)UINT64_MAX / 1.0e6f);
+}
+
 static void assert_span(int64_t from_us, int64_t to_us)
 {
     const double expected = ((double)to_us - (double)from_us) / 1e6;
@@ -157,6 +176,7 @@ int main(void)
         cmocka_unit_test(counters_saturate),
         cmocka_unit_test(bits_are_counted),
         cmocka_unit_test(short_spans_are_rounded_once),
+        cmocka_unit_test(long_spans_are_rounded_once),
         cmocka_unit_test(any_two_times_have_a_span),
         cmocka_unit_test(within_includes_its_ends),
         cmocka_unit_test(within_refuses_what_is_not_finite),

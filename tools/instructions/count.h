@@ -40,8 +40,8 @@ static inline void count_end(void)
 
 static inline void count_report(void)
 {
-    printf("calls %lu sum %llu max %lu\n", (unsigned long)count_calls, (unsigned long long)count_sum,
-           (unsigned long)count_max);
+    printf("calls %lu sum %llu max %lu\n", (unsigned long)count_calls,
+           (unsigned long long)count_sum, (unsigned long)count_max);
 }
 
 #else

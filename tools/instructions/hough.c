@@ -49,8 +49,9 @@ int main(int argc, char **argv)
     scatter((unsigned)count);
     enum rho_status status = rho_accumulator_init(&accumulator, sizeof accumulator, &config);
     count_begin();
-    status =
-        status == RHO_OK ? rho_accumulator_find(&accumulator, &points, peaks, PEAKS_MAX, &result) : status;
+    status = status == RHO_OK
+                 ? rho_accumulator_find(&accumulator, &points, peaks, PEAKS_MAX, &result)
+                 : status;
     count_end();
     if (status != RHO_OK) {
         fprintf(stderr, "hough: %s\n", rho_status_name(status));

@@ -40,8 +40,9 @@ static void draw_plots(int clutter, float sigma_cross_m)
     for (int scan = 0; scan < SCANS; scan++) {
         for (int i = 0; i < TARGETS; i++) {
             float along_m = 400.0f * (float)scan; /* 200 m/s */
-            plots[scan][i] = plot_at(200.0f + along_m + draw_normal(SIGMA_M),
-                                     -800.0f + 800.0f * (float)i + draw_normal(SIGMA_M), sigma_cross_m);
+            plots[scan][i] =
+                plot_at(200.0f + along_m + draw_normal(SIGMA_M),
+                        -800.0f + 800.0f * (float)i + draw_normal(SIGMA_M), sigma_cross_m);
         }
         for (int i = 0; i < clutter; i++) {
             float x_m = draw_uniform(0.0f, 4000.0f), y_m = draw_uniform(-1000.0f, 1500.0f);
@@ -76,10 +77,13 @@ static int fill_window(int clutter, uint32_t measures, uint16_t min_scans)
 
 int main(int argc, char **argv)
 {
-    int clutter = argc == 5 ? atoi(argv[3]) : -1, windows = argc == 5 ? atoi(argv[4]) : 0, failed = 0;
+    int clutter = argc == 5 ? atoi(argv[3]) : -1, windows = argc == 5 ? atoi(argv[4]) : 0,
+        failed = 0;
     if (clutter < 0 || clutter > CLUTTER_MAX || windows < 1) {
-        fprintf(stderr, "initiation: give batch or newest, isotropic, own or rate, 0 .. %d plots, windows\n",
-                CLUTTER_MAX);
+        fprintf(
+            stderr,
+            "initiation: give batch or newest, isotropic, own or rate, 0 .. %d plots, windows\n",
+            CLUTTER_MAX);
         return 2;
     }
     enum rho_search kind = strcmp(argv[1], "newest") == 0 ? RHO_SEARCH_NEWEST : RHO_SEARCH_BATCH;
@@ -92,9 +96,9 @@ int main(int argc, char **argv)
         failed |= rho_initiator_search(&initiator, kind) != RHO_OK;
         count_end();
     }
-    printf("%lu seeds, %lu look-ups, %lu distances, %u candidates\n", (unsigned long)initiator.work.seeds,
-           (unsigned long)initiator.work.window.lookups, (unsigned long)initiator.work.window.distances,
-           (unsigned)initiator.num_candidates);
+    printf("%lu seeds, %lu look-ups, %lu distances, %u candidates\n",
+           (unsigned long)initiator.work.seeds, (unsigned long)initiator.work.window.lookups,
+           (unsigned long)initiator.work.window.distances, (unsigned)initiator.num_candidates);
     count_report();
     return failed;
 }

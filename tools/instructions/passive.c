@@ -56,7 +56,8 @@ static struct rho_frame draw_frame(int frame, int num_targets, int num_false)
                                           .bearings = bearings[sensor]};
         for (int i = 0; i < num_targets; i++) {
             const struct target *at = &targets[i];
-            float true_rad = rho_atan2(at->y_m + at->vy_mps * t_s - scan->y_m, at->x_m + at->vx_mps * t_s);
+            float true_rad =
+                rho_atan2(at->y_m + at->vy_mps * t_s - scan->y_m, at->x_m + at->vx_mps * t_s);
             if (draw_uniform(0.0f, 1.0f) < PD) {
                 add(scan, sensor, true_rad + draw_normal(SIGMA_RAD));
             }
@@ -86,9 +87,11 @@ static int fill_batch(int num_targets, int num_false)
 
 int main(int argc, char **argv)
 {
-    int num_targets = argc == 4 ? atoi(argv[1]) : -1, batches = argc == 4 ? atoi(argv[3]) : 0, failed = 0;
+    int num_targets = argc == 4 ? atoi(argv[1]) : -1, batches = argc == 4 ? atoi(argv[3]) : 0,
+        failed = 0;
     if (num_targets < 0 || num_targets > TARGETS_MAX || batches < 1) {
-        fprintf(stderr, "passive: give 0 .. %d targets, false bearings a look, batches\n", TARGETS_MAX);
+        fprintf(stderr, "passive: give 0 .. %d targets, false bearings a look, batches\n",
+                TARGETS_MAX);
         return 2;
     }
     for (int i = 0; i < batches && !failed; i++) {

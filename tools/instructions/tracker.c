@@ -4,9 +4,9 @@
  * prediction, gates, assignment, updates, report; no initiation.
  *
  * Arguments: the gate (best, hough or nearest); polar (a radar's plots of 15 m x 3 mrad in range and azimuth, with range
- * rates) or cartesian (positions and velocities with isotropic noise); the plots of each target. The target's own comes with clutter
- * around it, 1.5 to 2.5 standard deviations off on each axis: in the gate, and seldom the nearest.
- * Prints tracks and plots a step.
+ * rates) or cartesian (positions and velocities with isotropic noise); the plots of each target; sectors of a turn, a step
+ * each. The target's own plot comes with clutter around it, 1.5 to 2.5 standard deviations off on each axis: in the gate,
+ * and seldom the nearest. Prints tracks and plots a turn.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -20,8 +20,9 @@
 
 #define TARGETS 8
 #define EACH_MAX 10
-#define START_STEPS 10
-#define STEPS 100 /* the mean of whole numbers has two decimals */
+#define START_TURNS 10
+#define SECTORS_MAX 64
+#define TURNS 100 /* the mean of whole numbers has two decimals */
 #define INTERVAL_S 1.0f
 #define SIGMA_RANGE_M 15.0f
 #define SIGMA_RAD 0.003f
@@ -32,7 +33,7 @@
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
-static struct rho_plot plots[TARGETS * EACH_MAX];
+static struct rho_plot plots[TARGETS * EACH_MAX], looked_at[TARGETS * EACH_MAX];
 static const struct rho_sensor sensor = {.sensor_id = 1, .pd = 0.95f, .range_max_m = 1e5f};
 
 static int failed;
@@ -54,7 +55,8 @@ static struct target target_at(int target, float t_s)
 static float off(int is_clutter, float sigma)
 {
     float size = is_clutter ? draw_uniform(1.5f, 2.5f) : 0.0f;
-    return is_clutter ? (draw_uniform(-1.0f, 1.0f) < 0.0f ? -size : size) * sigma : draw_normal(sigma);
+    return is_clutter ? (draw_uniform(-1.0f, 1.0f) < 0.0f ? -size : size) * sigma
+                      : draw_normal(sigma);
 }
 
 static struct rho_plot polar_plot(const struct target *target, int is_clutter)
@@ -93,7 +95,8 @@ static struct rho_scan draw_scan(int step, int is_polar, int each)
     for (int i = 0; i < TARGETS; i++) {
         struct target target = target_at(i, INTERVAL_S * (float)step);
         for (int k = 0; k < each; k++) {
-            plots[each * i + k] = is_polar ? polar_plot(&target, k > 0) : cartesian_plot(&target, k > 0);
+            plots[each * i + k] =
+                is_polar ? polar_plot(&target, k > 0) : cartesian_plot(&target, k > 0);
         }
     }
     return (struct rho_scan){.time_us = (int64_t)(1e6f * INTERVAL_S) * step,
@@ -119,29 +122,61 @@ static int open_tracker(const char *gate)
            rho_tracker_set_sensor(&tracker, &sensor) != RHO_OK;
 }
 
+/* The part of a turn that the radar looks at in one of so many sectors. */
+static struct rho_scan sector_of(const struct rho_scan *turn, int sector, int sectors)
+{
+    struct rho_scan scan = *turn;
+    const float width_rad = RHO_TWO_PI / (float)sectors;
+    if (sectors == 1) {
+        return scan;
+    }
+    scan.time_us += (int64_t)(1e6f * INTERVAL_S) * sector / sectors;
+    scan.sector_from_rad = width_rad * (float)sector - RHO_PI;
+    scan.sector_to_rad = width_rad * (float)(sector + 1) - RHO_PI;
+    scan.plots = looked_at;
+    scan.num_plots = 0;
+    for (uint32_t i = 0; i < turn->num_plots; i++) {
+        float azimuth_rad = rho_atan2(turn->plots[i].y_m, turn->plots[i].x_m);
+        if (azimuth_rad >= scan.sector_from_rad && azimuth_rad < scan.sector_to_rad) {
+            looked_at[scan.num_plots++] = turn->plots[i];
+        }
+    }
+    return scan;
+}
+
+static void step(const struct rho_scan *scan, int is_start)
+{
+    if (is_start) {
+        failed |= rho_tracker_step(&tracker, &initiator, scan, &report) != RHO_OK;
+        return;
+    }
+    count_begin();
+    failed |= rho_tracker_step(&tracker, NULL, scan, &report) != RHO_OK;
+    count_end();
+}
+
 int main(int argc, char **argv)
 {
-    int each = argc == 4 ? atoi(argv[3]) : 0;
+    int each = argc == 5 ? atoi(argv[3]) : 0, sectors = argc == 5 ? atoi(argv[4]) : 0;
     uint32_t tracks = 0;
-    if (each < 1 || each > EACH_MAX) {
-        fprintf(stderr, "tracker: give a gate, polar or cartesian, and 1 .. %d plots\n", EACH_MAX);
+    if (each < 1 || each > EACH_MAX || sectors < 1 || sectors > SECTORS_MAX) {
+        fprintf(stderr,
+                "tracker: give a gate, polar or cartesian, 1 .. %d plots, 1 .. %d sectors\n",
+                EACH_MAX, SECTORS_MAX);
         return 2;
     }
     failed = open_tracker(argv[1]);
-    for (int step = 0; step < START_STEPS + STEPS && !failed; step++) {
-        int is_start = step < START_STEPS;
-        struct rho_scan scan = draw_scan(step, strcmp(argv[2], "polar") == 0, is_start ? 1 : each);
-        if (!is_start) {
-            count_begin();
+    for (int turn = 0; turn < START_TURNS + TURNS && !failed; turn++) {
+        int is_start = turn < START_TURNS;
+        struct rho_scan whole = draw_scan(turn, strcmp(argv[2], "polar") == 0, is_start ? 1 : each);
+        for (int sector = 0; sector < (is_start ? 1 : sectors); sector++) {
+            struct rho_scan scan = sector_of(&whole, sector, is_start ? 1 : sectors);
+            step(&scan, is_start);
         }
-        failed |= rho_tracker_step(&tracker, is_start ? &initiator : NULL, &scan, &report) != RHO_OK;
-        if (!is_start) {
-            count_end();
-            tracks += report.num_tracks;
-        }
+        tracks += is_start ? 0 : report.num_tracks;
     }
-    printf("%lu.%02lu tracks, %d plots\n", (unsigned long)tracks / STEPS, (unsigned long)tracks % STEPS,
-           TARGETS * each);
+    printf("%lu.%02lu tracks, %d plots\n", (unsigned long)tracks / TURNS,
+           (unsigned long)tracks % TURNS, TARGETS * each);
     count_report();
     return failed;
 }

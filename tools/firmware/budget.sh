@@ -1,0 +1,23 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# What the images of the radar node take of their budget: flash and RAM, stack included, as the linker laid them. Exit 1
+# where it is exceeded. Environment: BUILD, ARM_SIZE.
+set -eu
+cd "$(dirname "$0")/../.."
+flash_most=$((64 * 1024)) ram_most=$((160 * 1024)) failed=0
+printf '%-44s %9s %9s %9s %9s\n' 'radar node' flash 'at most' RAM 'at most'
+for core in m4 m7; do
+    image=${BUILD:-build}/firmware/$core/radar.elf
+    read -r flash ram < <("${ARM_SIZE:-arm-none-eabi-size}" -A "$image" | awk '
+        $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
+        $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
+        END {print flash + 0, ram + 0}')
+    verdict=ok
+    if [ "$flash" -eq 0 ] || [ "$flash" -gt "$flash_most" ] || [ "$ram" -eq 0 ] || [ "$ram" -gt "$ram_most" ]; then
+        verdict=MISSED
+        failed=1
+    fi
+    printf '%-44s %9d %9d %9d %9d  %s\n' "Cortex-${core^^}, default mode, stack included" "$flash" "$flash_most" "$ram" \
+        "$ram_most" "$verdict"
+done
+exit "$failed"
