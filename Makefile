@@ -3,16 +3,25 @@
 # rhotrack. `make help` lists the targets; each stands under the `##` line that describes it.
 #
 # Variables for the command line:
-#   CC=clang          the compiler (default gcc)
+#   CC=clang          the compiler (default gcc); AR= its archiver (default ar)
 #   OPT=-O3           optimisation (default -O2)
 #   CFLAGS=, LDFLAGS= added to every compilation, every link
 #   BUILD=folder      where everything goes (default build); give each set of flags its own
 #   FUZZ_SECONDS=60   how long `make fuzz` runs, all targets together; FUZZ_SECONDS_EACH= each of them
-#   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local)
+#   RHO_CONFIG_FILE=  a header with capacities of your own for build/librhotrack.a (include/rhotrack/config.h)
+#   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local); BINDIR=, LIBDIR=, INCLUDEDIR=, DOCDIR=
+#                     single folders
+#   PROFILE=workstation  installs the library of that profile (default embedded)
 
 VERSION := 0.1.0
 BUILD := build
+RHO_CONFIG_FILE :=
+PROFILE := embedded
 PREFIX := /usr/local
+BINDIR := $(PREFIX)/bin
+LIBDIR := $(PREFIX)/lib
+INCLUDEDIR := $(PREFIX)/include
+DOCDIR := $(PREFIX)/share/doc/rhotrack
 
 ifeq ($(origin CC),default)
 CC := gcc
@@ -28,7 +37,7 @@ scenario_sources := $(sort $(wildcard tests/scenario/test_*.c))
 # Laid out by .clang-format: all but the tables that scripts write.
 sources := $(library_sources) $(program_sources) \
            $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tools/instructions/*.c \
-                      tests/*/*.[ch])
+                      tools/examples/*.[ch] tests/*/*.[ch])
 sources := $(filter-out tests/vectors/%,$(sources))
 
 library := $(BUILD)/librhotrack.a
@@ -54,6 +63,7 @@ library_flags := -std=c99 $(common_flags) $(warnings) -Wpedantic -Wconversion -W
 program_flags := -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) \
                  -Wconversion -pthread
 test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itools/rhotrack $(warnings)
+capacities := $(if $(RHO_CONFIG_FILE),-DRHO_CONFIG_FILE='"$(abspath $(RHO_CONFIG_FILE))"')
 program_libraries := -llcm -lcsv -linih -lcjson -pthread -lm
 
 compile = @mkdir -p $(@D) && echo "  cc       $@" && $(CC) $(1) $(OPT) $(CFLAGS)
@@ -79,13 +89,18 @@ lib: $(library)
 $(library): $(embedded_objects)
 $(workstation_library): $(workstation_objects)
 $(library) $(workstation_library):
-	@rm -f $@ && echo "  ar       $@" && ar rcs $@ $^
+	@rm -f $@ && echo "  ar       $@" && $(AR) rcs $@ $^
 
 $(program): $(program_objects) $(workstation_library)
 	$(call compile) $(LDFLAGS) -o $@ $^ $(program_libraries)
 
-$(BUILD)/embedded/%.o: %.c Makefile
-	$(call compile,$(library_flags)) $(LIBRARY_CFLAGS) -c -o $@ $<
+$(BUILD)/embedded/%.o: %.c Makefile $(BUILD)/capacities
+	$(call compile,$(library_flags) $(capacities)) $(LIBRARY_CFLAGS) -c -o $@ $<
+
+# Changes where RHO_CONFIG_FILE is another one: everything is compiled anew then.
+.PHONY: always
+$(BUILD)/capacities: always
+	@mkdir -p $(@D) && { echo '$(RHO_CONFIG_FILE)' | cmp -s - $@ || echo '$(RHO_CONFIG_FILE)' > $@; }
 
 $(BUILD)/workstation/%.o: %.c Makefile
 	$(call compile,$(library_flags) -DRHO_PROFILE_WORKSTATION) $(LIBRARY_CFLAGS) -c -o $@ $<
@@ -120,17 +135,72 @@ demo-live:
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
 
-## Install program, library, headers and pkg-config file (PREFIX, DESTDIR)
-install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig \
-	           $(DESTDIR)$(PREFIX)/include/rhotrack
-	install -m 755 $(program) $(DESTDIR)$(PREFIX)/bin/
-	install -m 644 $(library) $(DESTDIR)$(PREFIX)/lib/
-	install -m 644 include/rhotrack/*.h $(DESTDIR)$(PREFIX)/include/rhotrack/
-	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: rhotrack' \
-	    'Description: tracks from radar and bearing sensors, without a heap (embedded profile)' \
-	    'Version: $(VERSION)' 'Cflags: -I$${prefix}/include' 'Libs: -L$${prefix}/lib -lrhotrack' \
-	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/rhotrack.pc
+# --- what packagers use ----------------------------------------------------------------------
+
+# The installed config.h says which capacities the library was built with, so that no application can have others by
+# mistake. RHO_CONFIG_FILE itself is installed as rhotrack/config_file.h; it must include nothing but system headers.
+installed_library := $(library)
+ifneq ($(RHO_CONFIG_FILE),)
+installed_define := RHO_CONFIG_FILE "rhotrack/config_file.h"
+else ifeq ($(PROFILE),workstation)
+installed_library := $(workstation_library)
+installed_define := RHO_PROFILE_WORKSTATION 1
+endif
+headers := $(notdir $(wildcard include/rhotrack/*.h))
+cmake_folder := $(LIBDIR)/cmake/rhotrack
+
+# Templates have no DESTDIR. Folders under PREFIX are said relative to it; CMake's files are, to themselves.
+fill_in = sed -e 's|@VERSION@|$(VERSION)|' -e 's|@PREFIX@|$(PREFIX)|' \
+              -e 's|@LIBDIR@|$(patsubst $(PREFIX)/%,$${prefix}/%,$(LIBDIR))|' \
+              -e 's|@INCLUDEDIR@|$(patsubst $(PREFIX)/%,$${prefix}/%,$(INCLUDEDIR))|' \
+              -e "s|@TO_LIBDIR@|$$(realpath -ms --relative-to=$(cmake_folder) $(LIBDIR))|" \
+              -e "s|@TO_INCLUDEDIR@|$$(realpath -ms --relative-to=$(cmake_folder) $(INCLUDEDIR))|" \
+              -e "s|@POINTER_BYTES@|$$(echo __SIZEOF_POINTER__ | $(CC) $(CFLAGS) -E -P - | tail -n 1)|" \
+              tools/install/$(1).in > $(2)/$(1) && chmod 644 $(2)/$(1)
+
+refuse = $(if $(strip $(1)),$(error $(strip $(2))))
+install_checks = \
+    $(call refuse, $(filter-out /%,$(PREFIX) $(BINDIR) $(LIBDIR) $(INCLUDEDIR) $(DOCDIR)), \
+        PREFIX and the other folders begin with /) \
+    $(call refuse, $(filter-out embedded workstation,$(PROFILE)), PROFILE is embedded or workstation) \
+    $(call refuse, $(and $(RHO_CONFIG_FILE),$(filter workstation,$(PROFILE))), \
+        RHO_CONFIG_FILE is for PROFILE=embedded; the file may define RHO_PROFILE_WORKSTATION itself) \
+    $(call refuse, $(findstring -DRHO_,$(CFLAGS) $(LIBRARY_CFLAGS)), \
+        capacities in CFLAGS would not be installed; use RHO_CONFIG_FILE or PROFILE)
+
+.PHONY: install-lib install-program install-checks uninstall
+
+## Install program and library (PREFIX, DESTDIR; variables above)
+install: install-lib install-program
+
+## Install the library alone: headers, pkg-config file, CMake package; needs a C compiler and nothing else
+install-lib: install-checks $(installed_library)
+	install -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(cmake_folder) $(DESTDIR)$(INCLUDEDIR)/rhotrack \
+	           $(DESTDIR)$(DOCDIR)
+	install -m 644 $(installed_library) $(DESTDIR)$(LIBDIR)/
+	install -m 644 include/rhotrack/*.h $(DESTDIR)$(INCLUDEDIR)/rhotrack/
+	$(if $(installed_define),sed -i '/^#define RHOTRACK_CONFIG_H$$/a #define $(installed_define)' \
+	    $(DESTDIR)$(INCLUDEDIR)/rhotrack/config.h)
+	$(if $(RHO_CONFIG_FILE),install -m 644 $(RHO_CONFIG_FILE) $(DESTDIR)$(INCLUDEDIR)/rhotrack/config_file.h)
+	install -m 644 LICENSE $(DESTDIR)$(DOCDIR)/
+	@$(call fill_in,rhotrack.pc,$(DESTDIR)$(LIBDIR)/pkgconfig)
+	@$(call fill_in,rhotrackConfig.cmake,$(DESTDIR)$(cmake_folder))
+	@$(call fill_in,rhotrackConfigVersion.cmake,$(DESTDIR)$(cmake_folder))
+
+install-checks:
+	@:$(install_checks)
+
+install-program: install-checks $(program)
+	install -d $(DESTDIR)$(BINDIR)
+	install -m 755 $(program) $(DESTDIR)$(BINDIR)/
+
+## Remove what `make install` with the same folders put there
+uninstall:
+	rm -f $(DESTDIR)$(BINDIR)/rhotrack $(DESTDIR)$(LIBDIR)/librhotrack.a $(DESTDIR)$(LIBDIR)/pkgconfig/rhotrack.pc \
+	      $(DESTDIR)$(cmake_folder)/rhotrackConfig.cmake $(DESTDIR)$(cmake_folder)/rhotrackConfigVersion.cmake \
+	      $(DESTDIR)$(DOCDIR)/LICENSE $(addprefix $(DESTDIR)$(INCLUDEDIR)/rhotrack/,$(headers) config_file.h)
+	for folder in $(cmake_folder) $(INCLUDEDIR)/rhotrack $(DOCDIR); do \
+	    [ ! -d "$(DESTDIR)$$folder" ] || rmdir --ignore-fail-on-non-empty "$(DESTDIR)$$folder"; done
 
 # --- tests -----------------------------------------------------------------------------------
 
