@@ -19,6 +19,7 @@ libnewlib-arm-none-eabi # ... and the headers of its C library
 gcc-riscv64-unknown-elf # ... for RISC-V
 picolibc-riscv64-unknown-elf # ... and the headers of its C library
 pkg-config          # test of the installed library
+cmake               # ... and of the CMake package
 libcsv-dev          # the program reads CSV
 libinih-dev         # ... and INI
 libcjson-dev        # ... and writes JSON
