@@ -208,6 +208,7 @@ uninstall:
 ## Set up what is missing, build and run the whole test suite; ends with `N passed, N failed`
 test:
 	@tools/setup.sh
+	@tools/setup.sh firmware
 	@BUILD=$(BUILD) tools/python.sh
 	@$(MAKE) --no-print-directory -k $(jobs) all test-programs || echo "  ...  the build has failures"
 	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
@@ -257,7 +258,7 @@ sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 fuzz_readers := bearing_row frame_reader frame_reader_frames hint lcm_log log_scans log_table parameters plot_data \
                 plot_row row_check rows rows_bearings rows_collect rows_plots rows_polar rows_read rows_scans rows_tracks \
                 rows_truth rows_write scan_numbers scan_reader table
-fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c)
+fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c) tools/firmware/board/udp_frame.c
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))
 fuzz_programs := $(fuzz_sources:tests/fuzz/%.c=$(BUILD)/fuzz/%)

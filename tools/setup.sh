@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick when none is.
-# `setup.sh spy`: those of the viewer for lcm-spy (make spy) instead.
+# `setup.sh firmware`: the compilers and emulators for other processors instead; `setup.sh spy`: what the viewer for lcm-spy
+# (make spy) needs.
 set -eu
 
 packages='
@@ -14,10 +15,6 @@ clang-format        # make format, make lint
 cppcheck            # make lint
 make                # build
 binutils            # ar, nm, size
-gcc-arm-none-eabi   # make size, make gates: objects for Cortex-M and Cortex-R
-libnewlib-arm-none-eabi # ... and the headers of its C library
-gcc-riscv64-unknown-elf # ... for RISC-V
-picolibc-riscv64-unknown-elf # ... and the headers of its C library
 pkg-config          # test of the installed library
 cmake               # ... and of the CMake package
 libcsv-dev          # the program reads CSV
@@ -34,6 +31,20 @@ valgrind            # memory checks, instruction counts
 iproute2            # tests on networks of their own: hosts on a bridge
 nftables            # ... and the loss on it
 '
+firmware_packages='
+gcc-arm-none-eabi            # make firmware, size, gates: Cortex-M and Cortex-R
+libnewlib-arm-none-eabi      # ... and its C library
+gcc-riscv64-unknown-elf      # make size, gates: RISC-V
+picolibc-riscv64-unknown-elf # ... and the headers of its C library
+qemu-system-arm              # runs the images
+gcc-arm-linux-gnueabihf      # the same bytes on other processors ...
+libc6-dev-armhf-cross
+gcc-s390x-linux-gnu          # ... of the other byte order, 64 bits
+libc6-dev-s390x-cross
+gcc-powerpc-linux-gnu        # ... and 32
+libc6-dev-powerpc-cross
+qemu-user                    # runs what they compile
+'
 spy_packages='
 openjdk-17-jdk      # the viewer is Java, and shows windows
 liblcm-bin          # lcm-gen -j
@@ -42,9 +53,10 @@ libjchart2d-java    # ... which draws with it
 '
 case ${1:-} in
 '') ;;
+firmware) packages=$firmware_packages ;;
 spy) packages=$spy_packages ;;
 *)
-    echo "setup: unknown: $1 (there is: spy)" >&2
+    echo "setup: unknown: $1 (there is: firmware, spy)" >&2
     exit 2
     ;;
 esac

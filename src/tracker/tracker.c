@@ -71,6 +71,22 @@ static int is_usable_sensor(const struct rho_sensor *sensor)
 
 /* ---- begin: which plots can be believed ------------------------------------------------------- */
 
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* What gates have to look for. */
+static void note_widest(struct step *step, const struct rho_plot *plot)
+{
+    float offset_s = (float)plot->offset_us * 1e-6f;
+    step->sigma_max_m = larger(step->sigma_max_m, rho_plot_sigma_m(plot));
+    step->offset_max_s = larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+    if (step->scan->measures & RHO_MEASURES_Z) {
+        step->sigma_max_m = larger(step->sigma_max_m, plot->sigma_up_m);
+    }
+}
+
 static void judge_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -80,6 +96,7 @@ static void judge_plots(struct step *step)
         step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (valid) {
             rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
+            note_widest(step, plot);
         }
     }
 }
@@ -96,6 +113,8 @@ static void set_model(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
+    step->log_height = rho_log(RHO_CLUTTER_HEIGHT_M);
+    step->log_rates = rho_log(2.0f * tracker->config.v_max_mps);
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
     if (tracker->config.gate == RHO_TRACKER_BEST) {
@@ -115,19 +134,29 @@ static void begin(struct step *step)
 
 /* ---- report ----------------------------------------------------------------------------------- */
 
+/* The track at the step's time: itself, or moved there in *at. */
+static const struct rho_track *at_step(const struct step *step, const struct rho_track *track,
+                                       struct rho_track *at)
+{
+    if (track->time_us == step->time_us) {
+        return track;
+    }
+    *at = *track;
+    /* hypotheses are at the scan's time, unless it is late: then their one estimate goes back, and they stay */
+    if (at->filter == RHO_TRACK_HYPOTHESES) {
+        at->filter = RHO_TRACK_KALMAN;
+    }
+    /* back from the plot's own time to the scan's, without noise: nothing to refuse */
+    (void)!rho_track_predict(at, step->time_us, &step->model);
+    return at;
+}
+
 static void report_track(const struct step *step, const struct rho_track *track,
                          struct rho_track_report *out)
 {
     int64_t age_us = step->time_us - track->updated_us;
-    struct rho_track at = *track;
-    /* hypotheses are at the scan's time, unless it is late: then their one estimate goes back, and they stay */
-    if (at.filter == RHO_TRACK_HYPOTHESES) {
-        at.filter = RHO_TRACK_KALMAN;
-    }
-    /* back from the plot's own time to the scan's, without noise: nothing to refuse */
-    if (at.time_us != step->time_us) {
-        (void)!rho_track_predict(&at, step->time_us, &step->model);
-    }
+    struct rho_track moved;
+    const struct rho_track *at = at_step(step, track, &moved);
     *out = (struct rho_track_report){
         .track_id = track->track_id,
         .status = (enum rho_track_status)track->status,
@@ -139,17 +168,17 @@ static void report_track(const struct step *step, const struct rho_track *track,
                          : age_us < INT32_MAX ? (int32_t)age_us
                                               : INT32_MAX,
         .score_nat = (float)track->score_mnat * 0.001f,
-        .sigma_m = rho_track_sigma_m(&at),
-        .sigma_mps = rho_track_sigma_mps(&at),
-        .maneuver_probability = at.maneuver_probability,
+        .sigma_m = rho_track_sigma_m(at),
+        .sigma_mps = rho_track_sigma_mps(at),
+        .maneuver_probability = at->maneuver_probability,
         .num_hypotheses = 1,
     };
     if (track->filter == RHO_TRACK_HYPOTHESES) {
-        out->num_hypotheses = (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, at.slot);
+        out->num_hypotheses = (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
     }
-    memcpy(out->accel_mps2, at.accel_mps2, sizeof out->accel_mps2);
-    memcpy(out->state, at.kalman.state, sizeof out->state);
-    memcpy(out->covariance, at.kalman.covariance, sizeof out->covariance);
+    memcpy(out->accel_mps2, at->accel_mps2, sizeof out->accel_mps2);
+    memcpy(out->state, at->kalman.state, sizeof out->state);
+    memcpy(out->covariance, at->kalman.covariance, sizeof out->covariance);
 }
 
 /* Plots without a place in fates[] have a fate all the same: that of a late scan, or NO_ROOM. */

@@ -63,11 +63,11 @@ static float log_ratio(const struct step *step, const struct rho_gate_result *re
 {
     float dimensions = 2.0f;
     if (result->has_z) {
-        log_density -= rho_log(RHO_CLUTTER_HEIGHT_M);
+        log_density -= step->log_height;
         dimensions += 1.0f;
     }
     if (result->has_range_rate) {
-        log_density -= rho_log(2.0f * step->tracker->config.v_max_mps);
+        log_density -= step->log_rates;
         dimensions += 1.0f;
     }
     return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
@@ -143,7 +143,7 @@ void rho_tracker_open_gate(const struct step *step, const struct rho_track *trac
     rho_gate_open(gate, &expected,
                   track->filter == RHO_TRACK_INPUT ? step->model.input->noise_density
                                                    : step->model.noise_density,
-                  step->sensor);
+                  step->sensor, step->scan ? step->scan->measures : 0);
 }
 
 static void gate_plots(struct step *step, unsigned row)
@@ -153,14 +153,19 @@ static void gate_plots(struct step *step, unsigned row)
     struct rho_gate gate;
     struct rho_gate_hough hough;
     struct rho_gate_result result;
+    float half_m[2];
     float log_density =
         rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
     int by_hough = opens_hough(step, track, &hough);
     rho_tracker_open_gate(step, track, &gate);
+    rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
-        if (step->report->fates[i] == RHO_FATE_HELD &&
-            rho_gate_test(&gate, plot, step->scan->measures, &result)) {
+        float dx_m = plot->x_m - gate.predicted.state[0], dy_m = plot->y_m - gate.predicted.state[1];
+        if (dx_m > half_m[0] || dx_m < -half_m[0] || dy_m > half_m[1] || dy_m < -half_m[1]) {
+            continue; /* most plots */
+        }
+        if (step->report->fates[i] == RHO_FATE_HELD && rho_gate_test(&gate, plot, &result)) {
             rho_tracker_offer(step, row, i,
                               by_hough ? hough_gain(step, track, &hough, plot)
                                        : step->log_pd + log_ratio(step, &result, log_density) -
@@ -174,13 +179,12 @@ static void gate_plots(struct step *step, unsigned row)
 static struct rho_hypotheses_clutter clutter_at(const struct step *step,
                                                 const struct rho_track *track)
 {
-    float log_per_mps = -rho_log(2.0f * step->tracker->config.v_max_mps);
     return (struct rho_hypotheses_clutter){
         .log_per_m2 =
             rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1])),
-        .log_per_m = -rho_log(RHO_CLUTTER_HEIGHT_M),
-        .log_per_mps = log_per_mps,
-        .log_per_range_rate = log_per_mps,
+        .log_per_m = -step->log_height,
+        .log_per_mps = -step->log_rates,
+        .log_per_range_rate = -step->log_rates,
     };
 }
 
@@ -249,7 +253,7 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
     struct rho_gate gate;
     struct rho_gate_result result;
     rho_tracker_open_gate(step, track, &gate);
-    if (!rho_gate_test(&gate, &step->scan->plots[plot], step->scan->measures, &result)) {
+    if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
         return 0;
     }
     float density = clutter_density(step, track->kalman.state[0], track->kalman.state[1]);

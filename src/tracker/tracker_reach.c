@@ -63,6 +63,10 @@ int rho_tracker_reaches(const struct step *step, const struct rho_track *track)
     dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
     dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
     range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m &&
+        !has_sector(step)) {
+        return 1;
+    }
     margin_m = REACH_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
                step->tracker->config.accel_max_mps2 * dt_s * dt_s + REACH_SHARE * range_m;
     if (sensor &&

@@ -22,11 +22,15 @@ struct step {
     const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
     uint32_t num_inputs;             /* plots or bearings */
     uint32_t num_gated;              /* of them: have a place in report->fates */
+    /* of the scan's valid plots, the most: noise on any axis, own time either way */
+    float sigma_max_m, offset_max_s;
     /* bit i: track i is within the scan's reach, or there is no scan but a frame */
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
     struct rho_track_model model;
     float log_pd;
     float log_miss; /* ln(1 - pd) */
+    /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; the range rates that a target may have, m/s */
+    float log_height, log_rates;
 };
 
 /* tracker.c: what a step may be asked */

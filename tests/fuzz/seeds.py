@@ -17,6 +17,7 @@ def main():
         data = bytes.fromhex("".join(re.findall(r'"([0-9a-f]+)"', lines)))
         (folder / f"{name}-{golden.lower()}").write_bytes(data)
     write_logs(pathlib.Path(sys.argv[1]) / "fuzz_log")
+    write_frames(pathlib.Path(sys.argv[1]) / "fuzz_frame")
 
 
 def write_logs(folder):
@@ -32,6 +33,16 @@ def write_logs(folder):
     (folder / "damaged").write_bytes(events[0] + b"\xed\xa1garbage" + events[1] + events[2])
     (folder / "cut").write_bytes((events[0] + events[2])[:-3])
     (folder / "lies").write_bytes(event(0, b"X", b"ab", 40) + events[1] + events[2])
+
+
+def write_frames(folder):
+    """An Ethernet frame of liblcm: with its checksum, and without."""
+    folder.mkdir(parents=True, exist_ok=True)
+    text = (HERE.parent / "firmware" / "test_udp_frame.c").read_text(encoding="utf-8")
+    numbers = re.search(r"of_liblcm\[\] = \{(.*?)\}", text, re.DOTALL).group(1)
+    frame = bytes(int(number, 16) for number in re.findall(r"0x\w\w", numbers))
+    (folder / "liblcm").write_bytes(frame)
+    (folder / "unchecked").write_bytes(frame[:40] + bytes(2) + frame[42:])
 
 
 if __name__ == "__main__":

@@ -184,8 +184,8 @@ static void the_distance_has_as_many_dimensions_as_are_measured(void **state)
         kalman.state[3] = uniform(-40.0f, 40.0f);
         kalman.state[4] = uniform(-40.0f, 40.0f);
         int n = reference(&kalman, &plot, measures, &sensor, &distance2, &log_det);
-        rho_gate_open(&gate, &kalman, NOISE, &sensor);
-        int is_in = rho_gate_test(&gate, &plot, measures, &result);
+        rho_gate_open(&gate, &kalman, NOISE, &sensor, measures);
+        int is_in = rho_gate_test(&gate, &plot, &result);
         if (fabs(distance2 - limit[n]) > 0.02) {
             assert_int_equal(is_in, distance2 < limit[n]);
         }
@@ -213,8 +213,8 @@ static void a_range_rate_at_the_sensor_says_nothing(void **state)
                             .sigma_range_rate_mps = 1.0f};
     struct rho_gate gate;
     struct rho_gate_result result;
-    rho_gate_open(&gate, &kalman, NOISE, &sensor);
-    assert_int_equal(rho_gate_test(&gate, &plot, RHO_MEASURES_RANGE_RATE, &result), 1);
+    rho_gate_open(&gate, &kalman, NOISE, &sensor, RHO_MEASURES_RANGE_RATE);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 1);
     assert_int_equal(result.has_range_rate, 0);
 }
 
@@ -230,16 +230,17 @@ static void z_counts_where_both_have_it(void **state)
                             .sigma_range_m = 5.0f,
                             .sigma_cross_m = 5.0f,
                             .sigma_up_m = 5.0f};
-    rho_gate_open(&gate, &solid, NOISE, NULL);
-    assert_int_equal(rho_gate_test(&gate, &plot, RHO_MEASURES_Z, &result), 0);
-    assert_int_equal(rho_gate_test(&gate, &plot, 0, &result), 1);
+    rho_gate_open(&gate, &solid, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 1);
+    rho_gate_open(&gate, &solid, NOISE, NULL, RHO_MEASURES_Z);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
     plot.z_m = solid.state[2] + 1.0f;
-    assert_int_equal(rho_gate_test(&gate, &plot, RHO_MEASURES_Z, &result), 1);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 1);
     assert_int_equal(result.has_z, 1);
-    rho_gate_open(&gate, &flat, NOISE, NULL);
+    rho_gate_open(&gate, &flat, NOISE, NULL, RHO_MEASURES_Z);
     plot.x_m = flat.state[0];
     plot.y_m = flat.state[1];
-    assert_int_equal(rho_gate_test(&gate, &plot, RHO_MEASURES_Z, &result), 1);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 1);
     assert_int_equal(result.has_z, 0);
 }
 
@@ -250,20 +251,20 @@ static void what_is_not_a_number_is_outside(void **state)
     struct rho_gate_result result;
     struct rho_kalman kalman = some_filter(2);
     struct rho_plot plot = {.x_m = NAN, .y_m = 0.0f, .sigma_range_m = 5.0f, .sigma_cross_m = 5.0f};
-    rho_gate_open(&gate, &kalman, NOISE, NULL);
-    assert_int_equal(rho_gate_test(&gate, &plot, 0, &result), 0);
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
     plot.x_m = kalman.state[0];
     plot.y_m = INFINITY;
-    assert_int_equal(rho_gate_test(&gate, &plot, 0, &result), 0);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
     plot.y_m = kalman.state[1];
-    assert_int_equal(rho_gate_test(&gate, &plot, 0, &result), 1);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 1);
     kalman.covariance[0] = NAN;
-    rho_gate_open(&gate, &kalman, NOISE, NULL);
-    assert_int_equal(rho_gate_test(&gate, &plot, 0, &result), 0);
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
     kalman.covariance[0] = 100.0f;
     kalman.covariance[1] = 1e6f; /* not positive definite */
-    rho_gate_open(&gate, &kalman, NOISE, NULL);
-    assert_int_equal(rho_gate_test(&gate, &plot, 0, &result), 0);
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
 }
 
 int main(void)

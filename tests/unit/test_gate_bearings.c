@@ -82,7 +82,7 @@ static void the_distance_is_that_of_the_linearised_bearing(void **state)
         struct rho_gate gate;
         struct rho_gate_result result = {.has_z = 1, .has_range_rate = 1};
 
-        rho_gate_open(&gate, &kalman, NOISE, NULL);
+        rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
         const int is_in = rho_gate_test_bearing(&gate, &bearing, 2000.0f, -7000.0f, &result);
         if (fabs(expected.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3) {
             assert_int_equal(is_in, expected.distance2 < (double)RHO_GATE_CHI2_1D);
@@ -109,7 +109,7 @@ static void one_in_a_thousand_is_outside(void **state)
     (void)state;
     kalman.state[0] = -40000.0f; /* west, where bearings wrap */
     kalman.state[1] = 0.0f;
-    rho_gate_open(&gate, &kalman, NOISE, NULL);
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     for (int n = 0; n < 100000; ++n) {
         const double x = -40000.0 + 50.0 * normal();
         const double y = 50.0 * normal();
@@ -137,7 +137,7 @@ static void own_times_count(void **state)
     kalman.state[0] = 1000.0f;
     kalman.state[1] = 1000.0f;
     kalman.state[3] = 400.0f;
-    rho_gate_open(&gate, &kalman, NOISE, NULL);
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 0);
     bearing.offset_us = 2076000; /* it is at (1830, 1000) m then */
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
@@ -153,7 +153,7 @@ static void assert_outside(const struct rho_kalman *kalman, struct rho_bearing b
 
     memset(&guard, 0x5a, sizeof guard);
     result = guard;
-    rho_gate_open(&gate, kalman, NOISE, NULL);
+    rho_gate_open(&gate, kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, x_m, 0.0f, &result), 0);
     assert_memory_equal(&result, &guard, sizeof result);
 }
@@ -167,7 +167,7 @@ static void what_is_no_number_or_no_bearing_is_outside(void **state)
     struct rho_gate_result result;
 
     (void)state;
-    rho_gate_open(&gate, &kalman, NOISE, NULL);
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
     kalman.state[1] = 0.4f;
     assert_outside(&kalman, bearing, 100.5f); /* in the sensor's place */

@@ -31,6 +31,18 @@ firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf $(firmware
 firmware: $(firmware_images)
 	@BUILD=$(BUILD) $(firmware_folder)/budget.sh
 
+## Run these images in QEMU: the same bytes as everywhere, LCM over their Ethernet, load; ends with `N passed, N failed`
+firmware-test:
+	@tools/setup.sh
+	@tools/setup.sh firmware
+	@BUILD=$(BUILD) tools/python.sh
+	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(replay) $(firmware_tests)
+	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) tools/firmware/budget.sh $(sort $(wildcard tests/firmware/*.sh))
+
+firmware_tests := $(BUILD)/tests/firmware/test_udp_frame
+$(BUILD)/tests/firmware/%: tests/firmware/%.c $(board)/udp_frame.c Makefile
+	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $(filter %.c,$^) -lcmocka
+
 firmware_compile = @mkdir -p $(@D) && echo "  arm      $@" && $(ARM_CC) $(1) -c -o $@ $<
 firmware_bind = @echo "  link     $@" && $(ARM_CC) $(1) $(firmware_link) -Wl,-Map=$@.map -o $@ $(2)
 
@@ -72,7 +84,7 @@ $(replay): $(firmware_node) $(firmware_folder)/replay.c $(board)/host/files_host
 	$(call compile,-std=c99 $(common_flags) $(warnings) -I$(firmware_folder) -DNODE_BEARINGS=1) $(LDFLAGS) -MF $@.d -o $@ \
 	    $(filter %.c %.a,$^)
 
-.PHONY: firmware job-images
+.PHONY: firmware firmware-test job-images
 job-images: $(job_images)
 .SECONDARY: $(foreach core,m4 m7,$(job_sources:%.c=$(firmware)/$(core)/jobs/%.o) $(job_parts:%.c=$(firmware)/$(core)/jobs/%.o))
 

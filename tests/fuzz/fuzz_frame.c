@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* Any bytes as an Ethernet frame of the firmware example: what is accepted lies within them, and is built again. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tools/firmware/board/udp_frame.h"
+
+#define CHECK(condition)                                                                           \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            abort();                                                                               \
+        }                                                                                          \
+    } while (0)
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const struct udp_frame_host host = {.mac = {2, 0, 0, 0, 0, 1}, .address = {10, 0, 0, 1}};
+    uint8_t frame[UDP_FRAME_MAX];
+    const uint8_t *payload = NULL, *again = NULL;
+    size_t length = udp_frame_open(data, size, &payload);
+
+    if (length == 0) {
+        return 0;
+    }
+    CHECK(payload >= data + UDP_FRAME_HEAD && length <= size - (size_t)(payload - data));
+    if (length <= UDP_FRAME_MAX - UDP_FRAME_HEAD) {
+        memcpy(frame + UDP_FRAME_HEAD, payload, length);
+        size_t built = udp_frame_build(frame, &host, 1, length);
+        CHECK(built == UDP_FRAME_HEAD + length);
+        CHECK(udp_frame_open(frame, built, &again) == length && again == frame + UDP_FRAME_HEAD);
+    }
+    return 0;
+}
