@@ -14,7 +14,7 @@ trap 'rm -rf "$folder"' EXIT
 
 # ---- programs -------------------------------------------------------------------------------
 
-for job in filters tracker maintain initiation passive wire; do
+for job in filters track tracker maintain initiation passive wire; do
     ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/$job" "tools/instructions/$job.c" \
         "$build/librhotrack.a"
 done
@@ -76,14 +76,19 @@ head_of() { printf '\n%-62s %11s %11s %11s %11s\n' "$1" "$(uname -m)" M4F 'M4F w
 echo "Executed instructions, embedded profile, -O2: ${CC:-gcc} here, $(arm-none-eabi-gcc -dumpfullversion 2>/dev/null || echo no) arm-none-eabi-gcc"
 
 head_of 'filters, a step'
-row 'Kalman: predict, 3 updates of an axis' 1 1450 filters predict+3
-row 'Kalman: predict, 6 updates of an axis' 1 2400 filters predict+6
+row 'Kalman: predict, 3 updates of an element' 1 1450 filters predict+3
+row 'Kalman: predict, 6 updates of an element' 1 2400 filters predict+6
+row 'the same, axes coupled' 1 2400 filters coupled+6
 row 'Kalman: predict, polar plot in 3-D with range rate' 1 - filters predict+polar
-row 'Kalman + input + Hough gate, 4 clutter plots' 1 '?5000' filters input+hough
+row 'Kalman + input + Hough gate, 4 clutter plots' 1 5000 filters input+hough
 
-head_of 'the tracker with 8 tracks, a track and scan (no initiation)'
-row 'nearest: polar plots with range rate, 4 in the gate' 8 '?7000' tracker nearest polar 4 1
-row 'hough, input estimation: places and velocities, 4' 8 '?5000' tracker hough cartesian 4 1
+head_of 'a track by itself, a scan: prediction, gate over 4 plots, update'
+row 'nearest: polar plots with range rate' 1 7000 track nearest polar 4
+row 'hough behind nearest, input estimation: places and velocities' 1 - track hough cartesian 4
+
+head_of 'the whole tracker with 8 tracks, a track and scan (no initiation)'
+row 'nearest: polar plots with range rate, 4 in the gate' 8 - tracker nearest polar 4 1
+row 'hough, input estimation: places and velocities, 4' 8 - tracker hough cartesian 4 1
 row 'best: places and velocities, the target alone' 8 - tracker best cartesian 1 1
 row 'best: the same, 4 in the gate' 8 - tracker best cartesian 4 1
 row 'best: polar plots with range rate, the target alone' 8 - tracker best polar 1 1

@@ -273,12 +273,75 @@ static inline void scale_row(float scaled[6], const float row[6], float factor)
     scaled[5] = row[5] * factor;
 }
 
+/* Where an element's covariances with the other two axes lie. */
+static const uint8_t other_axes[6][4] = {
+    {1, 3, 10, 15}, {1, 4, 7, 16},    {3, 4, 8, 12},
+    {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
+};
+
+/* A number but for its sign: 0 for zero. */
+static inline uint32_t magnitude_bits(float v)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    return bits << 1;
+}
+
+static inline int is_apart(const float p[21], const uint8_t others[4])
+{
+    return (magnitude_bits(p[others[0]]) | magnitude_bits(p[others[1]]) |
+            magnitude_bits(p[others[2]]) | magnitude_bits(p[others[3]])) == 0;
+}
+
+/* A scalar measurement of one element, by what it was and what it is. */
+struct scalar {
+    float innovation, inverse, kept;
+};
+
+/* Of an element that only the other one of its axis goes with: the same bits, in a third of the instructions. */
+static int update_apart(float x[6], float p[21], int index, const struct scalar *seen)
+{
+    const int other = index < 3 ? index + 3 : index - 3;
+    float *const mixed = &p[row_places[index][other]], *const own = &p[row_places[index][index]];
+    float *const others = &p[row_places[other][other]];
+    const float gain = *mixed * seen->inverse,
+                x_own = x[index] + *own * seen->inverse * seen->innovation;
+    const float x_other = x[other] + gain * seen->innovation;
+
+    if (!(is_finite(seen->innovation * seen->inverse * seen->innovation) &&
+          is_finite(x_own + x_other) && is_finite(x[0] + x[1] + x[2] + x[3] + x[4] + x[5]))) {
+        return 0;
+    }
+    x[index] = x_own;
+    x[other] = x_other;
+    *others = lowered(*others, gain, *mixed);
+    *own *= seen->kept;
+    *mixed *= seen->kept;
+    return 1;
+}
+
+static int update_coupled(float x[6], float p[21], const uint8_t place[6],
+                          const struct scalar *seen)
+{
+    float row[6], gain[6];
+
+    read_row(row, p, place);
+    scale_row(gain, row, seen->inverse);
+    if (!move_state(x, gain, seen->innovation, seen->inverse)) {
+        return 0;
+    }
+    lower_covariances(p, row, gain);
+    lower_variances(p, row, gain);
+    write_row(p, place, row, seen->kept);
+    return 1;
+}
+
 enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
                                    float variance, float *nis)
 {
-    float row[6], gain[6];
-    float predicted, sum, inverse, kept;
-    const uint8_t *place;
+    float predicted, sum;
+    struct scalar seen;
 
     if (x == NULL || p == NULL) {
         return RHO_ERROR_NULL;
@@ -286,25 +349,19 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     if (index < 0 || index >= 6) {
         return RHO_ERROR_VALUE;
     }
-    place = row_places[index];
-    predicted = p[place[index]];
+    predicted = p[RHO_AT(index, index)];
     sum = predicted + variance;
-    inverse = 1.0f / sum;
-    if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
+    /* The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1. */
+    seen = (struct scalar){innovation, 1.0f / sum, variance / sum};
+    if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    read_row(row, p, place);
-    scale_row(gain, row, inverse);
-    if (!move_state(x, gain, innovation, inverse)) {
+    if (!(is_apart(p, other_axes[index]) ? update_apart(x, p, index, &seen)
+                                         : update_coupled(x, p, row_places[index], &seen))) {
         return RHO_ERROR_VALUE;
     }
-    lower_covariances(p, row, gain);
-    lower_variances(p, row, gain);
-    /* The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1. */
-    kept = variance / sum;
-    write_row(p, place, row, kept);
     if (nis != NULL) {
-        *nis = innovation * inverse * innovation;
+        *nis = innovation * seen.inverse * innovation;
     }
     return RHO_OK;
 }

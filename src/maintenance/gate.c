@@ -146,8 +146,8 @@ static int test_closely(const struct rho_gate *gate, const struct rho_kalman *at
     rho_measurement_open(plot, gate->measures, gate->sensor, &seen);
     result->has_z = gate->has_z && seen.has_z;
     add_position(at, &seen, result->has_z ? 3 : 2, &innovation);
-    result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 &&
-                             add_range_rate(rate, plot, &innovation);
+    result->has_range_rate =
+        (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 && add_range_rate(rate, plot, &innovation);
     return is_inside(&innovation, result);
 }
 

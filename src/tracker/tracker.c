@@ -174,7 +174,8 @@ static void report_track(const struct step *step, const struct rho_track *track,
         .num_hypotheses = 1,
     };
     if (track->filter == RHO_TRACK_HYPOTHESES) {
-        out->num_hypotheses = (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
+        out->num_hypotheses =
+            (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
     }
     memcpy(out->accel_mps2, at->accel_mps2, sizeof out->accel_mps2);
     memcpy(out->state, at->kalman.state, sizeof out->state);

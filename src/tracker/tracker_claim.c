@@ -161,7 +161,8 @@ static void gate_plots(struct step *step, unsigned row)
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
-        float dx_m = plot->x_m - gate.predicted.state[0], dy_m = plot->y_m - gate.predicted.state[1];
+        float dx_m = plot->x_m - gate.predicted.state[0],
+              dy_m = plot->y_m - gate.predicted.state[1];
         if (dx_m > half_m[0] || dx_m < -half_m[0] || dy_m > half_m[1] || dy_m < -half_m[1]) {
             continue; /* most plots */
         }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * filters: one step of a Kalman filter, or of the literature's filter with its gate, for tools/instructions.sh to count
- * the instructions of. Argument: predict+3 or predict+6 (updates of an axis each), predict+polar, input+hough.
+ * the instructions of. Argument: predict+3, predict+6 (updates of an element each), coupled+6 (the same where a polar plot
+ * has coupled the axes), predict+polar, input+hough.
  */
 #include <string.h>
 
@@ -133,8 +134,11 @@ static void open(const char *name)
 {
     if (strcmp(name, "input+hough") == 0) {
         open_input();
-    } else {
-        open_filter(100.0f);
+        return;
+    }
+    open_filter(100.0f);
+    if (strcmp(name, "coupled+6") == 0) {
+        update_polar();
     }
 }
 
@@ -145,13 +149,14 @@ __attribute__((noinline)) static void step(const char *name)
     } else if (strcmp(name, "predict+polar") == 0) {
         update_polar();
     } else {
-        update_axes(name[8] - '0');
+        update_axes(name[strlen(name) - 1] - '0');
     }
 }
 
 int main(int argc, char **argv)
 {
-    static const char *const names[] = {"predict+3", "predict+6", "predict+polar", "input+hough"};
+    static const char *const names[] = {"predict+3", "predict+6", "coupled+6", "predict+polar",
+                                        "input+hough"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (argc == 2 && strcmp(argv[1], names[i]) == 0) {
             for (int k = 0; k < STEPS; k++) {

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scene: eight targets on a ring about a radar, flying round it, for the jobs beside it; and plots of them, polar (15 m x
+ * 3 mrad, range rates) or Cartesian (places and velocities, isotropic noise). Clutter is 1.5 to 2.5 standard deviations off
+ * on each axis: in the gate, and seldom the nearest.
+ */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include "draw.h"
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
+
+#define TARGETS 8
+#define INTERVAL_S 1.0f
+#define SIGMA_RANGE_M 15.0f
+#define SIGMA_RAD 0.003f
+#define SIGMA_RATE_MPS 1.0f
+#define SIGMA_M 10.0f
+#define SIGMA_MPS 1.0f
+
+static const struct rho_sensor sensor = {.sensor_id = 1, .pd = 0.95f, .range_max_m = 1e5f};
+static int failed;
+
+struct target {
+    float x_m, y_m, vx_mps, vy_mps;
+};
+
+static struct target target_at(int target, float t_s)
+{
+    float bearing_rad = RHO_PI / 4.0f * ((float)target + 0.5f), range_m = 30000.0f;
+    float vx_mps = -200.0f * rho_sin(bearing_rad), vy_mps = 200.0f * rho_cos(bearing_rad);
+    return (struct target){range_m * rho_cos(bearing_rad) + vx_mps * t_s,
+                           range_m * rho_sin(bearing_rad) + vy_mps * t_s, vx_mps, vy_mps};
+}
+
+/* The noise of the target's own plot; of clutter far enough out. */
+static float off(int is_clutter, float sigma)
+{
+    float size = is_clutter ? draw_uniform(1.5f, 2.5f) : 0.0f;
+    return is_clutter ? (draw_uniform(-1.0f, 1.0f) < 0.0f ? -size : size) * sigma
+                      : draw_normal(sigma);
+}
+
+static struct rho_plot polar_plot(const struct target *target, int is_clutter)
+{
+    float range_m = rho_sqrt(target->x_m * target->x_m + target->y_m * target->y_m);
+    struct rho_polar_plot polar = {
+        .range_m = range_m + off(is_clutter, SIGMA_RANGE_M),
+        .azimuth_rad =
+            rho_angle_wrap(rho_atan2(target->y_m, target->x_m) + off(is_clutter, SIGMA_RAD)),
+        .range_rate_mps = (target->x_m * target->vx_mps + target->y_m * target->vy_mps) / range_m +
+                          off(is_clutter, SIGMA_RATE_MPS),
+        .sigma_range_m = SIGMA_RANGE_M,
+        .sigma_azimuth_rad = SIGMA_RAD,
+        .sigma_range_rate_mps = SIGMA_RATE_MPS};
+    struct rho_plot plot = {0};
+    failed |= rho_measurement_from_polar(&polar, RHO_MEASURES_RANGE_RATE, &sensor, &plot) != RHO_OK;
+    return plot;
+}
+
+static struct rho_plot cartesian_plot(const struct target *target, int is_clutter)
+{
+    return (struct rho_plot){.x_m = target->x_m + off(is_clutter, SIGMA_M),
+                             .y_m = target->y_m + off(is_clutter, SIGMA_M),
+                             .z_m = 3000.0f + off(is_clutter, SIGMA_M),
+                             .vx_mps = target->vx_mps + off(is_clutter, SIGMA_MPS),
+                             .vy_mps = target->vy_mps + off(is_clutter, SIGMA_MPS),
+                             .vz_mps = off(is_clutter, SIGMA_MPS),
+                             .sigma_range_m = SIGMA_M,
+                             .sigma_cross_m = SIGMA_M,
+                             .sigma_up_m = SIGMA_M,
+                             .sigma_mps = SIGMA_MPS};
+}
+
+static struct rho_plot draw_plot(const struct target *target, int is_polar, int is_clutter)
+{
+    return is_polar ? polar_plot(target, is_clutter) : cartesian_plot(target, is_clutter);
+}
+
+static uint32_t measures_of(int is_polar)
+{
+    return is_polar ? RHO_MEASURES_RANGE_RATE : RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
+}
+
+#endif

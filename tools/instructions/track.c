@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * track: a step of one track by itself, for tools/instructions.sh to count the instructions of: prediction, the gate over
+ * its plots, the update with the one that is chosen. No assignment, life cycle and report.
+ *
+ * Arguments: nearest or hough (with input estimation); polar or cartesian; plots, the target's own among them.
+ * Prints the plots that were in the gate, a step.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "count.h"
+#include "rhotrack/gate.h"
+#include "rhotrack/track.h"
+#include "scene.h"
+
+#define START_STEPS 6
+#define STEPS 100 /* the mean of whole numbers has two decimals */
+#define PLOTS_MAX 10
+#define SPEED_SIGMA_MPS 700.0f
+#define NOISE_DENSITY 25.0f
+
+static struct rho_track track;
+static struct rho_input_config input;
+static struct rho_track_model model = {.speed_sigma_mps = SPEED_SIGMA_MPS,
+                                       .noise_density = NOISE_DENSITY};
+static struct rho_track_plot plots[PLOTS_MAX];
+static int num_plots, num_in_gate;
+
+static void draw_plots(int step, int is_polar, int count)
+{
+    struct target target = target_at(0, INTERVAL_S * (float)step);
+    num_plots = count;
+    for (int i = 0; i < count; i++) {
+        plots[i] = (struct rho_track_plot){.time_us = (int64_t)(1e6f * INTERVAL_S) * step,
+                                           .measures = measures_of(is_polar),
+                                           .sensor_id = sensor.sensor_id,
+                                           .sensor = &sensor,
+                                           .plot = draw_plot(&target, is_polar, i > 0),
+                                           .row = (int16_t)i};
+    }
+}
+
+/* The plot in the gate that is likeliest, or changes the velocity's line least. */
+static int choose(int by_hough)
+{
+    struct rho_kalman expected;
+    struct rho_gate gate;
+    struct rho_gate_hough hough;
+    struct rho_gate_result result;
+    float least = 1e9f;
+    int best = 0;
+    rho_track_expect(&track, &expected);
+    rho_gate_open(&gate, &expected, model.input ? input.noise_density : NOISE_DENSITY, &sensor,
+                  plots[0].measures);
+    if (by_hough) {
+        failed |=
+            rho_gate_hough_open(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+                                0.0872664626f, track.before_mps, track.newest_mps) != RHO_OK;
+    }
+    for (int i = 0; i < num_plots; i++) {
+        const struct rho_plot *plot = &plots[i].plot;
+        if (rho_gate_test(&gate, plot, &result)) {
+            const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+            float cost = by_hough ? rho_gate_hough_off(&hough, velocity_mps)
+                                  : result.distance2 + result.log_det;
+            num_in_gate++;
+            if (cost < least) {
+                least = cost;
+                best = i;
+            }
+        }
+    }
+    return best;
+}
+
+static void step(int by_hough)
+{
+    failed |= rho_track_predict(&track, plots[0].time_us, &model) != RHO_OK;
+    failed |= rho_track_update(&track, &plots[choose(by_hough)], &model, 1000) != RHO_OK;
+}
+
+int main(int argc, char **argv)
+{
+    int count = argc == 4 ? atoi(argv[3]) : 0;
+    if (count < 1 || count > PLOTS_MAX) {
+        fprintf(stderr, "track: give nearest or hough, polar or cartesian, 1 .. %d plots\n",
+                PLOTS_MAX);
+        return 2;
+    }
+    int by_hough = strcmp(argv[1], "hough") == 0, is_polar = strcmp(argv[2], "polar") == 0;
+    rho_input_config_default(&input);
+    model.input = by_hough ? &input : NULL;
+    draw_plots(0, is_polar, 1);
+    failed |= rho_track_start(&track, 1, plots, 1, &model, 0) != RHO_OK;
+    for (int i = 1; i <= START_STEPS + STEPS && !failed; i++) {
+        int is_start = i <= START_STEPS;
+        draw_plots(i, is_polar, is_start ? 1 : count);
+        if (is_start) {
+            step(0);
+            num_in_gate = 0;
+            continue;
+        }
+        count_begin();
+        step(by_hough);
+        count_end();
+    }
+    printf("%d.%02d plots in the gate\n", num_in_gate / STEPS, num_in_gate % STEPS);
+    count_report();
+    return failed;
+}
