@@ -320,36 +320,12 @@ void rho_initiator_lay_chance(const struct search *search, struct chance *chance
 
 /* ---- how many --------------------------------------------------------------------------------- */
 
-/* v^k for k a multiple of a half: asked for too often for logarithms. */
-static float power(float v, float k)
-{
-    unsigned halves = (unsigned)(2.0f * k + 0.5f);
-    float product = halves % 2u ? rho_sqrt(v) : 1.0f;
-    for (; halves >= 2u; halves -= 2u) {
-        product *= v;
-    }
-    return product;
-}
-
 /*
- * Share of a pattern's sets whose track had not started without its newest hit: its chi2 / 2 then was above `before`,
- * and is below y with it. Of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q
- * = before / y.
+ * Sets of a pattern in a class that reach s, of tracks that had not started at start_nat before: weight y^k times the
+ * share of them whose track had not started without its newest hit. Its chi2 / 2 then was above `before`, and is below y
+ * with it: of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q = before / y.
+ * Asked for too often for logarithms: k is a multiple of a half.
  */
-static float share_new(float k, float y, float before)
-{
-    float q = before / y;
-    if (!(before > 0.0f)) {
-        return 1.0f;
-    }
-    if (q >= 1.0f) {
-        return 0.0f;
-    }
-    float raised = power(q, k - 1.0f);
-    return 1.0f - k * raised + (k - 1.0f) * raised * q;
-}
-
-/* Sets of a pattern in a class that reach s, of tracks that had not started at start_nat before. */
 static float sets_in(const struct pattern *pattern, const struct reach *reach, int has_before,
                      float s_nat, float start_nat)
 {
@@ -360,7 +336,18 @@ static float sets_in(const struct pattern *pattern, const struct reach *reach, i
     float before = has_before ? reach->before_nat - start_nat : 0.0f;
     y = y < pattern->most ? y : pattern->most;
     before = before < pattern->most_before ? before : pattern->most_before;
-    return reach->weight * power(y, k) * share_new(k, y, before);
+    if (before >= y) {
+        return 0.0f;
+    }
+    unsigned halves = (unsigned)(2.0f * k + 0.5f);
+    float q = before / y, content = halves % 2u ? rho_sqrt(y) : 1.0f;
+    float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(k - 1) */
+    for (; halves >= 4u; halves -= 2u) {
+        content *= y;
+        raised *= q;
+    }
+    float share = before > 0.0f ? 1.0f - k * raised + (k - 1.0f) * raised * q : 1.0f;
+    return reach->weight * (content * y) * share;
 }
 
 static float sets_of(const struct chance *chance, unsigned k, float s_nat, float start_nat)

@@ -92,22 +92,29 @@ static void find_climbs(struct climbs *climbs, const struct chance *chance, floa
 
 /* ---- thresholds ------------------------------------------------------------------------------- */
 
-/* Chance tracks a search that are confirmed at s: sets that reach it at once, and those that start below, from
- * `start_nat` on, and climb. */
-static float tracks_confirmed(const struct climbs *climbs, const struct chance *chance, float s_nat,
-                              float start_nat)
+/*
+ * Whether clutter has more tracks confirmed at s, a search, than wanted: sets that reach it at once, and those that start
+ * below, from start_nat on, and climb. Whatever is left of the sets that start at all, at_start, climbs less likely than
+ * what was summed so far: mostly that decides before the end.
+ */
+static int confirms_more(const struct climbs *climbs, const struct chance *chance, float s_nat,
+                         float start_nat, float at_start, float wanted)
 {
     float above = rho_initiator_sets_above(chance, s_nat, start_nat), sum = above;
     float lowest = s_nat - start_nat < CLIMB_STEP * (float)CLIMBS
                        ? start_nat
                        : s_nat - CLIMB_STEP * (float)CLIMBS;
     float step = (s_nat - lowest) / (float)STEPS;
-    for (int i = 1; i <= STEPS && step > 0.0f; i++) {
+    for (int i = 1; i <= STEPS; i++) {
+        float climbs_up = climbed(climbs, step * ((float)i - 0.5f));
+        if (sum > wanted || sum + (at_start - above) * climbs_up <= wanted) {
+            break;
+        }
         float below = rho_initiator_sets_above(chance, s_nat - step * (float)i, start_nat);
-        sum += (below - above) * climbed(climbs, step * ((float)i - 0.5f));
+        sum += (below - above) * climbs_up;
         above = below;
     }
-    return sum;
+    return sum > wanted;
 }
 
 /* The lowest start threshold with no more chance starts than allowed. */
@@ -132,13 +139,14 @@ static float confirm_threshold(const struct chance *chance, float wanted, float 
 {
     struct climbs climbs;
     float low = start_nat, high = THRESHOLD_MAX_NAT;
-    find_climbs(&climbs, chance, start_nat);
-    if (tracks_confirmed(&climbs, chance, low, start_nat) <= wanted) {
+    float at_start = rho_initiator_sets_above(chance, start_nat, start_nat);
+    if (at_start <= wanted) {
         return low;
     }
+    find_climbs(&climbs, chance, start_nat);
     for (int i = 0; i < BISECTIONS; i++) {
         float middle = 0.5f * (low + high);
-        if (tracks_confirmed(&climbs, chance, middle, start_nat) > wanted) {
+        if (confirms_more(&climbs, chance, middle, start_nat, at_start, wanted)) {
             low = middle;
         } else {
             high = middle;
