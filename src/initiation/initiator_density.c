@@ -113,15 +113,15 @@ struct view {
 
 static void look(struct view *view, float dx_m, float dy_m, int has_middle)
 {
-    float range_m = distance_m(dx_m, dy_m);
-    if (!(range_m >= 1.0f)) {
-        range_m = 1.0f;
-    }
     if (has_middle) {
         float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), view->middle_rad);
         view->left_rad = off_rad > view->left_rad ? off_rad : view->left_rad;
         view->right_rad = off_rad < view->right_rad ? off_rad : view->right_rad;
         return;
+    }
+    float range_m = distance_m(dx_m, dy_m);
+    if (!(range_m >= 1.0f)) {
+        range_m = 1.0f;
     }
     view->nearest_m = view->plots < 1.0f || range_m < view->nearest_m ? range_m : view->nearest_m;
     view->farthest_m = range_m > view->farthest_m ? range_m : view->farthest_m;
