@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <stdint.h>
-#include <string.h>
 
 /* s390x by gcc -std=c99, x87, and -ffast-math, would all decide otherwise than the rest of the world. */
 #if FLT_EVAL_METHOD != 0
@@ -59,20 +58,20 @@
 #define TAN_PI_8 0.414213562f
 #define QUARTER_PI 0.785398163f
 
+/* A union: where there is no standard library to know about (-ffreestanding), a memcpy is called. */
+union binary32 {
+    float v;
+    uint32_t bits;
+};
+
 static uint32_t bits_of(float v)
 {
-    uint32_t bits;
-
-    memcpy(&bits, &v, sizeof bits);
-    return bits;
+    return (union binary32){.v = v}.bits;
 }
 
 static float float_of(uint32_t bits)
 {
-    float v;
-
-    memcpy(&v, &bits, sizeof v);
-    return v;
+    return (union binary32){.bits = bits}.v;
 }
 
 static int32_t nearest_integer(float v)

@@ -5,7 +5,6 @@
 #define RHOTRACK_WINDOW_SIGMA_H
 
 #include <stdint.h>
-#include <string.h>
 
 #include "rhotrack/window.h"
 
@@ -13,20 +12,22 @@
 #define SIGMA_EXPONENT (117u << 23)
 #define SIGMA_SHIFT 12
 
+/* A union: without a standard library to know about (-ffreestanding), a memcpy would be called. */
+union sigma_bits {
+    float sigma;
+    uint32_t bits;
+};
+
 /* To the nearest code. */
 static inline uint16_t sigma_code(float sigma)
 {
-    uint32_t bits;
-    memcpy(&bits, &sigma, sizeof bits);
+    uint32_t bits = (union sigma_bits){.sigma = sigma}.bits;
     return (uint16_t)((bits + (1u << (SIGMA_SHIFT - 1)) - SIGMA_EXPONENT) >> SIGMA_SHIFT);
 }
 
 static inline float sigma_of(uint16_t code)
 {
-    uint32_t bits = ((uint32_t)code << SIGMA_SHIFT) + SIGMA_EXPONENT;
-    float sigma;
-    memcpy(&sigma, &bits, sizeof sigma);
-    return sigma;
+    return (union sigma_bits){.bits = ((uint32_t)code << SIGMA_SHIFT) + SIGMA_EXPONENT}.sigma;
 }
 
 static inline uint16_t larger_sigma(const struct rho_window_plot *plot)
