@@ -143,7 +143,11 @@ const char *rho_fate_name(enum rho_fate fate);
 float rho_plot_sigma_m(const struct rho_plot *plot);
 
 /* a + n that stops at UINT32_MAX: every counter of the library moves this way. Constant cost. */
-uint32_t rho_count(uint32_t counter, uint32_t n);
+static inline uint32_t rho_count(uint32_t counter, uint32_t n)
+{
+    uint32_t sum = counter + n;
+    return sum < n ? UINT32_MAX : sum;
+}
 
 /* Bits that are set in a mask of scans. */
 unsigned rho_count_bits(uint32_t mask);

@@ -36,11 +36,6 @@ const char *rho_fate_name(enum rho_fate fate)
     return value < RHO_NUM_FATES ? fate_names[value] : "unknown";
 }
 
-uint32_t rho_count(uint32_t counter, uint32_t n)
-{
-    return n < UINT32_MAX - counter ? counter + n : UINT32_MAX;
-}
-
 /* In pairs, then by fours, eights, and all together. */
 unsigned rho_count_bits(uint32_t mask)
 {
