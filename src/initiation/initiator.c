@@ -25,14 +25,14 @@ typedef char
 static void order_votes(struct span *span)
 {
     unsigned middle = (span->a + span->b) / 2u;
-    span->num_between = 0;
+    span->num_voters = 0;
     for (unsigned step = 0; step < span->b - span->a; step++) {
         unsigned up = middle + step, down = middle - step;
         if (step > 0 && middle >= step && down > span->a) {
-            span->between[span->num_between++] = down;
+            span->voters[span->num_voters++].m = down;
         }
         if (up > span->a && up < span->b) {
-            span->between[span->num_between++] = up;
+            span->voters[span->num_voters++].m = up;
         }
     }
 }
@@ -48,14 +48,15 @@ static float ends_m2(const struct span *span, float al)
     return from_m * from_m + to_m * to_m;
 }
 
-/* Reach of the widest gate in scan m. Plots' own times move al by up to `slack`; the variance is convex in al. */
-static float widest_reach_m(const struct search *search, const struct span *span, unsigned m)
+/* Reach of a voter's widest gate. Plots' own times move al by up to `slack`; the variance is convex in al. */
+static float widest_reach_m(const struct search *search, const struct span *span,
+                            const struct voter *voter)
 {
-    float sigma_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
-    float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
+    float sigma_m = voter->scan->sigma_max_m;
+    float al = voter->after_s / span->gap_s;
     float slack = (spread_s(span->scan_a) + spread_s(span->scan_b)) / span->gap_s;
     float low_m2 = ends_m2(span, al - slack), high_m2 = ends_m2(span, al + slack);
-    return rho_sqrt(search->reach_chi2 * (sigma_m * sigma_m + span->process_m2[m] +
+    return rho_sqrt(search->reach_chi2 * (sigma_m * sigma_m + voter->process_m2 +
                                           (low_m2 > high_m2 ? low_m2 : high_m2)));
 }
 
@@ -73,50 +74,43 @@ static void open_span(struct search *search, unsigned a, unsigned b, struct span
                                          span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
     }
     order_votes(span);
-    for (unsigned k = 0; k < span->num_between; k++) {
-        unsigned m = span->between[k];
+    for (unsigned k = 0; k < span->num_voters; k++) {
+        struct voter *voter = &span->voters[k];
+        voter->scan = rho_window_scan_at(window, voter->m);
+        voter->after_s = search->time_s[voter->m] - search->time_s[a];
         if (search->fit_process_m2 > 0.0f) {
-            span->process_m2[m] = rho_initiator_process_gap_m2(search, a, m, b);
+            voter->process_m2 = rho_initiator_process_gap_m2(search, a, voter->m, b);
         }
-        span->reach_m[m] = widest_reach_m(search, span, m);
+        voter->reach_m = widest_reach_m(search, span, voter);
     }
 }
 
-/* The plot of scan m nearest to where the kernel says, in the gate of all three plots' noise; -1: none. */
-static int vote(struct search *search, const struct span *span, const struct kernel *kernel,
-                unsigned m)
+/* The voter's plot nearest to where the kernel says, in the gate of all three plots' noise; -1: none. */
+static int vote(struct search *search, const struct voter *voter, struct kernel *kernel)
 {
-    float al =
-        (search->time_s[m] - search->time_s[span->a] - kernel->from->offset_s) / kernel->duration_s;
-    struct rho_window_query query = {
-        .x_m = kernel->from->x_m + al * kernel->dx_m,
-        .y_m = kernel->from->y_m + al * kernel->dy_m,
-        .vx_mps = kernel->dx_m / kernel->duration_s,
-        .vy_mps = kernel->dy_m / kernel->duration_s,
-        .variance_m2 = (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 +
-                       span->process_m2[m],
-        .sigma_factor = 1.0f,
-        .gate_chi2 = RHO_GATE_CHI2_2D,
-        .reach_m = span->reach_m[m],
-        .skip_flags = search->skip_flags,
-    };
-    return rho_window_nearest(rho_window_scan_at(&search->initiator->window, m), &query,
-                              &search->initiator->work.window);
+    struct rho_window_query *query = &kernel->query;
+    float al = (voter->after_s - kernel->from->offset_s) / kernel->duration_s;
+    query->x_m = kernel->from->x_m + al * kernel->dx_m;
+    query->y_m = kernel->from->y_m + al * kernel->dy_m;
+    query->variance_m2 =
+        (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 + voter->process_m2;
+    query->reach_m = voter->reach_m;
+    return rho_window_nearest(voter->scan, query, &search->initiator->work.window);
 }
 
 /* Lets the scans between vote, and offers the kernel as a candidate where enough do. */
-static void try_kernel(struct search *search, const struct span *span, const struct kernel *kernel)
+static void try_kernel(struct search *search, const struct span *span, struct kernel *kernel)
 {
     struct plot_set set = {.mask = 1u << span->a | 1u << span->b, .hits = 2};
     unsigned misses = span->misses_outside;
-    for (unsigned k = 0; k < span->num_between; k++) {
-        unsigned m = span->between[k];
-        int plot = search->is_isotropic ? vote(search, span, kernel, m)
-                                        : rho_initiator_own_vote(search, span, kernel, m);
+    for (unsigned k = 0; k < span->num_voters; k++) {
+        const struct voter *voter = &span->voters[k];
+        int plot = search->is_isotropic ? vote(search, voter, kernel)
+                                        : rho_initiator_own_vote(search, voter, kernel);
         if (plot >= 0) {
-            set.mask |= 1u << m;
+            set.mask |= 1u << voter->m;
             set.hits++;
-            set.plot[m] = (uint16_t)plot;
+            set.plot[voter->m] = (uint16_t)plot;
         } else if (++misses > search->num_scans - search->min_scans) {
             return;
         }
@@ -140,6 +134,13 @@ static int complete(const struct search *search, const struct span *span, struct
     }
     kernel->from_m2 = squared(rho_window_sigma_m(kernel->from));
     kernel->to_m2 = squared(rho_window_sigma_m(kernel->to));
+    kernel->query = (struct rho_window_query){
+        .vx_mps = kernel->dx_m / kernel->duration_s,
+        .vy_mps = kernel->dy_m / kernel->duration_s,
+        .sigma_factor = 1.0f,
+        .gate_chi2 = RHO_GATE_CHI2_2D,
+        .skip_flags = search->skip_flags,
+    };
     return 1;
 }
 
@@ -154,20 +155,24 @@ static void pair_with(struct search *search, const struct span *span, const stru
 {
     const struct rho_window_plot *from = start->plot, *to = &span->scan_b->plots[j];
     const struct rho_initiator_config *config = &search->initiator->config;
-    struct kernel kernel = {
-        .from = from,
-        .to = to,
-        .dx_m = to->x_m - from->x_m,
-        .dy_m = to->y_m - from->y_m,
-        .duration_s = span->gap_s + to->offset_s - from->offset_s,
-        .noise_a = start->noise,
-    };
-    float distance2_m2 = kernel.dx_m * kernel.dx_m + kernel.dy_m * kernel.dy_m;
-    float near_m = config->v_min_mps * kernel.duration_s - span->slack_m;
-    float far_m = config->v_max_mps * kernel.duration_s + span->slack_m;
-    if (kernel.duration_s > 0.0f && (near_m < 0.0f || distance2_m2 >= near_m * near_m) &&
-        distance2_m2 <= far_m * far_m && !(span->scan_b->marks[j] & search->skip_flags) &&
-        complete(search, span, &kernel)) {
+    float dx_m = to->x_m - from->x_m, dy_m = to->y_m - from->y_m;
+    float duration_s = span->gap_s + to->offset_s - from->offset_s;
+    float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
+    float near_m = config->v_min_mps * duration_s - span->slack_m;
+    float far_m = config->v_max_mps * duration_s + span->slack_m;
+    if (!(duration_s > 0.0f && distance2_m2 <= far_m * far_m &&
+          (near_m < 0.0f || distance2_m2 >= near_m * near_m)) ||
+        (span->scan_b->marks[j] & search->skip_flags)) {
+        return;
+    }
+    struct kernel kernel;
+    kernel.from = from;
+    kernel.to = to;
+    kernel.dx_m = dx_m;
+    kernel.dy_m = dy_m;
+    kernel.duration_s = duration_s;
+    kernel.noise_a = start->noise;
+    if (complete(search, span, &kernel)) {
         try_kernel(search, span, &kernel);
     }
 }

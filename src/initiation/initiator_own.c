@@ -62,32 +62,27 @@ int rho_initiator_own_kernel(const struct search *search, const struct span *spa
                              struct kernel *kernel)
 {
     kernel->noise_b = rho_window_noise(span->scan_b, kernel->to);
-    if (!search->has_more) {
-        return 1;
-    }
-    struct rho_window_place place = place_of(search, span, kernel);
-    return !climbs_too_fast(search, &place) && is_range_rate(span->scan_a, kernel->from, &place) &&
-           is_range_rate(span->scan_b, kernel->to, &place);
+    kernel->place = place_of(search, span, kernel);
+    return !search->has_more || (!climbs_too_fast(search, &kernel->place) &&
+                                 is_range_rate(span->scan_a, kernel->from, &kernel->place) &&
+                                 is_range_rate(span->scan_b, kernel->to, &kernel->place));
 }
 
-/* The plot of scan m nearest to where the kernel says, in the gate of all three plots' covariances; -1: none. */
-int rho_initiator_own_vote(struct search *search, const struct span *span,
-                           const struct kernel *kernel, unsigned m)
+/* The voter's plot nearest to where the kernel says, in the gate of all three plots' covariances; -1: none. */
+int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel)
 {
     const struct rho_window_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
-    struct rho_window_place place = place_of(search, span, kernel);
-    float al =
-        (search->time_s[m] - search->time_s[span->a] - kernel->from->offset_s) / kernel->duration_s;
-    float from = (1.0f - al) * (1.0f - al), to = al * al, process_m2 = span->process_m2[m];
-    place.x_m = kernel->from->x_m + al * kernel->dx_m;
-    place.y_m = kernel->from->y_m + al * kernel->dy_m;
-    place.z_m = kernel->from->z_m + al * (kernel->to->z_m - kernel->from->z_m);
-    place.noise = (struct rho_window_noise){
+    struct rho_window_place *place = &kernel->place;
+    float al = (voter->after_s - kernel->from->offset_s) / kernel->duration_s;
+    float from = (1.0f - al) * (1.0f - al), to = al * al, process_m2 = voter->process_m2;
+    place->x_m = kernel->from->x_m + al * kernel->dx_m;
+    place->y_m = kernel->from->y_m + al * kernel->dy_m;
+    place->z_m = kernel->from->z_m + al * (kernel->to->z_m - kernel->from->z_m);
+    place->noise = (struct rho_window_noise){
         from * a->xx_m2 + to * b->xx_m2 + process_m2, from * a->xy_m2 + to * b->xy_m2,
         from * a->yy_m2 + to * b->yy_m2 + process_m2, from * a->zz_m2 + to * b->zz_m2 + process_m2};
-    place.reach_m = span->reach_m[m];
-    return rho_window_nearest_to(rho_window_scan_at(&search->initiator->window, m), &place,
-                                 &search->initiator->work.window);
+    place->reach_m = voter->reach_m;
+    return rho_window_nearest_to(voter->scan, place, &search->initiator->work.window);
 }
 
 /* The plot of scan m nearest to a fitted track; -1: none. factor widens the gate's covariance. */

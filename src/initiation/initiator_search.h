@@ -105,15 +105,22 @@ int32_t rho_initiator_mnat(float nat);
 int rho_initiator_score(const struct search *search, const struct plot_set *set,
                         const struct line_fit *fit, struct set_score *score);
 
+/* A scan between two others. */
+struct voter {
+    unsigned m;
+    const struct rho_window_scan *scan;
+    float after_s;    /* after scan a */
+    float process_m2; /* process noise of its place between a and b */
+    float reach_m;    /* of the widest gate */
+};
+
 /* What all kernels between scans a and b share. */
 struct span {
     unsigned a, b;
     const struct rho_window_scan *scan_a, *scan_b;
     float gap_s; /* between the scans' times */
-    unsigned num_between;
-    unsigned between[RHO_MAX_SCANS]; /* scans that vote, the narrowest gate first */
-    float process_m2[RHO_MAX_SCANS]; /* by scan: process noise of its place between a and b */
-    float reach_m[RHO_MAX_SCANS];    /* by scan: of the widest gate */
+    unsigned num_voters;
+    struct voter voters[RHO_MAX_SCANS]; /* the narrowest gate first */
     float slack_m; /* what noise may add to the distance of a pair; 0: isotropic */
     /* scans before a and after b: they cannot vote for this kernel */
     unsigned misses_outside;
@@ -125,14 +132,15 @@ struct kernel {
     float dx_m, dy_m;
     float duration_s;
     float from_m2, to_m2;                     /* isotropic: the ends' variances */
+    struct rho_window_query query;            /* and what is asked of every scan alike */
     struct rho_window_noise noise_a, noise_b; /* else: their covariances */
+    struct rho_window_place place;            /* the same */
 };
 
 /* initiator_own.c: the same with each plot's own covariance, height and range rate */
 int rho_initiator_own_kernel(const struct search *search, const struct span *span,
                              struct kernel *kernel);
-int rho_initiator_own_vote(struct search *search, const struct span *span,
-                           const struct kernel *kernel, unsigned m);
+int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel);
 int rho_initiator_own_fit(const struct search *search, const struct plot_set *set,
                           struct line_fit *fit);
 int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit, float factor,
