@@ -137,6 +137,9 @@ struct kernel {
     struct rho_window_place place;            /* the same */
 };
 
+/* initiator_kernels.c: offers what enough scans vote for */
+void rho_initiator_try_kernels(struct search *search);
+
 /* initiator_own.c: the same with each plot's own covariance, height and range rate */
 int rho_initiator_own_kernel(const struct search *search, const struct span *span,
                              struct kernel *kernel);
