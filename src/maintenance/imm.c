@@ -328,20 +328,35 @@ static inline void move_steady(struct axis *at, const struct rho_imm_step *step)
     at->vv = raised(at->vv + q);
 }
 
-/* What is left is finite, and its variances within the limit. False for NaN. */
-static inline int is_sound(const struct axis *at)
+/* What is left must be finite, and the variances within the limit; they are above 0 where they are numbers. */
+struct checks {
+    float places;
+    int good;
+};
+
+static inline void check_axis(struct checks *checks, const struct axis *at)
 {
-    const float sum = at->pp + at->vv + at->aa, place = at->p + at->v + at->a;
-    return at->pp >= 0.0f && at->vv >= 0.0f && at->aa >= 0.0f && sum <= RHO_KALMAN_VARIANCE_MAX &&
-           place >= -FLT_MAX && place <= FLT_MAX;
+    checks->good &= at->pp + at->vv + at->aa <= RHO_KALMAN_VARIANCE_MAX;
+    checks->places += at->p + at->v + at->a;
+}
+
+static inline void check_closed(struct checks *checks, float variance)
+{
+    checks->good &= variance >= 0.0f; /* NaN is no closed axis */
+}
+
+static inline int are_good(const struct checks *checks)
+{
+    return checks->good && checks->places >= -FLT_MAX && checks->places <= FLT_MAX;
 }
 
 /* Both models of an axis, mixed where there is an exchange. */
-static inline int predict_axis(struct rho_imm *imm, int axis, const struct exchange *by,
-                               const struct rho_imm_step *step)
+static inline void predict_axis(struct rho_imm *imm, int axis, const struct exchange *by,
+                                const struct rho_imm_step *step, struct checks *checks)
 {
     if (!is_open(imm, axis)) {
-        return imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
+        check_closed(checks, imm->covariance[RHO_AT(axis, axis)]);
+        return;
     }
     struct axis steady = take_steady(&imm->steady, axis), manoeuvre = take_manoeuvre(imm, axis);
     if (by) {
@@ -351,19 +366,21 @@ static inline int predict_axis(struct rho_imm *imm, int axis, const struct excha
     move_manoeuvre(&manoeuvre, step);
     put_steady(&imm->steady, axis, &steady);
     put_manoeuvre(imm, axis, &manoeuvre);
-    return is_sound(&steady) && is_sound(&manoeuvre);
+    check_axis(checks, &steady);
+    check_axis(checks, &manoeuvre);
 }
 
-static inline int move_manoeuvre_axis(struct rho_imm *imm, int axis,
-                                      const struct rho_imm_step *step)
+static void move_manoeuvre_axis(struct rho_imm *imm, int axis, const struct rho_imm_step *step,
+                                struct checks *checks)
 {
     if (!is_open(imm, axis)) {
-        return imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
+        check_closed(checks, imm->covariance[RHO_AT(axis, axis)]);
+        return;
     }
     struct axis at = take_manoeuvre(imm, axis);
     move_manoeuvre(&at, step);
     put_manoeuvre(imm, axis, &at);
-    return is_sound(&at);
+    check_axis(checks, &at);
 }
 
 /* Where the covariances of two axes lie: by derivative of the first, of the second. */
@@ -402,24 +419,27 @@ static inline void move_pair(float *p, const uint8_t at[9], const struct rho_imm
 
 static int move_coupled(struct rho_imm *imm, const struct rho_imm_step *step)
 {
+    struct checks checks = {0.0f, 1};
     move_pair(imm->covariance, pair_places[0], step);
     if (is_open(imm, 2)) {
         move_pair(imm->covariance, pair_places[1], step);
         move_pair(imm->covariance, pair_places[2], step);
     }
-    int good = move_manoeuvre_axis(imm, 0, step);
-    good &= move_manoeuvre_axis(imm, 1, step);
-    good &= move_manoeuvre_axis(imm, 2, step);
-    return rho_kalman_predict(&imm->steady, step->dt_s, step->quiet_density) == RHO_OK && good;
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        move_manoeuvre_axis(imm, axis, step, &checks);
+    }
+    return rho_kalman_predict(&imm->steady, step->dt_s, step->quiet_density) == RHO_OK &&
+           are_good(&checks);
 }
 
 static int move_axes(struct rho_imm *imm, const struct exchange *by,
                      const struct rho_imm_step *step)
 {
-    int good = predict_axis(imm, 0, by, step);
-    good &= predict_axis(imm, 1, by, step);
-    good &= predict_axis(imm, 2, by, step);
-    return good;
+    struct checks checks = {0.0f, 1};
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        predict_axis(imm, axis, by, step, &checks);
+    }
+    return are_good(&checks);
 }
 
 static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *step, float share)

@@ -17,69 +17,69 @@
 /* Covariance of one axis' derivative d with the same or another axis' derivative e. */
 #define PLACE(axis, d, other, e) RHO_AT(NUM_AXES *(d) + (axis), NUM_AXES * (e) + (other))
 
-/* One axis by itself: position, velocity and, of the manoeuvring model, acceleration. */
+/* One axis by itself: position, velocity and, of the manoeuvring model, acceleration, which is 0 in the steady one. */
 struct axis {
     float p, v, a;
     float pp, vp, vv, ap, av, aa;
 };
 
-/* Where an axis' covariances lie: pp, vp, vv, ap, av, aa. */
-static const uint8_t axis_places[NUM_AXES][6] = {
-    {PLACE(0, 0, 0, 0), PLACE(0, 1, 0, 0), PLACE(0, 1, 0, 1), PLACE(0, 2, 0, 0), PLACE(0, 2, 0, 1),
-     PLACE(0, 2, 0, 2)},
-    {PLACE(1, 0, 1, 0), PLACE(1, 1, 1, 0), PLACE(1, 1, 1, 1), PLACE(1, 2, 1, 0), PLACE(1, 2, 1, 1),
-     PLACE(1, 2, 1, 2)},
-    {PLACE(2, 0, 2, 0), PLACE(2, 1, 2, 0), PLACE(2, 1, 2, 1), PLACE(2, 2, 2, 0), PLACE(2, 2, 2, 1),
-     PLACE(2, 2, 2, 2)},
+/* Where an axis' own covariances begin in the triangle's rows of its position, velocity and acceleration. */
+static const uint8_t axis_rows[NUM_AXES][3] = {
+    {PLACE(0, 0, 0, 0), PLACE(0, 1, 0, 0), PLACE(0, 2, 0, 0)},
+    {PLACE(1, 0, 1, 0), PLACE(1, 1, 1, 0), PLACE(1, 2, 1, 0)},
+    {PLACE(2, 0, 2, 0), PLACE(2, 1, 2, 0), PLACE(2, 2, 2, 0)},
 };
 
-/* The steady model's axis has an acceleration of 0. */
+/* In such a row the next derivative of the same axis lies NUM_AXES further on. */
 static inline struct axis take_steady(const struct rho_kalman *steady, int axis)
 {
-    const uint8_t *at = axis_places[axis];
-    return (struct axis){.p = steady->state[axis],
-                         .v = steady->state[NUM_AXES + axis],
-                         .pp = steady->covariance[at[0]],
-                         .vp = steady->covariance[at[1]],
-                         .vv = steady->covariance[at[2]]};
+    const float *state = &steady->state[axis];
+    const float *by_v = &steady->covariance[axis_rows[axis][1]];
+    return (struct axis){.p = state[0],
+                         .v = state[NUM_AXES],
+                         .pp = steady->covariance[axis_rows[axis][0]],
+                         .vp = by_v[0],
+                         .vv = by_v[NUM_AXES]};
 }
 
 static inline void put_steady(struct rho_kalman *steady, int axis, const struct axis *in)
 {
-    const uint8_t *at = axis_places[axis];
-    steady->state[axis] = in->p;
-    steady->state[NUM_AXES + axis] = in->v;
-    steady->covariance[at[0]] = in->pp;
-    steady->covariance[at[1]] = in->vp;
-    steady->covariance[at[2]] = in->vv;
+    float *state = &steady->state[axis], *by_v = &steady->covariance[axis_rows[axis][1]];
+    state[0] = in->p;
+    state[NUM_AXES] = in->v;
+    steady->covariance[axis_rows[axis][0]] = in->pp;
+    by_v[0] = in->vp;
+    by_v[NUM_AXES] = in->vv;
 }
 
 static inline struct axis take_manoeuvre(const struct rho_imm *imm, int axis)
 {
-    const uint8_t *at = axis_places[axis];
-    return (struct axis){.p = imm->state[axis],
-                         .v = imm->state[NUM_AXES + axis],
-                         .a = imm->state[2 * NUM_AXES + axis],
-                         .pp = imm->covariance[at[0]],
-                         .vp = imm->covariance[at[1]],
-                         .vv = imm->covariance[at[2]],
-                         .ap = imm->covariance[at[3]],
-                         .av = imm->covariance[at[4]],
-                         .aa = imm->covariance[at[5]]};
+    const float *state = &imm->state[axis], *by_v = &imm->covariance[axis_rows[axis][1]];
+    const float *by_a = &imm->covariance[axis_rows[axis][2]];
+    return (struct axis){.p = state[0],
+                         .v = state[NUM_AXES],
+                         .a = state[2 * NUM_AXES],
+                         .pp = imm->covariance[axis_rows[axis][0]],
+                         .vp = by_v[0],
+                         .vv = by_v[NUM_AXES],
+                         .ap = by_a[0],
+                         .av = by_a[NUM_AXES],
+                         .aa = by_a[2 * NUM_AXES]};
 }
 
 static inline void put_manoeuvre(struct rho_imm *imm, int axis, const struct axis *in)
 {
-    const uint8_t *at = axis_places[axis];
-    imm->state[axis] = in->p;
-    imm->state[NUM_AXES + axis] = in->v;
-    imm->state[2 * NUM_AXES + axis] = in->a;
-    imm->covariance[at[0]] = in->pp;
-    imm->covariance[at[1]] = in->vp;
-    imm->covariance[at[2]] = in->vv;
-    imm->covariance[at[3]] = in->ap;
-    imm->covariance[at[4]] = in->av;
-    imm->covariance[at[5]] = in->aa;
+    float *state = &imm->state[axis], *by_v = &imm->covariance[axis_rows[axis][1]];
+    float *by_a = &imm->covariance[axis_rows[axis][2]];
+    state[0] = in->p;
+    state[NUM_AXES] = in->v;
+    state[2 * NUM_AXES] = in->a;
+    imm->covariance[axis_rows[axis][0]] = in->pp;
+    by_v[0] = in->vp;
+    by_v[NUM_AXES] = in->vv;
+    by_a[0] = in->ap;
+    by_a[NUM_AXES] = in->av;
+    by_a[2 * NUM_AXES] = in->aa;
 }
 
 /* Positions and velocities of a model: the first states, and the first elements of the covariance. */

@@ -79,9 +79,10 @@ static float axis_distance2(const struct view *view, const struct rho_imm_plot *
                             float *det)
 {
     const float *p = view->covariance, noise = seen->plot->sigma_mps * seen->plot->sigma_mps;
-    const float s = p[axis_places[axis][0]] + seen->position.variance_m2[0];
-    const float factor = p[axis_places[axis][1]] / s;
-    const float rest = p[axis_places[axis][2]] + noise - factor * p[axis_places[axis][1]];
+    const float *by_v = &p[axis_rows[axis][1]];
+    const float s = p[axis_rows[axis][0]] + seen->position.variance_m2[0];
+    const float factor = by_v[0] / s;
+    const float rest = by_v[NUM_AXES] + noise - factor * by_v[0];
     const float off_m = seen->position.place_m[axis] - view->state[axis];
     const float off_mps =
         velocity_of(seen->plot, axis) - view->state[NUM_AXES + axis] - factor * off_m;

@@ -24,80 +24,117 @@ static float at_least(float variance)
 
 /* ---- independent axes ------------------------------------------------------------------------- */
 
-/* What an update divides by, and whether it may. */
+/* What an update divides by, and the share of the measured variance that is left. */
 struct divisor {
     float inverse, kept;
-    int is_usable;
 };
 
 static inline struct divisor divide_by(float predicted, float variance)
 {
-    const float sum = predicted + variance, inverse = 1.0f / sum;
-    return (struct divisor){inverse, variance * inverse,
-                            predicted >= 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX};
+    const float inverse = 1.0f / (predicted + variance);
+    return (struct divisor){inverse, variance * inverse};
 }
 
-/* The position was measured. Its own row is scaled, not differenced: no digit is lost. */
-static inline int take_position(struct axis *at, float place_m, float variance)
+/* Position and velocity of either model. The measured row is scaled, not differenced: no digit is lost. */
+static inline void take_position(struct axis *at, const struct divisor *by, float step)
+{
+    const float gain_v = at->vp * by->inverse;
+    at->p += at->pp * step;
+    at->v += at->vp * step;
+    at->vv = at_least(at->vv * ROUNDING_ALLOWANCE - gain_v * at->vp);
+    at->pp = at_least(at->pp * by->kept);
+    at->vp *= by->kept;
+}
+
+static inline void take_velocity(struct axis *at, const struct divisor *by, float step)
+{
+    const float gain_p = at->vp * by->inverse;
+    at->p += at->vp * step;
+    at->v += at->vv * step;
+    at->pp = at_least(at->pp * ROUNDING_ALLOWANCE - gain_p * at->vp);
+    at->vv = at_least(at->vv * by->kept);
+    at->vp *= by->kept;
+}
+
+/*
+ * Before either: the acceleration, by its covariance with what was measured (ap or av) and with the other (av or ap), and by
+ * vp between these two.
+ */
+static inline void follow(struct axis *at, float *with_seen, float *with_other,
+                          const struct divisor *by, float step)
+{
+    const float gain = *with_seen * by->inverse;
+    at->a += *with_seen * step;
+    *with_other -= gain * at->vp;
+    at->aa = at_least(at->aa * ROUNDING_ALLOWANCE - gain * *with_seen);
+    *with_seen *= by->kept;
+}
+
+/* What is not finite shows in the sum of what these return. A variance is at least the floor, so the divisor is never 0. */
+static inline float see_position(struct axis *at, float place_m, float variance, int has_accel)
 {
     const struct divisor by = divide_by(at->pp, variance);
     const float off = place_m - at->p, step = off * by.inverse;
-    const float gain_v = at->vp * by.inverse, gain_a = at->ap * by.inverse;
-    at->p += at->pp * step;
-    at->v += at->vp * step;
-    at->a += at->ap * step;
-    at->vv = at_least(at->vv * ROUNDING_ALLOWANCE - gain_v * at->vp);
-    at->av -= gain_a * at->vp;
-    at->aa = at->aa * ROUNDING_ALLOWANCE - gain_a * at->ap;
-    at->pp = at_least(at->pp * by.kept);
-    at->vp *= by.kept;
-    at->ap *= by.kept;
-    return by.is_usable && is_finite(off * step);
+    const float check = at->pp >= 0.0f ? off * step + at->pp : FLT_MAX + FLT_MAX;
+    if (has_accel) {
+        follow(at, &at->ap, &at->av, &by, step);
+    }
+    take_position(at, &by, step);
+    return check;
 }
 
-/* The velocity was. */
-static inline int take_velocity(struct axis *at, float speed_mps, float variance)
+static inline float see_velocity(struct axis *at, float speed_mps, float variance, int has_accel)
 {
     const struct divisor by = divide_by(at->vv, variance);
     const float off = speed_mps - at->v, step = off * by.inverse;
-    const float gain_p = at->vp * by.inverse, gain_a = at->av * by.inverse;
-    at->p += at->vp * step;
-    at->v += at->vv * step;
-    at->a += at->av * step;
-    at->pp = at_least(at->pp * ROUNDING_ALLOWANCE - gain_p * at->vp);
-    at->ap -= gain_a * at->vp;
-    at->aa = at->aa * ROUNDING_ALLOWANCE - gain_a * at->av;
-    at->vv = at_least(at->vv * by.kept);
-    at->vp *= by.kept;
-    at->av *= by.kept;
-    return by.is_usable && is_finite(off * step);
+    const float check = at->vv >= 0.0f ? off * step + at->vv : FLT_MAX + FLT_MAX;
+    if (has_accel) {
+        follow(at, &at->av, &at->ap, &by, step);
+    }
+    take_velocity(at, &by, step);
+    return check;
 }
 
-static inline int take_axis(struct axis *at, int axis, const struct rho_imm_plot *seen)
+static float update_positions(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
 {
-    int good =
-        take_position(at, seen->position.place_m[axis], at_least(seen->position.variance_m2[0]));
-    if (seen->measures & RHO_MEASURES_VELOCITY) {
-        const float sigma_mps = seen->plot->sigma_mps;
-        good &= take_velocity(at, velocity_of(seen->plot, axis), at_least(sigma_mps * sigma_mps));
+    const float variance = at_least(seen->position.variance_m2[0]);
+    float check = 0.0f;
+    for (int axis = 0; axis < num_axes; axis++) {
+        const float place_m = seen->position.place_m[axis];
+        struct axis steady = take_steady(&imm->steady, axis), at = take_manoeuvre(imm, axis);
+        check +=
+            see_position(&steady, place_m, variance, 0) + see_position(&at, place_m, variance, 1);
+        put_steady(&imm->steady, axis, &steady);
+        put_manoeuvre(imm, axis, &at);
+        check += steady.p + steady.v + at.p + at.v + at.a;
     }
-    return good && is_finite(at->p + at->v + at->a);
+    return check;
+}
+
+static float update_velocities(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
+{
+    const float variance = at_least(seen->plot->sigma_mps * seen->plot->sigma_mps);
+    float check = 0.0f;
+    for (int axis = 0; axis < num_axes; axis++) {
+        const float speed_mps = velocity_of(seen->plot, axis);
+        struct axis steady = take_steady(&imm->steady, axis), at = take_manoeuvre(imm, axis);
+        check += see_velocity(&steady, speed_mps, variance, 0) +
+                 see_velocity(&at, speed_mps, variance, 1);
+        put_steady(&imm->steady, axis, &steady);
+        put_manoeuvre(imm, axis, &at);
+        check += steady.p + steady.v + at.p + at.v + at.a;
+    }
+    return check;
 }
 
 static enum rho_status update_axes(struct rho_imm *imm, int num_axes,
                                    const struct rho_imm_plot *seen)
 {
-    int good = 1;
-    for (int axis = 0; axis < num_axes; axis++) {
-        struct axis at = take_steady(&imm->steady, axis);
-        good &= take_axis(&at, axis, seen);
-        put_steady(&imm->steady, axis, &at);
-        at = take_manoeuvre(imm, axis);
-        good &= take_axis(&at, axis, seen);
-        at.aa = at_least(at.aa);
-        put_manoeuvre(imm, axis, &at);
+    float check = update_positions(imm, num_axes, seen);
+    if (seen->measures & RHO_MEASURES_VELOCITY) {
+        check += update_velocities(imm, num_axes, seen);
     }
-    return good ? RHO_OK : RHO_ERROR_SINGULAR;
+    return is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
 
 /* ---- coupled axes ----------------------------------------------------------------------------- */
