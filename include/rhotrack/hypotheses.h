@@ -51,6 +51,7 @@ struct rho_hypothesis {
     struct rho_imm imm;
     int64_t time_us;                      /* of the filter: a scan's, or the last plot's own */
     float weight_nat;                     /* 0: the best of its track */
+    float share;                          /* e^weight */
     int16_t picks[RHO_HYPOTHESES_MEMORY]; /* rows of the last scans' plots, the newest last */
     struct rho_hypotheses_candidate candidates[RHO_HYPOTHESES_CHILDREN]; /* the best one first */
     uint8_t num_candidates;
@@ -74,7 +75,7 @@ struct rho_hypotheses {
     uint8_t num_of[RHO_HYPOTHESES_SLOTS]; /* hypotheses of a slot; 0: nobody's */
     uint16_t node_of[RHO_HYPOTHESES_SLOTS][RHO_HYPOTHESES_OF_TRACK]; /* the best first */
     uint16_t spare[RHO_MAX_HYPOTHESES];
-    struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK * (RHO_HYPOTHESES_CHILDREN + 1)];
+    struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK]; /* of a scan: the best first */
     struct rho_imm scratch;
     /* gates of the slot that is looked at, for plots of this isotropic noise; none where gate_variance_m2 is 0 */
     struct rho_imm_gate gates[RHO_HYPOTHESES_OF_TRACK];
@@ -95,9 +96,9 @@ struct rho_hypotheses_clutter {
 /* A box that plots outside of need not be weighed: grows with a plot's sigma and own time. */
 struct rho_hypotheses_reach {
     float x_min_m, x_max_m, y_min_m, y_max_m;
-    float z_min_m, z_max_m;              /* of tracks with a height */
-    float speed_max_mps, accel_max_mps2; /* of all hypotheses, with their uncertainty */
-    float quiet_density, drive_density;  /* noise up to a plot's own time */
+    float z_min_m, z_max_m; /* of tracks with a height */
+    /* of all hypotheses, with their uncertainty; below 0 until a plot with a time of its own asks for them */
+    float speed_max_mps, accel_max_mps2;
 };
 
 /* A scan that a track commits itself to. */
@@ -154,13 +155,17 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
                                                       int64_t time_us);
 
-/* Begins a scan: no plot has been weighed. *reach (may be NULL) is filled. Cost: 40 instructions a hypothesis and model.
+/* Begins a scan: no plot has been weighed. *reach (may be NULL) is filled. Cost: 70 instructions a hypothesis and model.
  * Stack: 240 bytes. */
 void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
                          struct rho_hypotheses_reach *reach);
 
-/* True where a plot of a scan that measures `measures` may be in the gate of a hypothesis. Constant cost. */
-int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
+/*
+ * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the slot, whose reach has been
+ * filled at its last prediction. Constant cost, but for the first plot with a time of its own.
+ */
+int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
+                           struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
                            uint32_t measures);
 
 /*

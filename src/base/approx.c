@@ -216,6 +216,21 @@ float rho_log(float v)
     return f + (log_kernel(f) + k * LN2_LOW - 0.5f * f * f) + k * LN2_HIGH;
 }
 
+/* Fitted to ln(1 + v) / v for the least absolute error of the product. */
+float rho_log_one_plus(float v)
+{
+    float y = -6.4526148e-3f;
+
+    y = y * v + 3.6084529e-2f;
+    y = y * v - 9.5322505e-2f;
+    y = y * v + 1.6764787e-1f;
+    y = y * v - 2.4073076e-1f;
+    y = y * v + 3.3179826e-1f;
+    y = y * v - 4.9987406e-1f;
+    y = y * v + 9.9999642e-1f;
+    return y * v;
+}
+
 #if defined ROOT_INSTRUCTION
 
 /* Correctly rounded, too: the same bits in an instruction instead of forty. */

@@ -11,8 +11,8 @@
 
 #define POOL_MAGIC 0x4859504fu /* "HYPO" */
 
-/* Less likely ones do not show in the mean. */
-#define WEIGHT_SHOWN_MIN (-9.0f)
+/* Less likely ones, e^-9 beside the best one, do not show in the mean. */
+#define SHARE_SHOWN_MIN 1.234e-4f
 
 /* ---- the pool --------------------------------------------------------------------------------- */
 
@@ -120,6 +120,7 @@ enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rh
     memset(first, 0, sizeof *first);
     rho_imm_start(&first->imm, &pool->model, estimate);
     first->time_us = time_us;
+    first->share = 1.0f;
     for (int i = 0; i < RHO_HYPOTHESES_MEMORY; i++) {
         first->picks[i] = RHO_HYPOTHESES_MISS;
     }
@@ -186,7 +187,9 @@ float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot)
 {
     const float best = pool->nodes[pool->node_of[slot][0]].weight_nat;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        pool->nodes[pool->node_of[slot][i]].weight_nat -= best;
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        at->weight_nat -= best;
+        at->share = rho_exp(at->weight_nat);
     }
     return best;
 }
@@ -215,7 +218,9 @@ enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slo
     if (left == 0) {
         return RHO_ERROR_VALUE;
     }
-    (void)rho_hypotheses_rebase(pool, slot);
+    if (pool->nodes[pool->node_of[slot][0]].weight_nat < 0.0f) {
+        (void)rho_hypotheses_rebase(pool, slot); /* the best one is gone */
+    }
     return RHO_OK;
 }
 
@@ -225,86 +230,120 @@ float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot)
 {
     float sum = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        sum += rho_exp(pool->nodes[pool->node_of[slot][i]].weight_nat);
+        sum += pool->nodes[pool->node_of[slot][i]].share;
     }
     return rho_log(sum);
 }
 
-/* The mean of both models, with a share in the sum. */
-static void add_mean(const struct rho_imm *imm, float share,
-                     struct rho_hypotheses_estimate *estimate)
+/*
+ * Sums over models of hypotheses, each with its share: about a place near all of them, so that one pass will do and nothing
+ * cancels.
+ */
+struct sums {
+    float about[RHO_KALMAN_STATES];
+    float share, maneuver;
+    float way[RHO_KALMAN_STATES]; /* from there */
+    float accel_mps2[3];
+    float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
+};
+
+/* A covariance and the square of a way, each with its share. Written out: a loop would take three times as long. */
+static inline void add_square(float *out, const float *p, float share, const float *way,
+                              const float *scaled)
 {
-    const float m = share * imm->probability, s = share - m;
-    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        estimate->kalman.state[i] += s * imm->steady.state[i] + m * imm->state[i];
-    }
-    for (int i = 0; i < 3; i++) {
-        estimate->accel_mps2[i] += m * imm->state[RHO_KALMAN_STATES + i];
-    }
-    estimate->maneuver_probability += m;
+    out[0] += share * p[0] + scaled[0] * way[0];
+    out[1] += share * p[1] + scaled[1] * way[0];
+    out[2] += share * p[2] + scaled[1] * way[1];
+    out[3] += share * p[3] + scaled[2] * way[0];
+    out[4] += share * p[4] + scaled[2] * way[1];
+    out[5] += share * p[5] + scaled[2] * way[2];
+    out[6] += share * p[6] + scaled[3] * way[0];
+    out[7] += share * p[7] + scaled[3] * way[1];
+    out[8] += share * p[8] + scaled[3] * way[2];
+    out[9] += share * p[9] + scaled[3] * way[3];
+    out[10] += share * p[10] + scaled[4] * way[0];
+    out[11] += share * p[11] + scaled[4] * way[1];
+    out[12] += share * p[12] + scaled[4] * way[2];
+    out[13] += share * p[13] + scaled[4] * way[3];
+    out[14] += share * p[14] + scaled[4] * way[4];
+    out[15] += share * p[15] + scaled[5] * way[0];
+    out[16] += share * p[16] + scaled[5] * way[1];
+    out[17] += share * p[17] + scaled[5] * way[2];
+    out[18] += share * p[18] + scaled[5] * way[3];
+    out[19] += share * p[19] + scaled[5] * way[4];
+    out[20] += share * p[20] + scaled[5] * way[5];
 }
 
-/* A model's covariance and its way from the mean of all. */
-static void add_spread(const float *state, const float *covariance, float share,
-                       struct rho_kalman *kalman)
+static void add_model(struct sums *sums, const float *state, const float *covariance, float share)
 {
-    float way[RHO_KALMAN_STATES];
-    float *out = kalman->covariance;
+    float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        way[i] = state[i] - kalman->state[i];
-        for (int j = 0; j <= i; j++) {
-            *out++ += share * (*covariance++ + way[i] * way[j]);
-        }
+        way[i] = state[i] - sums->about[i];
+        scaled[i] = share * way[i];
+        sums->way[i] += scaled[i];
+    }
+    add_square(sums->covariance, covariance, share, way, scaled);
+}
+
+static void add_hypothesis(struct sums *sums, const struct rho_imm *imm, float share)
+{
+    const float m = share * imm->probability;
+    add_model(sums, imm->steady.state, imm->steady.covariance, share - m);
+    add_model(sums, imm->state, imm->covariance, m);
+    sums->share += share;
+    sums->maneuver += m;
+    for (int axis = 0; axis < 3; axis++) {
+        sums->accel_mps2[axis] += m * imm->state[RHO_KALMAN_STATES + axis];
     }
 }
 
-/* Shares of the hypotheses that can be seen at all; returns their sum. */
-static float share_out(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
-                       float shares[RHO_HYPOTHESES_OF_TRACK])
+/* Of the slot's hypotheses that can be moved there. */
+static void sum_up(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us, struct sums *sums)
 {
-    float total = 0.0f;
+    int is_first = 1;
+    memset(sums, 0, sizeof *sums);
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        shares[i] =
-            at->weight_nat >= WEIGHT_SHOWN_MIN && rho_hypotheses_filter_at(pool, at, time_us)
-                ? rho_exp(at->weight_nat)
-                : 0.0f;
-        total += shares[i];
+        const struct rho_imm *imm =
+            at->share < SHARE_SHOWN_MIN ? 0 : rho_hypotheses_filter_at(pool, at, time_us);
+        if (imm && is_first) {
+            memcpy(sums->about, imm->probability > 0.5f ? imm->state : imm->steady.state,
+                   sizeof sums->about);
+            is_first = 0;
+        }
+        if (imm) {
+            add_hypothesis(sums, imm, at->share);
+        }
     }
-    return total;
 }
 
 enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
                                         struct rho_hypotheses_estimate *estimate)
 {
-    float shares[RHO_HYPOTHESES_OF_TRACK] = {0.0f};
+    struct sums sums;
     if (!pool || !estimate) {
         return RHO_ERROR_NULL;
     }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
-    const unsigned num = pool->num_of[slot];
-    const float total = share_out(pool, slot, time_us, shares);
-    if (!(total > 0.0f)) {
+    sum_up(pool, slot, time_us, &sums);
+    if (!(sums.share > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
-    memset(estimate, 0, sizeof *estimate);
-    for (unsigned i = 0; i < num; i++) {
-        shares[i] /= total;
-        if (shares[i] > 0.0f) {
-            add_mean(rho_hypotheses_filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us),
-                     shares[i], estimate);
+    const float inverse = 1.0f / sums.share;
+    int place = 0;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        sums.way[i] *= inverse;
+        estimate->kalman.state[i] = sums.about[i] + sums.way[i];
+        for (int j = 0; j <= i; j++, place++) {
+            estimate->kalman.covariance[place] =
+                sums.covariance[place] * inverse - sums.way[i] * sums.way[j];
         }
     }
-    for (unsigned i = 0; i < num; i++) {
-        if (shares[i] > 0.0f) {
-            const struct rho_imm *imm =
-                rho_hypotheses_filter_at(pool, &pool->nodes[pool->node_of[slot][i]], time_us);
-            const float m = shares[i] * imm->probability;
-            add_spread(imm->steady.state, imm->steady.covariance, shares[i] - m, &estimate->kalman);
-            add_spread(imm->state, imm->covariance, m, &estimate->kalman);
-        }
+    for (int axis = 0; axis < 3; axis++) {
+        estimate->accel_mps2[axis] = sums.accel_mps2[axis] * inverse;
     }
+    estimate->maneuver_probability = sums.maneuver * inverse;
     return RHO_OK;
 }

@@ -25,10 +25,10 @@ enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, struct rho_imm 
 const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
                                                const struct rho_hypothesis *at, int64_t time_us);
 
-/* The best, which is the slot's first, weighs 0 again. Returns what it weighed. */
+/* The best, which is the slot's first, weighs 0 again, and all have their shares by it. Returns what it weighed. */
 float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot);
 
-/* ln of the sum of e^weight over a slot's hypotheses. */
+/* ln of the sum of a slot's shares. */
 float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot);
 
 #endif

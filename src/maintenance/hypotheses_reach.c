@@ -12,21 +12,26 @@ struct span {
     float min, max, variance_max;
 };
 
-static void widen(struct span *span, float value, float variance)
+static inline void widen(struct span *span, float value, float variance)
 {
     span->min = value < span->min ? value : span->min;
     span->max = value > span->max ? value : span->max;
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-/* Places, speeds and, of the manoeuvring model, accelerations: what the triangle's diagonal holds. */
-static void widen_all(struct span spans[RHO_IMM_STATES], const float *state,
-                      const float *covariance, int num)
+/* One element of all hypotheses' states, of both models. */
+static struct span span_of(const struct rho_hypotheses *pool, uint16_t slot, int element)
 {
-    for (int i = 0; i < num; i++) {
-        widen(&spans[i], state[i], *covariance);
-        covariance += i + 2;
+    const int variance = RHO_AT(element, element);
+    struct span span = {1e30f, -1e30f, 0.0f};
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
+        widen(&span, imm->state[element], imm->covariance[variance]);
+        if (element < RHO_KALMAN_STATES) {
+            widen(&span, imm->steady.state[element], imm->steady.covariance[variance]);
+        }
     }
+    return span;
 }
 
 static float far_of(const struct span *span)
@@ -34,46 +39,44 @@ static float far_of(const struct span *span)
     return GATE_SIGMAS * rho_sqrt(span->variance_max);
 }
 
-/* Either way on any axis, with its uncertainty. */
-static float most_of(const struct span spans[3])
+/* Three elements from `first` on: either way on any axis, with its uncertainty. */
+static float most_of(const struct rho_hypotheses *pool, uint16_t slot, int first)
 {
     float most = 0.0f;
     for (int axis = 0; axis < 3; axis++) {
-        const struct span *span = &spans[axis];
-        float one = (span->max > -span->min ? span->max : -span->min) + far_of(span);
+        const struct span span = span_of(pool, slot, first + axis);
+        const float one = (span.max > -span.min ? span.max : -span.min) + far_of(&span);
         most = one > most ? one : most;
     }
     return most;
 }
 
+static int have_heights(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    int have = 1;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        have &= pool->nodes[pool->node_of[slot][i]].imm.covariance[RHO_AT(2, 2)] > 0.0f;
+    }
+    return have;
+}
+
 static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
                        struct rho_hypotheses_reach *reach)
 {
-    struct span spans[RHO_IMM_STATES];
-    int have_heights = 1;
-    for (int i = 0; i < RHO_IMM_STATES; i++) {
-        spans[i] = (struct span){1e30f, -1e30f, 0.0f};
-    }
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        widen_all(spans, imm->steady.state, imm->steady.covariance, RHO_KALMAN_STATES);
-        widen_all(spans, imm->state, imm->covariance, RHO_IMM_STATES);
-        have_heights &= imm->covariance[RHO_AT(2, 2)] > 0.0f;
-    }
+    const struct span x = span_of(pool, slot, 0), y = span_of(pool, slot, 1);
+    const struct span z = span_of(pool, slot, 2);
     /* a hypothesis without a height does not mind that of a plot */
-    const float x_m = far_of(&spans[0]), y_m = far_of(&spans[1]);
-    const float z_m = have_heights ? far_of(&spans[2]) : 1e30f;
+    const float x_m = far_of(&x), y_m = far_of(&y);
+    const float z_m = have_heights(pool, slot) ? far_of(&z) : 1e30f;
     *reach = (struct rho_hypotheses_reach){
-        .x_min_m = spans[0].min - x_m,
-        .x_max_m = spans[0].max + x_m,
-        .y_min_m = spans[1].min - y_m,
-        .y_max_m = spans[1].max + y_m,
-        .z_min_m = spans[2].min - z_m,
-        .z_max_m = spans[2].max + z_m,
-        .speed_max_mps = most_of(&spans[3]),
-        .accel_max_mps2 = most_of(&spans[6]),
-        .quiet_density = pool->model.quiet_density,
-        .drive_density = pool->model.drive_density,
+        .x_min_m = x.min - x_m,
+        .x_max_m = x.max + x_m,
+        .y_min_m = y.min - y_m,
+        .y_max_m = y.max + y_m,
+        .z_min_m = z.min - z_m,
+        .z_max_m = z.max + z_m,
+        .speed_max_mps = -1.0f,
+        .accel_max_mps2 = -1.0f,
     };
 }
 
@@ -93,27 +96,34 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
 }
 
 /* How far a target may come until a plot's own time, by what it does now and by noise. */
-static float drift_m(const struct rho_hypotheses_reach *reach, int32_t offset_us)
+static float drift_m(const struct rho_hypotheses *pool, uint16_t slot,
+                     struct rho_hypotheses_reach *reach, int32_t offset_us)
 {
-    if (offset_us == 0) {
-        return 0.0f;
-    }
     const float t_s = (float)offset_us * (offset_us < 0 ? -1e-6f : 1e-6f);
+    const struct rho_imm_model *model = &pool->model;
     const float noise_m2 =
         t_s * t_s * t_s *
-        (reach->quiet_density * (1.0f / 3.0f) + reach->drive_density * t_s * t_s * (1.0f / 20.0f));
+        (model->quiet_density * (1.0f / 3.0f) + model->drive_density * t_s * t_s * (1.0f / 20.0f));
+    if (reach->speed_max_mps < 0.0f) {
+        reach->speed_max_mps = most_of(pool, slot, RHO_KALMAN_STATES - 3);
+        reach->accel_max_mps2 = most_of(pool, slot, RHO_KALMAN_STATES);
+    }
     return t_s * (reach->speed_max_mps + 0.5f * t_s * reach->accel_max_mps2) +
            GATE_SIGMAS * rho_sqrt(noise_m2);
 }
 
-int rho_hypotheses_reaches(const struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
+int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
+                           struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
                            uint32_t measures)
 {
     float sigma_m = rho_plot_sigma_m(plot);
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
-    float slack_m = GATE_SIGMAS * sigma_m + drift_m(reach, plot->offset_us);
+    float slack_m = GATE_SIGMAS * sigma_m;
+    if (plot->offset_us != 0) {
+        slack_m += drift_m(pool, slot, reach, plot->offset_us);
+    }
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
            plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&
            (!(measures & RHO_MEASURES_Z) ||

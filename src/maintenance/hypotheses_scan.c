@@ -2,6 +2,7 @@
 /*
  * hypotheses_scan: hypotheses weigh the plots of a scan, and go on with the best of them. hypotheses_reach.c begins it.
  */
+#include <float.h>
 #include <string.h>
 
 #include "hypotheses_pool.h"
@@ -9,36 +10,55 @@
 
 /* ---- weigh ------------------------------------------------------------------------------------ */
 
+/* Of places alone, in two or three axes. */
+static inline float log_clutter_of_place(const struct rho_hypotheses_clutter *clutter, int num_axes)
+{
+    return num_axes > 2 ? clutter->log_per_m2 + clutter->log_per_m : clutter->log_per_m2;
+}
+
 static float log_clutter(const struct rho_hypotheses_clutter *clutter,
                          const struct rho_imm_match *match)
 {
-    return clutter->log_per_m2 + (match->num_axes > 2 ? clutter->log_per_m : 0.0f) +
+    return log_clutter_of_place(clutter, match->num_axes) +
            (match->has_velocity ? (float)match->num_axes * clutter->log_per_mps : 0.0f) +
            (match->has_range_rate ? clutter->log_per_range_rate : 0.0f);
 }
 
-/* Into the hypothesis' list of its best plots, of equals behind the earlier ones. */
-static inline void note_candidate(struct rho_hypothesis *at,
-                                  struct rho_hypotheses_candidate candidate)
+/* Into the hypothesis' list of its best plots, of equals behind the earlier ones. Returns what it is worth with the plot. */
+static inline float note_candidate(struct rho_hypothesis *at, float gain_nat,
+                                   const struct rho_imm_match *match, int16_t row)
 {
+    struct rho_hypotheses_candidate *list = at->candidates;
     unsigned place = at->num_candidates;
     if (place < RHO_HYPOTHESES_CHILDREN) {
         at->num_candidates++;
-    } else if (!(candidate.gain_nat > at->candidates[--place].gain_nat)) {
-        return;
+    } else if (!(gain_nat > list[--place].gain_nat)) {
+        return at->weight_nat + gain_nat;
     }
-    for (; place > 0 && at->candidates[place - 1].gain_nat < candidate.gain_nat; place--) {
-        at->candidates[place] = at->candidates[place - 1];
+    for (; place > 0 && list[place - 1].gain_nat < gain_nat; place--) {
+        list[place] = list[place - 1];
     }
-    at->candidates[place] = candidate;
+    list[place] = (struct rho_hypotheses_candidate){gain_nat, match->probability, row};
+    return at->weight_nat + gain_nat;
 }
 
-/* At the plot's own time. */
-static int match_one(struct rho_hypotheses *pool, const struct rho_hypothesis *at,
-                     const struct rho_imm_plot *seen, int64_t time_us, struct rho_imm_match *match)
+/* One by one, at the plot's own time. Returns what the best hypothesis with the plot is worth; -FLT_MAX: none. */
+static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct rho_imm_plot *seen,
+                        int64_t time_us, int16_t row, float log_pd,
+                        const struct rho_hypotheses_clutter *clutter)
 {
-    const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
-    return imm && rho_imm_weigh(imm, seen, match);
+    struct rho_imm_match match;
+    float best = -FLT_MAX;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
+        if (imm && rho_imm_weigh(imm, seen, &match)) {
+            const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
+            const float worth = note_candidate(at, gain, &match, row);
+            best = worth > best ? worth : best;
+        }
+    }
+    return best;
 }
 
 /* The gates of all the slot's hypotheses at one time, kept while plots of the same noise come. */
@@ -72,33 +92,54 @@ static int has_gates(struct rho_hypotheses *pool, uint16_t slot, const struct rh
     return pool->gate_is_usable;
 }
 
+/* A gain no better than this changes neither the hypothesis' list nor the best. */
+static inline float enough_for(const struct rho_hypothesis *at, float best)
+{
+    if (at->num_candidates < RHO_HYPOTHESES_CHILDREN) {
+        return -FLT_MAX;
+    }
+    const float others = best - at->weight_nat;
+    const float last = at->candidates[RHO_HYPOTHESES_CHILDREN - 1].gain_nat;
+    return last < others ? last : others;
+}
+
+/* The same as weigh_each, in the gates that are open. */
+static float weigh_in_gates(struct rho_hypotheses *pool, uint16_t slot, const float place_m[3],
+                            int16_t row, float log_pd, const struct rho_hypotheses_clutter *clutter)
+{
+    const float level = log_pd - log_clutter_of_place(clutter, 2);
+    const float high = log_pd - log_clutter_of_place(clutter, 3);
+    struct rho_imm_match match;
+    float best = -FLT_MAX;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        const struct rho_imm_gate *gate = &pool->gates[i];
+        const float more = gate->num_axes > 2 ? high : level;
+        if (rho_imm_weigh_in(gate, place_m, enough_for(at, best) - more, &match)) {
+            const float worth = note_candidate(at, more + match.log_likelihood, &match, row);
+            best = worth > best ? worth : best;
+        }
+    }
+    return best;
+}
+
 int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
                          const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
                          float log_pd, const struct rho_hypotheses_clutter *clutter,
                          float *gain_nat)
 {
-    struct rho_imm_match match;
-    float best = 0.0f;
-    int is_seen = 0;
     if (!pool || !seen || !clutter || !gain_nat || !rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
-    const int by_gates = has_gates(pool, slot, seen, time_us);
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        if (!(by_gates ? rho_imm_weigh_in(&pool->gates[i], seen->position.place_m, &match)
-                       : match_one(pool, at, seen, time_us, &match))) {
-            continue;
-        }
-        const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
-        note_candidate(at, (struct rho_hypotheses_candidate){gain, match.probability, row});
-        best = !is_seen || at->weight_nat + gain > best ? at->weight_nat + gain : best;
-        is_seen = 1;
+    const float best =
+        has_gates(pool, slot, seen, time_us)
+            ? weigh_in_gates(pool, slot, seen->position.place_m, row, log_pd, clutter)
+            : weigh_each(pool, slot, seen, time_us, row, log_pd, clutter);
+    if (!(best > -FLT_MAX)) {
+        return 0;
     }
-    if (is_seen) {
-        *gain_nat = best;
-    }
-    return is_seen;
+    *gain_nat = best;
+    return 1;
 }
 
 int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t slot)
@@ -112,116 +153,110 @@ int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t sl
 
 /* ---- commit ----------------------------------------------------------------------------------- */
 
-/* In the order of weights; of equals the earlier parent, the earlier plot. */
-static unsigned insert_child(struct rho_hypotheses *pool, unsigned num,
-                             struct rho_hypotheses_child child)
-{
-    unsigned place = num;
-    for (; place > 0 && pool->children[place - 1].weight_nat < child.weight_nat; place--) {
-        pool->children[place] = pool->children[place - 1];
-    }
-    pool->children[place] = child;
-    return num + 1;
-}
-
 static int is_free(const struct rho_hypotheses_scan *scan, int16_t row)
 {
     return !scan->claims || scan->claims[row] < 0 || scan->claims[row] == scan->own;
 }
 
-/* The heaviest child's weight. */
-static float find_best(const struct rho_hypotheses *pool, uint16_t slot,
-                       const struct rho_hypotheses_scan *scan)
+/* The same plots in the last scans: only how it came there differs, and the better one tells that. */
+static inline int is_same(const struct rho_hypotheses *pool, const uint16_t *nodes,
+                          const struct rho_hypotheses_child *a,
+                          const struct rho_hypotheses_child *b)
 {
-    float best = scan->log_miss; /* of the first hypothesis, whose weight is 0 */
-    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        for (unsigned k = 0; k < at->num_candidates; k++) {
-            float weight = at->weight_nat + at->candidates[k].gain_nat;
-            best = weight > best && is_free(scan, at->candidates[k].row) ? weight : best;
-        }
+    if (a->row != b->row) {
+        return 0;
     }
-    return best;
+    const int16_t *picks = pool->nodes[nodes[a->parent]].picks;
+    const int16_t *others = pool->nodes[nodes[b->parent]].picks;
+    int differ = 0;
+    for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
+        differ |= picks[k] ^ others[k];
+    }
+    return differ == 0;
 }
 
-/* Those that are not too light, the heaviest first. */
+/*
+ * Into the list of the heaviest, of equals behind the earlier ones; the lightest falls out where it is full. Of two that are
+ * the same the heavier one stays.
+ */
+static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes, unsigned num,
+                             const struct rho_hypotheses_child *child)
+{
+    struct rho_hypotheses_child *list = pool->children;
+    if (num == RHO_HYPOTHESES_OF_TRACK && !(child->weight_nat > list[num - 1].weight_nat)) {
+        return num;
+    }
+    unsigned gap = 0; /* what makes room */
+    while (gap < num && !is_same(pool, nodes, &list[gap], child)) {
+        gap++;
+    }
+    if (gap < num && !(child->weight_nat > list[gap].weight_nat)) {
+        return num;
+    }
+    const unsigned more = gap == num && num < RHO_HYPOTHESES_OF_TRACK;
+    gap = gap < RHO_HYPOTHESES_OF_TRACK ? gap : RHO_HYPOTHESES_OF_TRACK - 1;
+    for (; gap > 0 && list[gap - 1].weight_nat < child->weight_nat; gap--) {
+        list[gap] = list[gap - 1];
+    }
+    list[gap] = *child;
+    return num + more;
+}
+
+/* The heaviest children, the heaviest first. No filter has been touched yet. */
 static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
                               const struct rho_hypotheses_scan *scan)
 {
-    const float best = find_best(pool, slot, scan);
-    const float least = best + RHO_HYPOTHESES_WEIGHT_MIN;
+    const uint16_t *nodes = pool->node_of[slot];
     unsigned num = 0;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        const struct rho_hypothesis *at = &pool->nodes[nodes[i]];
         struct rho_hypotheses_child child = {.parent = (uint8_t)i};
         for (unsigned k = 0; k < at->num_candidates; k++) {
             child.weight_nat = at->weight_nat + at->candidates[k].gain_nat;
             child.row = at->candidates[k].row;
             child.candidate = (uint8_t)k;
-            if (child.weight_nat >= least && is_free(scan, child.row)) {
-                num = insert_child(pool, num, child);
+            if (is_free(scan, child.row)) {
+                num = insert_child(pool, nodes, num, &child);
             }
         }
         child.weight_nat = at->weight_nat + scan->log_miss;
         child.row = RHO_HYPOTHESES_MISS;
-        if (child.weight_nat >= least) {
-            num = insert_child(pool, num, child);
-        }
+        num = insert_child(pool, nodes, num, &child);
     }
     return num;
 }
 
-/* The same plots in the last scans: only how it came there differs, and the better one tells that. */
-static int is_repeated(const struct rho_hypotheses *pool, uint16_t slot, unsigned num_kept,
-                       const struct rho_hypotheses_child *child)
+/* Those that go on: none that is too light beside the best. */
+static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot,
+                                const struct rho_hypotheses_scan *scan)
 {
-    const int16_t *picks = pool->nodes[pool->node_of[slot][child->parent]].picks;
-    for (unsigned i = 0; i < num_kept; i++) {
-        const struct rho_hypotheses_child *kept = &pool->children[i];
-        const int16_t *others = pool->nodes[pool->node_of[slot][kept->parent]].picks;
-        int differ = kept->row != child->row;
-        for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
-            differ |= picks[k] != others[k];
-        }
-        if (!differ) {
-            return 1;
-        }
+    unsigned num = bear_children(pool, slot, scan);
+    const float least = pool->children[0].weight_nat + RHO_HYPOTHESES_WEIGHT_MIN;
+    while (num > 1 && pool->children[num - 1].weight_nat < least) {
+        num--;
     }
-    return 0;
+    return rho_hypotheses_make_room(pool, slot, num);
 }
 
-/* Those that go on move to the front of the list. */
-static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot, unsigned num)
-{
-    unsigned kept = 0;
-    for (unsigned i = 0; i < num && kept < RHO_HYPOTHESES_OF_TRACK; i++) {
-        const struct rho_hypotheses_child child = pool->children[i];
-        if (!is_repeated(pool, slot, kept, &child)) {
-            pool->children[kept++] = child;
-        }
-    }
-    return rho_hypotheses_make_room(pool, slot, kept);
-}
-
-/* A refused update leaves the filter as it was predicted. */
+/* A refused update leaves the filter as it was predicted: as `before`. */
 static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                         const struct rho_imm_plot *seen, int64_t time_us,
-                         const struct rho_imm_match *match, int16_t row)
+                         const struct rho_imm *before, const struct rho_imm_plot *seen,
+                         int64_t time_us, const struct rho_imm_match *match, int16_t row)
 {
-    pool->scratch = at->imm;
     if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
         rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
         at->time_us = time_us;
         return row;
     }
-    at->imm = pool->scratch;
+    at->imm = *before;
     pool->updates_refused = rho_count(pool->updates_refused, 1);
     return RHO_HYPOTHESES_MISS;
 }
 
 /* One whose update is refused has what a miss weighs. Weights are still those of the scan, the best one's included. */
 static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                 const struct rho_hypotheses_scan *scan, const struct rho_hypotheses_child *child)
+                 const struct rho_imm *before, const struct rho_hypotheses_scan *scan,
+                 const struct rho_hypotheses_child *child)
 {
     const float as_miss = at->weight_nat + scan->log_miss;
     int16_t row = child->row;
@@ -231,13 +266,32 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
         const struct rho_imm_match match = {.probability = chosen->probability};
         struct rho_imm_plot seen;
         rho_imm_open_plot(&seen, plot, scan->measures, scan->sensor);
-        row = take_plot(pool, at, &seen, scan->time_us + plot->offset_us, &match, row);
+        row = take_plot(pool, at, before, &seen, scan->time_us + plot->offset_us, &match, row);
     }
     for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
         at->picks[k - 1] = at->picks[k];
     }
     at->picks[RHO_HYPOTHESES_MEMORY - 1] = row;
     at->weight_nat = row == child->row ? child->weight_nat : as_miss;
+}
+
+/* In a copy, while the parent has more children; the last one takes the parent's node, kept in case it is refused. */
+static uint16_t grow_child(struct rho_hypotheses *pool, uint16_t parent, int is_last,
+                           const struct rho_hypotheses_scan *scan,
+                           const struct rho_hypotheses_child *child)
+{
+    struct rho_hypothesis *from = &pool->nodes[parent];
+    if (!is_last) {
+        const uint16_t node = rho_hypotheses_allot(pool);
+        pool->nodes[node] = *from;
+        grow(pool, &pool->nodes[node], &from->imm, scan, child);
+        return node;
+    }
+    if (child->row >= 0) {
+        pool->scratch = from->imm;
+    }
+    grow(pool, from, &pool->scratch, scan, child);
+    return parent;
 }
 
 /* Parents without children give their nodes back; the others' last child takes the node, the others copies of it. */
@@ -256,13 +310,8 @@ static void replace(struct rho_hypotheses *pool, uint16_t slot,
     }
     for (unsigned i = 0; i < num; i++) {
         const struct rho_hypotheses_child *child = &pool->children[i];
-        uint16_t parent = pool->node_of[slot][child->parent];
-        nodes[i] = parent;
-        if (--uses[child->parent] > 0) {
-            nodes[i] = rho_hypotheses_allot(pool);
-            pool->nodes[nodes[i]] = pool->nodes[parent];
-        }
-        grow(pool, &pool->nodes[nodes[i]], scan, child);
+        const int is_last = --uses[child->parent] == 0;
+        nodes[i] = grow_child(pool, pool->node_of[slot][child->parent], is_last, scan, child);
     }
     memcpy(pool->node_of[slot], nodes, num * sizeof nodes[0]);
     pool->num_of[slot] = (uint8_t)num;
@@ -301,8 +350,7 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
         return RHO_ERROR_STATE;
     }
     float before = rho_hypotheses_log_sum(pool, slot);
-    unsigned num = choose_children(pool, slot, bear_children(pool, slot, scan));
-    replace(pool, slot, scan, num);
+    replace(pool, slot, scan, choose_children(pool, slot, scan));
     float best = order(pool, slot);
     outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
     outcome->gain_nat = best + rho_hypotheses_log_sum(pool, slot) - before;

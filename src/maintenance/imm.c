@@ -103,38 +103,34 @@ static void open_short(struct rho_imm_step *step, const struct rho_imm_model *mo
 }
 
 /* F P F^T of the manoeuvring model's axis. */
-static inline void carry(struct axis *at, const struct rho_imm_step *step)
+static inline void carry(struct axis *at, struct accel *by, const struct rho_imm_step *step)
 {
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
                 h = step->accel_by_accel;
-    const float pp = at->pp + dt * at->vp + f * at->ap, pv = at->vp + dt * at->vv + f * at->av;
-    const float pa = at->ap + dt * at->av + f * at->aa;
-    const float vv = at->vv + g * at->av, va = at->av + g * at->aa;
+    const float pp = at->pp + dt * at->vp + f * by->ap, pv = at->vp + dt * at->vv + f * by->av;
+    const float pa = by->ap + dt * by->av + f * by->aa;
+    const float vv = at->vv + g * by->av, va = by->av + g * by->aa;
     at->pp = pp + dt * pv + f * pa;
     at->vp = pv + g * pa;
     at->vv = vv + g * va;
-    at->ap = h * pa;
-    at->av = h * va;
-    at->aa = h * h * at->aa;
+    by->ap = h * pa;
+    by->av = h * va;
+    by->aa = h * h * by->aa;
 }
 
 /* Twice as long: the same again over what it has done. */
 static void double_step(struct rho_imm_step *step)
 {
     float *noise = step->noise;
-    struct axis at = {.pp = noise[0],
-                      .vp = noise[1],
-                      .vv = noise[2],
-                      .ap = noise[3],
-                      .av = noise[4],
-                      .aa = noise[5]};
-    carry(&at, step);
+    struct axis at = {.pp = noise[0], .vp = noise[1], .vv = noise[2]};
+    struct accel by = {.ap = noise[3], .av = noise[4], .aa = noise[5]};
+    carry(&at, &by, step);
     noise[0] += at.pp;
     noise[1] += at.vp;
     noise[2] += at.vv;
-    noise[3] += at.ap;
-    noise[4] += at.av;
-    noise[5] += at.aa;
+    noise[3] += by.ap;
+    noise[4] += by.av;
+    noise[5] += by.aa;
     step->position_by_accel +=
         step->dt_s * step->velocity_by_accel + step->position_by_accel * step->accel_by_accel;
     step->velocity_by_accel += step->velocity_by_accel * step->accel_by_accel;
@@ -273,11 +269,12 @@ static inline float mixed(const struct mixing *by, float own, float other, float
     return by->own * own + by->other * other + by->between * product;
 }
 
-/* One axis of both. The acceleration is 0 in the steady model, and known to be. */
-static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, const struct exchange *by)
+/* One axis of both. */
+static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct accel *more,
+                            const struct exchange *by)
 {
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
-    const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = manoeuvre->a;
+    const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = more->a;
     const struct axis was = *steady;
     steady->p += by->into_steady * p;
     steady->v += by->into_steady * v;
@@ -286,13 +283,13 @@ static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, const s
     steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
     manoeuvre->p -= by->into_manoeuvre * p;
     manoeuvre->v -= by->into_manoeuvre * v;
-    manoeuvre->a -= by->into_manoeuvre * a;
     manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, p * p);
     manoeuvre->vp = mixed(m, manoeuvre->vp, was.vp, v * p);
     manoeuvre->vv = mixed(m, manoeuvre->vv, was.vv, v * v);
-    manoeuvre->ap = m->own * manoeuvre->ap + m->between * a * p;
-    manoeuvre->av = m->own * manoeuvre->av + m->between * a * v;
-    manoeuvre->aa = m->own * manoeuvre->aa + m->between * a * a;
+    more->a -= by->into_manoeuvre * a;
+    more->ap = m->own * more->ap + m->between * a * p;
+    more->av = m->own * more->av + m->between * a * v;
+    more->aa = m->own * more->aa + m->between * a * a;
 }
 
 /* ---- predict ---------------------------------------------------------------------------------- */
@@ -304,21 +301,22 @@ static inline float raised(float variance)
 }
 
 /* F x, F P F^T + Q of the manoeuvring model's axis. */
-static inline void move_manoeuvre(struct axis *at, const struct rho_imm_step *step)
+static inline void move_manoeuvre(struct axis *at, struct accel *by,
+                                  const struct rho_imm_step *step)
 {
-    at->p += step->dt_s * at->v + step->position_by_accel * at->a;
-    at->v += step->velocity_by_accel * at->a;
-    at->a *= step->accel_by_accel;
-    carry(at, step);
+    at->p += step->dt_s * at->v + step->position_by_accel * by->a;
+    at->v += step->velocity_by_accel * by->a;
+    by->a *= step->accel_by_accel;
+    carry(at, by, step);
     at->pp = raised(at->pp + step->noise[0]);
     at->vp += step->noise[1];
     at->vv = raised(at->vv + step->noise[2]);
-    at->ap += step->noise[3];
-    at->av += step->noise[4];
-    at->aa = raised(at->aa + step->noise[5]);
+    by->ap += step->noise[3];
+    by->av += step->noise[4];
+    by->aa = raised(by->aa + step->noise[5]);
 }
 
-/* The same of the steady model, whose axes are independent; rho_kalman_predict moves them with what couples them. */
+/* The same of the steady model's. */
 static inline void move_steady(struct axis *at, const struct rho_imm_step *step)
 {
     const float dt = step->dt_s, q = step->quiet_density * dt;
@@ -334,15 +332,10 @@ struct checks {
     int good;
 };
 
-static inline void check_axis(struct checks *checks, const struct axis *at)
+static inline void check(struct checks *checks, const struct axis *at, float accel_variance)
 {
-    checks->good &= at->pp + at->vv + at->aa <= RHO_KALMAN_VARIANCE_MAX;
-    checks->places += at->p + at->v + at->a;
-}
-
-static inline void check_closed(struct checks *checks, float variance)
-{
-    checks->good &= variance >= 0.0f; /* NaN is no closed axis */
+    checks->good &= at->pp + at->vv + accel_variance <= RHO_KALMAN_VARIANCE_MAX;
+    checks->places += at->p + at->v;
 }
 
 static inline int are_good(const struct checks *checks)
@@ -350,37 +343,29 @@ static inline int are_good(const struct checks *checks)
     return checks->good && checks->places >= -FLT_MAX && checks->places <= FLT_MAX;
 }
 
-/* Both models of an axis, mixed where there is an exchange. */
-static inline void predict_axis(struct rho_imm *imm, int axis, const struct exchange *by,
-                                const struct rho_imm_step *step, struct checks *checks)
+/* An axis of both models by itself, mixed where there is an exchange. */
+static void predict_axis(struct rho_imm *imm, int axis, const struct exchange *by,
+                         const struct rho_imm_step *step, struct checks *checks)
 {
+    struct rho_kalman *kalman = &imm->steady;
     if (!is_open(imm, axis)) {
-        check_closed(checks, imm->covariance[RHO_AT(axis, axis)]);
+        checks->good &= imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
         return;
     }
-    struct axis steady = take_steady(&imm->steady, axis), manoeuvre = take_manoeuvre(imm, axis);
+    struct axis steady = take_axis(kalman->state, kalman->covariance, axis);
+    struct axis manoeuvre = take_axis(imm->state, imm->covariance, axis);
+    struct accel more = take_accel(imm, axis);
     if (by) {
-        mix_axis(&steady, &manoeuvre, by);
+        mix_axis(&steady, &manoeuvre, &more, by);
     }
     move_steady(&steady, step);
-    move_manoeuvre(&manoeuvre, step);
-    put_steady(&imm->steady, axis, &steady);
-    put_manoeuvre(imm, axis, &manoeuvre);
-    check_axis(checks, &steady);
-    check_axis(checks, &manoeuvre);
-}
-
-static void move_manoeuvre_axis(struct rho_imm *imm, int axis, const struct rho_imm_step *step,
-                                struct checks *checks)
-{
-    if (!is_open(imm, axis)) {
-        check_closed(checks, imm->covariance[RHO_AT(axis, axis)]);
-        return;
-    }
-    struct axis at = take_manoeuvre(imm, axis);
-    move_manoeuvre(&at, step);
-    put_manoeuvre(imm, axis, &at);
-    check_axis(checks, &at);
+    move_manoeuvre(&manoeuvre, &more, step);
+    put_axis(kalman->state, kalman->covariance, axis, &steady);
+    put_axis(imm->state, imm->covariance, axis, &manoeuvre);
+    put_accel(imm, axis, &more);
+    check(checks, &steady, 0.0f);
+    check(checks, &manoeuvre, more.aa);
+    checks->places += more.a;
 }
 
 /* Where the covariances of two axes lie: by derivative of the first, of the second. */
@@ -417,35 +402,30 @@ static inline void move_pair(float *p, const uint8_t at[9], const struct rho_imm
     p[at[8]] = h * c22;
 }
 
-static int move_coupled(struct rho_imm *imm, const struct rho_imm_step *step)
+/* The same of the steady model, whose velocities alone move on. */
+static inline void move_steady_pair(float *p, const uint8_t at[9], float dt_s)
 {
-    struct checks checks = {0.0f, 1};
-    move_pair(imm->covariance, pair_places[0], step);
-    if (is_open(imm, 2)) {
-        move_pair(imm->covariance, pair_places[1], step);
-        move_pair(imm->covariance, pair_places[2], step);
-    }
-    for (int axis = 0; axis < NUM_AXES; axis++) {
-        move_manoeuvre_axis(imm, axis, step, &checks);
-    }
-    return rho_kalman_predict(&imm->steady, step->dt_s, step->quiet_density) == RHO_OK &&
-           are_good(&checks);
+    const float pv = p[at[1]] + dt_s * p[at[4]], vp = p[at[3]] + dt_s * p[at[4]];
+    p[at[0]] += dt_s * (p[at[1]] + vp);
+    p[at[1]] = pv;
+    p[at[3]] = vp;
 }
 
-static int move_axes(struct rho_imm *imm, const struct exchange *by,
-                     const struct rho_imm_step *step)
+/* What couples the axes. */
+static void move_pairs(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    struct checks checks = {0.0f, 1};
-    for (int axis = 0; axis < NUM_AXES; axis++) {
-        predict_axis(imm, axis, by, step, &checks);
+    const int num_pairs = is_open(imm, 2) ? 3 : 1;
+    for (int i = 0; i < num_pairs; i++) {
+        move_pair(imm->covariance, pair_places[i], step);
+        move_steady_pair(imm->steady.covariance, pair_places[i], step->dt_s);
     }
-    return are_good(&checks);
 }
 
 static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *step, float share)
 {
+    struct checks checks = {0.0f, 1};
     struct exchange by;
-    int good;
+    const struct exchange *mixing = 0; /* axis by axis */
     if (!imm || !step) {
         return RHO_ERROR_NULL;
     }
@@ -454,16 +434,19 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
     }
     if (share > 0.0f) {
         by = change(imm, share);
+        if (imm->is_coupled) {
+            mix_coupled(imm, &by);
+        } else {
+            mixing = &by;
+        }
     }
     if (imm->is_coupled) {
-        if (share > 0.0f) {
-            mix_coupled(imm, &by);
-        }
-        good = move_coupled(imm, step);
-    } else {
-        good = move_axes(imm, share > 0.0f ? &by : 0, step);
+        move_pairs(imm, step);
     }
-    return good ? RHO_OK : RHO_ERROR_VALUE;
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        predict_axis(imm, axis, mixing, step, &checks);
+    }
+    return are_good(&checks) ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step)

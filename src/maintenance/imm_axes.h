@@ -17,10 +17,16 @@
 /* Covariance of one axis' derivative d with the same or another axis' derivative e. */
 #define PLACE(axis, d, other, e) RHO_AT(NUM_AXES *(d) + (axis), NUM_AXES * (e) + (other))
 
-/* One axis by itself: position, velocity and, of the manoeuvring model, acceleration, which is 0 in the steady one. */
+/* One axis by itself, of either model. */
 struct axis {
-    float p, v, a;
-    float pp, vp, vv, ap, av, aa;
+    float p, v;
+    float pp, vp, vv;
+};
+
+/* What the manoeuvring model has beside these; the steady one's acceleration is 0, and known to be. */
+struct accel {
+    float a;
+    float ap, av, aa;
 };
 
 /* Where an axis' own covariances begin in the triangle's rows of its position, velocity and acceleration. */
@@ -31,52 +37,39 @@ static const uint8_t axis_rows[NUM_AXES][3] = {
 };
 
 /* In such a row the next derivative of the same axis lies NUM_AXES further on. */
-static inline struct axis take_steady(const struct rho_kalman *steady, int axis)
+static inline struct axis take_axis(const float *state, const float *covariance, int axis)
 {
-    const float *state = &steady->state[axis];
-    const float *by_v = &steady->covariance[axis_rows[axis][1]];
-    return (struct axis){.p = state[0],
-                         .v = state[NUM_AXES],
-                         .pp = steady->covariance[axis_rows[axis][0]],
+    const float *by_v = &covariance[axis_rows[axis][1]];
+    return (struct axis){.p = state[axis],
+                         .v = state[NUM_AXES + axis],
+                         .pp = covariance[axis_rows[axis][0]],
                          .vp = by_v[0],
                          .vv = by_v[NUM_AXES]};
 }
 
-static inline void put_steady(struct rho_kalman *steady, int axis, const struct axis *in)
+static inline void put_axis(float *state, float *covariance, int axis, const struct axis *in)
 {
-    float *state = &steady->state[axis], *by_v = &steady->covariance[axis_rows[axis][1]];
-    state[0] = in->p;
-    state[NUM_AXES] = in->v;
-    steady->covariance[axis_rows[axis][0]] = in->pp;
+    float *by_v = &covariance[axis_rows[axis][1]];
+    state[axis] = in->p;
+    state[NUM_AXES + axis] = in->v;
+    covariance[axis_rows[axis][0]] = in->pp;
     by_v[0] = in->vp;
     by_v[NUM_AXES] = in->vv;
 }
 
-static inline struct axis take_manoeuvre(const struct rho_imm *imm, int axis)
+static inline struct accel take_accel(const struct rho_imm *imm, int axis)
 {
-    const float *state = &imm->state[axis], *by_v = &imm->covariance[axis_rows[axis][1]];
     const float *by_a = &imm->covariance[axis_rows[axis][2]];
-    return (struct axis){.p = state[0],
-                         .v = state[NUM_AXES],
-                         .a = state[2 * NUM_AXES],
-                         .pp = imm->covariance[axis_rows[axis][0]],
-                         .vp = by_v[0],
-                         .vv = by_v[NUM_AXES],
-                         .ap = by_a[0],
-                         .av = by_a[NUM_AXES],
-                         .aa = by_a[2 * NUM_AXES]};
+    return (struct accel){.a = imm->state[2 * NUM_AXES + axis],
+                          .ap = by_a[0],
+                          .av = by_a[NUM_AXES],
+                          .aa = by_a[2 * NUM_AXES]};
 }
 
-static inline void put_manoeuvre(struct rho_imm *imm, int axis, const struct axis *in)
+static inline void put_accel(struct rho_imm *imm, int axis, const struct accel *in)
 {
-    float *state = &imm->state[axis], *by_v = &imm->covariance[axis_rows[axis][1]];
     float *by_a = &imm->covariance[axis_rows[axis][2]];
-    state[0] = in->p;
-    state[NUM_AXES] = in->v;
-    state[2 * NUM_AXES] = in->a;
-    imm->covariance[axis_rows[axis][0]] = in->pp;
-    by_v[0] = in->vp;
-    by_v[NUM_AXES] = in->vv;
+    imm->state[2 * NUM_AXES + axis] = in->a;
     by_a[0] = in->ap;
     by_a[NUM_AXES] = in->av;
     by_a[2 * NUM_AXES] = in->aa;

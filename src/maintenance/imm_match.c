@@ -8,6 +8,7 @@
 #include "rhotrack/approx.h"
 
 #define LOG_TWO_PI 1.83787707f
+#define LOG_TWO 0.6931473f /* rounded up */
 
 /* A model beyond the gate still counts beside one within it: its density may be the higher one, as it is narrower. */
 #define COUNTS_MAX (2.0f * RHO_IMM_GATE)
@@ -31,14 +32,16 @@ static int open_isotropic(struct rho_measurement *out, float covariance[6],
         (has_z && (plot->sigma_up_m < sigma_m || plot->sigma_up_m > sigma_m))) {
         return 0;
     }
-    *out = (struct rho_measurement){.place_m = {plot->x_m, plot->y_m, has_z ? plot->z_m : 0.0f},
-                                    .cos_azimuth = 1.0f,
-                                    .cos_elevation = 1.0f,
-                                    .variance_m2 = {variance, variance, variance},
-                                    .has_z = has_z,
-                                    .is_isotropic = 1};
-    memset(covariance, 0, 6 * sizeof *covariance);
+    out->place_m[0] = plot->x_m;
+    out->place_m[1] = plot->y_m;
+    out->place_m[2] = has_z ? plot->z_m : 0.0f;
+    out->cos_azimuth = out->cos_elevation = 1.0f;
+    out->sin_azimuth = out->sin_elevation = 0.0f;
+    out->variance_m2[0] = out->variance_m2[1] = out->variance_m2[2] = variance;
+    out->has_z = has_z;
+    out->is_isotropic = 1;
     covariance[RHO_AT(0, 0)] = covariance[RHO_AT(1, 1)] = covariance[RHO_AT(2, 2)] = variance;
+    covariance[RHO_AT(1, 0)] = covariance[RHO_AT(2, 0)] = covariance[RHO_AT(2, 1)] = 0.0f;
     return 1;
 }
 
@@ -312,14 +315,23 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
 static void open_model(struct rho_imm_gate *gate, int model, const float *state,
                        const float *covariance, float variance_m2, float share)
 {
-    float det = 1.0f;
-    for (int axis = 0; axis < gate->num_axes; axis++) {
-        const float s = covariance[RHO_AT(axis, axis)] + variance_m2;
-        gate->centre_m[model][axis] = state[axis];
-        gate->inverse[model][axis] = 1.0f / s;
-        det *= s;
+    float *centre_m = gate->centre_m[model], *inverse = gate->inverse[model];
+    const float sx = covariance[RHO_AT(0, 0)] + variance_m2;
+    const float sy = covariance[RHO_AT(1, 1)] + variance_m2;
+    float det = sx * sy;
+    centre_m[0] = state[0];
+    centre_m[1] = state[1];
+    centre_m[2] = state[2];
+    inverse[0] = 1.0f / sx;
+    inverse[1] = 1.0f / sy;
+    inverse[2] = 0.0f;
+    if (gate->num_axes > 2) {
+        const float sz = covariance[RHO_AT(2, 2)] + variance_m2;
+        inverse[2] = 1.0f / sz;
+        det *= sz;
     }
-    gate->factor[model] = share * rho_inverse_sqrt(det);
+    gate->log_factor[model] =
+        rho_log(share * rho_inverse_sqrt(det)) - 0.5f * LOG_TWO_PI * (float)gate->num_axes;
 }
 
 int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
@@ -328,7 +340,6 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
     if (imm->is_coupled) {
         return 0;
     }
-    memset(gate, 0, sizeof *gate);
     gate->num_axes = has_z && is_open(imm, 2) ? 3 : 2;
     open_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
                believable(1.0f - imm->probability));
@@ -344,24 +355,31 @@ static inline float distance2_in(const float centre_m[3], const float inverse[3]
     return dx * dx * inverse[0] + dy * dy * inverse[1] + dz * dz * inverse[2];
 }
 
-int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3],
+/* ln of a model's part in a plot's density; of one that does not count, of next to nothing. */
+static inline float log_part(float log_factor, float distance2)
+{
+    return log_factor - 0.5f * (distance2 <= COUNTS_MAX ? distance2 : 1e6f);
+}
+
+/* ln(e^s + e^m) is at most that of the larger one and ln 2, and at least the larger one. */
+int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3], float enough,
                      struct rho_imm_match *match)
 {
-    float distance2[2], factor[2] = {gate->factor[0], gate->factor[1]};
-    for (int i = 0; i < 2; i++) {
-        distance2[i] = distance2_in(gate->centre_m[i], gate->inverse[i], place_m);
-    }
-    if (!(distance2[0] <= RHO_IMM_GATE || distance2[1] <= RHO_IMM_GATE)) {
+    const float to_s = distance2_in(gate->centre_m[0], gate->inverse[0], place_m);
+    const float to_m = distance2_in(gate->centre_m[1], gate->inverse[1], place_m);
+    if (!(to_s <= RHO_IMM_GATE || to_m <= RHO_IMM_GATE)) {
         return 0;
     }
-    for (int i = 0; i < 2; i++) {
-        if (!(distance2[i] <= COUNTS_MAX)) {
-            distance2[i] = 2.0f * COUNTS_MAX;
-            factor[i] = 0.0f;
-        }
+    const float s = log_part(gate->log_factor[0], to_s), m = log_part(gate->log_factor[1], to_m);
+    const float most = s > m ? s : m, least = s > m ? m : s;
+    if (!(most + LOG_TWO > enough)) {
+        return 0;
     }
+    const float ratio = rho_exp(least - most), share = 1.0f / (1.0f + ratio);
+    match->probability = s > m ? ratio * share : share;
+    match->log_likelihood = most + rho_log_one_plus(ratio);
+    match->distance2 = to_s < to_m ? to_s : to_m;
     match->num_axes = gate->num_axes;
     match->has_velocity = match->has_range_rate = 0;
-    combine(factor, distance2, gate->num_axes, match);
     return is_likelihood(match->log_likelihood);
 }

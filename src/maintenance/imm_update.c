@@ -35,7 +35,7 @@ static inline struct divisor divide_by(float predicted, float variance)
     return (struct divisor){inverse, variance * inverse};
 }
 
-/* Position and velocity of either model. The measured row is scaled, not differenced: no digit is lost. */
+/* The measured row is scaled, not differenced: no digit is lost. */
 static inline void take_position(struct axis *at, const struct divisor *by, float step)
 {
     const float gain_v = at->vp * by->inverse;
@@ -60,69 +60,65 @@ static inline void take_velocity(struct axis *at, const struct divisor *by, floa
  * Before either: the acceleration, by its covariance with what was measured (ap or av) and with the other (av or ap), and by
  * vp between these two.
  */
-static inline void follow(struct axis *at, float *with_seen, float *with_other,
+static inline void follow(struct accel *at, float *with_seen, float *with_other, float vp,
                           const struct divisor *by, float step)
 {
     const float gain = *with_seen * by->inverse;
     at->a += *with_seen * step;
-    *with_other -= gain * at->vp;
+    *with_other -= gain * vp;
     at->aa = at_least(at->aa * ROUNDING_ALLOWANCE - gain * *with_seen);
     *with_seen *= by->kept;
 }
 
-/* What is not finite shows in the sum of what these return. A variance is at least the floor, so the divisor is never 0. */
-static inline float see_position(struct axis *at, float place_m, float variance, int has_accel)
+/*
+ * One axis of a model takes its position, or its velocity. What is not finite shows in what is returned; the divisor is
+ * never 0, as a noise is at least the floor.
+ */
+static inline float see_axis(struct rho_imm *imm, float *state, float *covariance, int axis,
+                             int is_velocity, float value, float variance)
 {
-    const struct divisor by = divide_by(at->pp, variance);
-    const float off = place_m - at->p, step = off * by.inverse;
-    const float check = at->pp >= 0.0f ? off * step + at->pp : FLT_MAX + FLT_MAX;
-    if (has_accel) {
-        follow(at, &at->ap, &at->av, &by, step);
+    struct axis at = take_axis(state, covariance, axis);
+    const float predicted = is_velocity ? at.vv : at.pp;
+    const struct divisor by = divide_by(predicted, variance);
+    const float off = value - (is_velocity ? at.v : at.p), step = off * by.inverse;
+    float check = predicted >= 0.0f ? off * step + predicted : FLT_MAX + FLT_MAX;
+    if (state == imm->state) {
+        struct accel more = take_accel(imm, axis);
+        if (is_velocity) {
+            follow(&more, &more.av, &more.ap, at.vp, &by, step);
+        } else {
+            follow(&more, &more.ap, &more.av, at.vp, &by, step);
+        }
+        put_accel(imm, axis, &more);
+        check += more.a;
     }
-    take_position(at, &by, step);
-    return check;
+    if (is_velocity) {
+        take_velocity(&at, &by, step);
+    } else {
+        take_position(&at, &by, step);
+    }
+    put_axis(state, covariance, axis, &at);
+    return check + at.p + at.v;
 }
 
-static inline float see_velocity(struct axis *at, float speed_mps, float variance, int has_accel)
-{
-    const struct divisor by = divide_by(at->vv, variance);
-    const float off = speed_mps - at->v, step = off * by.inverse;
-    const float check = at->vv >= 0.0f ? off * step + at->vv : FLT_MAX + FLT_MAX;
-    if (has_accel) {
-        follow(at, &at->av, &at->ap, &by, step);
-    }
-    take_velocity(at, &by, step);
-    return check;
-}
-
-static float update_positions(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
+static float see_position(struct rho_imm *imm, float *state, float *covariance, int num_axes,
+                          const struct rho_imm_plot *seen)
 {
     const float variance = at_least(seen->position.variance_m2[0]);
     float check = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
-        const float place_m = seen->position.place_m[axis];
-        struct axis steady = take_steady(&imm->steady, axis), at = take_manoeuvre(imm, axis);
-        check +=
-            see_position(&steady, place_m, variance, 0) + see_position(&at, place_m, variance, 1);
-        put_steady(&imm->steady, axis, &steady);
-        put_manoeuvre(imm, axis, &at);
-        check += steady.p + steady.v + at.p + at.v + at.a;
+        check += see_axis(imm, state, covariance, axis, 0, seen->position.place_m[axis], variance);
     }
     return check;
 }
 
-static float update_velocities(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
+static float see_velocity(struct rho_imm *imm, float *state, float *covariance, int num_axes,
+                          const struct rho_imm_plot *seen)
 {
     const float variance = at_least(seen->plot->sigma_mps * seen->plot->sigma_mps);
     float check = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
-        const float speed_mps = velocity_of(seen->plot, axis);
-        struct axis steady = take_steady(&imm->steady, axis), at = take_manoeuvre(imm, axis);
-        check += see_velocity(&steady, speed_mps, variance, 0) +
-                 see_velocity(&at, speed_mps, variance, 1);
-        put_steady(&imm->steady, axis, &steady);
-        put_manoeuvre(imm, axis, &at);
-        check += steady.p + steady.v + at.p + at.v + at.a;
+        check += see_axis(imm, state, covariance, axis, 1, velocity_of(seen->plot, axis), variance);
     }
     return check;
 }
@@ -130,9 +126,12 @@ static float update_velocities(struct rho_imm *imm, int num_axes, const struct r
 static enum rho_status update_axes(struct rho_imm *imm, int num_axes,
                                    const struct rho_imm_plot *seen)
 {
-    float check = update_positions(imm, num_axes, seen);
+    struct rho_kalman *steady = &imm->steady;
+    float check = see_position(imm, steady->state, steady->covariance, num_axes, seen) +
+                  see_position(imm, imm->state, imm->covariance, num_axes, seen);
     if (seen->measures & RHO_MEASURES_VELOCITY) {
-        check += update_velocities(imm, num_axes, seen);
+        check += see_velocity(imm, steady->state, steady->covariance, num_axes, seen) +
+                 see_velocity(imm, imm->state, imm->covariance, num_axes, seen);
     }
     return is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }

@@ -217,7 +217,8 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
         const struct rho_plot *plot = &step->scan->plots[i];
         if (step->report->fates[i] != RHO_FATE_HELD ||
             (claims && claims[i] >= 0 && claims[i] != (int)row) ||
-            !rho_hypotheses_reaches(&reach, plot, step->scan->measures)) {
+            !rho_hypotheses_reaches(&tracker->hypotheses, track->slot, &reach, plot,
+                                    step->scan->measures)) {
             continue;
         }
         rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);

@@ -16,6 +16,7 @@
 #define ATAN2_ABSOLUTE 3e-7
 #define EXP_RELATIVE 1e-7
 #define LOG_RELATIVE 1e-7
+#define LOG_ONE_PLUS_ABSOLUTE 2e-7
 #define LOG_ABSOLUTE 1e-7
 
 #define BITS_INFINITY 0x7f800000u
@@ -218,6 +219,23 @@ static void log_of_what_has_none(void **state)
     assert_true(isnan(rho_log(NAN)));
 }
 
+static void log_one_plus_from_0_to_1(void **state)
+{
+    double worst = 0.0;
+
+    (void)state;
+    for (uint32_t bits = 0; bits <= to_bits(1.0f); bits += 1009u) {
+        const float v = from_bits(bits);
+        const double off = fabs((double)rho_log_one_plus(v) - log1p((double)v));
+
+        worst = off > worst ? off : worst;
+    }
+    assert_true(worst <= LOG_ONE_PLUS_ABSOLUTE);
+    assert_true(rho_log_one_plus(0.0f) == 0.0f);
+    assert_true(rho_log_one_plus(1.0f) <= nextafterf(0.693147181f, 1.0f)); /* imm_match.c's bound */
+    assert_true(isnan(rho_log_one_plus(NAN)));
+}
+
 static void assert_root(uint32_t bits)
 {
     assert_int_equal(to_bits(rho_sqrt(from_bits(bits))), to_bits(sqrtf(from_bits(bits))));
@@ -326,6 +344,7 @@ int main(void)
         cmocka_unit_test(exp_beyond_its_range),
         cmocka_unit_test(log_over_all_positive_numbers),
         cmocka_unit_test(log_of_what_has_none),
+        cmocka_unit_test(log_one_plus_from_0_to_1),
         cmocka_unit_test(sqrt_is_correctly_rounded),
         cmocka_unit_test(sqrt_of_subnormal_numbers),
         cmocka_unit_test(sqrt_where_rounding_is_hard),

@@ -307,7 +307,8 @@ static int weigh_all(struct rho_hypotheses *of, uint16_t slot,
         const int is_near =
             rho_hypotheses_weigh(of, slot, &seen, scan->time_us + scan->plots[row].offset_us,
                                  (int16_t)row, LOG_PD(pd), clutter, &gain_nat);
-        assert_true(!is_near || rho_hypotheses_reaches(&reach, &scan->plots[row], scan->measures));
+        assert_true(!is_near ||
+                    rho_hypotheses_reaches(of, slot, &reach, &scan->plots[row], scan->measures));
         num += is_near;
     }
     assert_int_equal(rho_hypotheses_has_candidates(of, slot), num > 0);

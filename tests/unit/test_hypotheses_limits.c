@@ -312,7 +312,7 @@ static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
                                      &thin, &gain_nat)) {
                 num_near++;
                 num_late += lag_s > 0.0;
-                num_outside += !rho_hypotheses_reaches(&reach, &plot, z);
+                num_outside += !rho_hypotheses_reaches(&pool, slot, &reach, &plot, z);
             }
         }
     }

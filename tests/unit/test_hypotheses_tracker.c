@@ -89,7 +89,7 @@ static void a_hypothesis_without_height_minds_none(void **state)
     commit(slot, 1, &low, RHO_MEASURES_Z);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
     assert_int_equal(weighed(slot, 2, &high, RHO_MEASURES_Z, &reach), 1);
-    assert_int_equal(rho_hypotheses_reaches(&reach, &high, RHO_MEASURES_Z), 1);
+    assert_int_equal(rho_hypotheses_reaches(&pool, slot, &reach, &high, RHO_MEASURES_Z), 1);
 }
 
 /* ---- bearings --------------------------------------------------------------------------------- */

@@ -741,7 +741,8 @@ static void a_gate_weighs_as_one_plot_does(void **state)
 
             rho_imm_open_plot(&seen, &plot, measures, NULL);
             const int is_near = rho_imm_weigh(&imm, &seen, &one);
-            assert_int_equal(rho_imm_weigh_in(&gate, seen.position.place_m, &other), is_near);
+            assert_int_equal(rho_imm_weigh_in(&gate, seen.position.place_m, -FLT_MAX, &other),
+                             is_near);
             if (!is_near) {
                 continue;
             }
@@ -750,6 +751,11 @@ static void a_gate_weighs_as_one_plot_does(void **state)
             assert_float_equal(other.probability, one.probability, 1e-5);
             assert_int_equal(other.num_axes, one.num_axes);
             assert_true(other.has_velocity == 0 && other.has_range_rate == 0);
+            /* one that is likelier than enough is never left out, one that is less likely by ln 2 always */
+            assert_true(rho_imm_weigh_in(&gate, seen.position.place_m,
+                                         nextafterf(other.log_likelihood, -INFINITY), &other));
+            assert_false(rho_imm_weigh_in(&gate, seen.position.place_m,
+                                          other.log_likelihood + 0.694f, &other));
             num_in_gate++;
         }
         imm.is_coupled = 1;

@@ -77,7 +77,7 @@ static int step(int64_t time_us)
     int failed = rho_hypotheses_predict(&pool, slot, time_us) != RHO_OK;
     rho_hypotheses_look(&pool, slot, &reach);
     for (int i = 0; i < num_plots; i++) {
-        if (rho_hypotheses_reaches(&reach, &plots[i], RHO_MEASURES_Z)) {
+        if (rho_hypotheses_reaches(&pool, slot, &reach, &plots[i], RHO_MEASURES_Z)) {
             rho_imm_open_plot(&seen, &plots[i], RHO_MEASURES_Z, NULL);
             num_in_gate += rho_hypotheses_weigh(&pool, slot, &seen, time_us, (int16_t)i,
                                                 rho_log(PD), &clutter, &gain_nat);

@@ -95,7 +95,7 @@ static void weigh_all(struct maintainer_best *best, const struct rho_scan *scan,
         struct rho_imm_plot seen;
 
         if (rho_measurement_is_valid(plot, scan->measures) &&
-            rho_hypotheses_reaches(&reach, plot, scan->measures)) {
+            rho_hypotheses_reaches(&best->pool, best->slot, &reach, plot, scan->measures)) {
             rho_imm_open_plot(&seen, plot, scan->measures, sensor);
             (void)rho_hypotheses_weigh(&best->pool, best->slot, &seen,
                                        scan->time_us + plot->offset_us, (int16_t)i, log_pd,
