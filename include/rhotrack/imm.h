@@ -129,16 +129,16 @@ struct rho_imm_gate {
     uint8_t num_axes;
 };
 
-/* Fills *gate; 0 where it cannot be: coupled axes. Cost: 250 instructions. */
+/* Fills *gate; 0 where it cannot be: coupled axes, densities that are no numbers. Cost: 250 instructions. */
 int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
                       int has_z);
 
 /*
- * As rho_imm_weigh for a plot of that noise. Returns 0 also for one that is surely no likelier than `enough` (-FLT_MAX: all
+ * As rho_imm_weigh for a plot of that noise: ln of its density and the manoeuvring model's probability. Returns 0 also for one that is surely no likelier than `enough` (-FLT_MAX: all
  * are wanted), which saves most of the work. Cost: 45 instructions outside of the gate, 150 inside.
  */
 int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3], float enough,
-                     struct rho_imm_match *match);
+                     float *log_likelihood, float *probability);
 
 /*
  * Updates both models with a plot that was weighed, and takes the match's probability. A first z opens the third axis.

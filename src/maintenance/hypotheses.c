@@ -247,49 +247,79 @@ struct sums {
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
 };
 
-/* A covariance and the square of a way, each with its share. Written out: a loop would take three times as long. */
-static inline void add_square(float *out, const float *p, float share, const float *way,
-                              const float *scaled)
+/* A model's way from there, and that times its share. */
+struct way {
+    float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
+};
+
+static inline void find_way(struct sums *sums, const float *state, float share, struct way *out)
 {
-    out[0] += share * p[0] + scaled[0] * way[0];
-    out[1] += share * p[1] + scaled[1] * way[0];
-    out[2] += share * p[2] + scaled[1] * way[1];
-    out[3] += share * p[3] + scaled[2] * way[0];
-    out[4] += share * p[4] + scaled[2] * way[1];
-    out[5] += share * p[5] + scaled[2] * way[2];
-    out[6] += share * p[6] + scaled[3] * way[0];
-    out[7] += share * p[7] + scaled[3] * way[1];
-    out[8] += share * p[8] + scaled[3] * way[2];
-    out[9] += share * p[9] + scaled[3] * way[3];
-    out[10] += share * p[10] + scaled[4] * way[0];
-    out[11] += share * p[11] + scaled[4] * way[1];
-    out[12] += share * p[12] + scaled[4] * way[2];
-    out[13] += share * p[13] + scaled[4] * way[3];
-    out[14] += share * p[14] + scaled[4] * way[4];
-    out[15] += share * p[15] + scaled[5] * way[0];
-    out[16] += share * p[16] + scaled[5] * way[1];
-    out[17] += share * p[17] + scaled[5] * way[2];
-    out[18] += share * p[18] + scaled[5] * way[3];
-    out[19] += share * p[19] + scaled[5] * way[4];
-    out[20] += share * p[20] + scaled[5] * way[5];
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        out->way[i] = state[i] - sums->about[i];
+        out->scaled[i] = share * out->way[i];
+        sums->way[i] += out->scaled[i];
+    }
 }
 
-static void add_model(struct sums *sums, const float *state, const float *covariance, float share)
+/* The squares of both ways. Written out, as what follows: a loop would take three times as long. */
+static inline void add_squares(float *out, const struct way *s, const struct way *m)
 {
-    float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
-    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        way[i] = state[i] - sums->about[i];
-        scaled[i] = share * way[i];
-        sums->way[i] += scaled[i];
+    out[0] += s->scaled[0] * s->way[0] + m->scaled[0] * m->way[0];
+    out[1] += s->scaled[1] * s->way[0] + m->scaled[1] * m->way[0];
+    out[2] += s->scaled[1] * s->way[1] + m->scaled[1] * m->way[1];
+    out[3] += s->scaled[2] * s->way[0] + m->scaled[2] * m->way[0];
+    out[4] += s->scaled[2] * s->way[1] + m->scaled[2] * m->way[1];
+    out[5] += s->scaled[2] * s->way[2] + m->scaled[2] * m->way[2];
+    out[6] += s->scaled[3] * s->way[0] + m->scaled[3] * m->way[0];
+    out[7] += s->scaled[3] * s->way[1] + m->scaled[3] * m->way[1];
+    out[8] += s->scaled[3] * s->way[2] + m->scaled[3] * m->way[2];
+    out[9] += s->scaled[3] * s->way[3] + m->scaled[3] * m->way[3];
+    out[10] += s->scaled[4] * s->way[0] + m->scaled[4] * m->way[0];
+    out[11] += s->scaled[4] * s->way[1] + m->scaled[4] * m->way[1];
+    out[12] += s->scaled[4] * s->way[2] + m->scaled[4] * m->way[2];
+    out[13] += s->scaled[4] * s->way[3] + m->scaled[4] * m->way[3];
+    out[14] += s->scaled[4] * s->way[4] + m->scaled[4] * m->way[4];
+    out[15] += s->scaled[5] * s->way[0] + m->scaled[5] * m->way[0];
+    out[16] += s->scaled[5] * s->way[1] + m->scaled[5] * m->way[1];
+    out[17] += s->scaled[5] * s->way[2] + m->scaled[5] * m->way[2];
+    out[18] += s->scaled[5] * s->way[3] + m->scaled[5] * m->way[3];
+    out[19] += s->scaled[5] * s->way[4] + m->scaled[5] * m->way[4];
+    out[20] += s->scaled[5] * s->way[5] + m->scaled[5] * m->way[5];
+}
+
+static inline void add_covariance(float *out, const struct rho_imm *imm, int place, float s,
+                                  float m)
+{
+    out[place] += s * imm->steady.covariance[place] + m * imm->covariance[place];
+}
+
+static void add_covariances(float *out, const struct rho_imm *imm, float s, float m)
+{
+    if (imm->is_coupled) {
+        for (int place = 0; place < RHO_TRIANGLE(RHO_KALMAN_STATES); place++) {
+            add_covariance(out, imm, place, s, m);
+        }
+        return;
     }
-    add_square(sums->covariance, covariance, share, way, scaled);
+    add_covariance(out, imm, RHO_AT(0, 0), s, m);
+    add_covariance(out, imm, RHO_AT(1, 1), s, m);
+    add_covariance(out, imm, RHO_AT(2, 2), s, m);
+    add_covariance(out, imm, RHO_AT(3, 0), s, m);
+    add_covariance(out, imm, RHO_AT(3, 3), s, m);
+    add_covariance(out, imm, RHO_AT(4, 1), s, m);
+    add_covariance(out, imm, RHO_AT(4, 4), s, m);
+    add_covariance(out, imm, RHO_AT(5, 2), s, m);
+    add_covariance(out, imm, RHO_AT(5, 5), s, m);
 }
 
 static void add_hypothesis(struct sums *sums, const struct rho_imm *imm, float share)
 {
-    const float m = share * imm->probability;
-    add_model(sums, imm->steady.state, imm->steady.covariance, share - m);
-    add_model(sums, imm->state, imm->covariance, m);
+    const float m = share * imm->probability, s = share - m;
+    struct way steady, manoeuvre;
+    find_way(sums, imm->steady.state, s, &steady);
+    find_way(sums, imm->state, m, &manoeuvre);
+    add_squares(sums->covariance, &steady, &manoeuvre);
+    add_covariances(sums->covariance, imm, s, m);
     sums->share += share;
     sums->maneuver += m;
     for (int axis = 0; axis < 3; axis++) {

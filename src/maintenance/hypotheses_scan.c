@@ -25,8 +25,8 @@ static float log_clutter(const struct rho_hypotheses_clutter *clutter,
 }
 
 /* Into the hypothesis' list of its best plots, of equals behind the earlier ones. Returns what it is worth with the plot. */
-static inline float note_candidate(struct rho_hypothesis *at, float gain_nat,
-                                   const struct rho_imm_match *match, int16_t row)
+static inline float note_candidate(struct rho_hypothesis *at, float gain_nat, float probability,
+                                   int16_t row)
 {
     struct rho_hypotheses_candidate *list = at->candidates;
     unsigned place = at->num_candidates;
@@ -38,7 +38,7 @@ static inline float note_candidate(struct rho_hypothesis *at, float gain_nat,
     for (; place > 0 && list[place - 1].gain_nat < gain_nat; place--) {
         list[place] = list[place - 1];
     }
-    list[place] = (struct rho_hypotheses_candidate){gain_nat, match->probability, row};
+    list[place] = (struct rho_hypotheses_candidate){gain_nat, probability, row};
     return at->weight_nat + gain_nat;
 }
 
@@ -54,7 +54,7 @@ static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct
         const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
         if (imm && rho_imm_weigh(imm, seen, &match)) {
             const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
-            const float worth = note_candidate(at, gain, &match, row);
+            const float worth = note_candidate(at, gain, match.probability, row);
             best = worth > best ? worth : best;
         }
     }
@@ -103,22 +103,31 @@ static inline float enough_for(const struct rho_hypothesis *at, float best)
     return last < others ? last : others;
 }
 
+/* A place alone, whose pd over the clutter's density is `worth`, ln. Returns the better one of `best` and what it makes. */
+static inline float weigh_in_gate(struct rho_hypothesis *at, const struct rho_imm_gate *gate,
+                                  const float place_m[3], int16_t row, float worth, float best)
+{
+    float log_likelihood, probability;
+    if (!rho_imm_weigh_in(gate, place_m, enough_for(at, best) - worth, &log_likelihood,
+                          &probability)) {
+        return best;
+    }
+    const float made = note_candidate(at, worth + log_likelihood, probability, row);
+    return made > best ? made : best;
+}
+
 /* The same as weigh_each, in the gates that are open. */
 static float weigh_in_gates(struct rho_hypotheses *pool, uint16_t slot, const float place_m[3],
                             int16_t row, float log_pd, const struct rho_hypotheses_clutter *clutter)
 {
     const float level = log_pd - log_clutter_of_place(clutter, 2);
     const float high = log_pd - log_clutter_of_place(clutter, 3);
-    struct rho_imm_match match;
+    const uint16_t *nodes = pool->node_of[slot];
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         const struct rho_imm_gate *gate = &pool->gates[i];
-        const float more = gate->num_axes > 2 ? high : level;
-        if (rho_imm_weigh_in(gate, place_m, enough_for(at, best) - more, &match)) {
-            const float worth = note_candidate(at, more + match.log_likelihood, &match, row);
-            best = worth > best ? worth : best;
-        }
+        best = weigh_in_gate(&pool->nodes[nodes[i]], gate, place_m, row,
+                             gate->num_axes > 2 ? high : level, best);
     }
     return best;
 }
@@ -183,9 +192,6 @@ static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes,
                              const struct rho_hypotheses_child *child)
 {
     struct rho_hypotheses_child *list = pool->children;
-    if (num == RHO_HYPOTHESES_OF_TRACK && !(child->weight_nat > list[num - 1].weight_nat)) {
-        return num;
-    }
     unsigned gap = 0; /* what makes room */
     while (gap < num && !is_same(pool, nodes, &list[gap], child)) {
         gap++;
@@ -202,6 +208,12 @@ static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes,
     return num + more;
 }
 
+/* True where a child of that weight would be left out: the list is full of others that are no lighter. */
+static inline int is_too_light(const struct rho_hypotheses *pool, unsigned num, float weight_nat)
+{
+    return num == RHO_HYPOTHESES_OF_TRACK && !(weight_nat > pool->children[num - 1].weight_nat);
+}
+
 /* The heaviest children, the heaviest first. No filter has been touched yet. */
 static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
                               const struct rho_hypotheses_scan *scan)
@@ -213,6 +225,9 @@ static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
         struct rho_hypotheses_child child = {.parent = (uint8_t)i};
         for (unsigned k = 0; k < at->num_candidates; k++) {
             child.weight_nat = at->weight_nat + at->candidates[k].gain_nat;
+            if (is_too_light(pool, num, child.weight_nat)) {
+                break; /* so are the others, which come behind it */
+            }
             child.row = at->candidates[k].row;
             child.candidate = (uint8_t)k;
             if (is_free(scan, child.row)) {
@@ -221,7 +236,9 @@ static unsigned bear_children(struct rho_hypotheses *pool, uint16_t slot,
         }
         child.weight_nat = at->weight_nat + scan->log_miss;
         child.row = RHO_HYPOTHESES_MISS;
-        num = insert_child(pool, nodes, num, &child);
+        if (!is_too_light(pool, num, child.weight_nat)) {
+            num = insert_child(pool, nodes, num, &child);
+        }
     }
     return num;
 }

@@ -332,12 +332,6 @@ struct checks {
     int good;
 };
 
-static inline void check(struct checks *checks, const struct axis *at, float accel_variance)
-{
-    checks->good &= at->pp + at->vv + accel_variance <= RHO_KALMAN_VARIANCE_MAX;
-    checks->places += at->p + at->v;
-}
-
 static inline int are_good(const struct checks *checks)
 {
     return checks->good && checks->places >= -FLT_MAX && checks->places <= FLT_MAX;
@@ -363,9 +357,9 @@ static void predict_axis(struct rho_imm *imm, int axis, const struct exchange *b
     put_axis(kalman->state, kalman->covariance, axis, &steady);
     put_axis(imm->state, imm->covariance, axis, &manoeuvre);
     put_accel(imm, axis, &more);
-    check(checks, &steady, 0.0f);
-    check(checks, &manoeuvre, more.aa);
-    checks->places += more.a;
+    checks->good &= steady.pp + steady.vv <= RHO_KALMAN_VARIANCE_MAX;
+    checks->good &= manoeuvre.pp + manoeuvre.vv + more.aa <= RHO_KALMAN_VARIANCE_MAX;
+    checks->places += steady.p + steady.v + manoeuvre.p + manoeuvre.v + more.a;
 }
 
 /* Where the covariances of two axes lie: by derivative of the first, of the second. */

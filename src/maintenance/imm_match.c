@@ -344,7 +344,7 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
     open_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
                believable(1.0f - imm->probability));
     open_model(gate, 1, imm->state, imm->covariance, variance_m2, believable(imm->probability));
-    return 1;
+    return is_likelihood(gate->log_factor[0]) && is_likelihood(gate->log_factor[1]);
 }
 
 static inline float distance2_in(const float centre_m[3], const float inverse[3],
@@ -363,7 +363,7 @@ static inline float log_part(float log_factor, float distance2)
 
 /* ln(e^s + e^m) is at most that of the larger one and ln 2, and at least the larger one. */
 int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3], float enough,
-                     struct rho_imm_match *match)
+                     float *log_likelihood, float *probability)
 {
     const float to_s = distance2_in(gate->centre_m[0], gate->inverse[0], place_m);
     const float to_m = distance2_in(gate->centre_m[1], gate->inverse[1], place_m);
@@ -376,10 +376,7 @@ int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3], fl
         return 0;
     }
     const float ratio = rho_exp(least - most), share = 1.0f / (1.0f + ratio);
-    match->probability = s > m ? ratio * share : share;
-    match->log_likelihood = most + rho_log_one_plus(ratio);
-    match->distance2 = to_s < to_m ? to_s : to_m;
-    match->num_axes = gate->num_axes;
-    match->has_velocity = match->has_range_rate = 0;
-    return is_likelihood(match->log_likelihood);
+    *probability = s > m ? ratio * share : share;
+    *log_likelihood = most + rho_log_one_plus(ratio);
+    return 1;
 }

@@ -25,6 +25,7 @@ static struct rho_plot plots[PLOTS_MAX];
 static struct rho_hypotheses_clutter clutter;
 static struct rho_hypotheses_estimate estimate;
 static uint16_t slot;
+static float log_pd, log_miss; /* the tracker has them once a scan, too */
 static int num_plots, num_in_gate, num_hypotheses;
 
 static void draw_in_ball(float radius, float out[3])
@@ -66,10 +67,8 @@ static void draw_scan(int scan, float sigma_cross_m)
 /* A whole step, from the prediction to the estimate that is reported. */
 static int step(int64_t time_us)
 {
-    const struct rho_hypotheses_scan scan = {.time_us = time_us,
-                                             .measures = RHO_MEASURES_Z,
-                                             .plots = plots,
-                                             .log_miss = rho_log(1.0f - PD)};
+    const struct rho_hypotheses_scan scan = {
+        .time_us = time_us, .measures = RHO_MEASURES_Z, .plots = plots, .log_miss = log_miss};
     struct rho_hypotheses_reach reach;
     struct rho_hypotheses_outcome outcome;
     struct rho_imm_plot seen;
@@ -79,8 +78,8 @@ static int step(int64_t time_us)
     for (int i = 0; i < num_plots; i++) {
         if (rho_hypotheses_reaches(&pool, slot, &reach, &plots[i], RHO_MEASURES_Z)) {
             rho_imm_open_plot(&seen, &plots[i], RHO_MEASURES_Z, NULL);
-            num_in_gate += rho_hypotheses_weigh(&pool, slot, &seen, time_us, (int16_t)i,
-                                                rho_log(PD), &clutter, &gain_nat);
+            num_in_gate += rho_hypotheses_weigh(&pool, slot, &seen, time_us, (int16_t)i, log_pd,
+                                                &clutter, &gain_nat);
         }
     }
     failed |= rho_hypotheses_commit(&pool, slot, &scan, &outcome) != RHO_OK;
@@ -112,6 +111,8 @@ int main(int argc, char **argv)
     }
     const float volume_m3 = 4.0f / 3.0f * RHO_PI * GATE_M * GATE_M * GATE_M;
     clutter.log_per_m2 = rho_log((num_plots > 1 ? (float)num_plots - 1.0f : 0.1f) / volume_m3);
+    log_pd = rho_log(PD);
+    log_miss = rho_log(1.0f - PD);
     int failed = start();
     for (int scan = 1; scan <= SCANS && !failed; scan++) {
         draw_scan(scan, atoi(argv[2]) ? 1.2f * SIGMA_M : SIGMA_M);
