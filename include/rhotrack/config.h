@@ -151,6 +151,15 @@
 #define RHO_MAX_HYPOTHESES RHO_CONFIG_PICK(96, 6000)
 #endif
 
+/*
+ * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2 input estimation, 4
+ * hypotheses. What only the others need is left out of the program: a radar with the gate best needs 4 alone (10 KB less on a
+ * Cortex-M4), one with the gate nearest 1. What asks for another one is refused (CONFIG). Default: all. 1 .. 7.
+ */
+#ifndef RHO_FILTERS
+#define RHO_FILTERS 7
+#endif
+
 /* Plots in one track's gate that compete in the assignment; the nearest are kept. 1 .. 32. */
 #ifndef RHO_MAX_GATE_PLOTS
 #define RHO_MAX_GATE_PLOTS RHO_CONFIG_PICK(8, 16)
@@ -251,6 +260,9 @@
 #endif
 #if RHO_MAX_HYPOTHESES < 1 || RHO_MAX_HYPOTHESES > 65534
 #error "RHO_MAX_HYPOTHESES must be 1 .. 65534"
+#endif
+#if RHO_FILTERS < 1 || RHO_FILTERS > 7
+#error "RHO_FILTERS must be 1 .. 7"
 #endif
 #if RHO_MAX_GATE_PLOTS < 1 || RHO_MAX_GATE_PLOTS > 32
 #error "RHO_MAX_GATE_PLOTS must be 1 .. 32"

@@ -51,6 +51,13 @@ enum rho_track_filter {
     RHO_NUM_TRACK_FILTERS
 };
 
+/* True of filters that the library is built with. */
+#define RHO_HAS_FILTER(filter) ((RHO_FILTERS >> (filter)&1) != 0)
+
+/* True of a track with that filter: known to the compiler where there is no such, or no other. */
+#define RHO_TRACK_IS_BY(track, which)                                                              \
+    (RHO_FILTERS == 1 << (which) || (RHO_HAS_FILTER(which) && (track)->filter == (which)))
+
 struct rho_track {
     uint32_t track_id; /* 1, 2, ... in the order of starts; never used twice until 2^32 */
     uint8_t status;    /* enum rho_track_status */
@@ -115,8 +122,8 @@ struct rho_track_plot {
  * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 1 plots: the first opens the filter, the
  * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is
  * that plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
- * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses); *track is unchanged. Cost:
- * num_plots filter steps. Stack: 1.8 KB.
+ * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses), CONFIG (the filter that the model
+ * asks for is none of RHO_FILTERS); *track is unchanged. Cost: num_plots filter steps. Stack: 1.8 KB.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
@@ -177,8 +184,8 @@ struct rho_track_bearing {
 
 /*
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans have made; sensor_id
- * is one of those that saw it. Errors: NULL, VALUE (x or y not open, no hits); *track is unchanged. Constant cost.
- * Stack: 550 bytes.
+ * is one of those that saw it. Errors: NULL, CONFIG (RHO_FILTERS has no Kalman filter), VALUE (x or y not open, no hits);
+ * *track is unchanged. Constant cost. Stack: 550 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
                                                         const struct rho_kalman *estimate,

@@ -130,7 +130,7 @@ struct rho_report {
 };
 
 /*
- * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5, gate best; hough and nearest without input estimation, planes
+ * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses); hough and nearest without input estimation, planes
  * xy, xz and yz, cells of 5 degrees. Constant cost.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);
@@ -138,7 +138,8 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
 /*
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
- * Errors: NULL, SIZE, CONFIG. Cost: sizeof(tracker) bytes cleared. Stack: 320 bytes.
+ * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
+ * bytes cleared. Stack: 320 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
@@ -185,7 +186,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
  *            bearing that it claimed
  * A track has one hit or one miss a frame; its score counts every sensor. Frames and scans of plots may be mixed: they
  * update the same tracks.
- * Errors: NULL, STATE (tracker or passive not initialised), VALUE (a place that is no coordinate, a sector beyond one turn
+ * Errors: NULL, STATE (tracker or passive not initialised), CONFIG (passive, where RHO_FILTERS has no Kalman filter), VALUE (a
+ * place that is no coordinate, a sector beyond one turn
  * either way, a time beyond RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its frame), and those of
  * rho_passive_accepts; nothing is changed, *report neither.
  * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one rho_passive_search.

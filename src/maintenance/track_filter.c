@@ -113,7 +113,7 @@ static enum rho_status take_by_input(struct rho_track *track, const struct rho_t
 /* A bearing alone is blind along its line: only those of all sensors say whether there is an input. */
 static void decide_on_bearings(struct rho_track *track, const struct rho_track_model *model)
 {
-    if (track->filter == RHO_TRACK_INPUT && track->is_undecided && model->input) {
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
         rho_input_decide(&track->input, model->input);
         show_input(track);
         track->is_undecided = 0;
@@ -139,7 +139,7 @@ void rho_track_settle(struct rho_track *track, int64_t time_us, const struct rho
 {
     struct rho_hypotheses_estimate estimate;
     decide_on_bearings(track, model);
-    if (track->filter != RHO_TRACK_HYPOTHESES ||
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) ||
         rho_hypotheses_estimate(model->hypotheses, track->slot, time_us, &estimate) != RHO_OK) {
         return;
     }
@@ -153,7 +153,7 @@ void rho_track_settle(struct rho_track *track, int64_t time_us, const struct rho
 
 void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected)
 {
-    if (track->filter == RHO_TRACK_INPUT) {
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         rho_input_expect(&track->input, expected);
     } else {
         *expected = track->kalman;
@@ -165,29 +165,36 @@ void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected
 static enum rho_status take(struct rho_track *track, const struct rho_track_plot *seen,
                             const struct rho_track_model *model)
 {
-    switch (track->filter) {
-    case RHO_TRACK_HYPOTHESES:
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return take_by_hypotheses(track, seen, model);
-    case RHO_TRACK_INPUT:
-        return take_by_input(track, seen, model);
-    default:
-        return take_by_kalman(track, seen, model);
     }
+    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? take_by_input(track, seen, model)
+                                                   : take_by_kalman(track, seen, model);
 }
 
-/* The filter that the model asks for starts from what one plot tells. */
+/* The filter that the model asks for. */
+static enum rho_track_filter filter_of(const struct rho_track_model *model)
+{
+    if (model->hypotheses) {
+        return RHO_TRACK_HYPOTHESES;
+    }
+    return model->input ? RHO_TRACK_INPUT : RHO_TRACK_KALMAN;
+}
+
+/* It starts from what one plot tells. */
 static enum rho_status open_filter(struct rho_track *track, const struct rho_track_model *model)
 {
-    track->filter = RHO_TRACK_KALMAN;
-    if (model->hypotheses) {
-        track->filter = RHO_TRACK_HYPOTHESES;
+    const enum rho_track_filter filter = filter_of(model);
+    if (!RHO_HAS_FILTER(filter)) {
+        return RHO_ERROR_CONFIG;
+    }
+    track->filter = (uint8_t)filter;
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return rho_hypotheses_open(model->hypotheses, &track->kalman, track->time_us, &track->slot);
     }
-    if (model->input) {
-        track->filter = RHO_TRACK_INPUT;
-        return rho_input_start(&track->input, model->input, &track->kalman);
-    }
-    return RHO_OK;
+    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)
+               ? rho_input_start(&track->input, model->input, &track->kalman)
+               : RHO_OK;
 }
 
 /* After a hit; another sensor's in the same step only tells the newest one better. */
@@ -265,6 +272,9 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     if (!track || !estimate) {
         return RHO_ERROR_NULL;
     }
+    if (!RHO_HAS_FILTER(RHO_TRACK_KALMAN)) {
+        return RHO_ERROR_CONFIG;
+    }
     if (hits < 1 || !rho_kalman_is_open(estimate, 0) || !rho_kalman_is_open(estimate, 1)) {
         return RHO_ERROR_VALUE;
     }
@@ -288,7 +298,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
 
 void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
 {
-    if (track->filter == RHO_TRACK_HYPOTHESES) {
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         rho_hypotheses_close(model->hypotheses, track->slot);
         track->slot = RHO_HYPOTHESES_SLOTS; /* none: it may be another's soon */
     }
@@ -314,9 +324,9 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
         return RHO_ERROR_NULL;
     }
     float dt_s = rho_seconds_between(track->time_us, time_us);
-    if (track->filter == RHO_TRACK_HYPOTHESES) {
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         status = predict_hypotheses(track, time_us, model);
-    } else if (track->filter == RHO_TRACK_INPUT) {
+    } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         status = rho_input_predict(&track->input, model->input, dt_s);
         show_input(track);
     } else {
@@ -361,7 +371,7 @@ enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypot
     if (!track || !scan || !model) {
         return RHO_ERROR_NULL;
     }
-    if (track->filter != RHO_TRACK_HYPOTHESES) {
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return RHO_ERROR_STATE;
     }
     enum rho_status status = rho_hypotheses_commit(model->hypotheses, track->slot, scan, &outcome);
@@ -424,10 +434,10 @@ static enum rho_status take_bearing(struct rho_track *track,
                                     const struct rho_track_bearing *bearing,
                                     const struct rho_track_model *model)
 {
-    if (track->filter == RHO_TRACK_INPUT) {
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         return take_bearing_by_input(track, bearing, model);
     }
-    if (track->filter == RHO_TRACK_KALMAN) {
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return take_bearing_by_kalman(track, bearing, model);
     }
     enum rho_status status =
@@ -453,7 +463,7 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
     if (track->plot < 0) {
         rho_track_count_hit(track);
     }
-    if (track->filter != RHO_TRACK_HYPOTHESES) { /* these have settled there */
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) { /* these have settled there */
         track->time_us = bearing->time_us;
     }
     take_sighting(track, bearing->time_us, bearing->sensor_id, bearing->row);

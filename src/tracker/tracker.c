@@ -108,6 +108,15 @@ void rho_tracker_set_pd(struct step *step)
     step->log_miss = rho_log(1.0f - pd);
 }
 
+/* The filter of tracks of plots. */
+static enum rho_track_filter filter_of(const struct rho_tracker_config *config)
+{
+    if (config->gate == RHO_TRACKER_BEST) {
+        return RHO_TRACK_HYPOTHESES;
+    }
+    return config->input.is_estimated ? RHO_TRACK_INPUT : RHO_TRACK_KALMAN;
+}
+
 /* What targets may do, and who follows them. */
 static void set_model(struct step *step)
 {
@@ -117,7 +126,7 @@ static void set_model(struct step *step)
     step->log_rates = rho_log(2.0f * tracker->config.v_max_mps);
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
-    if (tracker->config.gate == RHO_TRACKER_BEST) {
+    if (filter_of(&tracker->config) == RHO_TRACK_HYPOTHESES) {
         step->model.hypotheses = &tracker->hypotheses;
     } else if (tracker->config.input.is_estimated) {
         step->model.input = &tracker->config.input;
@@ -173,7 +182,7 @@ static void report_track(const struct step *step, const struct rho_track *track,
         .maneuver_probability = at->maneuver_probability,
         .num_hypotheses = 1,
     };
-    if (track->filter == RHO_TRACK_HYPOTHESES) {
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         out->num_hypotheses =
             (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
     }
@@ -234,12 +243,12 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .v_max_mps = 700.0f,
         .accel_max_mps2 = 30.0f,
         .coast_scans_max = 5,
-        .gate = RHO_TRACKER_BEST,
+        .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
         .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
         .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
     };
     rho_input_config_default(&config->input);
-    config->input.is_estimated = 0;
+    config->input.is_estimated = RHO_FILTERS == 1 << RHO_TRACK_INPUT;
 }
 
 static int is_usable(const struct rho_tracker_config *config)
@@ -248,6 +257,7 @@ static int is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) && config->coast_scans_max >= 1 &&
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
+           RHO_HAS_FILTER(filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            rho_input_is_usable(&config->input) && config->planes > 0 &&
            config->planes <= ALL_PLANES &&

@@ -99,7 +99,7 @@ static int opens_hough(const struct step *step, const struct rho_track *track,
     if (!rho_kalman_is_open(&track->kalman, 2)) {
         planes = RHO_GATE_PLANE_XY;
     }
-    return config->gate == RHO_TRACKER_HOUGH && track->filter != RHO_TRACK_HYPOTHESES &&
+    return config->gate == RHO_TRACKER_HOUGH && !RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
            track->num_velocities >= HOUGH_VELOCITIES_MIN &&
            rho_gate_hough_open(hough, planes, config->theta_cell_rad, track->before_mps,
                                track->newest_mps) == RHO_OK;
@@ -142,8 +142,8 @@ void rho_tracker_open_gate(const struct step *step, const struct rho_track *trac
     struct rho_kalman expected;
     rho_track_expect(track, &expected);
     rho_gate_open(gate, &expected,
-                  track->filter == RHO_TRACK_INPUT ? step->model.input->noise_density
-                                                   : step->model.noise_density,
+                  RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? step->model.input->noise_density
+                                                          : step->model.noise_density,
                   step->sensor, step->scan ? step->scan->measures : 0);
 }
 
@@ -240,7 +240,7 @@ void rho_tracker_claim(struct step *step)
         if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
             continue;
         }
-        if (tracker->tracks[row].filter == RHO_TRACK_HYPOTHESES) {
+        if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
             weigh_plots(step, row, 0);
         } else {
             gate_plots(step, row);
@@ -349,10 +349,10 @@ void rho_tracker_update(struct step *step)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         int plot = rho_assignment_column(&tracker->assignment, row);
-        if (!rho_tracker_is_reached(step, row)) {
+        if (track->status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
             continue;
         }
-        if (track->status != RHO_TRACK_FREE && track->filter == RHO_TRACK_HYPOTHESES) {
+        if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
             commit(step, row);
         } else if (plot == RHO_ASSIGNMENT_NONE) {
             continue;

@@ -294,6 +294,9 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
+    if (passive && !RHO_HAS_FILTER(RHO_TRACK_KALMAN)) {
+        return RHO_ERROR_CONFIG; /* it could start no track */
+    }
     enum rho_status status = check_frame(frame);
     if (status == RHO_OK && passive && !rho_tracker_is_late(tracker, frame->time_us)) {
         status = rho_passive_accepts(passive, frame);

@@ -81,7 +81,7 @@ void rho_tracker_age(struct step *step)
             rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
                                   track)) {
             /* what a miss says of a track of hypotheses is in its score already */
-            rho_track_miss(track, track->filter == RHO_TRACK_HYPOTHESES
+            rho_track_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                                       ? 0
                                       : rho_tracker_mnat(-step->log_miss));
         }
