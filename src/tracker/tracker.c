@@ -151,12 +151,14 @@ static const struct rho_track *at_step(const struct step *step, const struct rho
         return track;
     }
     *at = *track;
-    /* hypotheses are at the scan's time, unless it is late: then their one estimate goes back, and they stay */
-    if (at->filter == RHO_TRACK_HYPOTHESES) {
-        at->filter = RHO_TRACK_KALMAN;
+    /* back from the plot's own time to the scan's, without noise, or on: nothing to refuse */
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        /* late scans, and those that do not reach it: the one estimate moves, hypotheses stay */
+        (void)!rho_kalman_predict(&at->kalman, rho_seconds_between(track->time_us, step->time_us),
+                                  step->model.noise_density);
+    } else {
+        (void)!rho_track_predict(at, step->time_us, &step->model);
     }
-    /* back from the plot's own time to the scan's, without noise: nothing to refuse */
-    (void)!rho_track_predict(at, step->time_us, &step->model);
     return at;
 }
 

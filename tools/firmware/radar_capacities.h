@@ -6,3 +6,6 @@
 
 /* Nobody else's scans come in between: one is put together at a time. */
 #define RHO_MAX_OPEN_SCANS 1
+
+/* Tracks of plots by hypotheses alone: the gate best. The filters of the others, and of bearings, are left out. */
+#define RHO_FILTERS 4
