@@ -49,8 +49,8 @@ struct rho_imm_step {
     float dt_s;
     float change; /* probability that the other model holds at its end */
     float position_by_accel, velocity_by_accel, accel_by_accel;
-    float noise[RHO_TRIANGLE(3)]; /* of position, velocity, acceleration of an axis */
-    float quiet_density;
+    float noise[RHO_TRIANGLE(3)];       /* of position, velocity, acceleration of an axis */
+    float quiet_noise[RHO_TRIANGLE(2)]; /* the steady model's, of position and velocity */
 };
 
 struct rho_imm {
@@ -123,7 +123,8 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
 /* What weighing plots of one isotropic noise, places alone, has in common while the axes are independent. */
 struct rho_imm_gate {
     float centre_m[2][3]; /* of both models */
-    float inverse[2][3];  /* of the innovations' variances; 0 where an axis does not count */
+    float half_inverse
+        [2][3]; /* of the innovations' variances, 1 / 2 S; 0 where an axis does not count */
     float log_factor
         [2]; /* ln of the model's probability and of its density where the distance is 0 */
     uint8_t num_axes;

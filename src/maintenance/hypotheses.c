@@ -226,13 +226,13 @@ enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slo
 
 /* ---- the mean --------------------------------------------------------------------------------- */
 
-float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot)
+float rho_hypotheses_sum(const struct rho_hypotheses *pool, uint16_t slot)
 {
     float sum = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         sum += pool->nodes[pool->node_of[slot][i]].share;
     }
-    return rho_log(sum);
+    return sum;
 }
 
 /*
@@ -252,12 +252,15 @@ struct way {
     float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
 };
 
-static inline void find_way(struct sums *sums, const float *state, float share, struct way *out)
+static inline void find_ways(struct sums *sums, const struct rho_imm *imm, float s, float m,
+                             struct way *steady, struct way *manoeuvre)
 {
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        out->way[i] = state[i] - sums->about[i];
-        out->scaled[i] = share * out->way[i];
-        sums->way[i] += out->scaled[i];
+        steady->way[i] = imm->steady.state[i] - sums->about[i];
+        manoeuvre->way[i] = imm->state[i] - sums->about[i];
+        steady->scaled[i] = s * steady->way[i];
+        manoeuvre->scaled[i] = m * manoeuvre->way[i];
+        sums->way[i] += steady->scaled[i] + manoeuvre->scaled[i];
     }
 }
 
@@ -316,8 +319,7 @@ static void add_hypothesis(struct sums *sums, const struct rho_imm *imm, float s
 {
     const float m = share * imm->probability, s = share - m;
     struct way steady, manoeuvre;
-    find_way(sums, imm->steady.state, s, &steady);
-    find_way(sums, imm->state, m, &manoeuvre);
+    find_ways(sums, imm, s, m, &steady, &manoeuvre);
     add_squares(sums->covariance, &steady, &manoeuvre);
     add_covariances(sums->covariance, imm, s, m);
     sums->share += share;

@@ -28,7 +28,7 @@ const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
 /* The best, which is the slot's first, weighs 0 again, and all have their shares by it. Returns what it weighed. */
 float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot);
 
-/* ln of the sum of a slot's shares. */
-float rho_hypotheses_log_sum(const struct rho_hypotheses *pool, uint16_t slot);
+/* The sum of a slot's shares. */
+float rho_hypotheses_sum(const struct rho_hypotheses *pool, uint16_t slot);
 
 #endif

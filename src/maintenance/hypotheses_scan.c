@@ -273,17 +273,15 @@ static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
 /* One whose update is refused has what a miss weighs. Weights are still those of the scan, the best one's included. */
 static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                  const struct rho_imm *before, const struct rho_hypotheses_scan *scan,
-                 const struct rho_hypotheses_child *child)
+                 const struct rho_hypotheses_child *child, const struct rho_imm_plot *seen)
 {
     const float as_miss = at->weight_nat + scan->log_miss;
     int16_t row = child->row;
     if (row >= 0) {
-        const struct rho_plot *plot = &scan->plots[row];
         const struct rho_hypotheses_candidate *chosen = &at->candidates[child->candidate];
         const struct rho_imm_match match = {.probability = chosen->probability};
-        struct rho_imm_plot seen;
-        rho_imm_open_plot(&seen, plot, scan->measures, scan->sensor);
-        row = take_plot(pool, at, before, &seen, scan->time_us + plot->offset_us, &match, row);
+        row = take_plot(pool, at, before, seen, scan->time_us + scan->plots[row].offset_us, &match,
+                        row);
     }
     for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
         at->picks[k - 1] = at->picks[k];
@@ -295,19 +293,20 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
 /* In a copy, while the parent has more children; the last one takes the parent's node, kept in case it is refused. */
 static uint16_t grow_child(struct rho_hypotheses *pool, uint16_t parent, int is_last,
                            const struct rho_hypotheses_scan *scan,
-                           const struct rho_hypotheses_child *child)
+                           const struct rho_hypotheses_child *child,
+                           const struct rho_imm_plot *seen)
 {
     struct rho_hypothesis *from = &pool->nodes[parent];
     if (!is_last) {
         const uint16_t node = rho_hypotheses_allot(pool);
         pool->nodes[node] = *from;
-        grow(pool, &pool->nodes[node], &from->imm, scan, child);
+        grow(pool, &pool->nodes[node], &from->imm, scan, child, seen);
         return node;
     }
     if (child->row >= 0) {
         pool->scratch = from->imm;
     }
-    grow(pool, from, &pool->scratch, scan, child);
+    grow(pool, from, &pool->scratch, scan, child, seen);
     return parent;
 }
 
@@ -317,6 +316,8 @@ static void replace(struct rho_hypotheses *pool, uint16_t slot,
 {
     uint8_t uses[RHO_HYPOTHESES_OF_TRACK] = {0};
     uint16_t nodes[RHO_HYPOTHESES_OF_TRACK];
+    struct rho_imm_plot seen;
+    int16_t opened = RHO_HYPOTHESES_MISS;
     for (unsigned i = 0; i < num; i++) {
         uses[pool->children[i].parent]++;
     }
@@ -328,7 +329,12 @@ static void replace(struct rho_hypotheses *pool, uint16_t slot,
     for (unsigned i = 0; i < num; i++) {
         const struct rho_hypotheses_child *child = &pool->children[i];
         const int is_last = --uses[child->parent] == 0;
-        nodes[i] = grow_child(pool, pool->node_of[slot][child->parent], is_last, scan, child);
+        if (child->row >= 0 && child->row != opened) { /* often it is that of the one before */
+            opened = child->row;
+            rho_imm_open_plot(&seen, &scan->plots[opened], scan->measures, scan->sensor);
+        }
+        nodes[i] =
+            grow_child(pool, pool->node_of[slot][child->parent], is_last, scan, child, &seen);
     }
     memcpy(pool->node_of[slot], nodes, num * sizeof nodes[0]);
     pool->num_of[slot] = (uint8_t)num;
@@ -366,11 +372,11 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
-    float before = rho_hypotheses_log_sum(pool, slot);
+    const float before = rho_hypotheses_sum(pool, slot);
     replace(pool, slot, scan, choose_children(pool, slot, scan));
-    float best = order(pool, slot);
+    const float best = order(pool, slot);
     outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
-    outcome->gain_nat = best + rho_hypotheses_log_sum(pool, slot) - before;
+    outcome->gain_nat = best + rho_log(rho_hypotheses_sum(pool, slot) / before);
     return RHO_OK;
 }
 

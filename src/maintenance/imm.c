@@ -152,7 +152,10 @@ void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *mo
         double_step(step);
     }
     step->dt_s = dt_s;
-    step->quiet_density = dt_s > 0.0f ? model->quiet_density : 0.0f;
+    const float quiet = dt_s > 0.0f ? model->quiet_density * dt_s : 0.0f;
+    step->quiet_noise[0] = quiet * dt_s * dt_s * (1.0f / 3.0f);
+    step->quiet_noise[1] = 0.5f * dt_s * quiet;
+    step->quiet_noise[2] = quiet;
     step->change = dt_s > 0.0f ? 0.5f - 0.5f * rho_exp(-2.0f * dt_s / model->sojourn_s) : 0.0f;
 }
 
@@ -319,11 +322,11 @@ static inline void move_manoeuvre(struct axis *at, struct accel *by,
 /* The same of the steady model's. */
 static inline void move_steady(struct axis *at, const struct rho_imm_step *step)
 {
-    const float dt = step->dt_s, q = step->quiet_density * dt;
+    const float dt = step->dt_s;
     at->p += dt * at->v;
-    at->pp = raised(at->pp + dt * (2.0f * at->vp + dt * at->vv) + q * dt * dt * (1.0f / 3.0f));
-    at->vp += dt * at->vv + 0.5f * dt * q;
-    at->vv = raised(at->vv + q);
+    at->pp = raised(at->pp + dt * (2.0f * at->vp + dt * at->vv) + step->quiet_noise[0]);
+    at->vp += dt * at->vv + step->quiet_noise[1];
+    at->vv = raised(at->vv + step->quiet_noise[2]);
 }
 
 /* What is left must be finite, and the variances within the limit; they are above 0 where they are numbers. */

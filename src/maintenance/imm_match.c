@@ -315,19 +315,19 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
 static void open_model(struct rho_imm_gate *gate, int model, const float *state,
                        const float *covariance, float variance_m2, float share)
 {
-    float *centre_m = gate->centre_m[model], *inverse = gate->inverse[model];
+    float *centre_m = gate->centre_m[model], *inverse = gate->half_inverse[model];
     const float sx = covariance[RHO_AT(0, 0)] + variance_m2;
     const float sy = covariance[RHO_AT(1, 1)] + variance_m2;
     float det = sx * sy;
     centre_m[0] = state[0];
     centre_m[1] = state[1];
     centre_m[2] = state[2];
-    inverse[0] = 1.0f / sx;
-    inverse[1] = 1.0f / sy;
+    inverse[0] = 0.5f / sx;
+    inverse[1] = 0.5f / sy;
     inverse[2] = 0.0f;
     if (gate->num_axes > 2) {
         const float sz = covariance[RHO_AT(2, 2)] + variance_m2;
-        inverse[2] = 1.0f / sz;
+        inverse[2] = 0.5f / sz;
         det *= sz;
     }
     gate->log_factor[model] =
@@ -347,27 +347,28 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
     return is_likelihood(gate->log_factor[0]) && is_likelihood(gate->log_factor[1]);
 }
 
-static inline float distance2_in(const float centre_m[3], const float inverse[3],
-                                 const float place_m[3])
+/* Half of the squared distance. */
+static inline float half_in(const float centre_m[3], const float half_inverse[3],
+                            const float place_m[3])
 {
     const float dx = place_m[0] - centre_m[0], dy = place_m[1] - centre_m[1];
     const float dz = place_m[2] - centre_m[2];
-    return dx * dx * inverse[0] + dy * dy * inverse[1] + dz * dz * inverse[2];
+    return dx * dx * half_inverse[0] + dy * dy * half_inverse[1] + dz * dz * half_inverse[2];
 }
 
 /* ln of a model's part in a plot's density; of one that does not count, of next to nothing. */
-static inline float log_part(float log_factor, float distance2)
+static inline float log_part(float log_factor, float half)
 {
-    return log_factor - 0.5f * (distance2 <= COUNTS_MAX ? distance2 : 1e6f);
+    return log_factor - (half <= 0.5f * COUNTS_MAX ? half : 1e6f);
 }
 
 /* ln(e^s + e^m) is at most that of the larger one and ln 2, and at least the larger one. */
 int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3], float enough,
                      float *log_likelihood, float *probability)
 {
-    const float to_s = distance2_in(gate->centre_m[0], gate->inverse[0], place_m);
-    const float to_m = distance2_in(gate->centre_m[1], gate->inverse[1], place_m);
-    if (!(to_s <= RHO_IMM_GATE || to_m <= RHO_IMM_GATE)) {
+    const float to_s = half_in(gate->centre_m[0], gate->half_inverse[0], place_m);
+    const float to_m = half_in(gate->centre_m[1], gate->half_inverse[1], place_m);
+    if (!(to_s <= 0.5f * RHO_IMM_GATE || to_m <= 0.5f * RHO_IMM_GATE)) {
         return 0;
     }
     const float s = log_part(gate->log_factor[0], to_s), m = log_part(gate->log_factor[1], to_m);

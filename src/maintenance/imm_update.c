@@ -71,54 +71,69 @@ static inline void follow(struct accel *at, float *with_seen, float *with_other,
 }
 
 /*
- * One axis of a model takes its position, or its velocity. What is not finite shows in what is returned; the divisor is
- * never 0, as a noise is at least the floor.
+ * The position of one axis of a model was measured; more: NULL for the steady one. What is not finite shows in what is
+ * returned. The divisor is never 0, as a noise is at least the floor.
  */
-static inline float see_axis(struct rho_imm *imm, float *state, float *covariance, int axis,
-                             int is_velocity, float value, float variance)
+static inline float see_position(struct axis *at, struct accel *more, float place_m, float variance)
 {
-    struct axis at = take_axis(state, covariance, axis);
-    const float predicted = is_velocity ? at.vv : at.pp;
-    const struct divisor by = divide_by(predicted, variance);
-    const float off = value - (is_velocity ? at.v : at.p), step = off * by.inverse;
-    float check = predicted >= 0.0f ? off * step + predicted : FLT_MAX + FLT_MAX;
-    if (state == imm->state) {
-        struct accel more = take_accel(imm, axis);
-        if (is_velocity) {
-            follow(&more, &more.av, &more.ap, at.vp, &by, step);
-        } else {
-            follow(&more, &more.ap, &more.av, at.vp, &by, step);
-        }
-        put_accel(imm, axis, &more);
-        check += more.a;
+    const struct divisor by = divide_by(at->pp, variance);
+    const float off = place_m - at->p, step = off * by.inverse;
+    const float check = at->pp >= 0.0f ? off * step + at->pp : FLT_MAX + FLT_MAX;
+    if (more) {
+        follow(more, &more->ap, &more->av, at->vp, &by, step);
     }
-    if (is_velocity) {
-        take_velocity(&at, &by, step);
-    } else {
-        take_position(&at, &by, step);
-    }
-    put_axis(state, covariance, axis, &at);
-    return check + at.p + at.v;
+    take_position(at, &by, step);
+    return check + at->p + at->v;
 }
 
-static float see_position(struct rho_imm *imm, float *state, float *covariance, int num_axes,
-                          const struct rho_imm_plot *seen)
+/* The velocity was. */
+static inline float see_velocity(struct axis *at, struct accel *more, float speed_mps,
+                                 float variance)
 {
+    const struct divisor by = divide_by(at->vv, variance);
+    const float off = speed_mps - at->v, step = off * by.inverse;
+    const float check = at->vv >= 0.0f ? off * step + at->vv : FLT_MAX + FLT_MAX;
+    if (more) {
+        follow(more, &more->av, &more->ap, at->vp, &by, step);
+    }
+    take_velocity(at, &by, step);
+    return check + at->p + at->v;
+}
+
+static float update_positions(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
+{
+    struct rho_kalman *kalman = &imm->steady;
     const float variance = at_least(seen->position.variance_m2[0]);
     float check = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
-        check += see_axis(imm, state, covariance, axis, 0, seen->position.place_m[axis], variance);
+        const float place_m = seen->position.place_m[axis];
+        struct axis steady = take_axis(kalman->state, kalman->covariance, axis);
+        struct axis at = take_axis(imm->state, imm->covariance, axis);
+        struct accel more = take_accel(imm, axis);
+        check += see_position(&steady, 0, place_m, variance);
+        check += see_position(&at, &more, place_m, variance) + more.a;
+        put_axis(kalman->state, kalman->covariance, axis, &steady);
+        put_axis(imm->state, imm->covariance, axis, &at);
+        put_accel(imm, axis, &more);
     }
     return check;
 }
 
-static float see_velocity(struct rho_imm *imm, float *state, float *covariance, int num_axes,
-                          const struct rho_imm_plot *seen)
+static float update_velocities(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
 {
+    struct rho_kalman *kalman = &imm->steady;
     const float variance = at_least(seen->plot->sigma_mps * seen->plot->sigma_mps);
     float check = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
-        check += see_axis(imm, state, covariance, axis, 1, velocity_of(seen->plot, axis), variance);
+        const float speed_mps = velocity_of(seen->plot, axis);
+        struct axis steady = take_axis(kalman->state, kalman->covariance, axis);
+        struct axis at = take_axis(imm->state, imm->covariance, axis);
+        struct accel more = take_accel(imm, axis);
+        check += see_velocity(&steady, 0, speed_mps, variance);
+        check += see_velocity(&at, &more, speed_mps, variance) + more.a;
+        put_axis(kalman->state, kalman->covariance, axis, &steady);
+        put_axis(imm->state, imm->covariance, axis, &at);
+        put_accel(imm, axis, &more);
     }
     return check;
 }
@@ -126,12 +141,9 @@ static float see_velocity(struct rho_imm *imm, float *state, float *covariance, 
 static enum rho_status update_axes(struct rho_imm *imm, int num_axes,
                                    const struct rho_imm_plot *seen)
 {
-    struct rho_kalman *steady = &imm->steady;
-    float check = see_position(imm, steady->state, steady->covariance, num_axes, seen) +
-                  see_position(imm, imm->state, imm->covariance, num_axes, seen);
+    float check = update_positions(imm, num_axes, seen);
     if (seen->measures & RHO_MEASURES_VELOCITY) {
-        check += see_velocity(imm, steady->state, steady->covariance, num_axes, seen) +
-                 see_velocity(imm, imm->state, imm->covariance, num_axes, seen);
+        check += update_velocities(imm, num_axes, seen);
     }
     return is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
