@@ -100,8 +100,8 @@ row 'a sector of 32' 1 - tracker best polar 4 32
 
 head_of 'the default, hypotheses over imm, a track and scan: places in 3-D'
 row 'isotropic noise, the target alone' 1 - maintain 1 0
-row 'isotropic noise, 4 in the gate' 1 '?30000' maintain 4 0
-row 'isotropic noise, 10 in the gate' 1 '?60000' maintain 10 0
+row 'isotropic noise, 4 in the gate' 1 30000 maintain 4 0
+row 'isotropic noise, 10 in the gate' 1 60000 maintain 10 0
 row 'noise of its own, the target alone' 1 - maintain 1 1
 row 'noise of its own, 4 in the gate' 1 - maintain 4 1
 row 'noise of its own, 10 in the gate' 1 - maintain 10 1

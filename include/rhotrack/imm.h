@@ -100,7 +100,7 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
 
 /*
  * Mixes the models and moves both on. Errors: VALUE (a result not finite, or beyond RHO_KALMAN_VARIANCE_MAX): then the
- * object is of no more use. Cost: about 500 instructions, coupled 1 400. Stack: 320 bytes.
+ * object is of no more use. Cost: about 800 instructions, coupled 1 600. Stack: 320 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_predict(struct rho_imm *imm,
                                                const struct rho_imm_step *step);
