@@ -366,24 +366,20 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     return RHO_OK;
 }
 
-/* Row i of a symmetric matrix times a vector; written out, as -Os does not unroll loops. */
-static inline float times_row(const float p[21], const float v[6], int i)
-{
-    const uint8_t *place = row_places[i];
-    return p[place[0]] * v[0] + p[place[1]] * v[1] + p[place[2]] * v[2] + p[place[3]] * v[3] +
-           p[place[4]] * v[4] + p[place[5]] * v[5];
-}
-
+/* Rows written out, as compilers that are to save bytes unroll no loops; not all six of them, to save bytes. */
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6])
 {
-    projected[0] = times_row(p, row, 0);
-    projected[1] = times_row(p, row, 1);
-    projected[2] = times_row(p, row, 2);
-    projected[3] = times_row(p, row, 3);
-    projected[4] = times_row(p, row, 4);
-    projected[5] = times_row(p, row, 5);
-    return projected[0] * row[0] + projected[1] * row[1] + projected[2] * row[2] +
-           projected[3] * row[3] + projected[4] * row[4] + projected[5] * row[5];
+    float variance = 0.0f;
+    int i;
+
+    for (i = 0; i < 6; ++i) {
+        const uint8_t *place = row_places[i];
+
+        projected[i] = p[place[0]] * row[0] + p[place[1]] * row[1] + p[place[2]] * row[2] +
+                       p[place[3]] * row[3] + p[place[4]] * row[4] + p[place[5]] * row[5];
+        variance += projected[i] * row[i];
+    }
+    return variance;
 }
 
 enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],

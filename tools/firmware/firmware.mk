@@ -6,21 +6,25 @@ firmware := $(BUILD)/firmware
 firmware_folder := tools/firmware
 board := $(firmware_folder)/board
 ARM_CC ?= arm-none-eabi-gcc
-FIRMWARE_OPT := -Os
+# For 64 KiB of flash: the whole program at once, no code moved out of loops, none rearranged. For 4 KiB of stack: no large
+# frames put into one another.
+FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-move-loop-invariants -fno-schedule-insns2 \
+                --param=large-stack-frame=128 --param=large-stack-frame-growth=50
 
 m4_flags := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0x40200000u
 m7_flags := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0xA0000000u
-# errno: newlib's square root would ask for it, where the processor has an instruction
-firmware_flags := -std=c99 $(common_flags) $(warnings) -fno-math-errno -ffunction-sections -fdata-sections \
-                  -I$(firmware_folder)
+firmware_flags := -std=c99 $(common_flags) $(warnings) -ffunction-sections -fdata-sections -I$(firmware_folder)
 firmware_link := -nostartfiles -Wl,--gc-sections -L$(board)/mps2
-radar_flags := $(firmware_flags) -ffreestanding -DRHO_CONFIG_FILE='"radar_capacities.h"'
-replay_flags := $(firmware_flags) -ffreestanding -DNODE_BEARINGS=1
+radar_flags := $(firmware_flags) -DRHO_CONFIG_FILE='"radar_capacities.h"'
+replay_flags := $(firmware_flags) -DNODE_BEARINGS=1
+# What a compiler calls must not be made of calls to itself.
+memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 
 firmware_node := $(addprefix $(firmware_folder)/,node.c node_bearings.c)
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
+                 $(board)/memory.c \
                  $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
-replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.c \
+replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.c $(board)/memory.c \
                   $(addprefix $(board)/mps2/,startup.c semihosting.c)
 
 # --- images: build/firmware/CORE/IMAGE.elf ---------------------------------------------------
@@ -46,15 +50,17 @@ $(BUILD)/tests/firmware/%: tests/firmware/%.c $(board)/udp_frame.c Makefile
 firmware_compile = @mkdir -p $(@D) && echo "  arm      $@" && $(ARM_CC) $(1) -c -o $@ $<
 firmware_bind = @echo "  link     $@" && $(ARM_CC) $(1) $(firmware_link) -Wl,-Map=$@.map -o $@ $(2)
 
+$(firmware)/m4/%/memory.o $(firmware)/m7/%/memory.o: private part_flags := $(memory_flags)
+
 define firmware_core # m4 or m7
 $(firmware)/$(1)/radar.elf: $(radar_sources:%.c=$(firmware)/$(1)/radar/%.o)
-	$$(call firmware_bind,$$($(1)_flags) -nodefaultlibs -T node.ld,$$^ -lc -lgcc)
+	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nostdlib -T node.ld,$$^ -lgcc)
 $(firmware)/$(1)/replay.elf: $(replay_sources:%.c=$(firmware)/$(1)/replay/%.o)
-	$$(call firmware_bind,$$($(1)_flags) -nodefaultlibs -T large.ld,$$^ -lc -lgcc)
+	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nodefaultlibs -T large.ld,$$^ -lc -lgcc)
 $(firmware)/$(1)/radar/%.o: %.c Makefile $(firmware_folder)/firmware.mk
-	$$(call firmware_compile,$$($(1)_flags) $(radar_flags) $(FIRMWARE_OPT))
+	$$(call firmware_compile,$$($(1)_flags) $(radar_flags) $(FIRMWARE_OPT) $$(part_flags))
 $(firmware)/$(1)/replay/%.o: %.c Makefile $(firmware_folder)/firmware.mk
-	$$(call firmware_compile,$$($(1)_flags) $(replay_flags) $(FIRMWARE_OPT))
+	$$(call firmware_compile,$$($(1)_flags) $(replay_flags) $(FIRMWARE_OPT) $$(part_flags))
 endef
 $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 

@@ -44,25 +44,15 @@ static enum rho_status start(void)
     return node_start(&config);
 }
 
-/* "stack: 3904 of 8192 bytes" */
+/* "stack: 3904" */
 static void say_stack(void)
 {
-    char text[48] = "stack: ";
-    const size_t numbers[2] = {board_stack_used(), board_stack_size()};
-    size_t length = 7;
-    for (int i = 0; i < 2; i++) {
-        size_t scale = 1;
-        while (numbers[i] / scale >= 10) {
-            scale *= 10;
-        }
-        for (; scale > 0; scale /= 10) {
-            text[length++] = (char)('0' + numbers[i] / scale % 10);
-        }
-        for (const char *unit = i == 0 ? " of " : " bytes"; *unit; unit++) {
-            text[length++] = *unit;
-        }
+    char text[] = "stack:          0";
+    size_t bytes = board_stack_used();
+    for (size_t at = sizeof text - 2; bytes > 0; at--) {
+        text[at] = (char)('0' + bytes % 10);
+        bytes /= 10;
     }
-    text[length] = '\0';
     board_say(text);
 }
 

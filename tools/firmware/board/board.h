@@ -30,8 +30,7 @@ void board_wait(int64_t until_us);
 /* A line for whoever maintains the node. */
 void board_say(const char *text);
 
-/* The most of the stack that was in use so far, and what there is, in bytes. */
+/* The most of the stack that was in use so far, in bytes. */
 size_t board_stack_used(void);
-size_t board_stack_size(void);
 
 #endif

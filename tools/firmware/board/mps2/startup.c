@@ -37,11 +37,6 @@ static inline void paint_stack(void)
     }
 }
 
-size_t board_stack_size(void)
-{
-    return (size_t)((uintptr_t)link_stack_top - (uintptr_t)link_stack);
-}
-
 size_t board_stack_used(void)
 {
     const uint32_t *word = link_stack;
@@ -55,7 +50,8 @@ size_t board_stack_used(void)
 __attribute__((noreturn, naked)) void mps2_reset(void);
 __attribute__((naked)) void mps2_reset(void)
 {
-    __asm__ volatile("ldr r0, =0xE000ED88\n" /* SCB_CPACR */
+    __asm__ volatile("movw r0, #0xED88\n" /* 0xE000ED88: the coprocessors' access */
+                     "movt r0, #0xE000\n"
                      "ldr r1, [r0]\n"
                      "orr r1, r1, #0xF00000\n"
                      "str r1, [r0]\n"
