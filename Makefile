@@ -36,7 +36,8 @@ unit_sources := $(sort $(wildcard tests/unit/test_*.c))
 scenario_sources := $(sort $(wildcard tests/scenario/test_*.c))
 # Laid out by .clang-format: all but the tables that scripts write.
 sources := $(library_sources) $(program_sources) \
-           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tools/instructions/*.c \
+           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tools/instructions/*.[ch] \
+                      tools/firmware/*.[ch] tools/firmware/board/*.[ch] tools/firmware/board/*/*.[ch] \
                       tools/examples/*.[ch] tests/*/*.[ch])
 sources := $(filter-out tests/vectors/%,$(sources))
 
@@ -340,14 +341,16 @@ cppcheck_flags := --quiet -j 2 --error-exitcode=1 --enable=warning,performance,p
 lint: tidy cppcheck format-check
 
 tidy:
-	@echo "  tidy     src tools/rhotrack"
+	@echo "  tidy     src tools/rhotrack tools/firmware"
 	@$(call tidy,$(library_sources),$(library_flags)) || failed=1; \
-	$(call tidy,$(program_sources),$(program_flags)) || failed=1; test -z "$$failed"
+	$(call tidy,$(program_sources),$(program_flags)) || failed=1; \
+	$(call tidy,$(firmware_portable),$(library_flags) -Itools/firmware -DNODE_BEARINGS=1) || failed=1; test -z "$$failed"
 
 cppcheck:
-	@echo "  cppcheck src tools/rhotrack"
+	@echo "  cppcheck src tools/rhotrack tools/firmware"
 	@cppcheck $(cppcheck_flags) --std=c99 src || failed=1; \
 	cppcheck $(cppcheck_flags) --std=c11 -DRHO_PROFILE_WORKSTATION tools/rhotrack || failed=1; \
+	cppcheck $(cppcheck_flags) --std=c99 -DMPS2_ETHERNET=0x40200000u -Itools/firmware tools/firmware || failed=1; \
 	test -z "$$failed"
 
 ## Lay out all C sources by .clang-format
@@ -356,7 +359,7 @@ format:
 
 ## Check the layout without changing anything
 format-check:
-	@echo "  format   src include tools/rhotrack tests"
+	@echo "  format   src include tools tests"
 	@for file in $(sources); do \
 	    clang-format --dry-run -Werror "$$file" >/dev/null 2>&1 || { echo "$$file: run make format"; failed=1; }; \
 	done; test -z "$$failed"

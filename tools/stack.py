@@ -25,6 +25,7 @@ CHARGES = [
     (r"mem(cpy|set|move|cmp)", 64, 64),
     (r"__aeabi_(f(add|sub|rsub|mul|div|2iz|2uiz|cmp\w+)|u?i2f|u?idiv(mod)?|lmul)", 64, 64),
     (r"__aeabi_u?ldivmod", 64, 160),
+    (r"__aeabi_(llsl|llsr|lasr)|__(ashl|lshr|ashr)di3", 16, 16),
     (r"__(u?divdi3|u?moddi3)", 64, 160),
     (r"__(clz|ctz|popcount)[sd]i2|__gnu_thumb1_case_\w+", 16, 16),
 ]

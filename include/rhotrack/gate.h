@@ -80,7 +80,7 @@ struct rho_gate_result {
     int has_range_rate; /* range rate counts */
 };
 
-/* Takes the prediction over. Cost: its bytes, and 300 instructions where range rates are measured. */
+/* Takes the prediction over. Cost: its bytes, and 300 instructions where range rates are measured. Stack: 150 bytes. */
 void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, float noise_density,
                    const struct rho_sensor *sensor, uint32_t measures);
 

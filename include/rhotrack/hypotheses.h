@@ -162,7 +162,7 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
 
 /*
  * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the slot, whose reach has been
- * filled at its last prediction. Constant cost, but for the first plot with a time of its own.
+ * filled at its last prediction. Constant cost, but for the first plot with a time of its own. Stack: 160 bytes.
  */
 int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
                            struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
@@ -185,7 +185,7 @@ int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t sl
 /*
  * Ends the scan: the heaviest children of all hypotheses go on. Plots that scan->claims gives to other tracks are left out.
  * An update that is refused becomes a miss (updates_refused). Errors: NULL, STATE (slot).
- * Cost: rho_imm_update for each of at most RHO_HYPOTHESES_OF_TRACK. Stack: 800 bytes.
+ * Cost: rho_imm_update for each of at most RHO_HYPOTHESES_OF_TRACK. Stack: 850 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot,
                                                      const struct rho_hypotheses_scan *scan,
@@ -211,7 +211,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses
 
 /*
  * The mean over all hypotheses, moved to time_us. Errors: NULL, STATE (slot), VALUE (none can be moved there); *estimate is
- * unchanged. Cost: 450 instructions a hypothesis. Stack: 460 bytes.
+ * unchanged. Cost: 450 instructions a hypothesis. Stack: 650 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot,
                                                        int64_t time_us,

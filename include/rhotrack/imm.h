@@ -144,7 +144,7 @@ int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3], fl
 /*
  * Updates both models with a plot that was weighed, and takes the match's probability. A first z opens the third axis.
  * Errors: as rho_kalman_update; then the object is of no more use: work on a copy.
- * Cost: about 400 instructions, coupled 4 500. Stack: 550 bytes.
+ * Cost: about 400 instructions, coupled 4 500. Stack: 600 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_update(struct rho_imm *imm,
                                               const struct rho_imm_model *model,
@@ -154,7 +154,7 @@ RHO_MUST_CHECK enum rho_status rho_imm_update(struct rho_imm *imm,
 /*
  * Updates both models with a bearing from a place, and their probabilities by how well they had predicted it. *gain_nat gets
  * ln of the bearing's density in metres across the line of sight. An estimate nearer than a metre to the place has no
- * bearing: nothing is done, *gain_nat is 0, RHO_OK. Errors: as rho_imm_update. Stack: 550 bytes.
+ * bearing: nothing is done, *gain_nat is 0, RHO_OK. Errors: as rho_imm_update. Stack: 600 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m,
                                                       float bearing_rad, float sigma_rad,

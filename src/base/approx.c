@@ -6,7 +6,8 @@
 
 /* s390x by gcc -std=c99, x87, and -ffast-math, would all decide otherwise than the rest of the world. */
 #if FLT_EVAL_METHOD != 0
-#error "float has to be computed as float: -fexcess-precision=fast (s390x), -msse2 -mfpmath=sse (32-bit x86)"
+#error                                                                                             \
+    "float has to be computed as float: -fexcess-precision=fast (s390x), -msse2 -mfpmath=sse (32-bit x86)"
 #endif
 #ifdef __FAST_MATH__
 #error "-ffast-math changes what the library computes"

@@ -20,6 +20,8 @@ replay_flags := $(firmware_flags) -DNODE_BEARINGS=1
 # What a compiler calls must not be made of calls to itself.
 memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 
+# What any compiler can look at: all but what is the board's.
+firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
 firmware_node := $(addprefix $(firmware_folder)/,node.c node_bearings.c)
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
                  $(board)/memory.c \

@@ -28,7 +28,8 @@ static struct {
 /* ---- Messages that go out ---- */
 
 /* Sends what write makes behind the datagram's head. */
-typedef enum rho_status (*writer)(uint8_t *message, size_t capacity, size_t *size, const void *what);
+typedef enum rho_status (*writer)(uint8_t *message, size_t capacity, size_t *size,
+                                  const void *what);
 
 static void publish(const char *channel, writer write, const void *what)
 {

@@ -37,8 +37,9 @@ struct node_config {
     /* Called from within the functions below, which must not be called by them. */
     void *context;
     void (*send)(void *context, const uint8_t *datagram, size_t size); /* to LCM's group and port */
-    void (*stepped)(void *context, const struct rho_report *report); /* before its messages; may be NULL */
-    int64_t (*clock_us)(void *context); /* for the step times in RHO_STATUS */
+    void (*stepped)(void *context,
+                    const struct rho_report *report); /* before its messages; may be NULL */
+    int64_t (*clock_us)(void *context);               /* for the step times in RHO_STATUS */
 };
 
 /* All defaults, without sensors and functions. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * scene: eight targets on a ring about a radar, flying round it, for the jobs beside it; and plots of them, polar (15 m x
- * 3 mrad, range rates) or Cartesian (places and velocities, isotropic noise). Clutter is 1.5 to 2.5 standard deviations off
+ * 3 mrad, range rates) or Cartesian (places and velocities, isotropic noise). Clutter is 1.3 to 2.2 standard deviations off
  * on each axis: in the gate, and seldom the nearest.
  */
 #ifndef SCENE_H
@@ -38,7 +38,7 @@ static struct target target_at(int target, float t_s)
 /* The noise of the target's own plot; of clutter far enough out. */
 static float off(int is_clutter, float sigma)
 {
-    float size = is_clutter ? draw_uniform(1.5f, 2.5f) : 0.0f;
+    float size = is_clutter ? draw_uniform(1.3f, 2.2f) : 0.0f;
     return is_clutter ? (draw_uniform(-1.0f, 1.0f) < 0.0f ? -size : size) * sigma
                       : draw_normal(sigma);
 }

@@ -5,8 +5,7 @@
  *
  * Arguments: the gate (best, hough or nearest); polar (a radar's plots of 15 m x 3 mrad in range and azimuth, with range
  * rates) or cartesian (positions and velocities with isotropic noise); the plots of each target; sectors of a turn, a step
- * each. The target's own plot comes with clutter around it, 1.5 to 2.5 standard deviations off on each axis: in the gate,
- * and seldom the nearest. Prints tracks and plots a turn.
+ * each. The target's own plot comes with clutter around it (scene.h). Prints tracks and plots a turn.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -6,9 +6,14 @@
  */
 #include <stddef.h>
 #include <stdint.h>
-#include <string.h>
 
 #define WORD 4u
+
+/* No string.h: there is no C library. */
+void *memcpy(void *restrict to, const void *restrict from, size_t size);
+void *memmove(void *to, const void *from, size_t size);
+void *memset(void *to, int value, size_t size);
+int memcmp(const void *one, const void *other, size_t size);
 
 static int are_aligned(const void *one, const void *other)
 {

@@ -70,7 +70,8 @@ int lan9118_open(const uint8_t mac[6])
     IRQ_CONFIG = IRQ_LINE_ON;
     TX_CONFIG = TX_ON;
     return set_mac(MAC_HIGH, (uint32_t)mac[5] << 8 | mac[4]) &&
-           set_mac(MAC_LOW, (uint32_t)mac[3] << 24 | (uint32_t)mac[2] << 16 | (uint32_t)mac[1] << 8 | mac[0]) &&
+           set_mac(MAC_LOW, (uint32_t)mac[3] << 24 | (uint32_t)mac[2] << 16 |
+                                (uint32_t)mac[1] << 8 | mac[0]) &&
            set_mac(MAC_CONTROL, MAC_RX_TX_MULTICAST);
 }
 
@@ -86,7 +87,8 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
     size_t size = 0;
     while (size == 0 && (RX_LEVEL >> 16 & 0xff) > 0) {
         uint32_t status = RX_STATUS;
-        size_t length = status >> 16 & 0x3fff, words = (length + 3) / 4; /* with 4 bytes of checksum */
+        size_t length = status >> 16 & 0x3fff,
+               words = (length + 3) / 4; /* with 4 bytes of checksum */
         if ((status & RX_DAMAGED) || length <= 4 || length - 4 > capacity) {
             discard(words);
             continue;
@@ -115,7 +117,8 @@ int lan9118_send(const uint8_t *frame, size_t size)
         memcpy(&word, frame + at, size - at < 4 ? size - at : 4);
         TX_DATA = word;
     }
-    while (TX_LEVEL >> 16 & 0xff) { /* what became of frames sent before; full, it would stop the sender */
+    while (TX_LEVEL >> 16 &
+           0xff) { /* what became of frames sent before; full, it would stop the sender */
         (void)TX_STATUS;
     }
     return 1;

@@ -40,10 +40,12 @@ static inline void paint_stack(void)
 size_t board_stack_used(void)
 {
     const uint32_t *word = link_stack;
-    while (word < link_stack_top && *word == STACK_PATTERN) {
+    size_t words = ((uintptr_t)link_stack_top - (uintptr_t)link_stack) / sizeof *word;
+    while (words > 0 && *word == STACK_PATTERN) {
         word++;
+        words--;
     }
-    return (size_t)((uintptr_t)link_stack_top - (uintptr_t)word);
+    return words * sizeof *word;
 }
 
 /* The FPU has to be on before code that uses it is entered: nothing else happens here. */
@@ -78,7 +80,7 @@ __attribute__((section(".vectors"), used)) static const struct {
 } vectors = {
     .stack_top = link_stack_top,
     /* reset; then from 2 on: NMI, the faults, calls of the supervisor, and at 15 the clock */
-    .exceptions = {mps2_reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
-                   fault, fault, mps2_systick},
+    .exceptions = {mps2_reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
+                   fault, fault, fault, mps2_systick},
     .interrupts = {[0 ... MPS2_ETHERNET_IRQ - 1] = fault, [MPS2_ETHERNET_IRQ] = mps2_ethernet},
 };
