@@ -421,7 +421,7 @@ clean:
 ## This list
 help:
 	@awk '/^## /{text = substr($$0, 4); next} \
-	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-14s %s\n", $$0, text; text = ""}' Makefile
+	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-14s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
 
 -include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
          $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(fuzz_programs:=.d)

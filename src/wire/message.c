@@ -80,121 +80,94 @@ const struct message_float_rule rho_message_float_rules[] = {
 };
 
 const struct message_int_rule rho_message_int_rules[] = {
-    {offsetof(struct rho_message_peak, scans_hit), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_peak, sensor_pairs), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_plot, dt_us), 4, MESSAGE_RANGE, -60000000, 60000000},
-    {offsetof(struct rho_message_polar_plot, dt_us), 4, MESSAGE_RANGE, -60000000, 60000000},
-    {offsetof(struct rho_message_status, utime), 8, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_status, scans_accepted), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, scans_late), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, scans_duplicate), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, scans_lost), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, scans_bad), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, messages_bad), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, messages_wrong_type), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, messages_flooded), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, frames_incomplete), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, scans_incomplete), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, fragments_refused), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, clock_jumps), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, sensor_restarts), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, plots_in), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, plots_claimed), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, plots_held), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, plots_initiated), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, plots_clutter), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, inputs_stale), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, inputs_invalid), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, inputs_no_room), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, bearings_in), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, ghosts_pruned), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_status, tracks_tentative), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_status, tracks_confirmed), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_status, tracks_coasting), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_status, origin_lat_1e7deg), 4, MESSAGE_RANGE, -900000000, 900000000},
-    {offsetof(struct rho_message_status, origin_lon_1e7deg), 4, MESSAGE_RANGE, -1800000000, 1800000000},
-    {offsetof(struct rho_message_track, status), 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4},
-    {offsetof(struct rho_message_track, hits), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_track, misses), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_track, plot), 2, MESSAGE_RANGE, -1, 32767},
-    {offsetof(struct rho_message_track, update_age_us), 4, MESSAGE_RANGE, 0, 2147483647},
-    {offsetof(struct rho_message_bearing_scan, utime), 8, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_peak_list, utime), 8, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_plot_scan, utime), 8, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_plot_scan, kind), 1, MESSAGE_ONE_OF, 0, 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6},
-    {offsetof(struct rho_message_plot_scan, num_parts), 2, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_plot_scan, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_plot_scan, num_parts)},
-    {offsetof(struct rho_message_polar_scan, utime), 8, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_polar_scan, has_elevation), 1, MESSAGE_RANGE, 0, 1},
-    {offsetof(struct rho_message_polar_scan, has_range_rate), 1, MESSAGE_RANGE, 0, 1},
-    {offsetof(struct rho_message_polar_scan, num_parts), 2, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_polar_scan, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_polar_scan, num_parts)},
-    {offsetof(struct rho_message_track_list, utime), 8, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_track_list, num_tracks_total), 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_track_list, num_parts), 2, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_track_list, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_track_list, num_parts)},
-    {offsetof(struct rho_message_truth_list, utime), 8, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_truth_list, num_parts), 2, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_truth_list, part), 2, MESSAGE_BELOW, 0, offsetof(struct rho_message_truth_list, num_parts)},
+    {offsetof(struct rho_message_peak, scans_hit), 2, 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_plot, dt_us), 4, 1, MESSAGE_RANGE, -60000000, 60000000},
+    {offsetof(struct rho_message_polar_plot, dt_us), 4, 1, MESSAGE_RANGE, -60000000, 60000000},
+    {offsetof(struct rho_message_status, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_status, scans_accepted), 4, 23, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_status, tracks_tentative), 2, 3, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_status, origin_lat_1e7deg), 4, 1, MESSAGE_RANGE, -900000000, 900000000},
+    {offsetof(struct rho_message_status, origin_lon_1e7deg), 4, 1, MESSAGE_RANGE, -1800000000, 1800000000},
+    {offsetof(struct rho_message_track, status), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4},
+    {offsetof(struct rho_message_track, hits), 2, 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_track, plot), 2, 1, MESSAGE_RANGE, -1, 32767},
+    {offsetof(struct rho_message_track, update_age_us), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_bearing_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_peak_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_plot_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_plot_scan, kind), 1, 1, MESSAGE_ONE_OF, 0, 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6},
+    {offsetof(struct rho_message_plot_scan, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_plot_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_plot_scan, num_parts)},
+    {offsetof(struct rho_message_polar_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_polar_scan, has_elevation), 1, 2, MESSAGE_RANGE, 0, 1},
+    {offsetof(struct rho_message_polar_scan, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_polar_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_polar_scan, num_parts)},
+    {offsetof(struct rho_message_track_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_track_list, num_tracks_total), 2, 1, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_track_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_track_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_track_list, num_parts)},
+    {offsetof(struct rho_message_truth_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_truth_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_truth_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_truth_list, num_parts)},
 };
 
 static const struct message_format peak_format = {
-    RHO_MESSAGE_PEAK_FINGERPRINT, {{0, 2}, {0, 4}, {0, 2}, 20},
+    RHO_MESSAGE_PEAK_FINGERPRINT, {{0, 2}, {0, 4}, {0, 1}, 20},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format plot_format = {
-    RHO_MESSAGE_PLOT_FINGERPRINT, {{2, 1}, {4, 4}, {2, 1}, 40},
+    RHO_MESSAGE_PLOT_FINGERPRINT, {{2, 1}, {4, 4}, {1, 1}, 40},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format polar_plot_format = {
-    RHO_MESSAGE_POLAR_PLOT_FINGERPRINT, {{3, 1}, {8, 5}, {3, 1}, 24},
+    RHO_MESSAGE_POLAR_PLOT_FINGERPRINT, {{3, 1}, {8, 5}, {2, 1}, 24},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format status_format = {
-    RHO_MESSAGE_STATUS_FINGERPRINT, {{4, 4}, {13, 1}, {4, 29}, 138},
+    RHO_MESSAGE_STATUS_FINGERPRINT, {{4, 4}, {13, 1}, {3, 5}, 138},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format track_format = {
-    RHO_MESSAGE_TRACK_FINGERPRINT, {{8, 4}, {14, 3}, {33, 5}, 145},
+    RHO_MESSAGE_TRACK_FINGERPRINT, {{8, 4}, {14, 3}, {8, 4}, 145},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format truth_format = {
-    RHO_MESSAGE_TRUTH_FINGERPRINT, {{12, 1}, {17, 2}, {38, 0}, 28},
+    RHO_MESSAGE_TRUTH_FINGERPRINT, {{12, 1}, {17, 2}, {12, 0}, 28},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format bearing_scan_format = {
-    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{13, 4}, {19, 2}, {38, 1}, 30},
+    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{13, 4}, {19, 2}, {12, 1}, 30},
     {{17, 1}, {21, 1}, {0, 0}, 4},
     offsetof(struct rho_message_bearing_scan, num_bearings), offsetof(struct rho_message_bearing_scan, bearing_rad),
     sizeof(float), RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD};
 
 static const struct message_format peak_list_format = {
-    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{18, 2}, {22, 0}, {39, 1}, 12},
-    {{0, 2}, {0, 4}, {0, 2}, 20},
+    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{18, 2}, {22, 0}, {13, 1}, 12},
+    {{0, 2}, {0, 4}, {0, 1}, 20},
     offsetof(struct rho_message_peak_list, num_peaks), offsetof(struct rho_message_peak_list, peaks),
     sizeof(struct rho_message_peak), RHO_MESSAGE_PEAK_LIST_MAX_PEAKS};
 
 static const struct message_format plot_scan_format = {
-    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{20, 6}, {22, 1}, {40, 4}, 31},
-    {{2, 1}, {4, 4}, {2, 1}, 40},
+    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{20, 6}, {22, 1}, {14, 4}, 31},
+    {{2, 1}, {4, 4}, {1, 1}, 40},
     offsetof(struct rho_message_plot_scan, num_plots), offsetof(struct rho_message_plot_scan, plots),
     sizeof(struct rho_message_plot), RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
 
 static const struct message_format polar_scan_format = {
-    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{26, 6}, {23, 5}, {44, 5}, 60},
-    {{3, 1}, {8, 5}, {3, 1}, 24},
+    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{26, 6}, {23, 5}, {18, 4}, 60},
+    {{3, 1}, {8, 5}, {2, 1}, 24},
     offsetof(struct rho_message_polar_scan, num_polar_plots), offsetof(struct rho_message_polar_scan, polar_plots),
     sizeof(struct rho_message_polar_plot), RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS};
 
 static const struct message_format track_list_format = {
-    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{32, 3}, {28, 0}, {49, 4}, 22},
-    {{8, 4}, {14, 3}, {33, 5}, 145},
+    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{32, 3}, {28, 0}, {22, 4}, 22},
+    {{8, 4}, {14, 3}, {8, 4}, 145},
     offsetof(struct rho_message_track_list, num_tracks), offsetof(struct rho_message_track_list, tracks),
     sizeof(struct rho_message_track), RHO_MESSAGE_TRACK_LIST_MAX_TRACKS};
 
 static const struct message_format truth_list_format = {
-    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{35, 3}, {28, 0}, {53, 3}, 16},
-    {{12, 1}, {17, 2}, {38, 0}, 28},
+    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{35, 3}, {28, 0}, {26, 3}, 16},
+    {{12, 1}, {17, 2}, {12, 0}, 28},
     offsetof(struct rho_message_truth_list, num_targets), offsetof(struct rho_message_truth_list, targets),
     sizeof(struct rho_message_truth), RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS};
 

@@ -351,9 +351,9 @@ static int64_t read_int(const uint8_t *from, unsigned width)
     }
 }
 
-static int is_int_good(const uint8_t *bytes, const struct message_int_rule *rule)
+static int is_int_good(const uint8_t *bytes, const struct message_int_rule *rule, unsigned offset)
 {
-    int64_t v = read_int(bytes + rule->offset, rule->width);
+    int64_t v = read_int(bytes + offset, rule->width);
 
     switch (rule->kind) {
     case MESSAGE_ONE_OF:
@@ -370,6 +370,18 @@ static int is_int_good(const uint8_t *bytes, const struct message_int_rule *rule
 #define ALL_GOOD UINT16_MAX
 
 /* Offset of the first member that breaks its rule; ALL_GOOD where none does. */
+static uint16_t first_bad_int(const uint8_t *bytes, const struct message_int_rule *rule)
+{
+    unsigned offset = rule->offset;
+
+    for (unsigned i = 0; i < rule->count; i++, offset += rule->width) {
+        if (!is_int_good(bytes, rule, offset)) {
+            return (uint16_t)offset;
+        }
+    }
+    return ALL_GOOD;
+}
+
 static uint16_t first_bad_float(const uint8_t *bytes, const struct message_float_rule *rule)
 {
     float v;
@@ -390,9 +402,7 @@ static uint16_t first_bad(const uint8_t *bytes, const struct message_layout *lay
     uint16_t bad = ALL_GOOD;
 
     for (unsigned i = 0; i < layout->int_rules.count && bad == ALL_GOOD; i++) {
-        if (!is_int_good(bytes, &ints[i])) {
-            bad = ints[i].offset;
-        }
+        bad = first_bad_int(bytes, &ints[i]);
     }
     for (unsigned i = 0; i < layout->float_rules.count && bad == ALL_GOOD; i++) {
         bad = first_bad_float(bytes, &floats[i]);

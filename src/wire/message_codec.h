@@ -38,11 +38,10 @@ enum message_rule_kind {
     MESSAGE_TIME    /* within RHO_LIMIT_TIME_US either way */
 };
 
-/* One integer. */
+/* Integers of one width in a row that must keep the same rule; in few bytes, for there are many. */
 struct message_int_rule {
-    uint16_t offset;
-    uint8_t width;
-    uint8_t kind; /* enum message_rule_kind */
+    unsigned offset : 16, width : 4, count : 8;
+    unsigned kind : 4; /* enum message_rule_kind */
     int32_t min, max;
 };
 

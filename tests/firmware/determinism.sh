@@ -36,7 +36,10 @@ check 'all variants build' build_all
 same_as_first() { diff "$reference" "$1"; }
 
 reference=sums-gcc-O0
+first_runs() { replay_all out-gcc-O0 ./gcc-O0 >"$reference" && [ "$(wc -l <"$reference")" -eq "$(runs | wc -l)" ]; }
+check 'gcc-O0 plays all of them' first_runs
 for variant in $(cut -d' ' -f1 variants); do
+    [ "sums-$variant" != "$reference" ] || continue
     case $variant in
     arm-*) run=(qemu-arm "./$variant") ;;
     s390x-*) run=(qemu-s390x "./$variant") ;;
@@ -52,7 +55,7 @@ for core in m4 m7; do
 done
 
 # Not the same nothing: every run has reports of tracks, and the gates do not all decide alike.
-has_tracks() { awk '$1 != "steps" || $4 == 0 {bad = 1; print} END {exit bad || NR != 12}' out-m4/said; }
+has_tracks() { awk '$1 != "steps" || $4 == 0 {bad = 1; print} END {exit bad || NR != 12}' out-gcc-O0/said; }
 check 'every run has tracks' has_tracks
 check 'the gates differ where plots are ambiguous' test "$(sort -u -k1,1 "$reference" | wc -l)" -ge 8
 

@@ -3,7 +3,8 @@
 # For the scripts beside it: records of simulated sensors as LCM logs, and the images that they are played to. Source it
 # before checks.bash. Work goes on in $folder.
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
-images=$(realpath -m "$root/${BUILD:-build}/firmware")
+build=$(cd "$root" && realpath -m "${BUILD:-build}")
+images=$build/firmware
 
 # record NAME SCENARIO TABLE OPTIONS...: the log NAME.lcm.
 record() {

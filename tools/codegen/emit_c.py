@@ -242,10 +242,24 @@ class Tables:
 
     def add_ints(self, c_struct, fields, constants):
         """Members that stay below another come last: where the other one is wrong, it is named."""
-        for field in sorted(fields, key=lambda field: field.maximum.endswith(" - 1")):
-            rule = int_rule(c_struct, field, constants)
-            if rule:
-                self.ints.append(f"{{offsetof({c_struct}, {field.name}), {PRIMITIVES[field.type]}, {rule}}}")
+        first, last = [], []
+        for row in int_rows(c_struct, fields, constants):
+            (last if "MESSAGE_BELOW" in row else first).append(row)
+        self.ints += first + last
+
+
+def int_rows(c_struct, fields, constants):
+    """A row for members that follow each other and have the same type and rule."""
+    group, group_rule = [], None
+    for field in [*fields, None]:
+        rule = field and int_rule(c_struct, field, constants)
+        if group and (rule != group_rule or field.type != group[0].type or "MESSAGE_RANGE" not in rule):
+            count = sum(member.length for member in group)
+            yield f"{{offsetof({c_struct}, {group[0].name}), {PRIMITIVES[group[0].type]}, {count}, {group_rule}}}"
+            group = []
+        if rule:
+            group.append(field)
+            group_rule = rule
 
 
 def limits(field):

@@ -4,18 +4,24 @@
 # console on standard output; no argument may have a space or a comma. Instructions take 64 ns of the machine's time,
 # whatever the host does; after EMULATE_SECONDS (default 120) of the host's time it is ended.
 set -eu
-case $1 in
+case ${1-} in
 m4) machine=mps2-an386 ;;
 m7) machine=mps2-an500 ;;
 *)
-    echo "emulate: $1: there is m4 and m7" >&2
+    echo "emulate: give m4 or m7, an image, arguments" >&2
     exit 2
     ;;
 esac
-image=$2
+image=${2:?emulate: which image?}
 shift 2
 arguments=enable=on,target=native,arg=$(basename "$image")
 for argument in "$@"; do
+    case $argument in
+    *[\ ,]*)
+        echo "emulate: $argument: no spaces and commas" >&2
+        exit 2
+        ;;
+    esac
     arguments+=",arg=$argument"
 done
 exec timeout --signal=KILL "${EMULATE_SECONDS:-120}" qemu-system-arm -M "$machine" -display none -monitor none -serial null \

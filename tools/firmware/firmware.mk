@@ -8,7 +8,7 @@ board := $(firmware_folder)/board
 ARM_CC ?= arm-none-eabi-gcc
 # For 64 KiB of flash: the whole program at once, no code moved out of loops, none rearranged. For 4 KiB of stack: no large
 # frames put into one another.
-FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-move-loop-invariants -fno-schedule-insns2 \
+FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
                 --param=large-stack-frame=128 --param=large-stack-frame-growth=50
 
 m4_flags := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0x40200000u
@@ -22,6 +22,7 @@ memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 
 # What any compiler can look at: all but what is the board's.
 firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
+firmware_scripts := $(wildcard $(board)/mps2/*.ld) $(firmware_folder)/firmware.mk
 firmware_node := $(addprefix $(firmware_folder)/,node.c node_bearings.c)
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
                  $(board)/memory.c \
@@ -43,7 +44,7 @@ firmware-test:
 	@tools/setup.sh firmware
 	@BUILD=$(BUILD) tools/python.sh
 	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(replay) $(firmware_tests)
-	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) tools/firmware/budget.sh $(sort $(wildcard tests/firmware/*.sh))
+	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 
 firmware_tests := $(BUILD)/tests/firmware/test_udp_frame
 $(BUILD)/tests/firmware/%: tests/firmware/%.c $(board)/udp_frame.c Makefile
@@ -55,10 +56,10 @@ firmware_bind = @echo "  link     $@" && $(ARM_CC) $(1) $(firmware_link) -Wl,-Ma
 $(firmware)/m4/%/memory.o $(firmware)/m7/%/memory.o: private part_flags := $(memory_flags)
 
 define firmware_core # m4 or m7
-$(firmware)/$(1)/radar.elf: $(radar_sources:%.c=$(firmware)/$(1)/radar/%.o)
-	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nostdlib -T node.ld,$$^ -lgcc)
-$(firmware)/$(1)/replay.elf: $(replay_sources:%.c=$(firmware)/$(1)/replay/%.o)
-	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nodefaultlibs -T large.ld,$$^ -lc -lgcc)
+$(firmware)/$(1)/radar.elf: $(radar_sources:%.c=$(firmware)/$(1)/radar/%.o) $(firmware_scripts)
+	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nostdlib -T node.ld,$$(filter %.o,$$^) -lgcc)
+$(firmware)/$(1)/replay.elf: $(replay_sources:%.c=$(firmware)/$(1)/replay/%.o) $(firmware_scripts)
+	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nodefaultlibs -T large.ld,$$(filter %.o,$$^) -lc -lgcc)
 $(firmware)/$(1)/radar/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 	$$(call firmware_compile,$$($(1)_flags) $(radar_flags) $(FIRMWARE_OPT) $$(part_flags))
 $(firmware)/$(1)/replay/%.o: %.c Makefile $(firmware_folder)/firmware.mk
@@ -78,8 +79,8 @@ define job_core # m4 or m7
 $(firmware)/$(1)/jobs/librhotrack.a: $(library_sources:%.c=$(firmware)/$(1)/jobs/%.o)
 	@rm -f $$@ && echo "  ar       $$@" && ar rcs $$@ $$^
 $(firmware)/$(1)/jobs/%.elf: $(firmware)/$(1)/jobs/tools/instructions/%.o \
-                             $(job_parts:%.c=$(firmware)/$(1)/jobs/%.o) $(firmware)/$(1)/jobs/librhotrack.a
-	$$(call firmware_bind,$$($(1)_flags) --specs=rdimon.specs -T large.ld,$$^)
+                             $(job_parts:%.c=$(firmware)/$(1)/jobs/%.o) $(firmware)/$(1)/jobs/librhotrack.a $(firmware_scripts)
+	$$(call firmware_bind,$$($(1)_flags) --specs=rdimon.specs -T large.ld,$$(filter %.o %.a,$$^))
 $(firmware)/$(1)/jobs/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 	$$(call firmware_compile,$$($(1)_flags) $(job_flags))
 endef
@@ -96,6 +97,6 @@ $(replay): $(firmware_node) $(firmware_folder)/replay.c $(board)/host/files_host
 job-images: $(job_images)
 .SECONDARY: $(foreach core,m4 m7,$(job_sources:%.c=$(firmware)/$(core)/jobs/%.o) $(job_parts:%.c=$(firmware)/$(core)/jobs/%.o))
 
--include $(foreach core,m4 m7,$(radar_sources:%.c=$(firmware)/$(core)/radar/%.d) \
+-include $(replay).d $(firmware_tests:=.d) $(foreach core,m4 m7,$(radar_sources:%.c=$(firmware)/$(core)/radar/%.d) \
            $(replay_sources:%.c=$(firmware)/$(core)/replay/%.d) \
            $(foreach source,$(library_sources) $(job_sources) $(job_parts),$(source:%.c=$(firmware)/$(core)/jobs/%.d)))

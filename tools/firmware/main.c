@@ -7,7 +7,7 @@
 #include "node.h"
 #include "rhotrack/udpm.h"
 
-#define REPORT_INTERVAL_US 60000000
+#define REPORT_INTERVAL_US 1000000
 
 /* One radar at the origin. Sensors that are not in the table are taken at their word, with the feed's defaults. */
 static const struct rho_feed_sensor radars[] = {
@@ -39,21 +39,37 @@ static enum rho_status start(void)
     node_config_default(&config);
     config.sensors = radars;
     config.num_sensors = sizeof radars / sizeof *radars;
+    config.boot = board_boot();
     config.send = send_datagram;
     config.clock_us = clock_us;
     return node_start(&config);
 }
 
-/* "stack: 3904" */
-static void say_stack(void)
+/* "stack       3904": text ends with room for ten digits. */
+static void say(char *text, size_t last, uint32_t number)
 {
-    char text[] = "stack:          0";
-    size_t bytes = board_stack_used();
-    for (size_t at = sizeof text - 2; bytes > 0; at--) {
-        text[at] = (char)('0' + bytes % 10);
-        bytes /= 10;
-    }
+    do {
+        text[last--] = (char)('0' + number % 10);
+        number /= 10;
+    } while (number > 0);
     board_say(text);
+}
+
+/* What has come to more since the last time. */
+static void report(void)
+{
+    static uint32_t said_stack, said_unsent;
+    uint32_t stack = (uint32_t)board_stack_used(), unsent = board_unsent();
+    if (stack > said_stack) {
+        char text[] = "stack           ";
+        say(text, sizeof text - 2, stack);
+        said_stack = stack;
+    }
+    if (unsent > said_unsent) {
+        char text[] = "unsent          ";
+        say(text, sizeof text - 2, unsent);
+        said_unsent = unsent;
+    }
 }
 
 int main(void)
@@ -78,7 +94,7 @@ int main(void)
         node_tick(now_us);
         if (now_us >= report_us) {
             report_us = now_us + REPORT_INTERVAL_US;
-            say_stack();
+            report();
         }
         if (size == 0) {
             board_wait(node_due_us());

@@ -18,14 +18,23 @@ static struct rho_report report;
 static uint8_t buffer[RHO_UDPM_MAX_DATAGRAM]; /* the datagram that goes out */
 static struct {
     int is_started;
-    int32_t step, epoch;
+    int32_t step;
+    uint32_t restarts; /* of the tracker, since the start */
     uint32_t datagrams_sent, datagrams_refused;
-    int64_t step_us, step_max_us; /* of the last step; the longest since the last status */
+    uint32_t plots_refused;           /* of scans that were not stepped for want of room */
+    int64_t step_sum_us, step_max_us; /* since the last status */
+    int32_t step_count;
     int64_t status_due_us;
     int has_status_due;
 } node;
 
 /* ---- Messages that go out ---- */
+
+/* Another one after each start, and where the sensors' clock was set. */
+static int32_t epoch(void)
+{
+    return (int32_t)((uint32_t)settings.boot << 8 | (node.restarts & 0xffu));
+}
 
 /* Sends what write makes behind the datagram's head. */
 typedef enum rho_status (*writer)(uint8_t *message, size_t capacity, size_t *size,
@@ -44,7 +53,7 @@ static void publish(const char *channel, writer write, const void *what)
 static enum rho_status write_tracks(uint8_t *message, size_t capacity, size_t *size,
                                     const void *part)
 {
-    return rho_publish_tracks(&report, node.step, node.epoch, *(const uint16_t *)part, message,
+    return rho_publish_tracks(&report, node.step, epoch(), *(const uint16_t *)part, message,
                               capacity, size);
 }
 
@@ -62,9 +71,9 @@ static enum rho_status write_status(uint8_t *message, size_t capacity, size_t *s
     return rho_message_status_encode(status, message, capacity, size);
 }
 
-static int32_t to_int32(int64_t value)
+static void add(int32_t *counter, uint32_t more)
 {
-    return value < INT32_MAX ? (int32_t)value : INT32_MAX;
+    *counter = more < (uint32_t)(INT32_MAX - *counter) ? *counter + (int32_t)more : INT32_MAX;
 }
 
 static void publish_status(void)
@@ -73,24 +82,33 @@ static void publish_status(void)
     rho_publish_status(&feed, node_bearings_frames(), &tracker, &initiator, &status);
     status.utime = report.time_us;
     status.scan = node.step;
-    status.epoch = node.epoch;
-    status.fragments_refused =
-        node.datagrams_refused < INT32_MAX ? (int32_t)node.datagrams_refused : INT32_MAX;
-    status.step_us = to_int32(node.step_us);
-    status.step_max_us = to_int32(node.step_max_us);
-    node.step_max_us = 0;
+    status.epoch = epoch();
+    add(&status.fragments_refused, node.datagrams_refused);
+    add(&status.plots_in, node.plots_refused);
+    add(&status.inputs_no_room, node.plots_refused);
+    if (node.step_count > 0) {
+        status.step_us = (float)(int32_t)node.step_sum_us / (float)node.step_count;
+        status.step_max_us = (float)(int32_t)node.step_max_us;
+    }
+    node.step_sum_us = node.step_max_us = node.step_count = 0;
     publish(RHO_MESSAGE_STATUS_CHANNEL, write_status, &status);
 }
 
 /* ---- Steps ---- */
 
+static void count_time(int64_t took_us)
+{
+    node.step_count++;
+    node.step_sum_us += took_us;
+    if (took_us > node.step_max_us) {
+        node.step_max_us = took_us;
+    }
+}
+
 /* A step that began at start_us was made. */
 static void finish_step(int64_t start_us, const struct node_searched *searched)
 {
-    node.step_us = settings.clock_us(settings.context) - start_us;
-    if (node.step_us > node.step_max_us) {
-        node.step_max_us = node.step_us;
-    }
+    count_time(settings.clock_us(settings.context) - start_us);
     node.step = node.step == INT32_MAX ? INT32_MIN : node.step + 1;
     if (settings.stepped) {
         settings.stepped(settings.context, &report);
@@ -119,8 +137,27 @@ void node_step_frame(struct rho_passive *passive, const struct rho_frame *frame)
     }
 }
 
+static int is_heard(int32_t sensor_id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        if (feed.sources[i].is_used && feed.sources[i].sensor_id == sensor_id) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The feed holds no more sensors than there is room for: those that it has given up make room. */
 int node_describe(const struct rho_sensor *sensor)
 {
+    if (rho_tracker_set_sensor(&tracker, sensor) == RHO_OK) {
+        return 1;
+    }
+    for (unsigned i = tracker.num_sensors; i-- > 0;) {
+        if (!is_heard(tracker.sensors[i].sensor_id)) {
+            (void)!rho_tracker_forget_sensor(&tracker, tracker.sensors[i].sensor_id);
+        }
+    }
     return rho_tracker_set_sensor(&tracker, sensor) == RHO_OK;
 }
 
@@ -141,7 +178,7 @@ static enum rho_status open_tracker(void)
 void node_restart(void)
 {
     node.is_started = open_tracker() == RHO_OK && node_bearings_open_search() == RHO_OK;
-    node.epoch = node.epoch == INT32_MAX ? 0 : node.epoch + 1;
+    node.restarts++;
 }
 
 static void take_item(const struct rho_feed_item *item)
@@ -156,9 +193,10 @@ static void take_item(const struct rho_feed_item *item)
         return;
     }
     node_bearings_close_before(item->scan.time_us);
-    /* without its sensor's place a scan would say something else */
     if (!item->has_sensor || node_describe(&item->sensor)) {
         node_step_scan(&item->scan);
+    } else { /* without its sensor's place it would say something else */
+        node.plots_refused = rho_count(node.plots_refused, item->scan.num_plots);
     }
 }
 
@@ -178,7 +216,7 @@ void node_receive(const uint8_t *bytes, size_t size, int64_t now_us)
         return;
     }
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
-        node.datagrams_refused += node.datagrams_refused < UINT32_MAX;
+        node.datagrams_refused = rho_count(node.datagrams_refused, 1);
         return;
     }
     while (rho_feed_take(&feed, datagram.channel, datagram.payload, datagram.payload_size,
@@ -222,7 +260,7 @@ void node_flush(void)
 
 void node_config_default(struct node_config *config)
 {
-    *config = (struct node_config){.epoch = 0};
+    *config = (struct node_config){.boot = 0};
     rho_feed_config_default(&config->feed);
     rho_tracker_config_default(&config->tracker);
     rho_initiator_config_default(&config->initiator);
@@ -235,7 +273,6 @@ enum rho_status node_start(const struct node_config *config)
         return RHO_ERROR_NULL;
     }
     settings = *config;
-    node.epoch = config->epoch;
     status = rho_feed_init(&feed, sizeof feed, &config->feed);
     for (uint16_t i = 0; i < config->num_sensors && status == RHO_OK; i++) {
         status = rho_feed_set_sensor(&feed, &config->sensors[i]);

@@ -33,7 +33,9 @@ struct node_config {
     struct rho_initiator_config initiator;
     const struct rho_feed_sensor *sensors; /* num_sensors of them; only read by node_start */
     uint16_t num_sensors;
-    int32_t epoch; /* boot number; goes up by one where the sensors' clock is set */
+    /* Counts starts, in memory that stays: receivers see by it that track numbers began anew. Messages say 256 of it and
+     * how often the sensors' clock was set. */
+    int32_t boot;
     /* Called from within the functions below, which must not be called by them. */
     void *context;
     void (*send)(void *context, const uint8_t *datagram, size_t size); /* to LCM's group and port */
@@ -45,7 +47,7 @@ struct node_config {
 /* All defaults, without sensors and functions. */
 void node_config_default(struct node_config *config);
 
-/* The config is copied. Errors: those of the objects' init functions; the node then takes nothing. */
+/* Once a program. The config is copied. Errors: those of the objects' init functions; the node then takes nothing. */
 RHO_MUST_CHECK enum rho_status node_start(const struct node_config *config);
 
 /* A datagram of any bytes and length that came at now_us of the reception clock. */

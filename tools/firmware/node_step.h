@@ -15,7 +15,7 @@ struct node_searched {
 void node_step_scan(const struct rho_scan *scan);
 void node_step_frame(struct rho_passive *passive, const struct rho_frame *frame);
 
-/* The sensors' clock was set: tracks do not go on across that, counters do. */
+/* The sensors' clock was set: tracks do not go on across that, the tracker's counters do. */
 void node_restart(void);
 
 /* Tells the tracker who saw a scan. Returns 0 where it has no room for another sensor. */

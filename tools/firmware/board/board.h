@@ -21,8 +21,14 @@ int64_t board_time_us(void);
  */
 size_t board_receive(uint8_t *buffer, size_t capacity);
 
-/* Sends a datagram to LCM's group and port. */
+/* Sends a datagram to LCM's group and port; waits some milliseconds for room, and drops it then. */
 void board_send(const uint8_t *datagram, size_t size);
+
+/* How many were dropped so far. */
+uint32_t board_unsent(void);
+
+/* Counts the starts, in memory that stays without power; 0 where there is none. */
+int32_t board_boot(void);
 
 /* Sleeps until a datagram may have come, or that time. May return earlier. */
 void board_wait(int64_t until_us);

@@ -20,10 +20,9 @@ static int are_aligned(const void *one, const void *other)
     return (((uintptr_t)one | (uintptr_t)other) & (WORD - 1u)) == 0;
 }
 
-void *memcpy(void *restrict to, const void *restrict from, size_t size)
+/* From the first byte on: right also where `to` lies before what is left of `from`. */
+static void copy_up(uint8_t *out, const uint8_t *in, size_t size)
 {
-    uint8_t *out = to;
-    const uint8_t *in = from;
     if (are_aligned(out, in)) {
         for (; size >= WORD; size -= WORD, out += WORD, in += WORD) {
             *(uint32_t *)(void *)out = *(const uint32_t *)(const void *)in;
@@ -32,6 +31,11 @@ void *memcpy(void *restrict to, const void *restrict from, size_t size)
     while (size-- > 0) {
         *out++ = *in++;
     }
+}
+
+void *memcpy(void *restrict to, const void *restrict from, size_t size)
+{
+    copy_up(to, from, size);
     return to;
 }
 
@@ -40,7 +44,8 @@ void *memmove(void *to, const void *from, size_t size)
     uint8_t *out = to;
     const uint8_t *in = from;
     if (out <= in) {
-        return memcpy(to, from, size); /* which goes upwards */
+        copy_up(out, in, size);
+        return to;
     }
     while (size-- > 0) {
         out[size] = in[size];

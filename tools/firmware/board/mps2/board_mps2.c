@@ -11,6 +11,8 @@
 #define TICKS_PER_MS (MPS2_CLOCK_HZ / 1000u)
 #define TICKS_PER_US (MPS2_CLOCK_HZ / 1000000u)
 #define JOIN_INTERVAL_US 60000000
+#define FOREIGN_MAX 16    /* frames of others that are read at a time */
+#define SEND_TRIES 100000 /* some 10 ms: what the chip holds is on the line then */
 #define UART_SENDS 1u
 #define UART_FULL 1u
 
@@ -26,6 +28,7 @@ static uint32_t last_ms;
 static int64_t time_ms;
 static int64_t join_due_us;
 static uint16_t frames_sent;
+static uint32_t unsent;
 
 /* ---- Clock ---- */
 
@@ -36,14 +39,21 @@ void mps2_systick(void)
 
 int64_t board_time_us(void)
 {
+    static int64_t newest_us;
     uint32_t now_ms, value;
+    int64_t now_us;
     do { /* both of the same millisecond */
         now_ms = ticks_ms;
         value = SYSTICK_VALUE;
     } while (now_ms != ticks_ms);
     time_ms += (uint32_t)(now_ms - last_ms);
     last_ms = now_ms;
-    return time_ms * 1000 + (TICKS_PER_MS - 1 - value) / TICKS_PER_US;
+    /* at 0 the new millisecond has been counted already; its interrupt may also come late */
+    now_us = time_ms * 1000 + (value > 0 ? (TICKS_PER_MS - value) / TICKS_PER_US : 0);
+    if (now_us > newest_us) {
+        newest_us = now_us;
+    }
+    return newest_us;
 }
 
 /* ---- Network ---- */
@@ -64,12 +74,25 @@ int board_open(void)
     return lan9118_open(host.mac);
 }
 
+/* Switches forget who wants the group's datagrams where nobody says so again. */
+static void join(void)
+{
+    static uint8_t frame[UDP_FRAME_JOIN];
+    int64_t now_us = board_time_us();
+    if (now_us >= join_due_us) {
+        join_due_us = now_us + JOIN_INTERVAL_US;
+        udp_frame_join(frame, &host);
+        (void)lan9118_send(frame, sizeof frame);
+    }
+}
+
 size_t board_receive(uint8_t *buffer, size_t capacity)
 {
     static uint8_t frame[UDP_FRAME_MAX];
     const uint8_t *payload;
     size_t size, length;
-    while ((size = lan9118_receive(frame, sizeof frame)) > 0) {
+    join();
+    for (int i = 0; i < FOREIGN_MAX && (size = lan9118_receive(frame, sizeof frame)) > 0; i++) {
         length = udp_frame_open(frame, size, &payload);
         if (length > 0 && length <= capacity) {
             memcpy(buffer, payload, length);
@@ -82,28 +105,24 @@ size_t board_receive(uint8_t *buffer, size_t capacity)
 void board_send(const uint8_t *datagram, size_t size)
 {
     static uint8_t frame[UDP_FRAME_MAX];
+    int tries = SEND_TRIES;
     if (size <= sizeof frame - UDP_FRAME_HEAD) {
         memcpy(frame + UDP_FRAME_HEAD, datagram, size);
-        (void)lan9118_send(frame, udp_frame_build(frame, &host, frames_sent++, size));
+        size = udp_frame_build(frame, &host, frames_sent++, size);
+        while (!lan9118_send(frame, size) && --tries > 0) {
+        }
+        unsent += tries == 0;
     }
 }
 
-/* Switches forget who wants the group's datagrams where nobody says so again. */
-static void join(int64_t now_us)
+uint32_t board_unsent(void)
 {
-    static uint8_t frame[UDP_FRAME_JOIN];
-    if (now_us >= join_due_us) {
-        join_due_us = now_us + JOIN_INTERVAL_US;
-        udp_frame_join(frame, &host);
-        (void)lan9118_send(frame, sizeof frame);
-    }
+    return unsent;
 }
 
 void board_wait(int64_t until_us)
 {
-    int64_t now_us = board_time_us();
-    join(now_us);
-    if (now_us < until_us) {
+    if (board_time_us() < until_us) {
         NVIC_UNPEND = 1u << MPS2_ETHERNET_IRQ;
         NVIC_ENABLE = 1u << MPS2_ETHERNET_IRQ;
         __asm__ volatile("wfi" ::: "memory"); /* a millisecond at most: the clock's own interrupt */
@@ -129,6 +148,12 @@ void board_say(const char *text)
 }
 
 /* ---- Start and end ---- */
+
+/* The board has no such memory. */
+int32_t board_boot(void)
+{
+    return 0;
+}
 
 int main(void);
 

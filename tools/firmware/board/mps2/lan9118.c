@@ -107,6 +107,10 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
 
 int lan9118_send(const uint8_t *frame, size_t size)
 {
+    while (TX_LEVEL >> 16 &
+           0xff) { /* what became of frames sent before; full, it would stop the sender */
+        (void)TX_STATUS;
+    }
     if ((TX_LEVEL & 0xffff) < size + 16) {
         return 0;
     }
@@ -116,10 +120,6 @@ int lan9118_send(const uint8_t *frame, size_t size)
         uint32_t word = 0;
         memcpy(&word, frame + at, size - at < 4 ? size - at : 4);
         TX_DATA = word;
-    }
-    while (TX_LEVEL >> 16 &
-           0xff) { /* what became of frames sent before; full, it would stop the sender */
-        (void)TX_STATUS;
     }
     return 1;
 }

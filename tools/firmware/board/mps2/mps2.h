@@ -45,6 +45,6 @@ void mps2_open_console(void);
 void mps2_close_console(void);
 
 /* A fault of the processor; exception: its number. */
-void mps2_fault(unsigned exception) __attribute__((noreturn));
+void mps2_fault(unsigned exception) __attribute__((noreturn, used));
 
 #endif

@@ -24,7 +24,8 @@
 
 #define TIMER_RUN 1u
 #define ARGUMENTS_MAX 8
-#define EXIT_FAULT 120u /* and the exception's number */
+#define EXIT_ARGUMENTS 119u /* more than that, or a line that is too long */
+#define EXIT_FAULT 120u     /* and the exception's number */
 
 static uint32_t call(uint32_t operation, const void *operands)
 {
@@ -130,7 +131,10 @@ void mps2_fault(unsigned exception)
 static int split(char *line, char **words)
 {
     int count = 0;
-    for (char *next = line; *next && count < ARGUMENTS_MAX; count++) {
+    for (char *next = line; *next; count++) {
+        if (count == ARGUMENTS_MAX) {
+            stop(EXIT_ARGUMENTS);
+        }
         words[count] = next;
         next += strcspn(next, " ");
         while (*next == ' ') {
@@ -146,7 +150,9 @@ void mps2_run(void)
     static char *words[ARGUMENTS_MAX + 1];
     const uint32_t operands[2] = {to_word(line), sizeof line};
     int status;
-    (void)call(SYS_GET_CMDLINE, operands);
+    if (call(SYS_GET_CMDLINE, operands) != 0) {
+        stop(EXIT_ARGUMENTS);
+    }
     TIMER0_RELOAD = UINT32_MAX;
     TIMER0_VALUE = UINT32_MAX;
     TIMER0_CONTROL = TIMER_RUN;

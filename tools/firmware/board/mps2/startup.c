@@ -12,11 +12,14 @@
 extern uint32_t link_data_from[], link_data[], link_data_end[], link_bss[], link_bss_end[];
 extern uint32_t link_stack[], link_stack_top[];
 
-static void fault(void)
+/* A stack that is full has no room for what is said: from its top, then. */
+__attribute__((noreturn, naked)) static void fault(void)
 {
-    unsigned exception;
-    __asm__ volatile("mrs %0, ipsr" : "=r"(exception));
-    mps2_fault(exception);
+    __asm__ volatile("movw r0, #:lower16:link_stack_top\n"
+                     "movt r0, #:upper16:link_stack_top\n"
+                     "mov sp, r0\n"
+                     "mrs r0, ipsr\n"
+                     "b mps2_fault\n");
 }
 
 /* Never called where an image enables neither. */
