@@ -70,7 +70,7 @@ struct rho_gate {
     const struct rho_sensor *sensor; /* that looks; NULL: from the origin */
     uint32_t measures;               /* RHO_MEASURES_... of the scan */
     int has_z;                       /* the third axis is open */
-    struct rho_gate_rate rate;       /* where the scan measures range rates */
+    struct rho_gate_rate rate;       /* unset where the scan measures no range rates */
 };
 
 struct rho_gate_result {

@@ -161,8 +161,9 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
                          struct rho_hypotheses_reach *reach);
 
 /*
- * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the slot, whose reach has been
- * filled at its last prediction. Constant cost, but for the first plot with a time of its own. Stack: 160 bytes.
+ * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the slot, whose reach
+ * rho_hypotheses_look has filled since its last prediction; *reach takes more in for the first plot with a time of its own.
+ * Constant cost but for that. Stack: 160 bytes.
  */
 int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
                            struct rho_hypotheses_reach *reach, const struct rho_plot *plot,

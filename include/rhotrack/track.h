@@ -52,11 +52,11 @@ enum rho_track_filter {
 };
 
 /* True of filters that the library is built with. */
-#define RHO_HAS_FILTER(filter) ((RHO_FILTERS >> (filter)&1) != 0)
+#define RHO_HAS_FILTER(filter) (((RHO_FILTERS) >> (filter)&1) != 0)
 
 /* True of a track with that filter: known to the compiler where there is no such, or no other. */
 #define RHO_TRACK_IS_BY(track, which)                                                              \
-    (RHO_FILTERS == 1 << (which) || (RHO_HAS_FILTER(which) && (track)->filter == (which)))
+    ((RHO_FILTERS) == 1 << (which) || (RHO_HAS_FILTER(which) && (track)->filter == (which)))
 
 struct rho_track {
     uint32_t track_id; /* 1, 2, ... in the order of starts; never used twice until 2^32 */

@@ -97,7 +97,8 @@ struct rho_tracker {
     struct rho_hypotheses hypotheses; /* of the gate best */
 };
 
-/* One track as reported. */
+/* One track as reported: the estimate at the step's time. Of a track that the scan could not see it is the last one, moved
+ * there with its acceleration. */
 struct rho_track_report {
     uint32_t track_id;
     enum rho_track_status status;
@@ -130,8 +131,8 @@ struct rho_report {
 };
 
 /*
- * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses); hough and nearest without input estimation, planes
- * xy, xz and yz, cells of 5 degrees. Constant cost.
+ * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
+ * hough and nearest without input estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);
 

@@ -279,13 +279,16 @@ static const uint8_t other_axes[6][4] = {
     {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
 };
 
+/* A union: where there is no standard library to know about (-ffreestanding), a memcpy is called. */
+union binary32 {
+    float v;
+    uint32_t bits;
+};
+
 /* A number but for its sign: 0 for zero. */
 static inline uint32_t magnitude_bits(float v)
 {
-    uint32_t bits;
-
-    memcpy(&bits, &v, sizeof bits);
-    return bits << 1;
+    return (union binary32){.v = v}.bits << 1;
 }
 
 static inline int is_apart(const float p[21], const uint8_t others[4])
@@ -299,7 +302,8 @@ struct scalar {
     float innovation, inverse, kept;
 };
 
-/* Of an element that only the other one of its axis goes with: the same bits, in a third of the instructions. */
+/* Of an element that only the other one of its axis goes with: the same bits but for the sign of a zero, in a third of the
+ * instructions. */
 static int update_apart(float x[6], float p[21], int index, const struct scalar *seen)
 {
     const int other = index < 3 ? index + 3 : index - 3;

@@ -12,7 +12,7 @@
 #define POOL_MAGIC 0x4859504fu /* "HYPO" */
 
 /* Less likely ones, e^-9 beside the best one, do not show in the mean. */
-#define SHARE_SHOWN_MIN 1.234e-4f
+#define SHARE_SHOWN_MIN 1.2340980e-4f
 
 /* ---- the pool --------------------------------------------------------------------------------- */
 

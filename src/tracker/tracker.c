@@ -143,6 +143,18 @@ static void begin(struct step *step)
 
 /* ---- report ----------------------------------------------------------------------------------- */
 
+/* Late scans, and those that do not reach the track: its one estimate moves, on with its acceleration, hypotheses stay. */
+static void move_estimate(struct rho_track *at, float dt_s, float noise_density)
+{
+    if (rho_kalman_predict(&at->kalman, dt_s, noise_density) != RHO_OK) {
+        return;
+    }
+    for (int axis = 0; axis < 3 && dt_s > 0.0f; axis++) {
+        at->kalman.state[axis] += 0.5f * dt_s * dt_s * at->accel_mps2[axis];
+        at->kalman.state[axis + 3] += dt_s * at->accel_mps2[axis];
+    }
+}
+
 /* The track at the step's time: itself, or moved there in *at. */
 static const struct rho_track *at_step(const struct step *step, const struct rho_track *track,
                                        struct rho_track *at)
@@ -153,9 +165,8 @@ static const struct rho_track *at_step(const struct step *step, const struct rho
     *at = *track;
     /* back from the plot's own time to the scan's, without noise, or on: nothing to refuse */
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        /* late scans, and those that do not reach it: the one estimate moves, hypotheses stay */
-        (void)!rho_kalman_predict(&at->kalman, rho_seconds_between(track->time_us, step->time_us),
-                                  step->model.noise_density);
+        move_estimate(at, rho_seconds_between(track->time_us, step->time_us),
+                      step->model.noise_density);
     } else {
         (void)!rho_track_predict(at, step->time_us, &step->model);
     }
@@ -250,7 +261,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
     };
     rho_input_config_default(&config->input);
-    config->input.is_estimated = RHO_FILTERS == 1 << RHO_TRACK_INPUT;
+    config->input.is_estimated = (RHO_FILTERS) == 1 << RHO_TRACK_INPUT;
 }
 
 static int is_usable(const struct rho_tracker_config *config)
@@ -292,7 +303,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     tracker->next_track_id = 1;
     tracker->looks_max = 1;
     tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
-    status = open_hypotheses(tracker);
+    status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? open_hypotheses(tracker) : RHO_OK;
     if (status != RHO_OK) {
         return status;
     }

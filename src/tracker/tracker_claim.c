@@ -27,7 +27,6 @@ int32_t rho_tracker_mnat(float nat)
 void rho_tracker_predict(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    step->first_new_id = tracker->next_track_id;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
@@ -364,18 +363,13 @@ void rho_tracker_update(struct step *step)
     }
 }
 
-/* Of this step; its estimate is at its last plot's own time. */
-static int is_new(const struct step *step, const struct rho_track *track)
-{
-    return (int32_t)(track->track_id - step->first_new_id) >= 0;
-}
-
-/* Tracks out of the scan's reach stay as they are; reports move what was last known of them. */
+/* Tracks out of the scan's reach, and those that it started at their plots' own times, stay as they are; reports move what was
+ * last known of them. */
 void rho_tracker_settle(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         struct rho_track *track = &step->tracker->tracks[i];
-        if (!step->scan || track->time_us == step->time_us || is_new(step, track)) {
+        if (!step->scan || track->time_us == step->time_us) {
             rho_track_settle(track, step->time_us, &step->model);
         }
     }

@@ -67,6 +67,7 @@ int rho_tracker_reaches(const struct step *step, const struct rho_track *track)
         !has_sector(step)) {
         return 1;
     }
+    dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* a plot's own time was later */
     margin_m = REACH_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
                step->tracker->config.accel_max_mps2 * dt_s * dt_s + REACH_SHARE * range_m;
     if (sensor &&

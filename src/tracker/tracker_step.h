@@ -26,7 +26,6 @@ struct step {
     float sigma_max_m, offset_max_s;
     /* bit i: track i is within the scan's reach, or there is no scan but a frame */
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
-    uint32_t first_new_id; /* of tracks that this step starts */
     struct rho_track_model model;
     float log_pd;
     float log_miss; /* ln(1 - pd) */

@@ -33,6 +33,17 @@ static float uniform(float low, float high)
     return low + (high - low) * (float)(random_state >> 8) / 16777216.0f;
 }
 
+static void take(const struct rho_scan *scan)
+{
+    const int status = (int)rho_tracker_step(&tracker, &initiator, scan, &report);
+    add(&status, sizeof status);
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        add(&report.tracks[i].track_id, sizeof report.tracks[i].track_id);
+        add(report.tracks[i].state, sizeof report.tracks[i].state);
+        add(report.tracks[i].covariance, sizeof report.tracks[i].covariance);
+    }
+}
+
 /* A target that flies straight and one that turns, in clutter. */
 static void step(int scan)
 {
@@ -49,14 +60,13 @@ static void step(int scan)
     plots[0].y_m = 1000.0f + uniform(-30.0f, 30.0f);
     plots[1].x_m = 100.0f * t + uniform(-30.0f, 30.0f);
     plots[1].y_m = -5000.0f + 2.0f * t * t + uniform(-30.0f, 30.0f);
-    const struct rho_scan seen = {
-        .time_us = 2000000 * (int64_t)scan, .num_plots = CLUTTER, .plots = plots};
-    const int status = (int)rho_tracker_step(&tracker, &initiator, &seen, &report);
-    add(&status, sizeof status);
-    for (unsigned i = 0; i < report.num_tracks; i++) {
-        add(&report.tracks[i].track_id, sizeof report.tracks[i].track_id);
-        add(report.tracks[i].state, sizeof report.tracks[i].state);
-    }
+    take(&(struct rho_scan){
+        .time_us = 2000000 * (int64_t)scan, .num_plots = CLUTTER, .plots = plots});
+    /* reports that tracks are moved for: a sector that looks elsewhere, a scan that is late */
+    take(&(struct rho_scan){.time_us = 2000000 * (int64_t)scan + 500000,
+                            .sector_from_rad = -2.4f,
+                            .sector_to_rad = -2.3f});
+    take(&(struct rho_scan){.time_us = 2000000 * (int64_t)scan - 700000});
 }
 
 static enum rho_status init(uint8_t gate, uint8_t is_estimated)

@@ -249,7 +249,7 @@ holds_table() { # compiler and flags...
 
 # ---- for a Cortex-M4F ----
 has_fused() { arm-none-eabi-objdump -d "$@" | grep -qP '\tvfn?m[as]'; }
-has_none_fused() { ! has_fused "$@"; }
+has_none_fused() { [ -s "$1" ] && arm-none-eabi-objdump -d "$@" >listing && [ -s listing ] && ! has_fused "$@"; }
 ram_of() { # program, column: its static objects take what the table says
     local object bytes
     for object in tracker initiator report; do

@@ -6,6 +6,7 @@
 #define rho_atan2 software_atan2
 #define rho_exp software_exp
 #define rho_log software_log
+#define rho_log_one_plus software_log_one_plus
 #define rho_sqrt software_sqrt
 #define rho_inverse_sqrt software_inverse_sqrt
 

@@ -200,6 +200,34 @@ static void the_distance_has_as_many_dimensions_as_are_measured(void **state)
     assert_true(inside[2] > 500 && inside[3] > 1000 && inside[4] > 300);
 }
 
+/* Whatever the plots' noise and own times, either way, as long as they are within what the box was asked for. */
+static void no_plot_in_the_gate_is_outside_of_the_box(void **state)
+{
+    (void)state;
+    int inside = 0, outside = 0;
+    for (int i = 0; i < 60000; i++) {
+        struct rho_kalman kalman = some_filter(3);
+        struct rho_gate gate;
+        struct rho_gate_result result;
+        struct rho_plot plot = plot_around(&kalman);
+        float half_m[2];
+        kalman.state[3] = uniform(-400.0f, 400.0f);
+        kalman.state[4] = uniform(-400.0f, 400.0f);
+        plot.x_m += uniform(-900.0f, 900.0f);
+        plot.y_m += uniform(-900.0f, 900.0f);
+        rho_gate_open(&gate, &kalman, NOISE, NULL, i & 1 ? RHO_MEASURES_Z : 0u);
+        rho_gate_box(&gate, 60.0f, 1.0f, half_m); /* plot_around: noise and own time are less */
+        int is_beyond = fabsf(plot.x_m - kalman.state[0]) > half_m[0] ||
+                        fabsf(plot.y_m - kalman.state[1]) > half_m[1];
+        if (rho_gate_test(&gate, &plot, &result)) {
+            inside++;
+            assert_false(is_beyond);
+        }
+        outside += is_beyond;
+    }
+    assert_true(inside > 1000 && outside > 1000);
+}
+
 static void a_range_rate_at_the_sensor_says_nothing(void **state)
 {
     (void)state;
@@ -271,6 +299,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_distance_has_as_many_dimensions_as_are_measured),
+        cmocka_unit_test(no_plot_in_the_gate_is_outside_of_the_box),
         cmocka_unit_test(a_range_rate_at_the_sensor_says_nothing),
         cmocka_unit_test(z_counts_where_both_have_it),
         cmocka_unit_test(what_is_not_a_number_is_outside),

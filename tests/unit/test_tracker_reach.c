@@ -17,6 +17,7 @@
 #define SECOND_US INT64_C(1000000)
 #define NEAR 1 /* sees the target */
 #define FAR 2  /* does not */
+#define STRAIGHT_S 48.0
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
@@ -187,6 +188,79 @@ static void no_plot_is_lost_at_the_edge_of_a_sector(void **state)
     }
 }
 
+/* A fast target, and a plot of it that is some time older or younger than its scan: nowhere near where it is at the scan's. */
+static void a_plot_far_off_in_its_own_time_is_claimed(void **state)
+{
+    (void)state;
+    for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+            start(gate);
+            describe(NEAR, 0.0f, 50000.0f);
+            for (int k = 0; k < 12; k++) {
+                step(&initiator, NEAR, 2 * k * SECOND_US, 10000.0 + 1000.0 * k, 5000.0, k);
+            }
+            assert_int_equal(report.num_tracks, 1);
+            const float x_m = 22000.0f + 700.0f * (float)sign; /* 500 m/s, 1.4 s */
+            const struct rho_plot plot = {.offset_us = sign * 1400000,
+                                          .x_m = x_m,
+                                          .y_m = 5000.0f,
+                                          .sigma_range_m = 10.0f,
+                                          .sigma_cross_m = 10.0f};
+            const struct rho_scan scan = {
+                .time_us = 24 * SECOND_US, .sensor_id = NEAR, .num_plots = 1, .plots = &plot};
+            assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+            assert_int_equal(report.tracks[0].plot, 0);
+            assert_true(fabsf(report.tracks[0].state[0] - 22000.0f) <
+                        40.0f); /* at the scan's time */
+        }
+    }
+}
+
+/*
+ * A radar of 16 sectors, 4 s a turn; the target flies straight, and then turns at 20 m/s^2. Between looks a report goes on
+ * with the turn.
+ */
+static void between_looks_a_report_goes_on_with_the_turn(void **state)
+{
+    (void)state;
+    const double turn_s = 4.0, radius_m = 3125.0, rate = 250.0 / 3125.0;
+    double sum = 0.0, at_looks = 0.0;
+    int count = 0, looks = 0;
+    start(RHO_TRACKER_BEST);
+    describe(NEAR, 0.0f, 50000.0f);
+    for (int k = 0; k < 30 * 16; k++) {
+        double t_s = turn_s * k / 16.0, angle = t_s > STRAIGHT_S ? rate * (t_s - STRAIGHT_S) : 0.0;
+        double x_m = 5000.0 + 250.0 * fmin(t_s, STRAIGHT_S) + radius_m * sin(angle);
+        double y_m = 500.0 + radius_m * (1.0 - cos(angle));
+        int is_looked_at = k % 16 == 8;
+        const struct rho_plot plot = {.x_m = (float)x_m + 8.0f * sinf(2.3f * (float)k),
+                                      .y_m = (float)y_m + 8.0f * cosf(5.1f * (float)k),
+                                      .sigma_range_m = 10.0f,
+                                      .sigma_cross_m = 10.0f};
+        /* one that looks where the target is, and fifteen that do not */
+        const struct rho_scan scan = {.time_us = (int64_t)(1e6 * t_s),
+                                      .sensor_id = NEAR,
+                                      .sector_from_rad = is_looked_at ? -1.5f : 2.5f,
+                                      .sector_to_rad = is_looked_at ? 1.5f : 3.0f,
+                                      .num_plots = (uint32_t)is_looked_at,
+                                      .plots = &plot};
+        assert_int_equal(
+            rho_tracker_step(&tracker, is_looked_at ? &initiator : NULL, &scan, &report), RHO_OK);
+        if (t_s < STRAIGHT_S + 12.0 || report.num_tracks != 1) {
+            continue;
+        }
+        double dx_m = (double)report.tracks[0].state[0] - x_m;
+        double dy_m = (double)report.tracks[0].state[1] - y_m;
+        sum += dx_m * dx_m + dy_m * dy_m;
+        count++;
+        at_looks += is_looked_at ? dx_m * dx_m + dy_m * dy_m : 0.0;
+        looks += is_looked_at;
+    }
+    print_message("rms %.1f m, at looks %.1f m\n", sqrt(sum / count), sqrt(at_looks / looks));
+    assert_true(count > 200 && looks > 10);
+    assert_true(sqrt(sum / count) < 75.0); /* 58; 93 without the acceleration */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -194,6 +268,8 @@ int main(void)
         cmocka_unit_test(it_is_reported_where_it_will_be),
         cmocka_unit_test(what_nobody_looks_at_ends),
         cmocka_unit_test(no_plot_is_lost_at_the_edge_of_a_sector),
+        cmocka_unit_test(a_plot_far_off_in_its_own_time_is_claimed),
+        cmocka_unit_test(between_looks_a_report_goes_on_with_the_turn),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

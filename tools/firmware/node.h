@@ -51,7 +51,7 @@ void node_config_default(struct node_config *config);
 RHO_MUST_CHECK enum rho_status node_start(const struct node_config *config);
 
 /* A datagram of any bytes and length that came at now_us of the reception clock. */
-void node_receive(const uint8_t *datagram, size_t size, int64_t now_us);
+void node_receive(const uint8_t *bytes, size_t size, int64_t now_us);
 
 /* Steps what is due though nothing has come, and says once a second how the node is. */
 void node_tick(int64_t now_us);
