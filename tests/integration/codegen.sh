@@ -171,7 +171,7 @@ sed -i 's/POSITION_2D = 2/POSITION = 1, POSITION_2D = 2/; s/{POSITION_2D,/{POSIT
 codegen
 expect 'a constant that begins as another one does' 0 'codegen: src/wire/message.c'
 status=0
-grep -F 'plot_scan, kind), 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message.c" >"$copy/output" || status=$?
+grep -F 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message.c" >"$copy/output" || status=$?
 expect '... has its own value' 0 '1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6'
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
