@@ -10,9 +10,28 @@
 #ifndef RHOTRACK_APPROX_H
 #define RHOTRACK_APPROX_H
 
+#include <stdint.h>
+
 #define RHO_PI 3.14159274f
 #define RHO_TWO_PI 6.28318548f
 #define RHO_HALF_PI 1.57079637f
+
+/* The bits of a float, and the float of these bits. A union: where there is no standard library to know about
+ * (-ffreestanding), a memcpy of four bytes would be called. No stack. */
+union rho_binary32 {
+    float v;
+    uint32_t bits;
+};
+
+static inline uint32_t rho_float_bits(float v)
+{
+    return (union rho_binary32){.v = v}.bits;
+}
+
+static inline float rho_float_of(uint32_t bits)
+{
+    return (union rho_binary32){.bits = bits}.v;
+}
 
 /* Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 1e-7. */
 float rho_sin(float angle_rad);

@@ -61,22 +61,6 @@
 #define TAN_PI_8 0.414213562f
 #define QUARTER_PI 0.785398163f
 
-/* A union: where there is no standard library to know about (-ffreestanding), a memcpy is called. */
-union binary32 {
-    float v;
-    uint32_t bits;
-};
-
-static uint32_t bits_of(float v)
-{
-    return (union binary32){.v = v}.bits;
-}
-
-static float float_of(uint32_t bits)
-{
-    return (union binary32){.bits = bits}.v;
-}
-
 static int32_t nearest_integer(float v)
 {
     return (int32_t)(v < 0.0f ? v - 0.5f : v + 0.5f);
@@ -107,7 +91,7 @@ static float sine_shifted(float angle_rad, uint32_t quarters)
     float k, r, sine;
 
     if (!(angle_rad >= -TRIG_LIMIT_RAD && angle_rad <= TRIG_LIMIT_RAD)) {
-        return float_of(BITS_NAN);
+        return rho_float_of(BITS_NAN);
     }
     count = nearest_integer(angle_rad * TWO_OVER_PI);
     k = (float)count;
@@ -166,7 +150,7 @@ float rho_atan2(float y, float x)
     float angle;
 
     if (!(size_y <= FLT_MAX && size_x <= FLT_MAX)) {
-        return float_of(BITS_NAN);
+        return rho_float_of(BITS_NAN);
     }
     if (!(longer > 0.0f)) {
         return 0.0f;
@@ -184,7 +168,7 @@ float rho_exp(float v)
     float r, y;
 
     if (!(v >= EXP_LOWEST && v <= EXP_HIGHEST)) {
-        return v < EXP_LOWEST ? 0.0f : float_of(v > EXP_HIGHEST ? BITS_INFINITY : BITS_NAN);
+        return v < EXP_LOWEST ? 0.0f : rho_float_of(v > EXP_HIGHEST ? BITS_INFINITY : BITS_NAN);
     }
     n = nearest_integer(v * LOG2_E);
     r = (v - (float)n * LN2_HIGH) - (float)n * LN2_LOW;
@@ -195,20 +179,20 @@ float rho_exp(float v)
     y = y * r + 1.6666665459e-1f;
     y = y * r + 5.0000001201e-1f;
     y = y * r * r + r + 1.0f;
-    return y * float_of((uint32_t)(n + EXPONENT_BIAS) << EXPONENT_SHIFT);
+    return y * rho_float_of((uint32_t)(n + EXPONENT_BIAS) << EXPONENT_SHIFT);
 }
 
 float rho_log(float v)
 {
     const int is_subnormal = v < FLT_MIN;
-    const uint32_t bits = bits_of(is_subnormal ? v * 8388608.0f : v);
+    const uint32_t bits = rho_float_bits(is_subnormal ? v * 8388608.0f : v);
     int32_t exponent = (int32_t)(bits >> EXPONENT_SHIFT) - (EXPONENT_BIAS - 1);
     float f, k;
 
     if (!(v > 0.0f && v <= FLT_MAX)) {
-        return v > 0.0f ? v : float_of(v >= 0.0f ? BITS_INFINITY | 0x80000000u : BITS_NAN);
+        return v > 0.0f ? v : rho_float_of(v >= 0.0f ? BITS_INFINITY | 0x80000000u : BITS_NAN);
     }
-    f = float_of((bits & FRACTION_MASK) | bits_of(0.5f));
+    f = rho_float_of((bits & FRACTION_MASK) | rho_float_bits(0.5f));
     exponent -= is_subnormal ? EXPONENT_SHIFT : 0;
     if (f < SQRT_HALF) {
         f += f;
@@ -256,7 +240,7 @@ static float root_of(float v)
 static uint32_t integer_root(uint32_t m)
 {
     const float x = (float)m * (1.0f / 8388608.0f);
-    float y = float_of(0x5f3759dfu - (bits_of(x) >> 1));
+    float y = rho_float_of(0x5f3759dfu - (rho_float_bits(x) >> 1));
     uint32_t root;
     int32_t rest, missing;
     int i;
@@ -276,14 +260,14 @@ static uint32_t integer_root(uint32_t m)
 static float root_of(float v)
 {
     const int is_subnormal = v < FLT_MIN;
-    const uint32_t bits = bits_of(is_subnormal ? v * 16777216.0f : v);
+    const uint32_t bits = rho_float_bits(is_subnormal ? v * 16777216.0f : v);
     const uint32_t exponent = bits >> EXPONENT_SHIFT;
     uint32_t m = (bits & FRACTION_MASK) | FRACTION_ONE;
     uint32_t half;
 
     m <<= (exponent + 1u) & 1u; /* an even power of two is left over */
     half = ((exponent + EXPONENT_BIAS) >> 1) - (is_subnormal ? 12u : 0u);
-    return float_of((half << EXPONENT_SHIFT) + (integer_root(m) - FRACTION_ONE));
+    return rho_float_of((half << EXPONENT_SHIFT) + (integer_root(m) - FRACTION_ONE));
 }
 
 #endif
@@ -291,7 +275,7 @@ static float root_of(float v)
 float rho_sqrt(float v)
 {
     if (!(v > 0.0f && v <= FLT_MAX)) {
-        return v >= 0.0f ? v : float_of(BITS_NAN);
+        return v >= 0.0f ? v : rho_float_of(BITS_NAN);
     }
     return root_of(v);
 }
@@ -300,7 +284,7 @@ float rho_sqrt(float v)
 float rho_inverse_sqrt(float v)
 {
     const float half = 0.5f * v;
-    float root = float_of(0x5f375a86u - (bits_of(v) >> 1));
+    float root = rho_float_of(0x5f375a86u - (rho_float_bits(v) >> 1));
 
     root *= 1.5f - half * root * root;
     root *= 1.5f - half * root * root;

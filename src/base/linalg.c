@@ -279,16 +279,10 @@ static const uint8_t other_axes[6][4] = {
     {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
 };
 
-/* A union: where there is no standard library to know about (-ffreestanding), a memcpy is called. */
-union binary32 {
-    float v;
-    uint32_t bits;
-};
-
 /* A number but for its sign: 0 for zero. */
 static inline uint32_t magnitude_bits(float v)
 {
-    return (union binary32){.v = v}.bits << 1;
+    return rho_float_bits(v) << 1;
 }
 
 static inline int is_apart(const float p[21], const uint8_t others[4])

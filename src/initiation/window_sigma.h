@@ -6,28 +6,23 @@
 
 #include <stdint.h>
 
+#include "rhotrack/approx.h"
 #include "rhotrack/window.h"
 
 /* Exponent of the least code, 2^-10, as a float32 has it. */
 #define SIGMA_EXPONENT (117u << 23)
 #define SIGMA_SHIFT 12
 
-/* A union: without a standard library to know about (-ffreestanding), a memcpy would be called. */
-union sigma_bits {
-    float sigma;
-    uint32_t bits;
-};
-
 /* To the nearest code. */
 static inline uint16_t sigma_code(float sigma)
 {
-    uint32_t bits = (union sigma_bits){.sigma = sigma}.bits;
+    uint32_t bits = rho_float_bits(sigma);
     return (uint16_t)((bits + (1u << (SIGMA_SHIFT - 1)) - SIGMA_EXPONENT) >> SIGMA_SHIFT);
 }
 
 static inline float sigma_of(uint16_t code)
 {
-    return (union sigma_bits){.bits = ((uint32_t)code << SIGMA_SHIFT) + SIGMA_EXPONENT}.sigma;
+    return rho_float_of(((uint32_t)code << SIGMA_SHIFT) + SIGMA_EXPONENT);
 }
 
 static inline uint16_t larger_sigma(const struct rho_window_plot *plot)

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "rhotrack/approx.h"
 #include "rhotrack/input.h"
 
 #define NUM_AXES RHO_INPUT_AXES
@@ -31,10 +32,7 @@ static inline int is_zero(float v)
 /* The bits of a number but for its sign: none for zero. */
 static inline uint32_t bits_of(float v)
 {
-    uint32_t bits;
-
-    memcpy(&bits, &v, sizeof bits);
-    return bits << 1;
+    return rho_float_bits(v) << 1;
 }
 
 /* What rounding may take off a variance that something is added to. */

@@ -25,7 +25,6 @@ record_all() {
 # What the node is told of the targets of a record.
 settings_of() {
     case $1 in
-    passive) echo v_min_mps=100 v_max_mps=400 accel_mps2=5 ;;
     popup) echo v_min_mps=100 v_max_mps=1000 accel_mps2=118 ;;
     *) echo v_min_mps=100 v_max_mps=400 accel_mps2=5 ;;
     esac
@@ -41,8 +40,8 @@ runs() {
     done
 }
 
-# replay_all COMMAND...: every run with `COMMAND... IN OUT SETTINGS`, into the folder that is the last word before; the files' sums
-# on standard output, and what the replay said in DIR/said.
+# replay_all DIR COMMAND...: every run by `COMMAND... IN OUT SETTINGS`, into DIR, and what it said into DIR/said. Prints the
+# files' sums.
 replay_all() { # directory, command...
     local directory=$1 name gate
     shift

@@ -45,31 +45,25 @@ static enum rho_status start(void)
     return node_start(&config);
 }
 
-/* "stack       3904": text ends with room for ten digits. */
-static void say(char *text, size_t last, uint32_t number)
+/* Where a number has grown: it goes to the end of the text, "stack       3904", which has room for ten digits. */
+static void say_growth(char *text, size_t last, uint32_t number, uint32_t *said)
 {
-    do {
+    if (number <= *said) {
+        return;
+    }
+    *said = number;
+    for (; number > 0; number /= 10) {
         text[last--] = (char)('0' + number % 10);
-        number /= 10;
-    } while (number > 0);
+    }
     board_say(text);
 }
 
-/* What has come to more since the last time. */
 static void report(void)
 {
-    static uint32_t said_stack, said_unsent;
-    uint32_t stack = (uint32_t)board_stack_used(), unsent = board_unsent();
-    if (stack > said_stack) {
-        char text[] = "stack           ";
-        say(text, sizeof text - 2, stack);
-        said_stack = stack;
-    }
-    if (unsent > said_unsent) {
-        char text[] = "unsent          ";
-        say(text, sizeof text - 2, unsent);
-        said_unsent = unsent;
-    }
+    static uint32_t stack, unsent;
+    char stack_text[] = "stack           ", unsent_text[] = "unsent          ";
+    say_growth(stack_text, sizeof stack_text - 2, (uint32_t)board_stack_used(), &stack);
+    say_growth(unsent_text, sizeof unsent_text - 2, board_unsent(), &unsent);
 }
 
 int main(void)

@@ -25,7 +25,6 @@ static struct {
     int64_t step_sum_us, step_max_us; /* since the last status */
     int32_t step_count;
     int64_t status_due_us;
-    int has_status_due;
 } node;
 
 /* ---- Messages that go out ---- */
@@ -234,8 +233,7 @@ void node_tick(int64_t now_us)
         return;
     }
     step_due(now_us);
-    if (!node.has_status_due || now_us >= node.status_due_us) {
-        node.has_status_due = 1;
+    if (now_us >= node.status_due_us) {
         node.status_due_us = now_us + STATUS_INTERVAL_US;
         publish_status();
     }
@@ -273,6 +271,7 @@ enum rho_status node_start(const struct node_config *config)
         return RHO_ERROR_NULL;
     }
     settings = *config;
+    node.status_due_us = INT64_MIN; /* at once */
     status = rho_feed_init(&feed, sizeof feed, &config->feed);
     for (uint16_t i = 0; i < config->num_sensors && status == RHO_OK; i++) {
         status = rho_feed_set_sensor(&feed, &config->sensors[i]);

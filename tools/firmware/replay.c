@@ -27,7 +27,6 @@ static struct {
     uint32_t instructions_max, instructions_aside; /* aside: in the functions that the node calls */
     uint64_t instructions_sum;
     uint32_t instructions_steps;
-    uint32_t stepped; /* in the call that is measured */
 } tally;
 
 /* ---- The log ---- */
@@ -108,7 +107,6 @@ static void count_step(void *context, const struct rho_report *report)
     uint32_t from = files_instructions();
     (void)context;
     tally.steps++;
-    tally.stepped++;
     tally.track_reports += report->num_tracks;
     write_event("FATES", report->fates,
                 report->num_plots < RHO_MAX_PLOTS ? report->num_plots : RHO_MAX_PLOTS);
@@ -183,18 +181,18 @@ static int start(int count, char **arguments)
 static void measure(const uint8_t *datagram, size_t size)
 {
     static uint32_t since_step;
+    const uint32_t before = tally.steps;
     uint32_t from;
     tally.instructions_aside = 0;
-    tally.stepped = 0;
     from = files_instructions();
     node_receive(datagram, size, now_us);
     since_step += files_instructions_between(from, files_instructions()) - tally.instructions_aside;
-    if (tally.stepped == 0) {
+    if (tally.steps == before) {
         return;
     }
     if (tally.steps > WARM_UP_STEPS) {
         tally.instructions_sum += since_step;
-        tally.instructions_steps += tally.stepped;
+        tally.instructions_steps += tally.steps - before;
     }
     if (since_step > tally.instructions_max) {
         tally.instructions_max = since_step;

@@ -87,8 +87,8 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
     size_t size = 0;
     while (size == 0 && (RX_LEVEL >> 16 & 0xff) > 0) {
         uint32_t status = RX_STATUS;
-        size_t length = status >> 16 & 0x3fff,
-               words = (length + 3) / 4; /* with 4 bytes of checksum */
+        /* with 4 bytes of checksum */
+        size_t length = status >> 16 & 0x3fff, words = (length + 3) / 4;
         if ((status & RX_DAMAGED) || length <= 4 || length - 4 > capacity) {
             discard(words);
             continue;
@@ -107,8 +107,8 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
 
 int lan9118_send(const uint8_t *frame, size_t size)
 {
-    while (TX_LEVEL >> 16 &
-           0xff) { /* what became of frames sent before; full, it would stop the sender */
+    /* what became of frames sent before; full, it would stop the sender */
+    while (TX_LEVEL >> 16 & 0xff) {
         (void)TX_STATUS;
     }
     if ((TX_LEVEL & 0xffff) < size + 16) {
