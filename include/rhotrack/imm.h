@@ -39,15 +39,16 @@ struct rho_imm_model {
     float quiet_density; /* white acceleration of the steady model, m^2/s^3: >= 0 */
     float drive_density; /* white noise that drives a manoeuvre's acceleration, (m/s^2)^2/s: >= 0 */
     float memory_s;      /* time in which an acceleration decays to 1/e: > 0 */
-    float sojourn_s;     /* mean time that a target keeps to a model: > 0 */
-    float speed_sigma_mps;  /* of the velocity of an axis that was measured once */
-    float accel_sigma_mps2; /* of the acceleration at the start */
+    float steady_s, maneuver_s; /* mean times that a target keeps to either model: > 0 */
+    float speed_sigma_mps;      /* of the velocity of an axis that was measured once */
+    float accel_sigma_mps2;     /* of the acceleration at the start */
 };
 
 /* What one interval does to every estimate, computed once. */
 struct rho_imm_step {
     float dt_s;
-    float change; /* probability that the other model holds at its end */
+    float begins,
+        ends; /* probabilities that a target that was steady manoeuvres at its end, and the other way */
     float position_by_accel, velocity_by_accel, accel_by_accel;
     float noise[RHO_TRIANGLE(3)];       /* of position, velocity, acceleration of an axis */
     float quiet_noise[RHO_TRIANGLE(2)]; /* the steady model's, of position and velocity */
@@ -80,7 +81,7 @@ struct rho_imm_match {
 
 /*
  * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.8 accel_max that is
- * remembered for 0.35 v_max / accel_max, 3 s at least, a sojourn of 0.47 v_max / accel_max, 4 s at least, quiet acceleration
+ * remembered for 0.35 v_max / accel_max, 3 s at least, 0.47 v_max / accel_max in either model, 4 s at least, quiet acceleration
  * of 1 m^2/s^3 (less below 2 m/s^2); at the start, speed sd v_max and acceleration sd accel_max.
  */
 void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps);

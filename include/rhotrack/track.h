@@ -3,14 +3,16 @@
  * track: one target's estimate, its evidence, and its life cycle.
  *
  *              start                confirm                 miss
- *      FREE ----------> TENTATIVE ----------> CONFIRMED <----------> COASTING
- *        ^                  | drop                | drop      update    | drop
+ *      FREE ----------> TENTATIVE <---------> CONFIRMED <----------> COASTING
+ *        ^                  | drop    doubt       | drop      update    | drop, or doubt
  *        +------------------+---------------------+---------------------+
  *
  * The evidence is a sequential log-likelihood ratio, target against clutter: a plot adds ln(pd / density) plus the log
  * density of its innovation, a miss adds ln(1 - pd), but only where the sensor looked. A tentative track is confirmed
- * when the score reaches the confirm threshold and dropped when it falls below Wald's lower one; a confirmed track is
- * dropped when its score has fallen by coast_scans_max misses from its highest, or after that many misses in a row.
+ * when the score reaches the confirm threshold and dropped when it falls below Wald's lower one. A score that falls from its
+ * highest says that the target has gone: by more than the odds of a target's life in a scan, and a confirmed track is in
+ * doubt, tentative again; by coast_scans_max misses, or after that many misses in a row, and it is dropped. Until then plots
+ * that it goes on with confirm it again, with the same identity.
  *
  * Stack: 64 bytes at most where nothing else is said.
  */
@@ -28,7 +30,7 @@
 
 enum rho_track_status {
     RHO_TRACK_FREE = 0,  /* an empty slot */
-    RHO_TRACK_TENTATIVE, /* started, not yet believed */
+    RHO_TRACK_TENTATIVE, /* started, not yet believed; or believed no more */
     RHO_TRACK_CONFIRMED, /* believed; updated when it was last looked at */
     RHO_TRACK_COASTING,  /* believed; predicted only since */
     RHO_NUM_TRACK_STATUS
@@ -39,6 +41,7 @@ enum rho_track_event {
     RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold */
     RHO_TRACK_UPDATE,    /* a plot was claimed */
     RHO_TRACK_MISS,      /* the sensor looked there, and no plot was claimed */
+    RHO_TRACK_DOUBT,     /* the score fell so far that the target is rather gone than missed */
     RHO_TRACK_DROP,      /* the score fell below the drop threshold, or too many misses in a row */
     RHO_NUM_TRACK_EVENTS
 };
@@ -80,14 +83,16 @@ struct rho_track {
     /* velocity after the last update and the one before, and how many there were (saturates): the Hough gate's */
     float newest_mps[3], before_mps[3];
     uint8_t num_velocities;
+    uint8_t is_believed; /* has been confirmed */
     struct rho_input input;
 };
 
 /* Thresholds that a track's evidence is held against. */
 struct rho_track_limits {
     int32_t confirm_mnat;   /* confirmed at or above */
-    int32_t tentative_mnat; /* a tentative track below is dropped */
-    int32_t fall_mnat;      /* a confirmed track so far below its highest score is dropped; > 0 */
+    int32_t tentative_mnat; /* a track below that never was confirmed is dropped */
+    int32_t doubt_mnat;     /* one so far below its highest score is tentative; > 0 */
+    int32_t fall_mnat; /* one that was confirmed, so far below its highest score, is dropped; > 0 */
     uint8_t misses_in_row_max; /* any track ends at so many misses in a row */
 };
 

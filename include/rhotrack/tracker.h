@@ -51,7 +51,9 @@ struct rho_tracker_config {
     float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
     /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
     float v_max_mps;
-    float accel_max_mps2;     /* manoeuvres to follow: 0 .. 1000 */
+    float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
+    /* best: mean time between manoeuvres, 0 .. 1e5; where that is less than they last, as long as these */
+    float steady_s;
     uint16_t coast_scans_max; /* misses in a row that end a track: 1 .. 255 */
     uint8_t gate;             /* enum rho_tracker_gate */
     uint8_t planes;           /* hough: RHO_GATE_PLANE_... */
@@ -126,12 +128,12 @@ struct rho_report {
     uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
     uint8_t fates[RHO_MAX_PLOTS];        /* enum rho_fate */
     struct rho_track_report tracks[RHO_MAX_TRACKS];
-    /* identities of confirmed or coasting tracks that ended in this step */
+    /* identities of tracks that had been confirmed and ended in this step */
     uint32_t ended[RHO_MAX_TRACKS];
 };
 
 /*
- * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
+ * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
  * hough and nearest without input estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);

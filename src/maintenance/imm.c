@@ -41,10 +41,11 @@ void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, fl
     *model = (struct rho_imm_model){
         .quiet_density = quiet * quiet < QUIET_DENSITY ? quiet * quiet : QUIET_DENSITY,
         .memory_s = memory_s > MEMORY_MIN_S ? memory_s : MEMORY_MIN_S,
-        .sojourn_s = sojourn_s > SOJOURN_MIN_S ? sojourn_s : SOJOURN_MIN_S,
+        .maneuver_s = sojourn_s > SOJOURN_MIN_S ? sojourn_s : SOJOURN_MIN_S,
         .speed_sigma_mps = v_max_mps,
         .accel_sigma_mps2 = accel_max_mps2,
     };
+    model->steady_s = model->maneuver_s;
     model->drive_density = 2.0f * accel * accel / model->memory_s;
 }
 
@@ -53,7 +54,8 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model)
     return rho_is_within(model->quiet_density, 0.0f, 1e8f) &&
            rho_is_within(model->drive_density, 0.0f, 1e8f) &&
            rho_is_within(model->memory_s, 1e-3f, 1e6f) &&
-           rho_is_within(model->sojourn_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->steady_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->maneuver_s, 1e-3f, 1e6f) &&
            rho_is_within(model->speed_sigma_mps, 1e-3f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f);
 }
@@ -138,6 +140,18 @@ static void double_step(struct rho_imm_step *step)
     step->dt_s *= 2.0f;
 }
 
+/* A Markov chain of two states: what has begun and ended since, where none of both had. */
+static void open_changes(struct rho_imm_step *step, const struct rho_imm_model *model)
+{
+    const float begins = step->dt_s / model->steady_s, ends = step->dt_s / model->maneuver_s;
+    step->begins = step->ends = 0.0f;
+    if (step->dt_s > 0.0f) {
+        const float moved = 1.0f - rho_exp(-(begins + ends)), begins_of = begins / (begins + ends);
+        step->begins = begins_of * moved;
+        step->ends = (1.0f - begins_of) * moved;
+    }
+}
+
 void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
 {
     int doublings = 0;
@@ -156,7 +170,7 @@ void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *mo
     step->quiet_noise[0] = quiet * dt_s * dt_s * (1.0f / 3.0f);
     step->quiet_noise[1] = 0.5f * dt_s * quiet;
     step->quiet_noise[2] = quiet;
-    step->change = dt_s > 0.0f ? 0.5f - 0.5f * rho_exp(-2.0f * dt_s / model->sojourn_s) : 0.0f;
+    open_changes(step, model);
 }
 
 /* ---- start ------------------------------------------------------------------------------------ */
@@ -244,13 +258,13 @@ struct exchange {
 };
 
 /* (1 - probability, probability) moves on as a Markov chain; each model takes what comes from the other. */
-static struct exchange change(struct rho_imm *imm, float share)
+static struct exchange change(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    const float was = imm->probability, stay = 1.0f - share;
-    const float ends = was * share, begins = (1.0f - was) * share;
+    const float was = imm->probability;
+    const float ends = was * step->ends, begins = (1.0f - was) * step->begins;
     /* summed up, not taken off 1: nothing may cancel where a model is all but certain */
-    const float steady = ends / (ends + (1.0f - was) * stay);
-    const float is = begins + was * stay, manoeuvre = begins / is;
+    const float steady = ends / (ends + (1.0f - was) * (1.0f - step->begins));
+    const float is = begins + was * (1.0f - step->ends), manoeuvre = begins / is;
     imm->probability = is;
     return (struct exchange){
         .into_steady = steady,
@@ -418,7 +432,7 @@ static void move_pairs(struct rho_imm *imm, const struct rho_imm_step *step)
     }
 }
 
-static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *step, float share)
+static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *step, int may_change)
 {
     struct checks checks = {0.0f, 1};
     struct exchange by;
@@ -429,8 +443,8 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
     if (!(step->dt_s >= -STEP_MAX_S && step->dt_s <= STEP_MAX_S)) {
         return RHO_ERROR_VALUE;
     }
-    if (share > 0.0f) {
-        by = change(imm, share);
+    if (may_change && step->begins + step->ends > 0.0f) {
+        by = change(imm, step);
         if (imm->is_coupled) {
             mix_coupled(imm, &by);
         } else {
@@ -448,12 +462,12 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
 
 enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict(imm, step, 0.0f);
+    return predict(imm, step, 0);
 }
 
 enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict(imm, step, step ? step->change : 0.0f);
+    return predict(imm, step, 1);
 }
 
 /* ---- estimate --------------------------------------------------------------------------------- */

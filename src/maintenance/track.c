@@ -22,18 +22,18 @@ const char *rho_track_status_name(enum rho_track_status status)
 enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                             enum rho_track_event event)
 {
-    /* one row a status, one column an event: start, confirm, update, miss, drop */
+    /* one row a status, one column an event: start, confirm, update, miss, doubt, drop */
     static const uint8_t next[RHO_NUM_TRACK_STATUS][RHO_NUM_TRACK_EVENTS] = {
         [RHO_TRACK_FREE] = {RHO_TRACK_TENTATIVE, RHO_TRACK_FREE, RHO_TRACK_FREE, RHO_TRACK_FREE,
-                            RHO_TRACK_FREE},
+                            RHO_TRACK_FREE, RHO_TRACK_FREE},
         /* neither plots nor misses are belief: only the score's threshold makes it, or ends it */
         [RHO_TRACK_TENTATIVE] = {RHO_TRACK_TENTATIVE, RHO_TRACK_CONFIRMED, RHO_TRACK_TENTATIVE,
-                                 RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
+                                 RHO_TRACK_TENTATIVE, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
         [RHO_TRACK_CONFIRMED] = {RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED,
-                                 RHO_TRACK_COASTING, RHO_TRACK_FREE},
+                                 RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
         /* once believed, a plot is enough to go on */
         [RHO_TRACK_COASTING] = {RHO_TRACK_COASTING, RHO_TRACK_COASTING, RHO_TRACK_CONFIRMED,
-                                RHO_TRACK_COASTING, RHO_TRACK_FREE},
+                                RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
     };
     if ((unsigned)status >= RHO_NUM_TRACK_STATUS || (unsigned)event >= RHO_NUM_TRACK_EVENTS) {
         return status;
@@ -80,22 +80,29 @@ void rho_track_lose(struct rho_track *track, int32_t loss_mnat)
     rho_track_add_score(track, -loss_mnat);
 }
 
+/* How far the evidence has fallen since it was best. */
+static int32_t fall_of(const struct rho_track *track)
+{
+    return track->score_max_mnat - track->score_mnat;
+}
+
 static int has_ended(const struct rho_track *track, const struct rho_track_limits *limits)
 {
     if (track->misses_in_row >= limits->misses_in_row_max) {
         return 1;
     }
-    if (track->status == RHO_TRACK_TENTATIVE) {
-        return track->score_mnat < limits->tentative_mnat;
-    }
-    return track->score_max_mnat - track->score_mnat >= limits->fall_mnat;
+    return track->is_believed ? fall_of(track) >= limits->fall_mnat
+                              : track->score_mnat < limits->tentative_mnat;
 }
 
 enum rho_track_status rho_track_judge(struct rho_track *track,
                                       const struct rho_track_limits *limits)
 {
-    if (track->status == RHO_TRACK_TENTATIVE && track->score_mnat >= limits->confirm_mnat) {
+    if (fall_of(track) >= limits->doubt_mnat) {
+        rho_track_apply(track, RHO_TRACK_DOUBT);
+    } else if (track->is_believed || track->score_mnat >= limits->confirm_mnat) {
         rho_track_apply(track, RHO_TRACK_CONFIRM);
+        track->is_believed = 1;
     }
     if (has_ended(track, limits)) {
         rho_track_apply(track, RHO_TRACK_DROP);

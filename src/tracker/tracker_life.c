@@ -11,12 +11,16 @@
 /* Wald's lower threshold: one true track in a hundred is given up while tentative. */
 #define TENTATIVE_FALL_MNAT 4605
 
+/* A target that was seen until now is there with odds of its lifetime in scans, 200, to one: ln. In frames
+ * as if all sensors missed what one does. */
+#define LIFETIME_MNAT 5298
+
 /* ---- age -------------------------------------------------------------------------------------- */
 
-void rho_tracker_end_track(struct step *step, struct rho_track *track, enum rho_track_status was)
+void rho_tracker_end_track(struct step *step, struct rho_track *track)
 {
     struct rho_report *report = step->report;
-    if (was == RHO_TRACK_CONFIRMED || was == RHO_TRACK_COASTING) {
+    if (track->is_believed) {
         report->ended[report->num_ended++] = track->track_id;
     }
     rho_track_end(track, &step->model);
@@ -47,6 +51,7 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
     const struct rho_tracker *tracker = step->tracker;
     struct rho_track_limits limits = {
         .confirm_mnat = tracker->confirm_mnat,
+        .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
         .fall_mnat = rho_tracker_mnat(largest_loss(step) * (float)tracker->config.coast_scans_max *
                                       (float)tracker->looks_max),
@@ -57,11 +62,10 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
 
 static void judge(struct step *step, struct rho_track *track, const struct rho_track_limits *limits)
 {
-    enum rho_track_status was = (enum rho_track_status)track->status;
-    enum rho_track_status is = rho_track_judge(track, limits);
-    if (is == RHO_TRACK_FREE) {
-        rho_tracker_end_track(step, track, was);
-    } else if (was == RHO_TRACK_TENTATIVE && is != RHO_TRACK_TENTATIVE) {
+    const uint8_t was_believed = track->is_believed;
+    if (rho_track_judge(track, limits) == RHO_TRACK_FREE) {
+        rho_tracker_end_track(step, track);
+    } else if (track->is_believed != was_believed) {
         step->tracker->counters.tracks_confirmed =
             rho_count(step->tracker->counters.tracks_confirmed, 1);
     }

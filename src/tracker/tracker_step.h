@@ -62,7 +62,7 @@ void rho_tracker_claim(struct step *step);
 void rho_tracker_update(struct step *step);
 
 /* tracker_life.c: tracks end, are believed, and start */
-void rho_tracker_end_track(struct step *step, struct rho_track *track, enum rho_track_status was);
+void rho_tracker_end_track(struct step *step, struct rho_track *track);
 void rho_tracker_age(struct step *step);
 void rho_tracker_initiate(struct step *step);
 

@@ -408,7 +408,9 @@ static inline const struct rho_track_report *follower_of(unsigned target, double
     const struct rho_track_report *found = NULL;
     for (unsigned i = 0; i < report.num_tracks; i++) {
         double d_m = distance_m(&report.tracks[i], target, t_s);
-        if (report.tracks[i].status != RHO_TRACK_TENTATIVE && d_m < limit_m) {
+        /* one in doubt, after three misses in a row, follows all the same */
+        int follows = report.tracks[i].status != RHO_TRACK_TENTATIVE || report.tracks[i].hits > 12;
+        if (follows && d_m < limit_m) {
             limit_m = d_m;
             found = &report.tracks[i];
         }

@@ -317,7 +317,9 @@ static inline struct wide_model reference_mean(const struct wide_model models[2]
 
 static inline void reference_mix(struct reference *r, const struct rho_imm_model *model, double dt)
 {
-    const double change = -0.5 * expm1(-2.0 * dt / model->sojourn_s);
+    const double begins = 1.0 / model->steady_s, ends = 1.0 / model->maneuver_s;
+    const double moved = -expm1(-dt * (begins + ends)) / (begins + ends);
+    const double change[2] = {begins * moved, ends * moved}; /* by the model that it leaves */
     const double was[2] = {1.0 - r->probability, r->probability};
     struct wide_model mixed[2];
 
@@ -325,7 +327,7 @@ static inline void reference_mix(struct reference *r, const struct rho_imm_model
         double share[2], sum = 0.0;
 
         for (int from = 0; from < 2; ++from) {
-            share[from] = was[from] * (from == to ? 1.0 - change : change);
+            share[from] = was[from] * (from == to ? 1.0 - change[from] : change[from]);
             sum += share[from];
         }
         share[0] /= sum;

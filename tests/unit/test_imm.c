@@ -22,7 +22,7 @@ static struct rho_imm_model some_model(void)
 /* Intervals of 1 ms to 10^4 s, memories of 0.5 to 1000 s; of the value itself, of its sigmas. Worst of those below: */
 #define RESPONSE_RELATIVE 1.5e-6 /* 5.2e-7 */
 #define NOISE_RELATIVE 2.5e-6    /* 7.7e-7 */
-#define CHANGE_ABSOLUTE 7e-8     /* 2.2e-8 */
+#define CHANGE_ABSOLUTE 2e-7     /* 8e-8 */
 #define BACK_RELATIVE 4e-6       /* 1.8e-6 */
 
 static struct rho_imm_model interval_model(double memory_s)
@@ -30,7 +30,8 @@ static struct rho_imm_model interval_model(double memory_s)
     return (struct rho_imm_model){.quiet_density = 2.0f,
                                   .drive_density = 50.0f,
                                   .memory_s = (float)memory_s,
-                                  .sojourn_s = 8.0f,
+                                  .steady_s = 8.0f,
+                                  .maneuver_s = 8.0f,
                                   .speed_sigma_mps = 300.0f,
                                   .accel_sigma_mps2 = 100.0f};
 }
@@ -41,8 +42,9 @@ static void an_interval_is_singers(void **state)
 
     (void)state;
     for (int n = 0; n < 1500; ++n) {
-        const struct rho_imm_model model = interval_model(0.5 * pow(10.0, uniform(0.0, 3.301)));
+        struct rho_imm_model model = interval_model(0.5 * pow(10.0, uniform(0.0, 3.301)));
         const float dt_s = (float)pow(10.0, uniform(-3.0, 4.0));
+        model.steady_s = (float)pow(10.0, uniform(0.0, 3.0));
         double response[3], q[3][3];
         struct rho_imm_step step;
 
@@ -61,14 +63,16 @@ static void an_interval_is_singers(void **state)
                          fabs(step.noise[RHO_AT(i, j)] - model.drive_density * q[i][j]) / scale);
             }
         }
-        const double change = -0.5 * expm1(-2.0 * dt_s / model.sojourn_s);
-        worst_change = fmax(worst_change, fabs(step.change - change));
+        const double begins = 1.0 / model.steady_s, ends = 1.0 / model.maneuver_s;
+        const double moved = -expm1(-dt_s * (begins + ends)) / (begins + ends);
+        worst_change = fmax(worst_change, fabs(step.begins - begins * moved));
+        worst_change = fmax(worst_change, fabs(step.ends - ends * moved));
         assert_true(step.dt_s == dt_s);
         for (int i = 0; i < 3; ++i) { /* integral of q [u^2 u; u 1] */
             const double quiet = model.quiet_density * pow(dt_s, 3 - i) / (3 - i);
             assert_float_equal(step.quiet_noise[i], quiet, 1e-6 * quiet);
         }
-        assert_true(step.change >= 0.0f && step.change <= 0.5f);
+        assert_true(step.begins >= 0.0f && step.ends >= 0.0f && step.begins + step.ends <= 1.0f);
     }
     assert_true(worst_response <= RESPONSE_RELATIVE);
     assert_true(worst_noise <= NOISE_RELATIVE);
@@ -117,8 +121,10 @@ static void several_short_intervals_are_one_long_one(void **state)
             worst_noise =
                 fmax(worst_noise, fabs(q[i / 3][i % 3] - both.noise[RHO_AT(i / 3, i % 3)]) / scale);
         }
-        const double change = a.change + b.change - 2.0 * a.change * b.change;
-        assert_float_equal(both.change, change, 4e-7);
+        const double begins = a.begins * (1.0 - b.ends) + (1.0 - a.begins) * b.begins;
+        const double ends = a.ends * (1.0 - b.begins) + (1.0 - a.ends) * b.ends;
+        assert_float_equal(both.begins, begins, 4e-7);
+        assert_float_equal(both.ends, ends, 4e-7);
     }
     assert_true(worst_response <= RESPONSE_RELATIVE);
     assert_true(worst_noise <= NOISE_RELATIVE);
@@ -148,7 +154,7 @@ static void backwards_is_the_inverse_without_noise_or_change(void **state)
         for (int i = 0; i < 3; ++i) {
             assert_true(back.quiet_noise[i] == 0.0f);
         }
-        assert_true(back.change == 0.0f && back.dt_s == -dt_s);
+        assert_true(back.begins == 0.0f && back.ends == 0.0f && back.dt_s == -dt_s);
     }
     assert_true(worst <= BACK_RELATIVE);
 }
@@ -160,7 +166,8 @@ static void no_time_is_no_change(void **state)
 
     (void)state;
     rho_imm_step_open(&step, &model, 0.0f);
-    assert_true(step.dt_s == 0.0f && step.change == 0.0f && step.position_by_accel == 0.0f);
+    assert_true(step.dt_s == 0.0f && step.begins == 0.0f && step.ends == 0.0f &&
+                step.position_by_accel == 0.0f);
     assert_true(step.velocity_by_accel == 0.0f && step.accel_by_accel == 1.0f);
     for (int i = 0; i < 6; ++i) {
         assert_true(step.noise[i] == 0.0f);
@@ -599,7 +606,8 @@ static void mixing_is_right_where_a_model_is_certain(void **state)
         struct rho_imm imm;
         struct rho_imm_step step;
 
-        model.sojourn_s = 500.0f;
+        model.steady_s = 500.0f;
+        model.maneuver_s = n % 2 ? 500.0f : 60.0f;
         rho_imm_start(&imm, &model, &first);
         imm.probability = probabilities[n % NUM(probabilities)];
         imm.state[0] += 30.0f;
@@ -613,7 +621,7 @@ static void mixing_is_right_where_a_model_is_certain(void **state)
         reference_predict(&expected, &model, step.dt_s);
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_OK);
         assert_float_equal(imm.probability, expected.probability, 2e-7);
-        if (step.change >=
+        if (step.begins >=
             1e-5f) { /* less is rounded by much of itself: 3e-8, a unit beside a half */
             reference_compare(&imm, &expected, &before, &worst);
         }

@@ -155,7 +155,8 @@ static void the_default_follows_what_targets_may_do(void **state)
 
         assert_true(rho_imm_model_is_usable(&model));
         assert_float_equal(model.memory_s, fmax(3.0, 0.35 * turn_s), 1e-6 * turn_s + 1e-6);
-        assert_float_equal(model.sojourn_s, fmax(4.0, 0.47 * turn_s), 1e-6 * turn_s + 1e-6);
+        assert_float_equal(model.maneuver_s, fmax(4.0, 0.47 * turn_s), 1e-6 * turn_s + 1e-6);
+        assert_true(model.steady_s == model.maneuver_s);
         /* the standing variance of a Singer process is density times memory / 2 */
         assert_float_equal(0.5 * model.drive_density * model.memory_s, pow(0.8 * a, 2),
                            1e-5 * a * a);
@@ -172,17 +173,18 @@ static void models_out_of_their_ranges_are_not_usable(void **state)
     (void)state;
     assert_true(rho_imm_model_is_usable(&good));
     for (size_t k = 0; k < NUM(bad); ++k) {
-        for (int field = 0; field < 6; ++field) {
+        for (int field = 0; field < 7; ++field) {
             struct rho_imm_model model = good;
-            float *const fields[6] = {&model.quiet_density,   &model.drive_density,
-                                      &model.memory_s,        &model.sojourn_s,
-                                      &model.speed_sigma_mps, &model.accel_sigma_mps2};
+            float *const fields[7] = {&model.quiet_density,   &model.drive_density,
+                                      &model.memory_s,        &model.steady_s,
+                                      &model.maneuver_s,      &model.speed_sigma_mps,
+                                      &model.accel_sigma_mps2};
 
             *fields[field] = bad[k];
             assert_false(rho_imm_model_is_usable(&model));
             *fields[field] =
                 0.0f; /* none of a density or an acceleration is fine, no time or speed is not */
-            assert_int_equal(rho_imm_model_is_usable(&model), field < 2 || field == 5);
+            assert_int_equal(rho_imm_model_is_usable(&model), field < 2 || field == 6);
         }
     }
 }

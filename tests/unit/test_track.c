@@ -11,8 +11,11 @@
 #include "rhotrack/track.h"
 
 static const struct rho_track_model model = {.speed_sigma_mps = 300.0f, .noise_density = 1.0f};
-static const struct rho_track_limits limits = {
-    .confirm_mnat = 5000, .tentative_mnat = -4000, .fall_mnat = 7000, .misses_in_row_max = 3};
+static const struct rho_track_limits limits = {.confirm_mnat = 5000,
+                                               .tentative_mnat = -4000,
+                                               .doubt_mnat = 6500,
+                                               .fall_mnat = 7000,
+                                               .misses_in_row_max = 3};
 
 static void line(struct rho_track_plot *plots, unsigned count)
 {
@@ -52,11 +55,11 @@ static void every_status_meets_every_event(void **state)
         O = RHO_TRACK_COASTING
     };
     static const int expected[RHO_NUM_TRACK_STATUS][RHO_NUM_TRACK_EVENTS] = {
-        /* start confirm update miss drop */
-        {T, F, F, F, F}, /* free */
-        {T, C, T, T, F}, /* tentative */
-        {C, C, C, O, F}, /* confirmed */
-        {O, O, C, O, F}, /* coasting */
+        /* start confirm update miss doubt drop */
+        {T, F, F, F, F, F}, /* free */
+        {T, C, T, T, T, F}, /* tentative */
+        {C, C, C, O, T, F}, /* confirmed */
+        {O, O, C, O, T, F}, /* coasting */
     };
     for (int status = 0; status < RHO_NUM_TRACK_STATUS; status++) {
         for (int event = 0; event < RHO_NUM_TRACK_EVENTS; event++) {
@@ -270,14 +273,34 @@ static void a_fallen_score_ends_a_track(void **state)
     (void)state;
     struct rho_track confirmed = started(9000), tentative = started(0);
     assert_int_equal(rho_track_judge(&confirmed, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_miss(&confirmed, 6999);
+    rho_track_miss(&confirmed, 6499);
     assert_int_equal(rho_track_judge(&confirmed, &limits), RHO_TRACK_COASTING);
-    confirmed.score_mnat -= 1;
+    confirmed.score_mnat -= 501;
     assert_int_equal(rho_track_judge(&confirmed, &limits), RHO_TRACK_FREE);
     rho_track_miss(&tentative, 4000);
     assert_int_equal(rho_track_judge(&tentative, &limits), RHO_TRACK_TENTATIVE);
     rho_track_miss(&tentative, 1);
     assert_int_equal(rho_track_judge(&tentative, &limits), RHO_TRACK_FREE);
+}
+
+static void a_track_in_doubt_comes_back_as_itself(void **state)
+{
+    (void)state;
+    struct rho_track track = started(9000);
+    assert_false(track.is_believed);
+    assert_int_equal(rho_track_judge(&track, &limits), RHO_TRACK_CONFIRMED);
+    rho_track_miss(&track, 6500);
+    assert_int_equal(rho_track_judge(&track, &limits), RHO_TRACK_TENTATIVE);
+    assert_true(track.is_believed);
+    /* below the confirm threshold, but the doubt is gone: it had been confirmed */
+    track.score_mnat += 1;
+    assert_true(track.score_mnat < limits.confirm_mnat);
+    assert_int_equal(rho_track_judge(&track, &limits), RHO_TRACK_CONFIRMED);
+    assert_int_equal(track.track_id, 42);
+    /* one that never was is not, by the same */
+    struct rho_track never = started(4000);
+    assert_int_equal(rho_track_judge(&never, &limits), RHO_TRACK_TENTATIVE);
+    assert_false(never.is_believed);
 }
 
 static void counters_and_scores_saturate(void **state)
@@ -307,6 +330,7 @@ int main(void)
         cmocka_unit_test(a_first_height_opens_the_third_axis),
         cmocka_unit_test(evidence_confirms_and_ends),
         cmocka_unit_test(a_fallen_score_ends_a_track),
+        cmocka_unit_test(a_track_in_doubt_comes_back_as_itself),
         cmocka_unit_test(counters_and_scores_saturate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,8 +14,11 @@
 #define START_US INT64_C(7000000)
 
 static const struct rho_track_model model = {.speed_sigma_mps = 300.0f, .noise_density = 1.0f};
-static const struct rho_track_limits limits = {
-    .confirm_mnat = 5000, .tentative_mnat = -4000, .fall_mnat = 7000, .misses_in_row_max = 3};
+static const struct rho_track_limits limits = {.confirm_mnat = 5000,
+                                               .tentative_mnat = -4000,
+                                               .doubt_mnat = 6500,
+                                               .fall_mnat = 7000,
+                                               .misses_in_row_max = 3};
 
 static struct rho_kalman estimate(void)
 {

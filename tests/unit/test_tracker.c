@@ -259,7 +259,10 @@ static void a_target_is_started_kept_and_let_go(void **state)
     assert_int_equal(tracker.counters.plots_initiated, 4);
     for (int k = 10; k < 14; k++) {
         step(k);
-        assert_int_equal(report.tracks[0].status, RHO_TRACK_COASTING);
+        /* two misses in ten are not rare, three are rarer than the end of a target */
+        assert_int_equal(report.tracks[0].status,
+                         k < 12 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
+        assert_int_equal(report.num_ended, 0);
         assert_int_equal(report.tracks[0].plot, -1);
         assert_int_equal(report.tracks[0].update_age_us, SCAN_US * (k - 9));
     }

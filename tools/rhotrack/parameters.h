@@ -50,6 +50,8 @@
     X(RANGE_MAX_M, "range_max_m", "m", 100000, 1, 2e6, 0, 1, "farthest range a sensor sees")       \
     X(ACCEL_MAX_MPS2, "accel_max_mps2", "m/s^2", 30, 0, 1000, 0, 1,                                \
       "manoeuvres that maintenance follows")                                                       \
+    X(STEADY_S, "steady_s", "s", 0, 0, 1e5, 0, 1,                                                  \
+      "mean time between manoeuvres; 0: as long as they last")                                     \
     X(PROCESS_NOISE_MPS2, "process_noise_mps2", "m/s^2", 0, 0, 1000, 0, 1,                         \
       "acceleration that the initiation window allows for; 0: straight")                           \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
