@@ -171,6 +171,9 @@ static void write_settings(const char *name, const struct simulation *simulation
     } else {
         fprintf(output.file, "sigma_m = %g\n", simulation->sigma_m);
     }
+    if (simulation->pd > 0.0) {
+        fprintf(output.file, "pd = %g\n", simulation->pd);
+    }
     if (simulation->beam.has_velocity) {
         fprintf(output.file, "sigma_mps = %g\n", simulation->beam.sigma_mps);
     }

@@ -121,7 +121,23 @@
     X(CLUTTER_PER_SCAN, "clutter_per_scan", "-", 0, 0, 1e4, 0, 0,                                  \
       "simulate: mean clutter plots a scan; popup, weave, hard-turn: always so many")              \
     X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0,                                                   \
-      "simulate: probability of detection that happens")                                           \
+      "simulate: probability of detection that happens; air-traffic, unset: pd")                   \
+    X(TRUE_SIGMA_M, "true_sigma_m", "m", 10, 0.001, 1e5, 0, 0,                                     \
+      "simulate: position noise that happens, each axis; unset: sigma_m")                           \
+    X(FADES_PER_HOUR, "fades_per_hour", "1/h", 0, 0, 3600, 0, 0,                                   \
+      "simulate air-traffic: fades of each target, in which it is not seen")                       \
+    X(FADE_SCANS, "fade_scans", "-", 3, 1, 1000, 0, 0,                                             \
+      "simulate air-traffic: scans of a fade, mean")                                               \
+    X(SPOTS, "spots", "-", 0, 0, 1000, 1, 0,                                                       \
+      "simulate air-traffic: hot spots of clutter, 20 km in radius")                               \
+    X(SPOT_CLUTTER, "spot_clutter", "-", 0, 0, 1e4, 0, 0,                                          \
+      "simulate air-traffic: mean clutter plots a scan in each of them")                           \
+    X(PERSISTENT_SOURCES, "persistent_sources", "-", 0, 0, 1e4, 1, 0,                              \
+      "simulate air-traffic: things that stand, seen in 9 scans of 10")                            \
+    X(MERGE_M, "merge_m", "m", 0, 0, 1e5, 0, 0,                                                    \
+      "simulate air-traffic, parallel, crossing-angle: closer targets give one plot; 0: none do")  \
+    X(CROSSING_SHARE, "crossing_share", "-", 0.2, 0, 1, 0, 0,                                      \
+      "simulate air-traffic: share of targets that start so that they meet another")               \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
     X(RANGE_RATE, "range_rate", "-", 0, 0, 1, 1, 0,                                                \
       "simulate polar: 1: the radar measures range rate")                                          \

@@ -10,150 +10,12 @@
 #define DEG_RAD 0.017453292519943295
 #define BOX_MARGIN_M 500.0
 
-/* ---- the scenarios' paths --------------------------------------------------------------------- */
-
-static size_t count_of(const struct parameters *parameters, enum parameter_id id)
-{
-    return (size_t)(parameters->value[id] + 0.5);
-}
-
-static struct scenario_plan plan_of(const struct parameters *parameters, size_t num_targets)
-{
-    return plan_start(num_targets, count_of(parameters, PARAMETER_NUM_SCANS),
-                      parameters->value[PARAMETER_INTERVAL_S]);
-}
-
-static struct scenario_plan crossing(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    struct scenario_plan plan = plan_of(parameters, 3);
-    plan_straight(&plan, 0, (struct scenario_state){300, 280.0, 400, 49.0});
-    plan_straight(&plan, 1, (struct scenario_state){3000, -173.2, 300, -100.0});
-    plan_straight(&plan, 2, (struct scenario_state){2100, -173.2, 1300, -100.0});
-    return plan;
-}
-
-static struct scenario_plan radar(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    if (count_of(parameters, PARAMETER_NUM_SCANS) > RADAR_TABLE_SCANS) {
-        fail(EXIT_USAGE, "scenario radar has %d scans, num_scans must not be greater",
-             RADAR_TABLE_SCANS);
-    }
-    struct scenario_plan plan = plan_of(parameters, RADAR_TABLE_TARGETS);
-    plan_radar_table(&plan);
-    return plan;
-}
-
-static struct scenario_plan parallel(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    double speed_mps = parameters->value[PARAMETER_SPEED_MPS];
-    struct scenario_plan plan = plan_of(parameters, 2);
-    plan_straight(&plan, 0, (struct scenario_state){-1500, speed_mps, 0, 0});
-    plan_straight(
-        &plan, 1,
-        (struct scenario_state){-1500, speed_mps, parameters->value[PARAMETER_SPACING_M], 0});
-    return plan;
-}
-
-/* Both are in the origin at half time. */
-static struct scenario_plan crossing_angle(const struct parameters *parameters,
-                                           struct random *random)
-{
-    (void)random;
-    struct scenario_plan plan = plan_of(parameters, 2);
-    double half_s = plan.interval_s * ((double)plan.num_scans - 1.0) / 2.0;
-    for (size_t target = 0; target < 2; target++) {
-        double heading_rad =
-            parameters->value[PARAMETER_CROSSING_DEG] * DEG_RAD * (target == 0 ? 0.5 : -0.5);
-        double vx_mps = parameters->value[PARAMETER_SPEED_MPS] * cos(heading_rad);
-        double vy_mps = parameters->value[PARAMETER_SPEED_MPS] * sin(heading_rad);
-        plan_straight(&plan, target,
-                      (struct scenario_state){-vx_mps * half_s, vx_mps, -vy_mps * half_s, vy_mps});
-    }
-    return plan;
-}
-
-static struct scenario_plan same_line(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    double second_mps = parameters->value[PARAMETER_SECOND_SPEED_MPS];
-    double second_x_m =
-        second_mps < 0.0 ? 1500.0 : -1500.0 + parameters->value[PARAMETER_SPACING_M];
-    struct scenario_plan plan = plan_of(parameters, 2);
-    plan_straight(&plan, 0,
-                  (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 300, 0});
-    plan_straight(&plan, 1, (struct scenario_state){second_x_m, second_mps, 300, 0});
-    return plan;
-}
-
-static struct scenario_plan clutter(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    return plan_of(parameters, 0);
-}
-
-static struct scenario_plan slow_turn(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    struct scenario_plan plan = plan_of(parameters, 1);
-    plan_turn(&plan, 0,
-              (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 0, 0},
-              parameters->value[PARAMETER_TURN_DEG] * DEG_RAD);
-    return plan;
-}
-
-static bool is_inside(const struct scenario_box *box, double x_m, double y_m)
-{
-    return x_m >= box->x_min_m && x_m <= box->x_max_m && y_m >= box->y_min_m && y_m <= box->y_max_m;
-}
-
-static struct scenario_box box_of(const struct parameters *parameters)
-{
-    return (struct scenario_box){.x_min_m = parameters->value[PARAMETER_AREA_X_MIN_M],
-                                 .x_max_m = parameters->value[PARAMETER_AREA_X_MAX_M],
-                                 .y_min_m = parameters->value[PARAMETER_AREA_Y_MIN_M],
-                                 .y_max_m = parameters->value[PARAMETER_AREA_Y_MAX_M]};
-}
-
-/* Anywhere, any heading, any speed between the limits, drawn again until the whole path lies in the area. */
-static struct scenario_state straight_inside(const struct parameters *parameters, double duration_s,
-                                             struct random *random)
-{
-    struct scenario_box box = box_of(parameters);
-    for (int i = 0; i < 10000; i++) {
-        double speed_mps = random_between(random, parameters->value[PARAMETER_V_MIN_MPS],
-                                          parameters->value[PARAMETER_V_MAX_MPS]);
-        double heading_rad = random_between(random, 0.0, 360.0 * DEG_RAD);
-        struct scenario_state state = {.x_m = random_between(random, box.x_min_m, box.x_max_m),
-                                       .vx_mps = speed_mps * cos(heading_rad),
-                                       .y_m = random_between(random, box.y_min_m, box.y_max_m),
-                                       .vy_mps = speed_mps * sin(heading_rad)};
-        if (is_inside(&box, state.x_m + state.vx_mps * duration_s,
-                      state.y_m + state.vy_mps * duration_s)) {
-            return state;
-        }
-    }
-    fail(EXIT_USAGE, "scenario traffic: no target can stay inside the area for the whole run; "
-                     "take fewer scans or a larger area");
-}
-
-static struct scenario_plan traffic(const struct parameters *parameters, struct random *random)
-{
-    struct scenario_plan plan = plan_of(parameters, count_of(parameters, PARAMETER_TARGETS));
-    double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
-    for (size_t target = 0; target < plan.num_targets; target++) {
-        plan_straight(&plan, target, straight_inside(parameters, duration_s, random));
-    }
-    return plan;
-}
-
 /* ---- their names and customary parameters ----------------------------------------------------- */
 
 static const struct scenario {
     const char *name, *text;
     struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
+    /* true_pd 0: what is assumed */
     double num_scans, interval_s, sigma_m, true_pd, v_min_mps, v_max_mps, accel_max_mps2;
     struct scenario_box box;
     double clutter_per_km2; /* where positive, else: */
@@ -161,7 +23,7 @@ static const struct scenario {
 } scenarios[] = {
     {"crossing",
      "three targets, two of which cross (the paper's Table 1)",
-     crossing,
+     plan_crossing,
      7,
      2,
      10,
@@ -174,7 +36,7 @@ static const struct scenario {
      0},
     {"radar",
      "the real plots of three aircraft (the paper's Table 3) in clutter",
-     radar,
+     plan_radar,
      RADAR_TABLE_SCANS,
      RADAR_TABLE_INTERVAL_S,
      RADAR_TABLE_SIGMA_M,
@@ -187,7 +49,7 @@ static const struct scenario {
      100},
     {"parallel",
      "two targets side by side, spacing_m apart",
-     parallel,
+     plan_parallel,
      7,
      2,
      10,
@@ -200,7 +62,7 @@ static const struct scenario {
      0},
     {"crossing-angle",
      "two targets that meet at crossing_deg",
-     crossing_angle,
+     plan_crossing_angle,
      7,
      2,
      10,
@@ -213,7 +75,7 @@ static const struct scenario {
      0},
     {"same-line",
      "two targets on one line, spacing_m apart, with speeds of their own",
-     same_line,
+     plan_same_line,
      7,
      2,
      10,
@@ -226,7 +88,7 @@ static const struct scenario {
      0},
     {"clutter",
      "no target at all",
-     clutter,
+     plan_clutter_alone,
      7,
      2,
      10,
@@ -239,7 +101,7 @@ static const struct scenario {
      0},
     {"slow-turn",
      "one target that turns by turn_deg a scan",
-     slow_turn,
+     plan_slow_turn,
      20,
      2,
      10,
@@ -252,7 +114,7 @@ static const struct scenario {
      0},
     {"traffic",
      "many straight targets in a large area",
-     traffic,
+     plan_traffic,
      120,
      10,
      50,
@@ -355,6 +217,19 @@ static const struct scenario {
      {10000, 60000, 5000, 45000},
      0,
      4},
+    {"air-traffic",
+     "aircraft that take off, turn, hold, cross, land, come and go: always so many in the air",
+     plan_air_traffic,
+     120,
+     10,
+     50,
+     0,
+     50,
+     300,
+     10,
+     {-250000, 250000, -250000, 250000},
+     0,
+     100},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -409,13 +284,26 @@ static bool is_beam(const struct scenario *scenario)
            scenario->plan == plan_hard_turn;
 }
 
+/* Nothing of it happens unless somebody wants it. */
+static void suggest_sky(struct parameters *parameters)
+{
+    parameters_suggest(parameters, PARAMETER_FADES_PER_HOUR, 0);
+    parameters_suggest(parameters, PARAMETER_FADE_SCANS, 3);
+    parameters_suggest(parameters, PARAMETER_SPOTS, 0);
+    parameters_suggest(parameters, PARAMETER_SPOT_CLUTTER, 0);
+    parameters_suggest(parameters, PARAMETER_PERSISTENT_SOURCES, 0);
+    parameters_suggest(parameters, PARAMETER_MERGE_M, 0);
+}
+
 void scenario_suggest(const char *name, struct parameters *parameters)
 {
     const struct scenario *scenario = find_scenario(name);
     parameters_suggest(parameters, PARAMETER_NUM_SCANS, scenario->num_scans);
     parameters_suggest(parameters, PARAMETER_INTERVAL_S, scenario->interval_s);
     parameters_suggest(parameters, PARAMETER_SIGMA_M, scenario->sigma_m);
-    parameters_suggest(parameters, PARAMETER_TRUE_PD, scenario->true_pd);
+    if (scenario->true_pd > 0.0) {
+        parameters_suggest(parameters, PARAMETER_TRUE_PD, scenario->true_pd);
+    }
     parameters_suggest(parameters, PARAMETER_V_MIN_MPS, scenario->v_min_mps);
     parameters_suggest(parameters, PARAMETER_V_MAX_MPS, scenario->v_max_mps);
     if (scenario->accel_max_mps2 > 0.0) {
@@ -426,13 +314,19 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     parameters_suggest(parameters, PARAMETER_SECOND_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
     parameters_suggest(parameters, PARAMETER_TURN_DEG, 2);
-    parameters_suggest(parameters, PARAMETER_SPACING_M, scenario->plan == same_line ? 300 : 50);
+    parameters_suggest(parameters, PARAMETER_SPACING_M,
+                       scenario->plan == plan_same_line ? 300 : 50);
     suggest_area(parameters, &scenario->box);
     if (scenario->plan == plan_polar) {
         parameters_suggest(parameters, PARAMETER_RANGE_RATE, 0);
         parameters_suggest(parameters, PARAMETER_RANGE_MIN_M, 1000);
         parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, scenario->box.x_max_m);
     }
+    if (scenario->plan == plan_air_traffic) {
+        parameters_suggest(parameters, PARAMETER_PD, 0.95);
+        parameters_suggest(parameters, PARAMETER_CROSSING_SHARE, 0.2);
+    }
+    suggest_sky(parameters);
     if (scenario->plan == plan_passive) {
         suggest_passive(name, parameters);
     }
@@ -456,7 +350,7 @@ static void grow_box(struct scenario_plan *plan, const struct parameters *parame
     }
     for (size_t i = 0; i < plan->num_scans * plan->num_targets; i++) {
         const struct truth_point *point = &plan->truth[i];
-        if (!is_inside(&plan->box, point->x_m, point->y_m)) {
+        if (!plan_box_holds(&plan->box, point->x_m, point->y_m)) {
             plan->box.x_min_m = fmin(plan->box.x_min_m, point->x_m - BOX_MARGIN_M);
             plan->box.x_max_m = fmax(plan->box.x_max_m, point->x_m + BOX_MARGIN_M);
             plan->box.y_min_m = fmin(plan->box.y_min_m, point->y_m - BOX_MARGIN_M);
@@ -476,19 +370,43 @@ static double clutter_mean(const struct parameters *parameters, const struct sce
     return parameters->value[PARAMETER_CLUTTER_PER_SCAN];
 }
 
+static double value_or(const struct parameters *parameters, enum parameter_id id,
+                       enum parameter_id otherwise)
+{
+    return parameters->value[parameters_is_set(parameters, id) ? id : otherwise];
+}
+
+/* Scenarios with a sky of their own, or where close targets are to give one plot. */
+static void add_sky(struct scenario_plan *plan, const struct scenario *scenario,
+                    const struct parameters *parameters, struct random *random)
+{
+    bool is_traffic = scenario->plan == plan_air_traffic;
+    bool can_merge = scenario->plan == plan_parallel || scenario->plan == plan_crossing_angle;
+
+    if (is_traffic) {
+        plan->told_pd = parameters->value[PARAMETER_PD];
+    }
+    if (is_traffic || (can_merge && parameters->value[PARAMETER_MERGE_M] > 0.0)) {
+        plan_sky(plan, parameters, random);
+    }
+}
+
 struct simulation *scenario_simulate(const char *name, const struct parameters *parameters,
                                      uint64_t seed, uint64_t run)
 {
     const struct scenario *scenario = find_scenario(name);
     struct random random = random_start(seed, (uint64_t)(scenario - scenarios), run);
     struct scenario_plan plan = scenario->plan(parameters, &random);
-    plan.pd = parameters->value[PARAMETER_TRUE_PD];
+    plan.pd = value_or(parameters, PARAMETER_TRUE_PD, PARAMETER_PD);
     plan.sigma_m = parameters->value[PARAMETER_SIGMA_M];
     /* real plots bring their own noise */
-    plan.noise_m = scenario->plan == radar ? 0.0 : plan.sigma_m;
-    plan.box = box_of(parameters);
+    plan.noise_m = scenario->plan == plan_radar
+                       ? 0.0
+                       : value_or(parameters, PARAMETER_TRUE_SIGMA_M, PARAMETER_SIGMA_M);
+    plan.box = plan_box_of(parameters);
     grow_box(&plan, parameters);
     plan.clutter_mean = clutter_mean(parameters, &plan.box);
+    add_sky(&plan, scenario, parameters, &random);
     struct simulation *simulation = plan_simulate(&plan, &random);
     plan_free(&plan);
     return simulation;

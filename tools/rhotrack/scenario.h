@@ -2,8 +2,9 @@
 /*
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
- * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, polar, passive-two,
- * passive-three, passive-clutter, popup, weave, hard-turn. The same seed gives the same data on every machine.
+ * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, air-traffic, polar,
+ * passive-two, passive-three, passive-clutter, popup, weave, hard-turn. The same seed gives the same data on every
+ * machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H
@@ -87,7 +88,10 @@ struct scenario_box {
 
 struct simulation {
     size_t num_scans, num_targets, num_truth, num_looks;
+    size_t
+        targets_a_scan; /* num_truth = num_scans x targets_a_scan; less than num_targets where they come and go */
     double sigma_m;           /* noise that a tracker should reckon with */
+    double pd;                /* the same, where it is told, else 0 */
     struct scenario_box area; /* clutter is spread over it */
     double interval_s;
     struct scenario_radar radar;

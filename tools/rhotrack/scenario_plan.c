@@ -26,8 +26,11 @@ struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, si
 
 struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double interval_s)
 {
-    struct scenario_plan plan = {
-        .num_scans = num_scans, .num_targets = num_targets, .interval_s = interval_s, .pd = 1.0};
+    struct scenario_plan plan = {.num_scans = num_scans,
+                                 .num_targets = num_targets,
+                                 .num_identities = num_targets,
+                                 .interval_s = interval_s,
+                                 .pd = 1.0};
     plan.truth = must_calloc(num_scans * num_targets + 1, sizeof *plan.truth);
     for (size_t scan = 0; scan < num_scans; scan++) {
         for (size_t target = 0; target < num_targets; target++) {
@@ -41,8 +44,22 @@ struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double int
 
 void plan_free(struct scenario_plan *plan)
 {
+    sky_free(&plan->sky);
     free(plan->truth);
     plan->truth = NULL;
+}
+
+struct scenario_box plan_box_of(const struct parameters *parameters)
+{
+    return (struct scenario_box){.x_min_m = parameters->value[PARAMETER_AREA_X_MIN_M],
+                                 .x_max_m = parameters->value[PARAMETER_AREA_X_MAX_M],
+                                 .y_min_m = parameters->value[PARAMETER_AREA_Y_MIN_M],
+                                 .y_max_m = parameters->value[PARAMETER_AREA_Y_MAX_M]};
+}
+
+bool plan_box_holds(const struct scenario_box *box, double x_m, double y_m)
+{
+    return x_m >= box->x_min_m && x_m <= box->x_max_m && y_m >= box->y_min_m && y_m <= box->y_max_m;
 }
 
 static void put(const struct scenario_plan *plan, size_t scan, size_t target,
@@ -141,8 +158,8 @@ void plan_radar_table(struct scenario_plan *plan)
 
 /* ---- plots ------------------------------------------------------------------------------------ */
 
-static void add_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
-                        struct random *random)
+void plan_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
+                  struct random *random)
 {
     for (uint64_t i = 0; i < count; i++) {
         struct simulated_plot *plot = &scan->plots[scan->num_plots++];
@@ -185,8 +202,8 @@ static void simulate_scan(const struct scenario_plan *plan, size_t index,
     for (size_t target = 0; target < plan->num_targets; target++) {
         add_detection(plan, scan, plan_truth(plan, index, target), random);
     }
-    add_clutter(scan, &plan->box, num_clutter, random);
-    add_clutter(scan, &plan->spot, num_spot, random);
+    plan_clutter(scan, &plan->box, num_clutter, random);
+    plan_clutter(scan, &plan->spot, num_spot, random);
     plan_shuffle(scan, random);
 }
 
@@ -194,9 +211,11 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
 {
     struct simulation *simulation = must_calloc(1, sizeof *simulation);
     simulation->num_scans = plan->num_scans;
-    simulation->num_targets = plan->num_targets;
+    simulation->num_targets = plan->num_identities;
+    simulation->targets_a_scan = plan->num_targets;
     simulation->num_truth = plan->num_scans * plan->num_targets;
     simulation->sigma_m = plan->sigma_m;
+    simulation->pd = plan->told_pd;
     simulation->area = plan->box;
     simulation->interval_s = plan->interval_s;
     simulation->radar = plan->radar;
@@ -216,6 +235,8 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
             plan_turn_of_radar(plan, scan, &simulation->scans[scan], random);
         } else if (plan->beam.is_used) {
             plan_look_of_beam(plan, scan, &simulation->scans[scan], random);
+        } else if (plan->sky.is_used) {
+            plan_look_at_sky(plan, scan, &simulation->scans[scan]);
         } else {
             simulate_scan(plan, scan, &simulation->scans[scan], random);
         }

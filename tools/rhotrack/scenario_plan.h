@@ -20,12 +20,30 @@
  * Table 3. */
 extern const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2];
 
+struct sky_place {
+    double x_m, y_m;
+};
+
+/* What else befalls plots, drawn beforehand. Its plots are Cartesian. */
+struct scenario_sky {
+    bool is_used;
+    uint64_t seed;      /* of detections and clutter */
+    double merge_m;     /* targets closer give one plot; 0: none do */
+    size_t num_spots;   /* discs with more clutter */
+    double spot_mean;   /* plots a scan, each */
+    size_t num_sources; /* that give a plot in nine scans of ten */
+    struct sky_place *spots, *sources;
+    unsigned char *is_faded; /* as truth: not seen whatever pd */
+};
+
 struct scenario_plan {
-    size_t num_scans, num_targets;
+    size_t num_scans, num_targets; /* targets at a time */
+    size_t num_identities;         /* over all scans; num_targets where none comes or goes */
     double interval_s;
     double sigma_m; /* as the tracker is told */
     double noise_m; /* that is added to the positions, each axis */
     double pd;
+    double told_pd;                  /* to the tracker; 0: nothing */
     struct scenario_box box;         /* of the clutter */
     double clutter_mean;             /* plots a scan */
     struct scenario_box spot;        /* more clutter there */
@@ -33,6 +51,7 @@ struct scenario_plan {
     struct scenario_radar radar;     /* where it is used: its noise, its clutter */
     struct scenario_passive passive; /* the same */
     struct scenario_beam beam;       /* the same; noise_m goes to three axes */
+    struct scenario_sky sky;         /* the same, by plan_sky */
     struct truth_point *truth;       /* num_scans x num_targets, by time, then target */
 };
 
@@ -46,6 +65,10 @@ struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double int
 void plan_free(struct scenario_plan *plan);
 
 struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, size_t target);
+
+/* The area that the parameters say, and whether a place is in it. */
+struct scenario_box plan_box_of(const struct parameters *parameters);
+bool plan_box_holds(const struct scenario_box *box, double x_m, double y_m);
 
 /* Straight at constant velocity. */
 void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start);
@@ -68,8 +91,23 @@ void plan_radar_table(struct scenario_plan *plan);
 /* Puts the plots of a scan in random order. */
 void plan_shuffle(struct simulated_scan *scan, struct random *random);
 
+/* So many plots, uniform in the box. */
+void plan_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
+                  struct random *random);
+
 /* Plots by chance: detections with noise, clutter, shuffled in each scan. */
 struct simulation *plan_simulate(const struct scenario_plan *plan, struct random *random);
+
+/* The small scenarios, and traffic. scenario_paths.c */
+struct scenario_plan plan_crossing(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_radar(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_parallel(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_crossing_angle(const struct parameters *parameters,
+                                         struct random *random);
+struct scenario_plan plan_same_line(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_clutter_alone(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_slow_turn(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_traffic(const struct parameters *parameters, struct random *random);
 
 /* Scenario polar. scenario_radar.c */
 struct scenario_plan plan_polar(const struct parameters *parameters, struct random *random);
@@ -132,5 +170,18 @@ struct scenario_plan plan_popup(const struct parameters *parameters, struct rand
 struct scenario_plan plan_weave(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_hard_turn(const struct parameters *parameters, struct random *random);
 void suggest_beam(struct parameters *parameters);
+
+/* ---- Many targets: scenario_air_traffic.c, scenario_sky.c ----------------------------------------- */
+
+/* Flights of the scenario air-traffic, always `targets` in the air. */
+struct scenario_plan plan_air_traffic(const struct parameters *parameters, struct random *random);
+
+/* Fades, merged plots, hot spots, persistent sources from the parameters; the plan has its paths and box. */
+void plan_sky(struct scenario_plan *plan, const struct parameters *parameters,
+              struct random *random);
+void sky_free(struct scenario_sky *sky);
+
+/* The plots of scan `index` of a plan with such a sky. */
+void plan_look_at_sky(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan);
 
 #endif
