@@ -46,7 +46,8 @@ static const struct command commands[] = {
      "so\n"
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
-     "same-line, clutter, slow-turn, traffic, polar (polar.csv: a turning radar's plots),\n"
+     "same-line, clutter, slow-turn, traffic, air-traffic, polar (polar.csv: a turning radar's\n"
+     "plots), "
      "passive-two, passive-three, passive-clutter (bearings.csv), popup, weave, hard-turn (one "
      "target\n"
      "that pulls, in a beam, with heights); their parameters are set by --set.\n"},

@@ -123,7 +123,7 @@
     X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0,                                                   \
       "simulate: probability of detection that happens; air-traffic, unset: pd")                   \
     X(TRUE_SIGMA_M, "true_sigma_m", "m", 10, 0.001, 1e5, 0, 0,                                     \
-      "simulate: position noise that happens, each axis; unset: sigma_m")                           \
+      "simulate: position noise that happens, each axis; unset: sigma_m")                          \
     X(FADES_PER_HOUR, "fades_per_hour", "1/h", 0, 0, 3600, 0, 0,                                   \
       "simulate air-traffic: fades of each target, in which it is not seen")                       \
     X(FADE_SCANS, "fade_scans", "-", 3, 1, 1000, 0, 0,                                             \
