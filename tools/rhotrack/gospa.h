@@ -24,8 +24,9 @@ struct gospa {
 };
 
 /*
- * Fills track_of[target] with the index of the paired track or -1 (may be NULL), and returns the metric. Optimal; the
- * time grows with the cube of the larger set.
+ * Fills track_of[target] with the index of the paired track or -1 (may be NULL), and returns the metric. Optimal. The time is
+ * that of sorting where sets are spread out against the cutoff, and grows with the cube of the largest cluster (targets and
+ * tracks that hang together by distances below the cutoff).
  */
 struct gospa gospa_compare(const struct gospa_place *targets, size_t num_targets,
                            const struct gospa_place *tracks, size_t num_tracks, double cutoff_m,

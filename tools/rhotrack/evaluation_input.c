@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: MIT */
+#include "evaluation_input.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common.h"
+#include "identities.h"
+
+#define TIME_TOLERANCE_US 1000
+
+struct timed_point {
+    int64_t time_us;
+    size_t row; /* in its table */
+    struct evaluation_point point;
+};
+
+struct points {
+    const struct table *table;
+    struct timed_point *list; /* by time, then as in the file */
+    size_t count;
+    bool has_z, has_vz;
+};
+
+/* ---- reading ---------------------------------------------------------------------------------- */
+
+/* Where a table has what. */
+struct columns {
+    int time, id, status, x, y, z, vx, vy, vz, cov_xx, cov_yx, cov_yy;
+    const char *id_name;
+};
+
+static struct columns find_columns(const struct table *table, const char *id_name)
+{
+    return (struct columns){
+        .time = table_need(table, "t_s"),
+        .id = table_need(table, id_name),
+        .status = table_find(table, "status"),
+        .x = table_need(table, "x_m"),
+        .y = table_need(table, "y_m"),
+        .z = table_find(table, "z_m"),
+        .vx = table_find(table, "vx_mps"),
+        .vy = table_find(table, "vy_mps"),
+        .vz = table_find(table, "vz_mps"),
+        .cov_xx = table_find(table, "cov_x_x"),
+        .cov_yx = table_find(table, "cov_y_x"),
+        .cov_yy = table_find(table, "cov_y_y"),
+        .id_name = id_name,
+    };
+}
+
+static struct timed_point read_point(const struct table *table, size_t row,
+                                     const struct columns *at)
+{
+    struct timed_point timed = {.row = row};
+    const char *time = table_cell(table, row, at->time), *id = table_cell(table, row, at->id);
+    const char *reason = table_time_us(time, &timed.time_us);
+    if (reason != NULL) {
+        table_fail(table, row, "t_s: '%s' %s", time, reason);
+    }
+    reason = table_int32(id, &timed.point.id);
+    if (reason != NULL) {
+        table_fail(table, row, "%s: '%s' %s", at->id_name, id, reason);
+    }
+    timed.point.x_m = table_number_at(table, row, at->x);
+    timed.point.y_m = table_number_at(table, row, at->y);
+    timed.point.z_m = table_number_or(table, row, at->z, 0.0);
+    timed.point.vx_mps = table_number_or(table, row, at->vx, NAN);
+    timed.point.vy_mps = table_number_or(table, row, at->vy, NAN);
+    timed.point.vz_mps = table_number_or(table, row, at->vz, 0.0);
+    timed.point.cov_xx_m2 = table_number_or(table, row, at->cov_xx, NAN);
+    timed.point.cov_yx_m2 = table_number_or(table, row, at->cov_yx, NAN);
+    timed.point.cov_yy_m2 = table_number_or(table, row, at->cov_yy, NAN);
+    return timed;
+}
+
+static bool counts(const struct table *table, size_t row, int column)
+{
+    const char *status = column < 0 ? "confirmed" : table_cell(table, row, column);
+    if (strcmp(status, "confirmed") == 0 || strcmp(status, "coasting") == 0) {
+        return true;
+    }
+    if (strcmp(status, "tentative") != 0 && strcmp(status, "deleted") != 0) {
+        table_fail(table, row, "status: '%s' is none of tentative, confirmed, coasting, deleted",
+                   status);
+    }
+    return false;
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct timed_point *one = a, *other = b;
+    if (one->time_us != other->time_us) {
+        return one->time_us < other->time_us ? -1 : 1;
+    }
+    return one->row < other->row ? -1 : one->row > other->row;
+}
+
+static struct points read_points(const struct table *table, const char *id_name)
+{
+    struct columns at = find_columns(table, id_name);
+    struct points points = {.table = table,
+                            .list = must_calloc(table->num_rows, sizeof *points.list),
+                            .has_z = at.z >= 0,
+                            .has_vz = at.vz >= 0};
+    for (size_t row = 0; row < table->num_rows; row++) {
+        struct timed_point timed = read_point(table, row, &at);
+        if (counts(table, row, at.status)) {
+            points.list[points.count++] = timed;
+        }
+    }
+    qsort(points.list, points.count, sizeof points.list[0], by_time);
+    return points;
+}
+
+/* What one of the two does not say is not compared: heights, and velocities upwards. */
+static void level(struct points *points, bool has_z, bool has_vz)
+{
+    for (size_t i = 0; i < points->count; i++) {
+        struct evaluation_point *point = &points->list[i].point;
+        point->z_m = has_z ? point->z_m : 0.0;
+        point->vz_mps = has_vz ? point->vz_mps : 0.0;
+    }
+}
+
+/* ---- time by time ----------------------------------------------------------------------------- */
+
+/* End of the points from `from` that have its time, within the tolerance. */
+static size_t end_of_time(const struct points *points, size_t from, int64_t time_us)
+{
+    while (from < points->count && points->list[from].time_us <= time_us + TIME_TOLERANCE_US) {
+        from++;
+    }
+    return from;
+}
+
+static void check_time(const struct points *tracks, size_t at, int64_t time_us)
+{
+    if (at < tracks->count && tracks->list[at].time_us < time_us - TIME_TOLERANCE_US) {
+        table_fail(tracks->table, tracks->list[at].row, "the truth has no such time within 1 ms");
+    }
+}
+
+/* The last time that each identity was seen at, times counting from 1. */
+struct last_times {
+    struct identities ids;
+    size_t *time; /* by number */
+    size_t capacity, now;
+};
+
+static bool is_first_now(struct last_times *last, int32_t id)
+{
+    size_t known = last->ids.count, number = identities_number(&last->ids, id);
+    if (number == known) {
+        last->time = must_grow(last->time, known, &last->capacity, sizeof *last->time);
+        last->time[number] = 0;
+    }
+    bool is_first = last->time[number] != last->now;
+    last->time[number] = last->now;
+    return is_first;
+}
+
+/* Scans of several sensors at one time give a track a row each: the last one is what is known at that time. Those that count
+ * go to the list; how many. */
+static size_t keep_last(struct last_times *last, const struct points *points, size_t begin,
+                        size_t end, struct evaluation_point *list)
+{
+    size_t kept = end - begin;
+    last->now++;
+    for (size_t i = end; i-- > begin;) {
+        if (is_first_now(last, points->list[i].point.id)) {
+            list[--kept] = points->list[i].point;
+        }
+    }
+    memmove(list, list + kept, (end - begin - kept) * sizeof *list);
+    return end - begin - kept;
+}
+
+static void evaluate_times(struct evaluation *e, const struct points *truth,
+                           const struct points *tracks)
+{
+    struct evaluation_point *targets = must_calloc(truth->count, sizeof *targets);
+    struct evaluation_point *now = must_calloc(tracks->count, sizeof *now);
+    struct last_times last = {0};
+    size_t target = 0, track = 0;
+    while (target < truth->count) {
+        int64_t time_us = truth->list[target].time_us;
+        check_time(tracks, track, time_us);
+        size_t target_end = end_of_time(truth, target, time_us);
+        size_t track_end = end_of_time(tracks, track, time_us);
+        size_t num_tracks = keep_last(&last, tracks, track, track_end, now);
+        for (size_t i = target; i < target_end; i++) {
+            targets[i - target] = truth->list[i].point;
+        }
+        evaluation_time(e, time_us, targets, target_end - target, now, num_tracks);
+        target = target_end;
+        track = track_end;
+    }
+    check_time(tracks, track, INT64_MAX);
+    identities_free(&last.ids);
+    free(last.time);
+    free(targets);
+    free(now);
+}
+
+struct evaluation *evaluation_read(const struct table *truth_table,
+                                   const struct table *tracks_table, double cutoff_m)
+{
+    struct evaluation *e = evaluation_start(cutoff_m);
+    struct points truth = read_points(truth_table, "target_id");
+    struct points tracks = read_points(tracks_table, "track_id");
+    level(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    level(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    evaluate_times(e, &truth, &tracks);
+    free(truth.list);
+    free(tracks.list);
+    return e;
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* evaluation_input: the rows of a truth and of a tracks file, brought to an evaluation time by time. */
+#ifndef RHOTRACK_TOOL_EVALUATION_INPUT_H
+#define RHOTRACK_TOOL_EVALUATION_INPUT_H
+
+#include "evaluation.h"
+#include "table.h"
+
+/*
+ * The times are those of the truth; confirmed and coasting rows count. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2:
+ * bad cells, a tracks time that is not a truth time within 1 ms.
+ */
+struct evaluation *evaluation_read(const struct table *truth, const struct table *tracks,
+                                   double cutoff_m);
+
+#endif

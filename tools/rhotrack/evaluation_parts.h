@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* Private to evaluation: what is kept of each identity and each pair. */
+#ifndef RHOTRACK_TOOL_EVALUATION_PARTS_H
+#define RHOTRACK_TOOL_EVALUATION_PARTS_H
+
+#include <stdbool.h>
+
+#include "evaluation.h"
+#include "identities.h"
+
+#define NO_TRACK SIZE_MAX
+
+/* A target through its life. */
+struct target_life {
+    int64_t first_us, last_us, found_us, lost_us;
+    size_t scans, paired, delay_scans, switches, fragments;
+    size_t track;    /* number of the track that it had last, or NO_TRACK */
+    bool is_tracked; /* at its last time */
+};
+
+struct track_life {
+    size_t scans, paired;
+};
+
+struct pair_error {
+    size_t target;                   /* its number */
+    double error_m, error_mps, nees; /* NAN where not known */
+};
+
+struct evaluation {
+    double cutoff_m;
+    struct identities target_ids, track_ids;
+    struct target_life *targets; /* by number, as are tracks */
+    struct track_life *tracks;
+    size_t targets_capacity, tracks_capacity;
+    struct evaluation_scan *scans;
+    size_t num_scans, scans_capacity;
+    struct pair_error *pairs; /* in the order of time */
+    size_t num_pairs, pairs_capacity;
+};
+
+/* NAN where there is none. */
+double evaluation_mean(double sum, size_t count);
+
+#endif
