@@ -10,7 +10,7 @@
 #include "hint.h"
 #include "method.h"
 
-enum { NUM_OPTIONS = 20, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 21, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -24,6 +24,7 @@ static const struct {
     {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
     {'f', "follow", NULL, NULL},
     {'c', "covariance", NULL, "tracks with 21 columns more: the covariance's lower triangle"},
+    {'B', "by-target", NULL, "a table with a row a target, too"},
     {'r', "runs", "N", "how many runs"},
     {'S', "seed", "S", "start of the random numbers, a whole number (default 1)"},
     {'j', "json", NULL, "one JSON object with the results on standard output"},
@@ -160,6 +161,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     case 'c':
         line->covariance = true;
+        break;
+    case 'B':
+        line->by_target = true;
         break;
     case 'r':
         line->runs = (long)read_count("runs", argument, 1, RUNS_MAX);

@@ -24,6 +24,7 @@ struct command_line {
     bool json;                /* --json */
     bool keep_going;          /* --keep-going */
     bool covariance;          /* --covariance */
+    bool by_target;           /* --by-target */
     bool no_input_estimation; /* --no-input-estimation */
     struct parameters parameters;
 };

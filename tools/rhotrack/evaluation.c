@@ -73,7 +73,7 @@ static void follow_target(struct target_life *life, size_t track, struct evaluat
         life->found_us = scan->time_us;
         life->delay_scans = life->scans - 1;
     }
-    life->lost_us = scan->time_us;
+    life->kept_until_us = scan->time_us;
     life->switches += is_other;
     life->fragments += is_again;
     scan->switches += is_other;

@@ -24,10 +24,9 @@ struct evaluation_errors {
     size_t pairs;
     double rmse_m, median_m, p95_m;       /* distances; p95: 95 % are less */
     double rmse_mps, median_mps, p95_mps; /* of the pairs with both velocities */
-    double
-        nees; /* mean of e^T P^-1 e, x and y, over the pairs with a covariance: 2 where it is right */
-    double
-        nees_inside; /* share of these with the target inside the 95 % ellipse: 0.95 where it is right */
+    /* Of the pairs with a covariance, in x and y: mean of e^T P^-1 e, 2 where it is right; share of targets inside the
+     * 95 % ellipse, 0.95 where it is right. */
+    double nees, nees_inside;
 };
 
 struct evaluation_result {
@@ -41,10 +40,9 @@ struct evaluation_result {
     double completeness;                  /* share of the (target, time) points that have a track */
     double false_per_scan;                /* as gospa_false */
     double false_per_hour;                /* false_tracks over the time from first to last */
-    size_t switches;  /* a target's track is another than the one it had before */
-    size_t fragments; /* a target that had a track, and then none, has one again */
-    double delay_scans,
-        delay_s; /* from a target's first time to its first with a track, mean over those found */
+    size_t switches;             /* a target's track is another than the one it had before */
+    size_t fragments;            /* a target that had a track, and then none, has one again */
+    double delay_scans, delay_s; /* from first time to first track, mean over the targets found */
     struct evaluation_errors errors;
 };
 
@@ -52,9 +50,9 @@ struct evaluation_result {
 struct evaluation_target {
     int32_t id;
     int64_t first_us, last_us;
-    int64_t found_us, lost_us; /* its first and last time with a track; where paired > 0 */
-    size_t scans, paired;      /* times that it was there, that it had a track */
-    size_t delay_scans;        /* times before found_us */
+    int64_t found_us, kept_until_us; /* its first and last time with a track; where paired > 0 */
+    size_t scans, paired;            /* times that it was there, that it had a track */
+    size_t delay_scans;              /* times before found_us */
     size_t switches, fragments;
     struct evaluation_errors errors;
 };

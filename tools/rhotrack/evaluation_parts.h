@@ -12,7 +12,7 @@
 
 /* A target through its life. */
 struct target_life {
-    int64_t first_us, last_us, found_us, lost_us;
+    int64_t first_us, last_us, found_us, kept_until_us;
     size_t scans, paired, delay_scans, switches, fragments;
     size_t track;    /* number of the track that it had last, or NO_TRACK */
     bool is_tracked; /* at its last time */

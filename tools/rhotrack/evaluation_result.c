@@ -186,7 +186,7 @@ struct evaluation_target *evaluation_by_target(const struct evaluation *e, size_
             .first_us = life->first_us,
             .last_us = life->last_us,
             .found_us = life->found_us,
-            .lost_us = life->lost_us,
+            .kept_until_us = life->kept_until_us,
             .scans = life->scans,
             .paired = life->paired,
             .delay_scans = life->delay_scans,

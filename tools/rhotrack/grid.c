@@ -77,10 +77,10 @@ static size_t column_width(const struct grid *grid, size_t column)
     return width;
 }
 
-static void print_cell(const struct grid *grid, size_t row, size_t column, FILE *out)
+static void print_cell(const struct grid *grid, size_t row, size_t column, size_t width, FILE *out)
 {
     const char *text = grid_cell(grid, row, column);
-    int padding = (int)(column_width(grid, column) - width_of(text));
+    int padding = (int)(width - width_of(text));
     const char *gap = column == 0 ? "" : "  ";
     if (column >= grid->left_columns) {
         fprintf(out, "%s%*s%s", gap, padding, "", text);
@@ -91,11 +91,11 @@ static void print_cell(const struct grid *grid, size_t row, size_t column, FILE 
     }
 }
 
-static void print_rule(const struct grid *grid, FILE *out)
+static void print_rule(const struct grid *grid, const size_t *widths, FILE *out)
 {
     for (size_t column = 0; column < grid->num_columns; column++) {
         fputs(column == 0 ? "" : "  ", out);
-        for (size_t i = column_width(grid, column); i > 0; i--) {
+        for (size_t i = widths[column]; i > 0; i--) {
             fputc('-', out);
         }
     }
@@ -104,15 +104,20 @@ static void print_rule(const struct grid *grid, FILE *out)
 
 void grid_print(const struct grid *grid, FILE *out)
 {
+    size_t *widths = must_calloc(grid->num_columns, sizeof *widths);
+    for (size_t column = 0; column < grid->num_columns; column++) {
+        widths[column] = column_width(grid, column);
+    }
     for (size_t row = 0; row < grid->num_rows; row++) {
         for (size_t column = 0; column < grid->num_columns; column++) {
-            print_cell(grid, row, column, out);
+            print_cell(grid, row, column, widths[column], out);
         }
         fputc('\n', out);
         if (row == 0) {
-            print_rule(grid, out);
+            print_rule(grid, widths, out);
         }
     }
+    free(widths);
 }
 
 void grid_free(struct grid *grid)

@@ -51,10 +51,19 @@ static const struct command commands[] = {
      "passive-two, passive-three, passive-clutter (bearings.csv), popup, weave, hard-turn (one "
      "target\n"
      "that pulls, in a beam, with heights); their parameters are set by --set.\n"},
-    {"evaluate", command_evaluate, "TRUTH TRACKS", 2, 2, "jsC", "tracks against the truth",
-     "GOSPA and its parts, OSPA, completeness, switches, delay, false tracks and errors of a "
+    {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
+     "oBjsC", "tracks against the truth",
+     "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "
+     "and "
+     "their\n"
+     "consistency (NEES) of a tracks file against a truth file. Times must agree to 1 ms; "
+     "confirmed "
+     "and\n"
+     "coasting tracks count. -o FILE.svg draws GOSPA, its parts, and the numbers of targets and "
      "tracks\n"
-     "file against a truth file. Times must agree to 1 ms; confirmed and coasting tracks count.\n"},
+     "over time; -o FILE.csv writes these figures, a row a time. --json has them, too (over_time), "
+     "and\n"
+     "every target's (by_target).\n"},
     {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
      "orSmj", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "

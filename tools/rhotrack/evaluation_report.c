@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+#include "evaluation_report.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "common.h"
+#include "evaluation_figures.h"
+#include "grid.h"
+#include "tracks_writer.h"
+
+/* ---- text ------------------------------------------------------------------------------------- */
+
+static void print_targets(const struct evaluation *e, FILE *file)
+{
+    size_t count;
+    struct evaluation_target *targets = evaluation_by_target(e, &count);
+    struct grid grid = grid_start(0, "target|first s|last s|found s|kept until s|completeness|"
+                                     "switches|fragments|rmse m|median m|95 % m|rmse m/s|nees");
+    for (size_t i = 0; i < count; i++) {
+        const struct evaluation_target *t = &targets[i];
+        char found_s[GRID_NUMBER], until_s[GRID_NUMBER], texts[5][GRID_NUMBER];
+        bool is_found = t->paired > 0;
+        grid_row(
+            &grid, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
+            (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
+            grid_number(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
+            grid_number(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
+            (double)t->paired / (double)t->scans, t->switches, t->fragments,
+            grid_number(texts[0], 1, t->errors.rmse_m),
+            grid_number(texts[1], 1, t->errors.median_m), grid_number(texts[2], 1, t->errors.p95_m),
+            grid_number(texts[3], 2, t->errors.rmse_mps), grid_number(texts[4], 2, t->errors.nees));
+    }
+    fputc('\n', file);
+    grid_print(&grid, file);
+    grid_free(&grid);
+    free(targets);
+}
+
+void evaluation_print(const struct evaluation *e, bool by_target)
+{
+    struct evaluation_result result = evaluation_result(e);
+    struct evaluation_figures figures = evaluation_figures_all(&result);
+    struct output output = output_open(NULL);
+    for (size_t i = 0; i < figures.count; i++) {
+        if (isfinite(figures.list[i].value)) {
+            fprintf(output.file, "%-22s %12.6g\n", figures.list[i].name, figures.list[i].value);
+        } else {
+            fprintf(output.file, "%-22s %12s\n", figures.list[i].name, "-");
+        }
+    }
+    if (by_target) {
+        print_targets(e, output.file);
+    }
+    output_close(&output);
+}
+
+/* ---- JSON ------------------------------------------------------------------------------------- */
+
+static cJSON *object_of(const struct evaluation_figures *figures)
+{
+    cJSON *object = cJSON_CreateObject();
+    for (size_t i = 0; i < figures->count; i++) {
+        json_add_number(object, figures->list[i].name, figures->list[i].value);
+    }
+    return object;
+}
+
+static cJSON *list_targets(const struct evaluation *e)
+{
+    size_t count;
+    struct evaluation_target *targets = evaluation_by_target(e, &count);
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < count; i++) {
+        struct evaluation_figures figures = evaluation_figures_target(&targets[i]);
+        cJSON_AddItemToArray(list, object_of(&figures));
+    }
+    free(targets);
+    return list;
+}
+
+static cJSON *list_scans(const struct evaluation *e)
+{
+    size_t count;
+    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < count; i++) {
+        struct evaluation_figures figures = evaluation_figures_scan(&scans[i]);
+        cJSON_AddItemToArray(list, object_of(&figures));
+    }
+    return list;
+}
+
+void evaluation_print_json(const struct evaluation *e)
+{
+    struct evaluation_result result = evaluation_result(e);
+    struct evaluation_figures figures = evaluation_figures_all(&result);
+    cJSON *object = object_of(&figures);
+    cJSON_AddItemToObject(object, "by_target", list_targets(e));
+    cJSON_AddItemToObject(object, "over_time", list_scans(e));
+    json_print(object);
+}
+
+/* ---- CSV -------------------------------------------------------------------------------------- */
+
+static void write_row(FILE *file, const struct evaluation_scan *scan)
+{
+    struct evaluation_figures figures = evaluation_figures_scan(scan);
+    tracks_write_time(file, scan->time_us);
+    for (size_t i = 1; i < figures.count; i++) {
+        if (isfinite(figures.list[i].value)) {
+            fprintf(file, ",%.9g", figures.list[i].value);
+        } else {
+            fputc(',', file);
+        }
+    }
+    fputc('\n', file);
+}
+
+void evaluation_write_csv(const struct evaluation *e, const char *path)
+{
+    const struct evaluation_scan none = {0};
+    struct evaluation_figures head = evaluation_figures_scan(&none);
+    struct output output = output_open(path);
+    size_t count;
+    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    for (size_t i = 0; i < head.count; i++) {
+        fprintf(output.file, "%s%s", i == 0 ? "" : ",", head.list[i].name);
+    }
+    fputc('\n', output.file);
+    for (size_t i = 0; i < count; i++) {
+        write_row(output.file, &scans[i]);
+    }
+    output_close(&output);
+}
