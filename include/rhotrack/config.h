@@ -161,6 +161,12 @@
 #define RHO_FILTERS 7
 #endif
 
+/* Strips that a scan's plots are sorted into, so that a track looks at those near it alone: worth it where tracks times plots
+ * are a million. 1: no sorting. RAM: 2 bytes each, and 2 a plot. 1 .. 16384. */
+#ifndef RHO_PLOT_STRIPS
+#define RHO_PLOT_STRIPS RHO_CONFIG_PICK(1, 1024)
+#endif
+
 /* Plots in one track's gate that compete in the assignment; the nearest are kept. 1 .. 32. */
 #ifndef RHO_MAX_GATE_PLOTS
 #define RHO_MAX_GATE_PLOTS RHO_CONFIG_PICK(8, 16)
@@ -268,6 +274,9 @@
 #if RHO_MAX_GATE_PLOTS < 1 || RHO_MAX_GATE_PLOTS > 32
 #error "RHO_MAX_GATE_PLOTS must be 1 .. 32"
 #endif
+#if RHO_PLOT_STRIPS < 1 || RHO_PLOT_STRIPS > 16384
+#error "RHO_PLOT_STRIPS must be 1 .. 16384"
+#endif
 #if RHO_MAX_SENSORS < 1 || RHO_MAX_SENSORS > 256
 #error "RHO_MAX_SENSORS must be 1 .. 256"
 #endif
@@ -301,9 +310,10 @@
                                        32 * RHO_MAX_CLASSIC_KERNELS + 2 * RHO_CLASSIC_CHAINS)) +   \
      128)
 #define RHO_RAM_HYPOTHESES_BYTES (410 * RHO_MAX_HYPOTHESES + 17 * (RHO_MAX_TRACKS + 1) + 2048)
+#define RHO_RAM_STRIPS_BYTES (RHO_PLOT_STRIPS > 1 ? 2 * (RHO_PLOT_STRIPS + RHO_MAX_PLOTS) + 16 : 0)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (480 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \
-     RHO_RAM_HYPOTHESES_BYTES + 640)
+     RHO_RAM_HYPOTHESES_BYTES + RHO_RAM_STRIPS_BYTES + 640)
 #define RHO_RAM_FEED_BYTES                                                                         \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      240 * RHO_MAX_SENSORS + 520)

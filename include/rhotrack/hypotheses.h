@@ -169,6 +169,11 @@ int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
                            struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
                            uint32_t measures);
 
+/* How far beyond *reach plots may be whose noise is sigma_m at most, and their own times offset_s either way. The same cost and
+ * stack. */
+float rho_hypotheses_slack_m(const struct rho_hypotheses *pool, uint16_t slot,
+                             struct rho_hypotheses_reach *reach, float sigma_m, float offset_s);
+
 /*
  * Weighs a plot of time_us, its own, with every hypothesis; each keeps its RHO_HYPOTHESES_CHILDREN best, of equals those that
  * came first. Returns 1 where the plot is in the gate of any, and then in *gain_nat what the best hypothesis with the plot

@@ -78,6 +78,15 @@ struct rho_tracker_counters {
     uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
 };
 
+#if RHO_PLOT_STRIPS > 1
+/* The plots of the scan that is stepped, by strips of x. */
+struct rho_tracker_strips {
+    float x_min_m, per_m;
+    uint16_t starts[RHO_PLOT_STRIPS + 2]; /* of strip s: from starts[s] to starts[s + 1] in ... */
+    uint16_t plots[RHO_MAX_PLOTS];        /* ... their rows */
+};
+#endif
+
 struct rho_tracker {
     uint32_t magic;
     uint32_t next_track_id;
@@ -97,6 +106,9 @@ struct rho_tracker {
     struct rho_track tracks[RHO_MAX_TRACKS];
     struct rho_assignment assignment;
     struct rho_hypotheses hypotheses; /* of the gate best */
+#if RHO_PLOT_STRIPS > 1
+    struct rho_tracker_strips strips;
+#endif
 };
 
 /* One track as reported: the estimate at the step's time. Of a track that the scan could not see it is the last one, moved

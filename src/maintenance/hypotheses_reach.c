@@ -97,9 +97,8 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
 
 /* How far a target may come until a plot's own time, by what it does now and by noise. */
 static float drift_m(const struct rho_hypotheses *pool, uint16_t slot,
-                     struct rho_hypotheses_reach *reach, int32_t offset_us)
+                     struct rho_hypotheses_reach *reach, float t_s)
 {
-    const float t_s = (float)offset_us * (offset_us < 0 ? -1e-6f : 1e-6f);
     const struct rho_imm_model *model = &pool->model;
     const float noise_m2 =
         t_s * t_s * t_s *
@@ -112,6 +111,13 @@ static float drift_m(const struct rho_hypotheses *pool, uint16_t slot,
            GATE_SIGMAS * rho_sqrt(noise_m2);
 }
 
+float rho_hypotheses_slack_m(const struct rho_hypotheses *pool, uint16_t slot,
+                             struct rho_hypotheses_reach *reach, float sigma_m, float offset_s)
+{
+    const float slack_m = GATE_SIGMAS * sigma_m;
+    return offset_s > 0.0f ? slack_m + drift_m(pool, slot, reach, offset_s) : slack_m;
+}
+
 int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
                            struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
                            uint32_t measures)
@@ -120,10 +126,8 @@ int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
-    float slack_m = GATE_SIGMAS * sigma_m;
-    if (plot->offset_us != 0) {
-        slack_m += drift_m(pool, slot, reach, plot->offset_us);
-    }
+    const float slack_m = rho_hypotheses_slack_m(
+        pool, slot, reach, sigma_m, (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f));
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
            plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&
            (!(measures & RHO_MEASURES_Z) ||

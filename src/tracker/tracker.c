@@ -384,6 +384,7 @@ static void take_in(struct step *step)
     step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
     rho_tracker_set_pd(step);
     judge_plots(step);
+    rho_tracker_sort_plots(step);
     rho_tracker_predict(step);
     rho_tracker_claim(step);
     rho_tracker_update(step);

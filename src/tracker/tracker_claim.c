@@ -159,7 +159,10 @@ static void gate_plots(struct step *step, unsigned row)
     int by_hough = opens_hough(step, track, &hough);
     rho_tracker_open_gate(step, track, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
-    for (uint32_t i = 0; i < step->num_gated; i++) {
+    const struct plot_range near = rho_tracker_plots_between(
+        step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0]);
+    for (uint32_t place = near.first; place < near.end; place++) {
+        const uint32_t i = rho_tracker_plot_at(step, place);
         const struct rho_plot *plot = &step->scan->plots[i];
         float dx_m = plot->x_m - gate.predicted.state[0],
               dy_m = plot->y_m - gate.predicted.state[1];
@@ -198,6 +201,18 @@ static float log_miss_of(const struct step *step, const struct rho_track *track)
                : 0.0f;
 }
 
+/* By the noise and the own time of the plots that have most of them. */
+static struct plot_range plots_in_reach(const struct step *step, const struct rho_track *track,
+                                        struct rho_hypotheses_reach *reach)
+{
+    float slack_m = 0.0f;
+    if (RHO_PLOT_STRIPS > 1) {
+        slack_m = rho_hypotheses_slack_m(&step->tracker->hypotheses, track->slot, reach,
+                                         step->sigma_max_m, step->offset_max_s);
+    }
+    return rho_tracker_plots_between(step, reach->x_min_m - slack_m, reach->x_max_m + slack_m);
+}
+
 /*
  * Without claims, plots are offered to the assignment: one that is worth less than a miss is no better than none. With
  * them, those that others got are left out.
@@ -212,7 +227,9 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
     struct rho_imm_plot seen;
     float gain_nat;
     rho_hypotheses_look(&tracker->hypotheses, track->slot, &reach);
-    for (uint32_t i = 0; i < step->num_gated; i++) {
+    const struct plot_range near = plots_in_reach(step, track, &reach);
+    for (uint32_t place = near.first; place < near.end; place++) {
+        const uint32_t i = rho_tracker_plot_at(step, place);
         const struct rho_plot *plot = &step->scan->plots[i];
         if (step->report->fates[i] != RHO_FATE_HELD ||
             (claims && claims[i] >= 0 && claims[i] != (int)row) ||

@@ -56,6 +56,40 @@ void rho_tracker_close(struct step *step);
 int rho_tracker_reaches(const struct step *step, const struct rho_track *track);
 int rho_tracker_is_reached(const struct step *step, unsigned row);
 
+/* tracker_strips.c: plots near a track, by their places in an order of its own */
+struct plot_range {
+    uint32_t first, end;
+};
+
+#if RHO_PLOT_STRIPS > 1
+void rho_tracker_sort_plots(struct step *step);
+struct plot_range rho_tracker_plots_between(const struct step *step, float x_min_m, float x_max_m);
+
+/* The row of the plot in that place. */
+static inline uint32_t rho_tracker_plot_at(const struct step *step, uint32_t place)
+{
+    return step->tracker->strips.plots[place];
+}
+#else
+static inline void rho_tracker_sort_plots(struct step *step)
+{
+    (void)step;
+}
+
+static inline struct plot_range rho_tracker_plots_between(const struct step *step, float x_min_m,
+                                                          float x_max_m)
+{
+    (void)x_min_m, (void)x_max_m;
+    return (struct plot_range){0, step->num_gated};
+}
+
+static inline uint32_t rho_tracker_plot_at(const struct step *step, uint32_t place)
+{
+    (void)step;
+    return place;
+}
+#endif
+
 /* tracker_claim.c: existing tracks take their plots */
 void rho_tracker_predict(struct step *step);
 void rho_tracker_claim(struct step *step);
