@@ -163,6 +163,14 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
     return 1;
 }
 
+/* A better one of this search started with its newest plot. If there is another target, the next scan will show it. */
+static int is_doubled(struct rho_initiator *initiator, const struct rho_candidate *candidate)
+{
+    const unsigned newest = initiator->window.num_scans - 1u;
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, newest);
+    return (scan->marks[candidate->plot[newest]] & RHO_WINDOW_INITIATED) != 0;
+}
+
 static void start_track(struct step *step, const struct rho_candidate *candidate,
                         const struct rho_track_limits *limits)
 {
@@ -210,6 +218,8 @@ void rho_tracker_initiate(struct step *step)
     tracker->confirm_mnat = initiator->confirm_mnat;
     struct rho_track_limits limits = rho_tracker_limits(step);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
-        start_track(step, &initiator->candidates[i], &limits);
+        if (!is_doubled(initiator, &initiator->candidates[i])) {
+            start_track(step, &initiator->candidates[i], &limits);
+        }
     }
 }
