@@ -161,6 +161,11 @@
 #define RHO_FILTERS 7
 #endif
 
+/* 1: two tracks of targets that the sensor sees as one plot share it; 0: left out of the program (1 KB less on a Cortex-M4). */
+#ifndef RHO_SHARES_PLOTS
+#define RHO_SHARES_PLOTS 1
+#endif
+
 /* Strips that a scan's plots are sorted into, so that a track looks at those near it alone: worth it where tracks times plots
  * are a million. 1: no sorting. RAM: 2 bytes each, and 2 a plot. 1 .. 16384. */
 #ifndef RHO_PLOT_STRIPS

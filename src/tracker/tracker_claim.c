@@ -279,7 +279,7 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
     return rho_tracker_mnat(step->log_pd + log_ratio(step, &result, rho_log(density)));
 }
 
-static struct rho_track_plot plot_of(const struct step *step, int row)
+struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
     return (struct rho_track_plot){
@@ -295,7 +295,7 @@ static struct rho_track_plot plot_of(const struct step *step, int row)
 static int claim_plot(struct step *step, struct rho_track *track, int plot)
 {
     int32_t gain = gain_of(step, track, (uint32_t)plot);
-    struct rho_track_plot seen = plot_of(step, plot);
+    struct rho_track_plot seen = rho_tracker_plot_of(step, plot);
     return rho_track_update(track, &seen, &step->model, gain) == RHO_OK;
 }
 
@@ -362,10 +362,12 @@ static void commit(struct step *step, unsigned row)
 void rho_tracker_update(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
+    rho_tracker_share(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         int plot = rho_assignment_column(&tracker->assignment, row);
-        if (track->status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
+        if (track->status == RHO_TRACK_FREE || track->plot >= 0 ||
+            !rho_tracker_is_reached(step, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {

@@ -95,6 +95,19 @@ void rho_tracker_predict(struct step *step);
 void rho_tracker_claim(struct step *step);
 void rho_tracker_update(struct step *step);
 
+/* The plot as a track takes it. */
+struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row);
+
+/* tracker_shared.c: pairs of tracks take one plot, before the others take theirs: they have `plot` then */
+#if RHO_SHARES_PLOTS
+void rho_tracker_share(struct step *step);
+#else
+static inline void rho_tracker_share(struct step *step)
+{
+    (void)step;
+}
+#endif
+
 /* tracker_life.c: tracks end, are believed, and start */
 void rho_tracker_end_track(struct step *step, struct rho_track *track);
 void rho_tracker_age(struct step *step);

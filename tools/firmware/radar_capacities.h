@@ -9,3 +9,6 @@
 
 /* Tracks of plots by hypotheses alone: the gate best. The filters of the others, and of bearings, are left out. */
 #define RHO_FILTERS 4
+
+/* No plots of two targets: the flash is full. */
+#define RHO_SHARES_PLOTS 0

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_shared: two targets so near each other that the sensor makes one plot of both.
+ *
+ * The assignment gives that plot to one of the two tracks; the other would starve, though nothing says that its target has
+ * gone. Where both have been seen apart for long, and are expected within a few sigmas of each other, both take the plot, as
+ * one that is off by as much as targets seen as one lie apart. So those that cross keep their velocities, and those in
+ * formation stay together until they part.
+ *
+ * Two targets d apart are seen as one with probability e^-(d^2 / 8 sigma^2); d is as uncertain as both tracks' places are:
+ *     merged = 4 sigma^2 / (4 sigma^2 + c) e^-(d^2 / 2 (4 sigma^2 + c)),        c: sum of their variances on an axis
+ * The plot is shared where that explains it better than a miss of the second target does:
+ *     merged N(z; middle) > (1 - merged) (1 - pd) N(z; first)
+ * and it takes from the second track's score what the middle explains it worse than the first target alone, but no more than
+ * a miss. A pair that never parts again loses a little each time, until the second one is in doubt.
+ */
+#include "rhotrack/approx.h"
+#include "tracker_step.h"
+
+#if RHO_SHARES_PLOTS
+
+/* Noise of such a plot, as a multiple of the sensor's own: root of 1 + 2^2, being off by twice that. */
+#define WIDER 2.236068f
+/* Scans that a track has been seen in: one that is new may be the same target's again. */
+#define HITS_MIN 10
+/* ln of how likely a pair goes on as one for another scan: some 50 scans until the second one is in doubt. */
+#define GAIN_MAX_NAT (-0.1f)
+
+struct pair {
+    struct rho_track *first, *second; /* first: has the plot */
+    int plot;
+    float variance_m2;   /* of the plot's noise on an axis */
+    float half_m[2];     /* from the middle to the second */
+    float distance2_m2;
+};
+
+static int is_old(const struct rho_track *track)
+{
+    return track->is_believed && track->status != RHO_TRACK_TENTATIVE && track->hits >= HITS_MIN &&
+           track->plot < 0;
+}
+
+/* Of a track without a plot: the likeliest one that another old track got, which must be near. */
+static int find_pair(const struct step *step, unsigned row, struct pair *pair)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_assignment *assignment = &tracker->assignment;
+    int32_t least = 0;
+    pair->second = &tracker->tracks[row];
+    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
+        const struct rho_assignment_pair *offer = &assignment->pairs[row][i];
+        const int owner = assignment->column_row[offer->column];
+        if (offer->cost < least && owner >= 0 && is_old(&tracker->tracks[owner])) {
+            least = offer->cost;
+            pair->plot = offer->column;
+            pair->first = &tracker->tracks[owner];
+        }
+    }
+    if (least == 0) {
+        return 0;
+    }
+    const float sigma_m = rho_plot_sigma_m(&step->scan->plots[pair->plot]);
+    pair->variance_m2 = sigma_m * sigma_m;
+    pair->distance2_m2 = 0.0f;
+    for (int axis = 0; axis < 2; axis++) {
+        const float way_m = pair->second->kalman.state[axis] - pair->first->kalman.state[axis];
+        pair->half_m[axis] = 0.5f * way_m;
+        pair->distance2_m2 += way_m * way_m;
+    }
+    return 1;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* 1 where both are rather seen as one than the second one missed, and what the plot says of it. */
+static int is_merged(const struct step *step, const struct pair *pair, float *gain_nat)
+{
+    const struct rho_plot *plot = &step->scan->plots[pair->plot];
+    const float first_m = rho_track_sigma_m(pair->first), second_m = rho_track_sigma_m(pair->second);
+    const float near_m2 = 4.0f * pair->variance_m2;
+    const float spread_m2 = near_m2 + first_m * first_m + second_m * second_m;
+    const float merged =
+        near_m2 / spread_m2 * rho_exp(-0.5f * pair->distance2_m2 / spread_m2);
+    const float from_m[2] = {plot->x_m - pair->first->kalman.state[0],
+                             plot->y_m - pair->first->kalman.state[1]};
+    /* |z - first|^2 less |z - middle|^2 */
+    const float nearer_m2 = 2.0f * (from_m[0] * pair->half_m[0] + from_m[1] * pair->half_m[1]) -
+                            0.25f * pair->distance2_m2;
+    const float ratio_nat = 0.5f * nearer_m2 / (pair->variance_m2 + first_m * first_m);
+    *gain_nat = larger(step->log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
+    return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(step->log_miss);
+}
+
+static int take(struct step *step, struct rho_track *track, int plot, float gain_nat)
+{
+    struct rho_track_plot seen = rho_tracker_plot_of(step, plot);
+    seen.plot.sigma_range_m *= WIDER;
+    seen.plot.sigma_cross_m *= WIDER;
+    return rho_track_update(track, &seen, &step->model, rho_tracker_mnat(gain_nat)) == RHO_OK;
+}
+
+void rho_tracker_share(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct pair pair;
+    float gain_nat;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        if (rho_assignment_column(&tracker->assignment, row) != RHO_ASSIGNMENT_NONE ||
+            !is_old(&tracker->tracks[row]) || !find_pair(step, row, &pair) ||
+            !is_merged(step, &pair, &gain_nat)) {
+            continue;
+        }
+        /* one that refuses goes on as if there were no pair */
+        if (take(step, pair.second, pair.plot, gain_nat) &&
+            take(step, pair.first, pair.plot, 0.0f)) {
+            step->report->fates[pair.plot] = RHO_FATE_CLAIMED;
+        }
+    }
+}
+
+#else
+
+typedef int rho_tracker_shares_nothing; /* a file must not be empty */
+
+#endif
