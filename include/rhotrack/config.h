@@ -45,6 +45,12 @@
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
 #endif
 
+/* Cells along each side of the map that remembers clutter for a hundred scans. 0: left out of the program (400 bytes on a
+ * Cortex-M4). RAM: 2 bytes a cell. 0 .. 1024. */
+#ifndef RHO_MAX_CLUTTER_CELLS
+#define RHO_MAX_CLUTTER_CELLS RHO_CONFIG_PICK(16, 256)
+#endif
+
 /* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
 #ifndef RHO_MAX_RHO_CELLS
 #define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
@@ -279,6 +285,9 @@
 #if RHO_MAX_GATE_PLOTS < 1 || RHO_MAX_GATE_PLOTS > 32
 #error "RHO_MAX_GATE_PLOTS must be 1 .. 32"
 #endif
+#if RHO_MAX_CLUTTER_CELLS < 0 || RHO_MAX_CLUTTER_CELLS > 1024
+#error "RHO_MAX_CLUTTER_CELLS must be 0 .. 1024"
+#endif
 #if RHO_PLOT_STRIPS < 1 || RHO_PLOT_STRIPS > 16384
 #error "RHO_PLOT_STRIPS must be 1 .. 16384"
 #endif
@@ -301,7 +310,8 @@
     (RHO_MAX_SCANS * (30 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160) + 96)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
-     2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 400)
+     2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS +                                           \
+     2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + 420)
 #define RHO_RAM_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define RHO_RAM_ACCUMULATOR_BYTES                                                                  \
     (6 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024 +                              \

@@ -87,6 +87,15 @@ struct rho_density_map {
     uint16_t count[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
 };
 
+#if RHO_MAX_CLUTTER_CELLS > 0
+/* Where plots have left the window unused, over the last hundred scans. */
+struct rho_clutter_memory {
+    float x_min_m, y_min_m, columns_per_m, rows_per_m;
+    uint32_t num_scans; /* 0: nothing has left yet */
+    uint16_t count[RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS]; /* row * cells a side + column */
+};
+#endif
+
 enum rho_search {
     RHO_SEARCH_BATCH,  /* every track with min_scans votes anywhere in the window */
     RHO_SEARCH_NEWEST, /* only tracks that the newest scan voted for: for use after every push */
@@ -102,6 +111,9 @@ struct rho_initiator {
     struct rho_initiator_work work;
     float density_per_m2; /* plots a scan, mean over the area, of the last search */
     struct rho_density_map density;
+#if RHO_MAX_CLUTTER_CELLS > 0
+    struct rho_clutter_memory memory;
+#endif
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
     struct rho_window window;
 };
@@ -148,7 +160,8 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
 
 /*
  * Density of a sensor's plots near a place, plots a m^2 and scan, as of the last search: the map's cell over the
- * window, drawn towards the mean as far as the cells scatter no more than chance makes them, times what the sensor
+ * window, drawn towards the mean as far as the cells scatter no more than chance makes them, or what has left the window
+ * there over the last hundred scans, where that is more (RHO_MAX_CLUTTER_CELLS); times what the sensor
  * sees more or less than the others. A sensor that the window does not hold counts as the mean. 0 before the first
  * search.
  * Cost: RHO_MAX_SCANS, for a radar an arctangent and a square root.

@@ -84,6 +84,10 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
+    if (scan && rho_window_accepts(&initiator->window, scan->time_us) &&
+        initiator->window.num_scans == initiator->config.scans) {
+        rho_initiator_remember(initiator);
+    }
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
         initiator->num_candidates = 0;

@@ -337,7 +337,8 @@ float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_
 {
     float per_m2;
     unsigned cell = map_cell(&initiator->density, x_m, y_m, &per_m2);
-    return density_of(initiator, (float)initiator->density.count[cell]) * per_m2;
+    float density = density_of(initiator, (float)initiator->density.count[cell]) * per_m2;
+    return rho_initiator_remembered(initiator, x_m, y_m, density);
 }
 
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
@@ -372,6 +373,7 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
         }
     }
     unsigned count = map->count[cell];
-    float density = density_of(search->initiator, (float)(count > own ? count - own : 0u));
-    return rho_log(density * per_m2) + search->log_ratio[m];
+    float density = density_of(search->initiator, (float)(count > own ? count - own : 0u)) * per_m2;
+    density = rho_initiator_remembered(search->initiator, plot->x_m, plot->y_m, density);
+    return rho_log(density) + search->log_ratio[m];
 }

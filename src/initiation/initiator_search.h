@@ -87,6 +87,25 @@ void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, f
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
                                 unsigned m);
 
+/* initiator_memory.c: the oldest scan is about to leave the window; what the memory makes of the window's density */
+#if RHO_MAX_CLUTTER_CELLS > 0
+void rho_initiator_remember(struct rho_initiator *initiator);
+float rho_initiator_remembered(const struct rho_initiator *initiator, float x_m, float y_m,
+                               float density_per_m2);
+#else
+static inline void rho_initiator_remember(struct rho_initiator *initiator)
+{
+    (void)initiator;
+}
+
+static inline float rho_initiator_remembered(const struct rho_initiator *initiator, float x_m,
+                                             float y_m, float density_per_m2)
+{
+    (void)initiator, (void)x_m, (void)y_m;
+    return density_per_m2;
+}
+#endif
+
 /* initiator_rate.c: thresholds for a wanted rate of chance tracks */
 void rho_initiator_find_rate(struct search *search, struct rate *rate);
 void rho_initiator_use_rate(struct search *search, const struct rate *rate);

@@ -12,3 +12,6 @@
 
 /* No plots of two targets: the flash is full. */
 #define RHO_SHARES_PLOTS 0
+
+/* Nor a memory of clutter, for the same reason. */
+#define RHO_MAX_CLUTTER_CELLS 0

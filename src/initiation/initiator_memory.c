@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * initiator_memory: where clutter has been for long: hot spots smaller than the window's few plots tell, and things that
+ * stand and are seen again and again.
+ *
+ * What leaves the window unused was clutter. Its plots are counted by cells of the area, much smaller than those of the
+ * window's map, and all counts are halved now and then. A cell's density is drawn towards what the window tells there; where
+ * it is the higher one, it counts. So the memory only ever raises a density: clutter that has gone is forgotten slowly, and
+ * new clutter is the window's affair.
+ */
+#include <string.h>
+
+#include "initiator_search.h"
+
+#if RHO_MAX_CLUTTER_CELLS > 0
+
+/* All counts are halved at so many scans: a memory of 64 to 128. */
+#define SCANS_MAX 128u
+/* Plots at the window's density that a cell's own count is weighed against. */
+#define PRIOR_PLOTS 8.0f
+/* The map is laid anew where the area has grown out of it, wider by this than what was seen; or has become much smaller. */
+#define MARGIN_SHARE 0.25f
+#define TOO_WIDE 4.0f
+
+static int is_outside(const struct rho_clutter_memory *memory, const struct rho_extent *extent)
+{
+    const float width_m = (float)RHO_MAX_CLUTTER_CELLS / memory->columns_per_m;
+    const float height_m = (float)RHO_MAX_CLUTTER_CELLS / memory->rows_per_m;
+    return extent->x_min_m < memory->x_min_m || extent->y_min_m < memory->y_min_m ||
+           extent->x_max_m > memory->x_min_m + width_m ||
+           extent->y_max_m > memory->y_min_m + height_m ||
+           width_m > TOO_WIDE * rho_extent_width_m(extent, 1.0f) ||
+           height_m > TOO_WIDE * rho_extent_height_m(extent, 1.0f);
+}
+
+static void lay(struct rho_clutter_memory *memory, const struct rho_extent *extent)
+{
+    const float width_m = rho_extent_width_m(extent, 1.0f);
+    const float height_m = rho_extent_height_m(extent, 1.0f);
+    memset(memory, 0, sizeof *memory);
+    memory->x_min_m = extent->x_min_m - MARGIN_SHARE * width_m;
+    memory->y_min_m = extent->y_min_m - MARGIN_SHARE * height_m;
+    memory->columns_per_m = (float)RHO_MAX_CLUTTER_CELLS / ((1.0f + 2.0f * MARGIN_SHARE) * width_m);
+    memory->rows_per_m = (float)RHO_MAX_CLUTTER_CELLS / ((1.0f + 2.0f * MARGIN_SHARE) * height_m);
+}
+
+static int index_of(float cells)
+{
+    return cells >= 0.0f && cells < (float)RHO_MAX_CLUTTER_CELLS ? (int)cells : -1;
+}
+
+/* -1: not on the map. */
+static int cell_of(const struct rho_clutter_memory *memory, float x_m, float y_m)
+{
+    const int column = index_of((x_m - memory->x_min_m) * memory->columns_per_m);
+    const int row = index_of((y_m - memory->y_min_m) * memory->rows_per_m);
+    return column < 0 || row < 0 ? -1 : row * RHO_MAX_CLUTTER_CELLS + column;
+}
+
+static void halve(struct rho_clutter_memory *memory)
+{
+    for (unsigned c = 0; c < RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS; c++) {
+        memory->count[c] /= 2;
+    }
+    memory->num_scans /= 2;
+}
+
+void rho_initiator_remember(struct rho_initiator *initiator)
+{
+    struct rho_clutter_memory *memory = &initiator->memory;
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, 0);
+    if (memory->num_scans == 0 || is_outside(memory, &initiator->window.extent)) {
+        lay(memory, &initiator->window.extent);
+    }
+    if (memory->num_scans == SCANS_MAX) {
+        halve(memory);
+    }
+    memory->num_scans++;
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const int cell = cell_of(memory, scan->plots[i].x_m, scan->plots[i].y_m);
+        if (cell >= 0 && !(scan->marks[i] & RHO_WINDOW_INITIATED) &&
+            memory->count[cell] < UINT16_MAX) {
+            memory->count[cell]++;
+        }
+    }
+}
+
+float rho_initiator_remembered(const struct rho_initiator *initiator, float x_m, float y_m,
+                               float density_per_m2)
+{
+    const struct rho_clutter_memory *memory = &initiator->memory;
+    const int cell = cell_of(memory, x_m, y_m);
+    if (memory->num_scans == 0 || cell < 0) {
+        return density_per_m2;
+    }
+    const float scans_m2 = (float)memory->num_scans / (memory->columns_per_m * memory->rows_per_m);
+    const float expected = density_per_m2 * scans_m2, count = (float)memory->count[cell];
+    return count > expected ? density_per_m2 * (count + PRIOR_PLOTS) / (expected + PRIOR_PLOTS)
+                            : density_per_m2;
+}
+
+#else
+
+typedef int rho_initiator_has_no_memory; /* a file must not be empty */
+
+#endif
