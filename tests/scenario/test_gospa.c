@@ -196,6 +196,19 @@ static void known_sets_have_known_values(void **state)
     assert_true(fabs(result.squared_m2) < TOLERANCE && fabs(result.ospa_m) < TOLERANCE);
 }
 
+/* The best pairing leaves over two that are exactly the cutoff apart: they are no pair. */
+static void the_cutoff_itself_is_too_far(void **state)
+{
+    (void)state;
+    const struct gospa_place targets[2] = {{0, 0, 0}, {2.5, 4, 0}};
+    const struct gospa_place tracks[2] = {{5, 0, 0}, {2.5, 4, 0}};
+    int track_of[2];
+    struct gospa result = gospa_compare(targets, 2, tracks, 2, 5.0, track_of);
+    assert_true(track_of[0] == -1 && track_of[1] == 1);
+    assert_true(result.pairs == 1 && result.missed == 1 && result.false_tracks == 1);
+    assert_true(fabs(result.squared_m2 - 25.0) < TOLERANCE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -204,6 +217,7 @@ int main(void)
         cmocka_unit_test(a_dense_assignment_over_all_agrees),
         cmocka_unit_test(spread_sets_may_be_large),
         cmocka_unit_test(known_sets_have_known_values),
+        cmocka_unit_test(the_cutoff_itself_is_too_far),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

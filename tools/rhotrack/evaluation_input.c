@@ -162,8 +162,8 @@ static bool is_first_now(struct last_times *last, int32_t id)
     return is_first;
 }
 
-/* Scans of several sensors at one time give a track a row each: the last one is what is known at that time. Those that count
- * go to the list; how many. */
+/* Scans of several sensors at one time give a track a row each: the last one is what is known at that time. So it is with
+ * targets. Those that count go to the list; how many. */
 static size_t keep_last(struct last_times *last, const struct points *points, size_t begin,
                         size_t end, struct evaluation_point *list)
 {
@@ -181,28 +181,28 @@ static size_t keep_last(struct last_times *last, const struct points *points, si
 static void evaluate_times(struct evaluation *e, const struct points *truth,
                            const struct points *tracks)
 {
-    struct evaluation_point *targets = must_calloc(truth->count, sizeof *targets);
-    struct evaluation_point *now = must_calloc(tracks->count, sizeof *now);
-    struct last_times last = {0};
+    struct evaluation_point *targets_now = must_calloc(truth->count, sizeof *targets_now);
+    struct evaluation_point *tracks_now = must_calloc(tracks->count, sizeof *tracks_now);
+    struct last_times last_target = {0}, last_track = {0};
     size_t target = 0, track = 0;
     while (target < truth->count) {
         int64_t time_us = truth->list[target].time_us;
         check_time(tracks, track, time_us);
         size_t target_end = end_of_time(truth, target, time_us);
         size_t track_end = end_of_time(tracks, track, time_us);
-        size_t num_tracks = keep_last(&last, tracks, track, track_end, now);
-        for (size_t i = target; i < target_end; i++) {
-            targets[i - target] = truth->list[i].point;
-        }
-        evaluation_time(e, time_us, targets, target_end - target, now, num_tracks);
+        size_t num_targets = keep_last(&last_target, truth, target, target_end, targets_now);
+        size_t num_tracks = keep_last(&last_track, tracks, track, track_end, tracks_now);
+        evaluation_time(e, time_us, targets_now, num_targets, tracks_now, num_tracks);
         target = target_end;
         track = track_end;
     }
     check_time(tracks, track, INT64_MAX);
-    identities_free(&last.ids);
-    free(last.time);
-    free(targets);
-    free(now);
+    identities_free(&last_target.ids);
+    identities_free(&last_track.ids);
+    free(last_target.time);
+    free(last_track.time);
+    free(targets_now);
+    free(tracks_now);
 }
 
 struct evaluation *evaluation_read(const struct table *truth_table,

@@ -45,8 +45,10 @@ void evaluation_print(const struct evaluation *e, bool by_target)
     struct evaluation_figures figures = evaluation_figures_all(&result);
     struct output output = output_open(NULL);
     for (size_t i = 0; i < figures.count; i++) {
-        if (isfinite(figures.list[i].value)) {
-            fprintf(output.file, "%-22s %12.6g\n", figures.list[i].name, figures.list[i].value);
+        double value = figures.list[i].value;
+        int digits = fabs(value) < 1e5 ? 6 : 10; /* counts and times in full */
+        if (isfinite(value)) {
+            fprintf(output.file, "%-22s %12.*g\n", figures.list[i].name, digits, value);
         } else {
             fprintf(output.file, "%-22s %12s\n", figures.list[i].name, "-");
         }
