@@ -76,7 +76,7 @@ comma := ,
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib codegen bench-opencv test-programs test fuzz demo demo-live layers poison gates size \
+.PHONY: all lib codegen bench-opencv bench-stonesoup test-programs test fuzz demo demo-live layers poison gates size \
         size-update instructions examples determinism lint format format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
@@ -239,6 +239,13 @@ bench-opencv: $(if $(opencv_flags),$(BUILD)/tests/bench/hough_opencv)
 $(BUILD)/tests/bench/hough_opencv: tests/bench/hough_opencv.cpp Makefile
 	@mkdir -p $(@D) && echo "  c++      $@" && \
 	g++ -O2 $(opencv_flags) -o $@ $< -lopencv_imgproc -lopencv_core
+
+## Install Stone Soup in build/stonesoup (from the package index): tests/bench/air_traffic_stonesoup.py compares with it
+bench-stonesoup: $(BUILD)/stonesoup/bin/stonesoup.installed
+
+$(BUILD)/stonesoup/bin/stonesoup.installed: tests/bench/requirements.txt
+	@mkdir -p $(BUILD) && python3 -m venv $(BUILD)/stonesoup && \
+	$(BUILD)/stonesoup/bin/python3 -m pip install -q --disable-pip-version-check -r $< && touch $@
 
 ## Unit, scenario and bad-input tests with address and undefined-behaviour sanitizers (clang)
 sanitize:
@@ -421,7 +428,7 @@ clean:
 ## This list
 help:
 	@awk '/^## /{text = substr($$0, 4); next} \
-	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-14s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
+	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-15s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
 
 -include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
          $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(fuzz_programs:=.d)
