@@ -5,8 +5,8 @@
  * one scan; the rest is the file.
  *
  * A reader that refuses its file calls fail(), which ends the program. Here it jumps out of the reader (linked with
- * --wrap=fail), and what that reader had allocated is given back by the hooks of the sanitizer's allocator. So leaks of
- * runs that do not fail are still found.
+ * --wrap=fail), and what that reader had allocated is given back by the hooks of the sanitizer's allocator, and the files
+ * that it had open are closed. So leaks of runs that do not fail are still found.
  */
 #include <limits.h>
 #include <math.h>
@@ -67,6 +67,15 @@ static void free_kept(void)
     while (num_kept > 0) {
         free((void *)(uintptr_t)kept[--num_kept]);
     }
+}
+
+/* Files that a run opened and did not close: those behind the first one that was free. */
+static int first_free_file(void)
+{
+    int file = dup(STDERR_FILENO);
+
+    must(file >= 0 && close(file) == 0);
+    return file;
 }
 
 /* ---- fail() ---- */
@@ -146,7 +155,7 @@ static void read_scans(char *path, const struct parameters *parameters, bool kee
         check_scan(scan);
         (void)scan_reader_sensor(reader);
     }
-    must(num_scans == scan_reader_total(reader));
+    must(num_scans == scan_reader_counts(reader).scans);
     scan_reader_close(reader);
 }
 
@@ -216,6 +225,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static int file = -1;
     static char path[64];
     static struct parameters parameters;
+    int first_free;
 
     if (file < 0) {
         file = memfd_create("fuzz.csv", 0);
@@ -227,6 +237,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size == 0) {
         return 0;
     }
+    first_free = first_free_file();
     must(ftruncate(file, 0) == 0 && pwrite(file, data + 1, size - 1, 0) == (ssize_t)(size - 1));
     parameters.value[PARAMETER_SCAN_INTERVAL_S] = (data[0] & 8) != 0 ? 0.5 : 0.0;
     is_keeping = true;
@@ -236,6 +247,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         num_kept = 0;
     } else {
         free_kept();
+        must(close_range((unsigned)first_free, (unsigned)first_free + 8, 0) == 0);
     }
     return 0;
 }

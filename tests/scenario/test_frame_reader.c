@@ -382,7 +382,7 @@ static void assert_next(const struct rho_frames *frames, const struct rho_frame 
 
 static void scans_as_they_come_make_the_same_frames(void **state)
 {
-    static struct rho_bearing_scan scans[LOOKS];
+    static struct rho_bearing_scan in_frames[LOOKS], scans[LOOKS]; /* without their bearings */
     static struct rho_frame expected[LOOKS];
     static struct rho_frames frames;
     struct given given = random_looks();
@@ -393,10 +393,12 @@ static void scans_as_they_come_make_the_same_frames(void **state)
     (void)state;
 
     while ((frame = frame_reader_next(given.reader))) {
-        expected[num_frames++] = *frame;
-        memcpy(scans + num_scans, frame->scans, frame->num_scans * sizeof *scans);
+        expected[num_frames] = *frame;
+        expected[num_frames++].scans = in_frames + num_scans;
+        memcpy(in_frames + num_scans, frame->scans, frame->num_scans * sizeof *scans);
         num_scans += frame->num_scans;
     }
+    memcpy(scans, in_frames, num_scans * sizeof *scans);
     qsort(scans, num_scans, sizeof *scans, compare_times);
     rho_frames_config_default(&config);
     config.sensors_min = 3;

@@ -260,9 +260,11 @@ static void a_passive_sensor_may_be_alone_beside_a_radar(void **state)
 static void counts_are_of_both_kinds(void **state)
 {
     struct given given = open_texts(plots_text, bearings_text);
-    const struct inputs_counts counts = inputs_counts(given.inputs);
+    struct inputs_counts counts;
     (void)state;
 
+    assert_inputs(&given, merged);
+    counts = inputs_counts(given.inputs);
     assert_int_equal(counts.scans, 4);
     assert_int_equal(counts.frames, 3);
     assert_int_equal(counts.steps, 7);

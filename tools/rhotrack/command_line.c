@@ -22,7 +22,7 @@ static const struct {
     {'g', "gate", "GATE", "how a track chooses its plots; the parameter gate says the same"},
     {'K', "kind", "KIND", "which messages of a log: plots, polar, bearings, truth or tracks"},
     {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
-    {'f', "follow", NULL, NULL},
+    {'f', "follow", NULL, "go on with what is added to INPUT, until SIGINT or SIGTERM"},
     {'c', "covariance", NULL, "tracks with 21 columns more: the covariance's lower triangle"},
     {'B', "by-target", NULL, "a table with a row a target, too"},
     {'r', "runs", "N", "how many runs"},
@@ -156,6 +156,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
     case 'K':
         line->kind = argument;
         break;
+    case 'f':
+        line->follow = true;
+        break;
     case 'i':
         line->no_input_estimation = true;
         break;
@@ -185,7 +188,7 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     default:
         if (!take_live_option(line, letter, argument)) {
-            fail(EXIT_USAGE, "--follow is not in this version");
+            fail(EXIT_RUNTIME, "an option without a use");
         }
     }
 }

@@ -177,7 +177,8 @@ static void fill_row(struct maintaining *maintaining)
 static void step_all(struct maintaining *maintaining, struct scan_reader *reader,
                      const struct command_line *line, struct tracks_output *tracks)
 {
-    struct progress progress = progress_start("scans", scan_reader_total(reader));
+    struct progress progress = progress_start("scans", 0);
+    uint64_t bytes = file_bytes(line->arguments[0]);
     const struct rho_scan *scan;
 
     while ((scan = scan_reader_next(reader))) {
@@ -192,7 +193,7 @@ static void step_all(struct maintaining *maintaining, struct scan_reader *reader
             fill_row(maintaining);
             tracks_output_track(tracks, scan->time_us, &maintaining->track);
         }
-        progress_show(&progress, maintaining->scans);
+        progress_show_bytes(&progress, maintaining->scans, scan_reader_position(reader), bytes);
     }
     progress_end(&progress);
 }
@@ -278,12 +279,12 @@ int command_maintain(struct command_line *line)
     maintaining.maintainer =
         maintainer_new(maintaining.gate, !line->no_input_estimation, &line->parameters);
     reader = open_reader(line);
+    tracks = has_file ? tracks_output_open(line->output, line->covariance) : NULL;
+    step_all(&maintaining, reader, line, tracks);
     counts = scan_reader_counts(reader);
     if (counts.plots == 0) {
         fail(EXIT_USAGE, "%s: not one plot to start the track from", line->arguments[0]);
     }
-    tracks = has_file ? tracks_output_open(line->output, line->covariance) : NULL;
-    step_all(&maintaining, reader, line, tracks);
     tracks_output_close(tracks);
     print_summary(&maintaining, &counts);
     if (line->json) {

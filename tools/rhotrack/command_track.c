@@ -2,8 +2,10 @@
 /* track: the whole chain, scans in, tracks out. */
 #include <cjson/cJSON.h>
 #include <inttypes.h>
-#include <stdlib.h>
-#include <string.h>
+#include <math.h>
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "bearings_batch.h"
 #include "chain.h"
@@ -12,6 +14,7 @@
 #include "frame_reader.h"
 #include "inputs.h"
 #include "method.h"
+#include "scan_reader.h"
 #include "tracks_output.h"
 
 struct tracking {
@@ -78,28 +81,122 @@ static void step(struct tracking *tracking, const struct input *input)
     }
 }
 
-static void step_all(struct tracking *tracking, struct inputs *inputs, uint64_t total,
-                     struct tracks_output *tracks)
+static void step_and_report(struct tracking *tracking, const struct input *input,
+                            struct tracks_output *tracks)
 {
-    struct progress progress = progress_start("scans", total);
+    step(tracking, input);
+    if (tracks) {
+        tracks_output_report(tracks, tracking->chain.report);
+    }
+}
+
+static void step_all(struct tracking *tracking, struct inputs *inputs, struct tracks_output *tracks,
+                     bool is_on_terminal)
+{
+    struct progress progress = progress_start("scans", 0);
     uint64_t done = 0;
 
     for (struct input input = inputs_next(inputs); input.scan || input.frame;
          input = inputs_next(inputs)) {
-        step(tracking, &input);
-        if (tracks) {
-            tracks_output_report(tracks, tracking->chain.report);
+        step_and_report(tracking, &input, tracks);
+        done++;
+        if (!is_on_terminal) {
+            progress_show_bytes(&progress, done, inputs_position(inputs), inputs_size(inputs));
         }
-        progress_show(&progress, ++done);
     }
     progress_end(&progress);
+}
+
+/* ---- A file that grows ---- */
+
+static volatile sig_atomic_t is_stopped;
+
+static void on_stop(int number)
+{
+    (void)number;
+    is_stopped = 1;
+}
+
+static void stop_on(int number)
+{
+    struct sigaction action = {.sa_handler = on_stop};
+
+    if (!is_ignored(number)) {
+        sigaction(number, &action, NULL);
+    }
+}
+
+/* All scans that are complete by now. Returns whether there were any. */
+static bool follow_scans(struct tracking *tracking, struct inputs *inputs,
+                         struct tracks_output *tracks)
+{
+    struct input input = {.scan = NULL};
+    bool has_any = false;
+
+    while (!is_stopped && (input = inputs_next(inputs)).scan) {
+        step_and_report(tracking, &input, tracks);
+        if (tracks) {
+            tracks_output_flush(tracks);
+        }
+        has_any = true;
+    }
+    return has_any;
+}
+
+/* Until a signal, a pipe's end, or the end of such a file. Returns why ("has become shorter"), or NULL. */
+static const char *follow_until_over(struct tracking *tracking, struct inputs *inputs,
+                                     struct tracks_output *tracks, int64_t quiet_us)
+{
+    const struct timespec pause = {.tv_nsec = 100000000};
+    struct scan_reader *reader = inputs_scan_reader(inputs);
+    uint64_t position = 0;
+    int64_t since_us = clock_us();
+    const char *why = NULL;
+
+    while (!is_stopped) {
+        why = scan_reader_why_over(reader); /* what was added before that is still read */
+        if (follow_scans(tracking, inputs, tracks) || position != inputs_position(inputs) ||
+            scan_reader_is_mid_row(reader)) {
+            since_us = clock_us();
+            position = inputs_position(inputs);
+        }
+        if (why || !scan_reader_waits(reader)) {
+            break;
+        }
+        if (clock_us() - since_us >= quiet_us) {
+            scan_reader_complete(reader);
+        }
+        nanosleep(&pause, NULL);
+    }
+    return why;
+}
+
+/* What is there when it ends is tracked. */
+static const char *follow(struct tracking *tracking, struct inputs *inputs,
+                          struct tracks_output *tracks, const struct parameters *parameters)
+{
+    int64_t quiet_us = llround(parameters->value[PARAMETER_FOLLOW_QUIET_S] * 1e6);
+    struct input input;
+    const char *why;
+
+    stop_on(SIGINT);
+    stop_on(SIGTERM);
+    if (tracks) {
+        tracks_output_flush(tracks);
+    }
+    why = follow_until_over(tracking, inputs, tracks, quiet_us);
+    scan_reader_end(inputs_scan_reader(inputs));
+    while ((input = inputs_next(inputs)).scan) {
+        step_and_report(tracking, &input, tracks);
+    }
+    return why;
 }
 
 /* ---- What it comes to ---- */
 
 static double mean_us(const struct tracking *tracking, const struct inputs_counts *counts)
 {
-    return (double)tracking->sum_us / (double)counts->steps;
+    return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
 
 static void print_summary(const struct tracking *tracking, const struct inputs_counts *counts)
@@ -192,26 +289,67 @@ static void open_chain(struct tracking *tracking, const struct inputs *inputs,
     describe_passive(tracking, inputs, parameters);
 }
 
+/* ---- The command ---- */
+
+static struct inputs *open_inputs(const struct command_line *line)
+{
+    const char *path = line->arguments[0];
+
+    if (!line->follow) {
+        return inputs_open(line->arguments, line->num_arguments, &line->parameters,
+                           line->keep_going);
+    }
+    if (line->num_arguments > 1) {
+        fail(EXIT_USAGE, "--follow takes one input");
+    }
+    if (line->output && is_same_file(line->output, path)) {
+        fail(EXIT_USAGE, "%s: with --follow the output is written in place: it cannot be the input",
+             path);
+    }
+    return inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
+}
+
+static struct tracks_output *open_tracks(const struct command_line *line)
+{
+    if (!line->output && line->json) {
+        return NULL;
+    }
+    return line->follow ? tracks_output_open_in_place(line->output, line->covariance)
+                        : tracks_output_open(line->output, line->covariance);
+}
+
+static void print_results(const struct tracking *tracking, const struct inputs *inputs, bool json)
+{
+    struct inputs_counts counts = inputs_counts(inputs);
+
+    print_summary(tracking, &counts);
+    if (json) {
+        print_json(tracking, inputs, &counts);
+    }
+}
+
 int command_track(struct command_line *line)
 {
-    bool has_file = line->output || !line->json;
-    struct inputs *inputs;
-    struct inputs_counts counts;
-    struct tracks_output *tracks;
     struct tracking tracking = {.chain = chain_start()};
+    struct inputs *inputs;
+    struct tracks_output *tracks;
+    const char *why = NULL;
 
     chain_set_gate(&line->parameters, line->gate);
-    inputs = inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    inputs = open_inputs(line);
     open_chain(&tracking, inputs, &line->parameters);
-    counts = inputs_counts(inputs);
-    tracks = has_file ? tracks_output_open(line->output, line->covariance) : NULL;
-    step_all(&tracking, inputs, counts.steps, tracks);
-    tracks_output_close(tracks);
-    print_summary(&tracking, &counts);
-    if (line->json) {
-        print_json(&tracking, inputs, &counts);
+    tracks = open_tracks(line);
+    if (line->follow) {
+        why = follow(&tracking, inputs, tracks, &line->parameters);
+    } else {
+        step_all(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
     }
+    tracks_output_close(tracks);
+    print_results(&tracking, inputs, line->json);
     inputs_close(inputs);
     chain_free(&tracking.chain);
+    if (why) {
+        fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);
+    }
     return 0;
 }

@@ -26,6 +26,7 @@ struct command_line {
     bool covariance;          /* --covariance */
     bool by_target;           /* --by-target */
     bool no_input_estimation; /* --no-input-estimation */
+    bool follow;              /* --follow */
     struct parameters parameters;
 };
 

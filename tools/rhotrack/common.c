@@ -198,9 +198,32 @@ struct output output_open(const char *path)
     return output;
 }
 
+struct output output_open_in_place(const char *path)
+{
+    struct output output = {stdout, NULL, NULL};
+
+    if (path && strcmp(path, "-") != 0) {
+        output.path = must_copy(path);
+        output.file = open_directly(path);
+    }
+    return output;
+}
+
+static const char *name_of(const struct output *output)
+{
+    return output->path ? output->path : "standard output";
+}
+
+void output_flush(struct output *output)
+{
+    if (fflush(output->file)) {
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", name_of(output), strerror(errno));
+    }
+}
+
 void output_close(struct output *output)
 {
-    const char *name = output->path ? output->path : "standard output";
+    const char *name = name_of(output);
     int is_bad = ferror(output->file);
 
     if (output->file == stdout) {
@@ -248,6 +271,21 @@ void make_folder(const char *path)
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(*path ? ENOTDIR : ENOENT));
     }
     free(partial);
+}
+
+uint64_t file_bytes(const char *path)
+{
+    struct stat status;
+
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode) ? (uint64_t)status.st_size : 0;
+}
+
+bool is_same_file(const char *path, const char *other)
+{
+    struct stat one, two;
+
+    return stat(path, &one) == 0 && stat(other, &two) == 0 && S_ISREG(one.st_mode) &&
+           one.st_dev == two.st_dev && one.st_ino == two.st_ino;
 }
 
 bool path_ends_with(const char *path, const char *suffix)
@@ -357,7 +395,7 @@ struct progress progress_start(const char *what, uint64_t total)
 
 static void print_bar(double fraction)
 {
-    enum { WIDTH = 30 };
+    enum { WIDTH = 20 };
     int filled = (int)(fraction * WIDTH);
 
     fputc('[', stderr);
@@ -367,33 +405,72 @@ static void print_bar(double fraction)
     fprintf(stderr, "] %3.0f %%  ", 100 * fraction);
 }
 
-void progress_show(struct progress *progress, uint64_t done)
+static void print_left(double seconds)
+{
+    if (seconds < 120) {
+        fprintf(stderr, ", %.0f s left", seconds);
+    } else if (seconds < 7200) {
+        fprintf(stderr, ", %.0f min left", seconds / 60);
+    } else {
+        fprintf(stderr, ", %.1f h left", seconds / 3600);
+    }
+}
+
+/* Time for another line? */
+static bool is_due(struct progress *progress)
 {
     enum { QUIET_US = 2000000, PERIOD_US = 200000 };
     int64_t now_us;
-    double seconds, fraction;
 
     if (progress->shown_us == INT64_MAX) {
-        return;
+        return false;
     }
     now_us = clock_us();
     if (now_us - progress->start_us < QUIET_US || now_us - progress->shown_us < PERIOD_US) {
-        return;
+        return false;
     }
     progress->shown_us = now_us;
+    return true;
+}
+
+/* fraction: of the work, 0 where that is not known. */
+static void print_progress(const struct progress *progress, uint64_t done, double fraction)
+{
+    double seconds = (double)(progress->shown_us - progress->start_us) * 1e-6;
+    double rate = (double)done / seconds;
+
     progress_visible = 1;
     fputs("\r\033[K", stderr);
-    if (!progress->total || done > progress->total) {
-        fprintf(stderr, "%llu %s", (unsigned long long)done, progress->what);
-        return;
+    if (fraction > 0) {
+        print_bar(fraction);
     }
-    fraction = (double)done / (double)progress->total;
-    seconds = (double)(now_us - progress->start_us) * 1e-6;
-    print_bar(fraction);
-    fprintf(stderr, "%llu of %llu %s", (unsigned long long)done,
-            (unsigned long long)progress->total, progress->what);
-    if (done) {
-        fprintf(stderr, ", %.0f s left", seconds * (1 - fraction) / fraction);
+    fprintf(stderr, "%" PRIu64, done);
+    if (progress->total >= done && progress->total > 0) {
+        fprintf(stderr, " of %" PRIu64, progress->total);
+    }
+    fprintf(stderr, " %s, %.*f a second", progress->what, rate < 10 ? 1 : 0, rate);
+    if (fraction > 0) {
+        print_left(seconds * (1 - fraction) / fraction);
+    }
+}
+
+static double fraction_of(uint64_t done, uint64_t total)
+{
+    return total > 0 && done <= total ? (double)done / (double)total : 0;
+}
+
+void progress_show(struct progress *progress, uint64_t done)
+{
+    if (is_due(progress)) {
+        print_progress(progress, done, fraction_of(done, progress->total));
+    }
+}
+
+void progress_show_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
+                         uint64_t total_bytes)
+{
+    if (is_due(progress)) {
+        print_progress(progress, done, fraction_of(bytes, total_bytes));
     }
 }
 

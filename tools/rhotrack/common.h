@@ -45,6 +45,10 @@ struct output {
 struct output output_open(const char *path);
 void output_close(struct output *output); /* checks for write errors, renames */
 
+/* The same, but the file is there from the start, what is flushed can be read at once, and stays whatever happens. */
+struct output output_open_in_place(const char *path);
+void output_flush(struct output *output); /* checks for write errors */
+
 /* Whether the signal is ignored, as nohup has it; it should stay so. */
 bool is_ignored(int number);
 
@@ -68,6 +72,12 @@ const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);
 /* A name that ends so, "NAME.lcm" with ".lcm". */
 bool path_ends_with(const char *path, const char *suffix);
 
+/* Length of a plain file; 0 of anything else. */
+uint64_t file_bytes(const char *path);
+
+/* Two names of one plain file. */
+bool is_same_file(const char *path, const char *other);
+
 /* "folder/name" in new memory. */
 char *path_join(const char *folder, const char *name);
 
@@ -89,6 +99,10 @@ struct progress {
 };
 struct progress progress_start(const char *what, uint64_t total);
 void progress_show(struct progress *progress, uint64_t done);
+
+/* The same where the total is not known, but how many bytes of the input were read, of how many; 0: that neither. */
+void progress_show_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
+                         uint64_t total_bytes);
 void progress_end(struct progress *progress);
 
 #endif

@@ -35,9 +35,10 @@ struct frame_sensor {
 bool frame_reader_is_bearings(const char *path);
 
 /*
- * Opens and checks the files. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2; with keep_going bad rows are
- * skipped and counted instead. A sensor that moves, two in one place and more than RHO_MAX_SENSORS are errors of their
- * rows.
+ * Opens the files and reads them through once, since sensors are to be known from the start; frame_reader_next then reads
+ * again. Memory does not grow with the files. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2; with keep_going bad
+ * rows are skipped and counted instead. A sensor that moves, two in one place and more than RHO_MAX_SENSORS are errors of
+ * their rows.
  */
 struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
                                        const struct parameters *parameters, bool keep_going);
@@ -46,7 +47,7 @@ struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
 void frame_reader_need_pair(const struct frame_reader *reader);
 
 /*
- * The next frame, or NULL after the last; valid until the close. Frames come in the order of time, which is their first
+ * The next frame, or NULL after the last; valid until the next call. Frames come in the order of time, which is their first
  * scan's; the scans of a frame in the order of sensor_id.
  */
 const struct rho_frame *frame_reader_next(struct frame_reader *reader);
@@ -54,12 +55,16 @@ const struct rho_frame *frame_reader_next(struct frame_reader *reader);
 /* Leaves out all but the last so many frames, and says so on standard error where that leaves any out. */
 void frame_reader_skip(struct frame_reader *reader, uint64_t frames);
 
-/* How many frames there are in all (for progress bars). */
+/* How many frames there are in all. */
 uint64_t frame_reader_total(const struct frame_reader *reader);
+
+/* Bytes that were taken of all files (for progress bars). */
+uint64_t frame_reader_position(const struct frame_reader *reader);
 
 /* The sensors of the files in the order of sensor_id: *count of them, valid until the close. */
 const struct frame_sensor *frame_reader_sensors(const struct frame_reader *reader, size_t *count);
 
+/* Of all frames, whether they were taken or not. */
 struct frame_reader_counts frame_reader_counts(const struct frame_reader *reader);
 
 /* Bad rows that were skipped, and frames that miss a sensor, if any, on standard error. */

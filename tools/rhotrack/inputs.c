@@ -16,7 +16,9 @@ struct inputs {
     const struct rho_scan *scan;
     const struct rho_sensor *sensor;
     const struct rho_frame *frame;
-    bool scan_is_taken; /* the next one overwrites it: not before the caller is done */
+    bool has_scan,
+        has_frame;  /* read ahead; the next one overwrites it: not before the caller is done */
+    uint64_t bytes; /* of all files; 0: not known */
 };
 
 /* What a file holds: a table has one kind, a log may have both. */
@@ -46,13 +48,35 @@ static int sort_paths(char *const *paths, int num_paths, unsigned kind, char **s
 
 static void next_scan(struct inputs *inputs)
 {
-    inputs->scan = inputs->scan_reader ? scan_reader_next(inputs->scan_reader) : NULL;
-    inputs->sensor = inputs->scan ? scan_reader_sensor(inputs->scan_reader) : NULL;
+    if (inputs->scan_reader && !inputs->has_scan) {
+        inputs->scan = scan_reader_next(inputs->scan_reader);
+        inputs->sensor = inputs->scan ? scan_reader_sensor(inputs->scan_reader) : NULL;
+        inputs->has_scan = inputs->scan;
+    }
 }
 
 static void next_frame(struct inputs *inputs)
 {
-    inputs->frame = inputs->frame_reader ? frame_reader_next(inputs->frame_reader) : NULL;
+    if (inputs->frame_reader && !inputs->has_frame) {
+        inputs->frame = frame_reader_next(inputs->frame_reader);
+        inputs->has_frame = inputs->frame;
+    }
+}
+
+/* A log of both kinds is read twice, and counts so. */
+static uint64_t sum_bytes(char *const *paths, int num_paths)
+{
+    uint64_t sum = 0;
+
+    for (int i = 0; i < num_paths; i++) {
+        uint64_t bytes = file_bytes(paths[i]);
+
+        if (bytes == 0) {
+            return 0;
+        }
+        sum += kinds_of(paths[i]) == (LOG_HAS_PLOTS | LOG_HAS_BEARINGS) ? 2 * bytes : bytes;
+    }
+    return sum;
 }
 
 struct inputs *inputs_open(char *const *paths, int num_paths, const struct parameters *parameters,
@@ -73,9 +97,23 @@ struct inputs *inputs_open(char *const *paths, int num_paths, const struct param
         }
     }
     free(sorted);
+    inputs->bytes = sum_bytes(paths, num_paths);
     next_scan(inputs);
     next_frame(inputs);
     return inputs;
+}
+
+struct inputs *inputs_follow(char *path, const struct parameters *parameters, bool keep_going)
+{
+    struct inputs *inputs = must_calloc(1, sizeof *inputs);
+
+    inputs->scan_reader = scan_reader_follow(path, parameters, keep_going);
+    return inputs;
+}
+
+struct scan_reader *inputs_scan_reader(struct inputs *inputs)
+{
+    return inputs->scan_reader;
 }
 
 bool inputs_have_plots(const struct inputs *inputs)
@@ -90,27 +128,35 @@ bool inputs_have_bearings(const struct inputs *inputs)
 
 struct input inputs_next(struct inputs *inputs)
 {
-    struct input input = {NULL, NULL, NULL};
-
-    if (inputs->scan_is_taken) {
-        next_scan(inputs);
+    next_scan(inputs);
+    next_frame(inputs);
+    if (inputs->has_scan &&
+        (!inputs->has_frame || inputs->scan->time_us <= inputs->frame->time_us)) {
+        inputs->has_scan = false;
+        return (struct input){.scan = inputs->scan, .sensor = inputs->sensor};
     }
-    inputs->scan_is_taken =
-        inputs->scan && (!inputs->frame || inputs->scan->time_us <= inputs->frame->time_us);
-    if (inputs->scan_is_taken) {
-        input.scan = inputs->scan;
-        input.sensor = inputs->sensor;
-    } else {
-        input.frame = inputs->frame;
-        next_frame(inputs); /* frames stay valid */
+    if (inputs->has_frame) {
+        inputs->has_frame = false;
+        return (struct input){.frame = inputs->frame};
     }
-    return input;
+    return (struct input){.scan = NULL};
 }
 
 const struct frame_sensor *inputs_passive_sensors(const struct inputs *inputs, size_t *count)
 {
     *count = 0;
     return inputs->frame_reader ? frame_reader_sensors(inputs->frame_reader, count) : NULL;
+}
+
+uint64_t inputs_position(const struct inputs *inputs)
+{
+    return (inputs->scan_reader ? scan_reader_position(inputs->scan_reader) : 0) +
+           (inputs->frame_reader ? frame_reader_position(inputs->frame_reader) : 0);
+}
+
+uint64_t inputs_size(const struct inputs *inputs)
+{
+    return inputs->bytes;
 }
 
 struct inputs_counts inputs_counts(const struct inputs *inputs)

@@ -310,6 +310,11 @@ struct lcm_log_counts lcm_log_counts(const struct lcm_log_reader *reader)
     return reader->counts;
 }
 
+uint64_t lcm_log_position(const struct lcm_log_reader *reader)
+{
+    return reader->offset;
+}
+
 /* What was skipped last goes up to the end, and begins as an event does. */
 static bool is_cut_off(const struct lcm_log_reader *reader)
 {

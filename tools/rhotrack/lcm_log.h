@@ -62,6 +62,9 @@ struct lcm_log_counts {
 };
 struct lcm_log_counts lcm_log_counts(const struct lcm_log_reader *reader);
 
+/* How many bytes of the file are parsed. */
+uint64_t lcm_log_position(const struct lcm_log_reader *reader);
+
 /* What was skipped, if anything, on standard error: the first few places, then a sum. */
 void lcm_log_report(const struct lcm_log_reader *reader);
 void lcm_log_close(struct lcm_log_reader *reader);

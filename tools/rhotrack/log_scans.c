@@ -43,38 +43,66 @@ unsigned log_scans_kinds(const char *path)
 
 /* ---- Scans ---- */
 
-static void *copy_of(const void *from, size_t count, size_t size)
-{
-    void *copy = must_calloc(count + 1, size);
+struct log_scans {
+    const char *path;
+    const struct parameters *parameters;
+    struct rho_feed *feed;
+    struct lcm_log_reader *reader;
+    struct lcm_log_event event;
+    bool has_event;     /* the feed has not taken it yet */
+    bool is_over;       /* there are no more events */
+    uint64_t num_given; /* by the feed */
+    uint64_t first;     /* what it gives before this one is left out */
+};
 
-    if (count > 0) {
-        memcpy(copy, from, count * size);
-    }
-    return copy;
+/* The feed as it was before the first event. */
+static void start(struct log_scans *scans)
+{
+    parameters_to_feed(scans->parameters, scans->feed);
+    scans->reader = lcm_log_open(scans->path);
+    scans->has_event = scans->is_over = false;
+    scans->num_given = 0;
 }
 
-static void clear(struct log_scans *scans)
+/* Offers the event to the feed, which may have no room before something is taken from it. */
+static void offer(struct log_scans *scans)
 {
-    for (size_t i = 0; i < scans->count; i++) {
-        free((void *)scans->items[i].scan.plots);
-        free((void *)scans->items[i].bearings.bearings);
-    }
-    scans->count = 0;
+    const struct lcm_log_event *event = &scans->event;
+
+    scans->has_event = rho_feed_take(scans->feed, event->channel, event->data, event->size,
+                                     event->utime) == RHO_ERROR_CAPACITY;
 }
 
-static void add_item(struct log_scans *scans, const struct rho_feed_item *item)
+static void next_event(struct log_scans *scans)
 {
-    struct rho_feed_item *copy;
+    scans->is_over = !lcm_log_next(scans->reader, &scans->event);
+    if (!scans->is_over) {
+        offer(scans);
+    }
+}
 
-    scans->items = must_grow(scans->items, scans->count, &scans->capacity, sizeof *scans->items);
-    copy = &scans->items[scans->count++];
-    *copy = *item;
-    if (item->kind == RHO_FEED_BEARINGS) {
-        copy->bearings.bearings = copy_of(item->bearings.bearings, item->bearings.num_bearings,
-                                          sizeof *item->bearings.bearings);
-    } else {
-        copy->scan.plots =
-            copy_of(item->scan.plots, item->scan.num_plots, sizeof *item->scan.plots);
+static int64_t now_us(const struct log_scans *scans)
+{
+    return scans->is_over ? INT64_MAX : scans->event.utime;
+}
+
+/* The next scan of all. An event that waits is offered again after each call for the next scan. */
+static bool take_next(struct log_scans *scans, struct rho_feed_item *item)
+{
+    for (;;) {
+        if (scans->has_event) {
+            offer(scans);
+        }
+        if (rho_feed_next(scans->feed, now_us(scans), item)) {
+            scans->num_given++;
+            return true;
+        }
+        if (scans->is_over) {
+            return false;
+        }
+        if (!scans->has_event) {
+            next_event(scans);
+        }
     }
 }
 
@@ -84,60 +112,39 @@ static int64_t time_of(const struct rho_feed_item *item)
 }
 
 /* The clock was set back: two recordings in one file cannot be stepped as one. */
-static bool goes_back(const struct log_scans *scans, const struct rho_feed_item *item)
-{
-    return item->is_restart && scans->count > 0 &&
-           time_of(item) < time_of(&scans->items[scans->count - 1]);
-}
-
-static void start_anew(struct log_scans *scans, const char *path, const struct rho_feed_item *item,
-                       bool keep_going)
+static void start_anew(struct log_scans *scans, const struct rho_feed_item *item, bool keep_going)
 {
     double time_s = 1e-6 * (double)time_of(item);
+    uint64_t before = scans->num_given - 1;
 
     if (!keep_going) {
         fail(EXIT_USAGE,
              "%s: the sensors' clock starts anew at %.6f s: two recordings in one? With "
              "--keep-going only what comes from there on is taken",
-             path, time_s);
+             scans->path, time_s);
     }
     fprintf(stderr,
-            "rhotrack: %s: the sensors' clock starts anew at %.6f s: %zu scans before are left "
-            "out\n",
-            path, time_s, scans->count);
-    clear(scans);
+            "rhotrack: %s: the sensors' clock starts anew at %.6f s: %" PRIu64
+            " scans before are left out\n",
+            scans->path, time_s, before - scans->first);
+    scans->first = before;
 }
 
-/* Everything that is due, or with `once` one scan. */
-static void take_due(struct log_scans *scans, struct rho_feed *feed, const char *path,
-                     int64_t now_us, bool keep_going, bool once)
+/* Goes through the whole log. */
+static void look_through(struct log_scans *scans, uint64_t bytes, bool keep_going)
 {
     struct rho_feed_item item;
+    int64_t last_us = INT64_MIN;
+    struct progress progress = progress_start("scans looked through", 0);
 
-    while (rho_feed_next(feed, now_us, &item)) {
-        if (goes_back(scans, &item)) {
-            start_anew(scans, path, &item, keep_going);
+    while (take_next(scans, &item)) {
+        if (item.is_restart && time_of(&item) < last_us) {
+            start_anew(scans, &item, keep_going);
         }
-        add_item(scans, &item);
-        if (once) {
-            return;
-        }
+        last_us = time_of(&item);
+        progress_show_bytes(&progress, scans->num_given, lcm_log_position(scans->reader), bytes);
     }
-}
-
-static void read_events(struct log_scans *scans, struct rho_feed *feed,
-                        struct lcm_log_reader *reader, const char *path, bool keep_going)
-{
-    struct lcm_log_event event;
-
-    while (lcm_log_next(reader, &event)) {
-        while (rho_feed_take(feed, event.channel, event.data, event.size, event.utime) ==
-               RHO_ERROR_CAPACITY) {
-            take_due(scans, feed, path, event.utime, keep_going, true);
-        }
-        take_due(scans, feed, path, event.utime, keep_going, false);
-    }
-    take_due(scans, feed, path, INT64_MAX, keep_going, false);
+    progress_end(&progress);
 }
 
 /* ---- What was wrong ---- */
@@ -177,32 +184,53 @@ static void say_counters(const char *path, const struct rho_feed_counters *count
     }
 }
 
-struct log_scans log_scans_read(const char *path, const struct parameters *parameters,
-                                bool keep_going, bool is_told)
+struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
+                                 bool keep_going, bool is_told)
 {
-    struct rho_feed *feed = must_alloc(sizeof *feed);
-    struct lcm_log_reader *reader = lcm_log_open(path);
-    struct log_scans scans = {NULL, 0, 0};
+    struct log_scans *scans = must_calloc(1, sizeof *scans);
 
-    parameters_to_feed(parameters, feed);
-    read_events(&scans, feed, reader, path, keep_going);
+    scans->path = path;
+    scans->parameters = parameters;
+    scans->feed = must_alloc(sizeof *scans->feed);
+    start(scans);
+    look_through(scans, file_bytes(path), keep_going);
     if (is_told) {
-        lcm_log_report(reader);
-        say_counters(path, &feed->counters);
+        lcm_log_report(scans->reader);
+        say_counters(path, &scans->feed->counters);
     }
-    lcm_log_close(reader);
-    free(feed);
-    if (scans.count == 0) {
+    if (scans->num_given == 0) {
         fail(EXIT_USAGE, "%s: not one scan of a sensor (channels %s<n>, %s<n>, %s<n>)", path,
              RHO_MESSAGE_PLOT_SCAN_CHANNEL, RHO_MESSAGE_POLAR_SCAN_CHANNEL,
              RHO_MESSAGE_BEARING_SCAN_CHANNEL);
     }
+    log_scans_rewind(scans);
     return scans;
 }
 
-void log_scans_free(struct log_scans *scans)
+bool log_scans_next(struct log_scans *scans, struct rho_feed_item *item)
 {
-    clear(scans);
-    free(scans->items);
-    scans->items = NULL;
+    while (take_next(scans, item)) {
+        if (scans->num_given > scans->first) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void log_scans_rewind(struct log_scans *scans)
+{
+    lcm_log_close(scans->reader);
+    start(scans);
+}
+
+uint64_t log_scans_position(const struct log_scans *scans)
+{
+    return lcm_log_position(scans->reader);
+}
+
+void log_scans_close(struct log_scans *scans)
+{
+    lcm_log_close(scans->reader);
+    free(scans->feed);
+    free(scans);
 }

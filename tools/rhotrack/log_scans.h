@@ -7,7 +7,7 @@
 #define RHOTRACK_TOOL_LOG_SCANS_H
 
 #include <stdbool.h>
-#include <stddef.h>
+#include <stdint.h>
 
 #include "parameters.h"
 #include "rhotrack/feed.h"
@@ -17,20 +17,25 @@
 #define LOG_HAS_BEARINGS 2u
 unsigned log_scans_kinds(const char *path);
 
-/* In the order in which the tracker would step them. The plots and bearings are the items' own. */
-struct log_scans {
-    struct rho_feed_item *items;
-    size_t count, capacity;
-};
-
 /*
- * Reads all scans of a log. With is_told, what was skipped goes to standard error, and in one line every counter of the
- * feed that tells of something wrong. Exit 2 where there is no scan, or the sensors' common clock starts anew at a time
- * before (two recordings in one): with keep_going what came before is left out instead. Where it goes on at a later time
- * (a long pause) so do the scans, but for the follow_scans - 1 that it takes to be believed.
+ * A log's scans one by one, in the order in which the tracker would step them, in memory that does not grow with the log:
+ * opening looks at all of them once. With is_told, what was skipped goes to standard error, and in one line every counter
+ * of the feed that tells of something wrong. Exit 2 where there is no scan, or the sensors' common clock starts anew at a
+ * time before (two recordings in one): with keep_going what came before is left out instead. Where it goes on at a later
+ * time (a long pause) so do the scans, but for the follow_scans - 1 that it takes to be believed.
  */
-struct log_scans log_scans_read(const char *path, const struct parameters *parameters,
-                                bool keep_going, bool is_told);
-void log_scans_free(struct log_scans *scans);
+struct log_scans;
+struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
+                                 bool keep_going, bool is_told);
+
+/* The next one, valid until the next call. Returns false after the last. */
+bool log_scans_next(struct log_scans *scans, struct rho_feed_item *item);
+
+/* The log from its beginning again. */
+void log_scans_rewind(struct log_scans *scans);
+
+/* How many bytes of the log are taken. */
+uint64_t log_scans_position(const struct log_scans *scans);
+void log_scans_close(struct log_scans *scans);
 
 #endif

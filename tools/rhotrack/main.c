@@ -15,14 +15,25 @@
 #endif
 
 static const struct command commands[] = {
-    {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest]", 1, INT_MAX,
-     "ogfcjksC", "the main job: scans in, tracks out",
+    {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest] [--follow]", 1,
+     INT_MAX, "ogfcjksC", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
      "and writes one row a track and scan (CSV) to OUTPUT or standard output. Inputs may be LCM\n"
      "logs, and OUTPUT is one where it is named NAME.lcm. A summary goes to standard error. With\n"
-     "--json the results go to standard output as one JSON object, and tracks only to OUTPUT.\n"},
+     "--json the results go to standard output as one JSON object, and tracks only to OUTPUT.\n"
+     "INPUT - is standard input (CSV). Files may be of any length: memory does not grow with "
+     "them.\n"
+     "\n"
+     "With --follow one CSV file of plots (or a pipe) is tracked while it grows, as tail -f shows "
+     "it.\n"
+     "OUTPUT is then written in place, and each scan's rows are there at once. A scan is complete\n"
+     "when a later one begins, or the file has not grown for follow_quiet_s (--set; 2 s); half a "
+     "row\n"
+     "waits for its rest. It ends on SIGINT and SIGTERM with exit code 0, and with 1 where the "
+     "file\n"
+     "becomes shorter, is replaced or removed; rows that were written stay.\n"},
     {"initiate", command_initiate, "INPUT [-o OUTPUT] [--method METHOD]", 1, 1, "omjksC",
      "initiation alone, on the last scans as one batch",
      "Takes the last N scans of the file (parameter scans) as one batch and writes the tracks "

@@ -71,6 +71,8 @@
       "messages: scans in a row that must agree on new numbers or times")                          \
     X(FLOOD_PER_S, "flood_per_s", "1/s", 10000, 1, 1e6, 1, 1,                                      \
       "messages: of one sensor that are looked at")                                                \
+    X(FOLLOW_QUIET_S, "follow_quiet_s", "s", 2, 0.1, 3600, 0, 1,                                   \
+      "track --follow: the last scan is complete when the file has not grown for so long")         \
     X(ORIGIN_LAT_DEG, "origin_lat_deg", "deg", 0, -90, 90, 0, 0,                                   \
       "of the local frame, passed on in RHO_STATUS")                                               \
     X(ORIGIN_LON_DEG, "origin_lon_deg", "deg", 0, -180, 180, 0, 0, "")                             \

@@ -40,7 +40,22 @@ static struct scan_numbers_slot *slot_of(const struct scan_numbers *numbers, int
     }
 }
 
-/* At most half of the slots are taken. */
+static bool is_wanted(const struct scan_numbers *numbers, const struct scan_numbers_slot *slot)
+{
+    return slot->number.is_given && slot->scan >= numbers->dropped;
+}
+
+static size_t count_wanted(const struct scan_numbers *numbers)
+{
+    size_t wanted = 0;
+
+    for (size_t i = 0; i < numbers->capacity; i++) {
+        wanted += is_wanted(numbers, &numbers->slots[i]);
+    }
+    return wanted;
+}
+
+/* At most half of the slots are taken; after a new table for those that are wanted, at most a quarter. */
 static void grow(struct scan_numbers *numbers)
 {
     const struct scan_numbers old = *numbers;
@@ -48,10 +63,13 @@ static void grow(struct scan_numbers *numbers)
     if (2 * (old.count + 1) <= old.capacity) {
         return;
     }
-    numbers->capacity = old.capacity > 0 ? 2 * old.capacity : 64;
+    numbers->count = count_wanted(&old);
+    for (numbers->capacity = 64; numbers->capacity < 4 * (numbers->count + 1);) {
+        numbers->capacity *= 2;
+    }
     numbers->slots = must_calloc(numbers->capacity, sizeof *numbers->slots);
     for (size_t i = 0; i < old.capacity; i++) {
-        if (old.slots[i].number.is_given) {
+        if (is_wanted(&old, &old.slots[i])) {
             *slot_of(numbers, old.slots[i].sensor_id, &old.slots[i].number) = old.slots[i];
         }
     }
@@ -82,6 +100,11 @@ void scan_numbers_set(struct scan_numbers *numbers, int32_t sensor_id,
     slot = slot_of(numbers, sensor_id, number);
     numbers->count += !slot->number.is_given;
     *slot = (struct scan_numbers_slot){sensor_id, *number, scan};
+}
+
+void scan_numbers_drop(struct scan_numbers *numbers, size_t before)
+{
+    numbers->dropped = before;
 }
 
 void scan_numbers_clear(struct scan_numbers *numbers)

@@ -17,6 +17,7 @@
 struct scan_numbers {
     struct scan_numbers_slot *slots;
     size_t count, capacity; /* capacity: a power of two */
+    size_t dropped;         /* scans before this one are not wanted any more */
 };
 
 /* The newest scan of a sensor with that number, or SCAN_NUMBERS_NONE, also for a number that is not given. Constant cost. */
@@ -26,6 +27,9 @@ size_t scan_numbers_find(const struct scan_numbers *numbers, int32_t sensor_id,
 /* From now on that scan; a number that is not given leaves all as it is. */
 void scan_numbers_set(struct scan_numbers *numbers, int32_t sensor_id,
                       const struct row_number *number, size_t scan);
+
+/* Scans before that one may be forgotten: memory is that for those from it on. */
+void scan_numbers_drop(struct scan_numbers *numbers, size_t before);
 
 /* Forgets all, as before another file. */
 void scan_numbers_clear(struct scan_numbers *numbers);

@@ -25,16 +25,27 @@ bool tracks_output_is_log(const char *path)
     return path && path_ends_with(path, ".lcm");
 }
 
-struct tracks_output *tracks_output_open(const char *path, bool with_covariance)
+static struct tracks_output *open_output(const char *path, struct output output,
+                                         bool with_covariance)
 {
     struct tracks_output *tracks = must_calloc(1, sizeof *tracks);
 
     tracks->path = path;
     tracks->is_log = tracks_output_is_log(path);
     tracks->with_covariance = with_covariance;
-    tracks->output = output_open(path);
+    tracks->output = output;
     tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
     return tracks;
+}
+
+struct tracks_output *tracks_output_open(const char *path, bool with_covariance)
+{
+    return open_output(path, output_open(path), with_covariance);
+}
+
+struct tracks_output *tracks_output_open_in_place(const char *path, bool with_covariance)
+{
+    return open_output(path, output_open_in_place(path), with_covariance);
 }
 
 /* Not before there is something to write: what is refused on the way leaves no header on standard output. */
@@ -44,6 +55,12 @@ static void need_header(struct tracks_output *tracks)
         tracks->has_header = true;
         tracks_write_header(tracks->output.file, tracks->with_covariance);
     }
+}
+
+void tracks_output_flush(struct tracks_output *tracks)
+{
+    need_header(tracks);
+    output_flush(&tracks->output);
 }
 
 static void write_list(struct tracks_output *tracks, const struct rho_report *report)

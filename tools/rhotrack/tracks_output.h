@@ -16,6 +16,10 @@ struct tracks_output;
 /* path NULL: CSV to standard output. A log's tracks always have their covariance. Errors: exit 1. */
 struct tracks_output *tracks_output_open(const char *path, bool with_covariance);
 
+/* The same, but the file is there from the start, and each step's rows once they are flushed. */
+struct tracks_output *tracks_output_open_in_place(const char *path, bool with_covariance);
+void tracks_output_flush(struct tracks_output *tracks);
+
 /* All tracks of a step. */
 void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report);
 
