@@ -34,11 +34,11 @@ with open(f"{kind}.csv", "w") as file:
 PYTHON
 }
 
-# A log of the scans of plots.csv and bearings.csv among a camera's pictures, MEGABYTES long.
+# A log of scans of plots.csv and bearings.csv among a camera's pictures, MEGABYTES of these, and scans as many.
 generate_log() {
-    head -n 3001 plots.csv >some.csv
+    head -n $(($1 * 2000)) plots.csv >some.csv
     "$program" convert some.csv plots.lcm 2>stderr
-    head -n 401 bearings.csv >some.csv
+    head -n $(($1 * 200)) bearings.csv >some.csv
     "$program" convert some.csv bearings.lcm 2>stderr
     python3 - "$1" <<'PYTHON'
 import struct
