@@ -2,10 +2,12 @@
 #include "lcm_log.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "common.h"
 
@@ -172,7 +174,7 @@ struct place {
 
 struct lcm_log_reader {
     char *path;
-    FILE *file;
+    int file;
     uint8_t *buffer;
     size_t capacity, first, end; /* buffer[first .. end) is not parsed yet */
     uint64_t offset;             /* of buffer[first] in the file */
@@ -209,8 +211,8 @@ struct lcm_log_reader *lcm_log_open(const char *path)
 {
     struct lcm_log_reader *reader = must_calloc(1, sizeof *reader);
 
-    reader->file = fopen(path, "rb");
-    if (!reader->file) {
+    reader->file = open(path, O_RDONLY | O_CLOEXEC);
+    if (reader->file < 0) {
         fail_to_read(path);
     }
     reader->path = must_copy(path);
@@ -241,16 +243,17 @@ static void make_room(struct lcm_log_reader *reader)
 static void need(struct lcm_log_reader *reader, size_t bytes)
 {
     while (!reader->is_end && reader->end - reader->first < bytes) {
-        size_t got, room;
+        ssize_t got;
 
         make_room(reader);
-        room = reader->capacity - reader->end;
-        got = fread(reader->buffer + reader->end, 1, room, reader->file);
-        if (ferror(reader->file)) {
+        do {
+            got = read(reader->file, reader->buffer + reader->end, reader->capacity - reader->end);
+        } while (got < 0 && errno == EINTR);
+        if (got < 0) {
             fail_to_read(reader->path);
         }
-        reader->end += got;
-        reader->is_end = got < room;
+        reader->end += (size_t)got;
+        reader->is_end = got == 0;
     }
 }
 
@@ -344,7 +347,7 @@ void lcm_log_close(struct lcm_log_reader *reader)
     if (!reader) {
         return;
     }
-    fclose(reader->file);
+    close(reader->file);
     free(reader->path);
     free(reader->buffer);
     free(reader);

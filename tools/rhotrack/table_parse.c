@@ -51,16 +51,40 @@ static bool is_idle(const char *line, size_t length)
 
 /* ---- Rows ---- */
 
+/* Room for a cell. Names and cells that are there keep their places in the text. */
+static void grow_text(struct table_stream *stream, size_t bytes)
+{
+    struct table *table = stream->table;
+    char *text;
+
+    if (stream->text_used + bytes + 1 <= stream->text_capacity) {
+        return;
+    }
+    stream->text_capacity = 2 * (stream->text_used + bytes + 1);
+    text = must_alloc(stream->text_capacity);
+    memcpy(text, table->text, stream->text_used);
+    for (size_t i = 0; table->names && i < table->num_columns; i++) {
+        table->names[i] = text + (table->names[i] - table->text);
+    }
+    for (size_t i = 0; i < stream->row_cells; i++) {
+        stream->row[i] = text + (stream->row[i] - table->text);
+    }
+    free(table->text);
+    table->text = text;
+}
+
 static void on_cell(void *cell, size_t bytes, void *user)
 {
     struct table_stream *stream = user;
-    char *text = stream->table->text + stream->text_used;
+    char *text;
 
     if (stream->row_cells == stream->row_capacity) {
         stream->row_capacity = 2 * stream->row_capacity + 16;
         stream->row = must_realloc(stream->row, stream->row_capacity * sizeof *stream->row);
     }
-    memcpy(text, cell, bytes); /* a cell is never longer than its text in the file */
+    grow_text(stream, bytes);
+    text = stream->table->text + stream->text_used;
+    memcpy(text, cell, bytes);
     text[bytes] = '\0';
     stream->text_used += bytes + 1;
     stream->row[stream->row_cells++] = text;

@@ -23,7 +23,7 @@ struct table_stream {
     uint64_t offset; /* of the content in the file */
     bool is_end;     /* nothing comes behind the content */
     uint32_t line;   /* the current one, 1-based */
-    size_t text_used, text_header;
+    size_t text_used, text_header, text_capacity;
     char **row; /* cells of the row under way */
     size_t row_cells, row_capacity, row_text, row_bytes;
     uint32_t row_line;

@@ -12,6 +12,7 @@
 #include "table_parse.h"
 
 #define FIRST_CAPACITY (1u << 16)
+#define FIRST_TEXT 1024u
 
 /* ---- The file ---- */
 
@@ -124,7 +125,8 @@ static struct table *parse_whole(struct table_stream *stream)
 {
     struct table *table = stream->table;
 
-    table->text = must_alloc(stream->bytes + 2);
+    stream->text_capacity = stream->bytes + 2; /* a cell is not longer than its text in the file */
+    table->text = must_alloc(stream->text_capacity);
     while (table_parse(stream, false) == TABLE_STREAM_ROW) {
     }
     check_content(stream);
@@ -167,7 +169,8 @@ struct table_stream *table_stream_open(const char *path, bool keep_going, bool f
 {
     struct table_stream *stream = open_stream(path, keep_going, follow);
 
-    stream->table->text = must_alloc(2 * (TABLE_STREAM_ROW_BYTES + 2)); /* the header, a row */
+    stream->text_capacity = FIRST_TEXT;
+    stream->table->text = must_alloc(stream->text_capacity);
     if (table_parse(stream, true) == TABLE_STREAM_END) {
         check_header(stream);
     }
