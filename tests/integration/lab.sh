@@ -18,7 +18,7 @@ expect_exit() {
 }
 
 # --- simulate
-for scenario in crossing radar parallel crossing-angle same-line clutter slow-turn traffic air-traffic; do
+for scenario in crossing radar parallel crossing-angle same-line clutter slow-turn traffic air-traffic formation; do
     check "simulate $scenario" "$RHOTRACK" simulate "$scenario" --seed 3 --set num_scans=6 -o "$folder/$scenario"
     check "track $scenario with its scenario.ini" "$RHOTRACK" track "$folder/$scenario/plots.csv" \
         --config "$folder/$scenario/scenario.ini" -o "$folder/$scenario/tracks.csv"

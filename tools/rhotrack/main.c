@@ -59,7 +59,8 @@ static const struct command commands[] = {
      "crossing-angle,\n"
      "same-line, clutter, slow-turn, traffic, air-traffic, polar (polar.csv: a turning radar's\n"
      "plots), "
-     "passive-two, passive-three, passive-clutter (bearings.csv), popup, weave, hard-turn (one "
+     "formation, passive-two, passive-three, passive-clutter (bearings.csv), popup, weave, "
+     "hard-turn (one "
      "target\n"
      "that pulls, in a beam, with heights); their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,

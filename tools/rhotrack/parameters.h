@@ -137,7 +137,7 @@
     X(PERSISTENT_SOURCES, "persistent_sources", "-", 0, 0, 1e4, 1, 0,                              \
       "simulate air-traffic: things that stand, seen in 9 scans of 10")                            \
     X(MERGE_M, "merge_m", "m", 0, 0, 1e5, 0, 0,                                                    \
-      "simulate air-traffic, parallel, crossing-angle: closer targets give one plot; 0: none do")  \
+      "simulate air-traffic, formation, parallel, crossing-angle: closer targets give one plot")   \
     X(CROSSING_SHARE, "crossing_share", "-", 0.2, 0, 1, 0, 0,                                      \
       "simulate air-traffic: share of targets that start so that they meet another")               \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
@@ -150,9 +150,9 @@
     X(FALSE_ALARMS, "false_alarms", "-", 0, 0, 1e4, 0, 0,                                          \
       "simulate passive-...: mean false bearings a sensor and scan")                               \
     X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
-      "simulate parallel, same-line: distance of the two targets")                                 \
+      "simulate parallel, formation, same-line: distance of the two targets")                      \
     X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0,                                       \
-      "simulate crossing-angle: angle between the tracks")                                         \
+      "simulate crossing-angle, formation: angle between the tracks")                              \
     X(TURN_DEG, "turn_deg", "deg", 2, -90, 90, 0, 0,                                               \
       "simulate slow-turn: change of heading a scan")                                              \
     X(SPEED_MPS, "speed_mps", "m/s", 250, 0.1, 2e4, 0, 0,                                          \

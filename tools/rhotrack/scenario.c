@@ -230,6 +230,19 @@ static const struct scenario {
      {-250000, 250000, -250000, 250000},
      0,
      100},
+    {"formation",
+     "two aircraft that come together, fly side by side for half the time, and part",
+     plan_formation,
+     61,
+     10,
+     50,
+     0,
+     50,
+     300,
+     10,
+     {-50000, 120000, -50000, 50000},
+     0,
+     40},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -284,6 +297,14 @@ static bool is_beam(const struct scenario *scenario)
            scenario->plan == plan_hard_turn;
 }
 
+static double spacing_of(const struct scenario *scenario)
+{
+    if (scenario->plan == plan_formation) {
+        return 400.0;
+    }
+    return scenario->plan == plan_same_line ? 300.0 : 50.0;
+}
+
 /* Nothing of it happens unless somebody wants it. */
 static void suggest_sky(struct parameters *parameters)
 {
@@ -314,16 +335,17 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     parameters_suggest(parameters, PARAMETER_SECOND_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
     parameters_suggest(parameters, PARAMETER_TURN_DEG, 2);
-    parameters_suggest(parameters, PARAMETER_SPACING_M,
-                       scenario->plan == plan_same_line ? 300 : 50);
+    parameters_suggest(parameters, PARAMETER_SPACING_M, spacing_of(scenario));
     suggest_area(parameters, &scenario->box);
     if (scenario->plan == plan_polar) {
         parameters_suggest(parameters, PARAMETER_RANGE_RATE, 0);
         parameters_suggest(parameters, PARAMETER_RANGE_MIN_M, 1000);
         parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, scenario->box.x_max_m);
     }
-    if (scenario->plan == plan_air_traffic) {
+    if (!(scenario->true_pd > 0.0)) {
         parameters_suggest(parameters, PARAMETER_PD, 0.95);
+    }
+    if (scenario->plan == plan_air_traffic) {
         parameters_suggest(parameters, PARAMETER_CROSSING_SHARE, 0.2);
     }
     suggest_sky(parameters);
@@ -381,9 +403,10 @@ static void add_sky(struct scenario_plan *plan, const struct scenario *scenario,
                     const struct parameters *parameters, struct random *random)
 {
     bool is_traffic = scenario->plan == plan_air_traffic;
-    bool can_merge = scenario->plan == plan_parallel || scenario->plan == plan_crossing_angle;
+    bool can_merge = scenario->plan == plan_parallel || scenario->plan == plan_crossing_angle ||
+                     scenario->plan == plan_formation;
 
-    if (is_traffic) {
+    if (!(scenario->true_pd > 0.0)) {
         plan->told_pd = parameters->value[PARAMETER_PD];
     }
     if (is_traffic || (can_merge && parameters->value[PARAMETER_MERGE_M] > 0.0)) {

@@ -3,8 +3,8 @@
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
  * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, air-traffic, polar,
- * passive-two, passive-three, passive-clutter, popup, weave, hard-turn. The same seed gives the same data on every
- * machine.
+ * passive-two, passive-three, passive-clutter, popup, weave, hard-turn, formation. The same seed gives the same data
+ * on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H

@@ -117,9 +117,9 @@ static void open_flight(struct draft *draft, double start_s, struct motion start
 /* How long the leg stays inside, in whole seconds. */
 static double inside_s(const struct draft *draft, const struct leg *leg)
 {
-    double last_s = 0.0;
+    unsigned last_s = 0;
 
-    for (double at_s = 1.0; at_s < leg->duration_s; at_s += 1.0) {
+    for (unsigned at_s = 1; at_s < leg->duration_s; at_s++) {
         struct motion at = moved(draft->now, leg, at_s);
         if (!is_inside(draft->box, &at)) {
             break;

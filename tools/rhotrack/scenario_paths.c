@@ -69,6 +69,44 @@ struct scenario_plan plan_crossing_angle(const struct parameters *parameters, st
     return plan;
 }
 
+/* At t_s of one side of a formation: together from join_s to part_s, before and after at an angle. side: 1 or -1. */
+static struct scenario_state formation_at(const struct parameters *parameters, double t_s,
+                                          double join_s, double part_s, double side)
+{
+    double speed_mps = parameters->value[PARAMETER_SPEED_MPS];
+    double angle_rad = parameters->value[PARAMETER_CROSSING_DEG] * DEG_RAD / 2.0;
+    double before_s = fmax(0.0, join_s - t_s), after_s = fmax(0.0, t_s - part_s);
+    double away_mps = speed_mps * sin(angle_rad), along_mps = speed_mps * cos(angle_rad);
+    bool is_together = t_s >= join_s && t_s <= part_s;
+
+    return (struct scenario_state){
+        .x_m = speed_mps * (fmin(fmax(t_s, join_s), part_s) - join_s) +
+               along_mps * (after_s - before_s),
+        .vx_mps = is_together ? speed_mps : along_mps,
+        .y_m =
+            side * (parameters->value[PARAMETER_SPACING_M] / 2.0 + away_mps * (before_s + after_s)),
+        .vy_mps = is_together    ? 0.0
+                  : t_s < join_s ? -side * away_mps
+                                 : side * away_mps,
+    };
+}
+
+struct scenario_plan plan_formation(const struct parameters *parameters, struct random *random)
+{
+    (void)random;
+    struct scenario_plan plan = plan_of(parameters, 2);
+    double last_s = plan.interval_s * ((double)plan.num_scans - 1.0);
+    for (size_t scan = 0; scan < plan.num_scans; scan++) {
+        double t_s = plan.interval_s * (double)scan;
+        for (size_t target = 0; target < 2; target++) {
+            plan_put(&plan, scan, target,
+                     formation_at(parameters, t_s, 0.25 * last_s, 0.75 * last_s,
+                                  target == 0 ? 1.0 : -1.0));
+        }
+    }
+    return plan;
+}
+
 struct scenario_plan plan_same_line(const struct parameters *parameters, struct random *random)
 {
     (void)random;

@@ -62,8 +62,8 @@ bool plan_box_holds(const struct scenario_box *box, double x_m, double y_m)
     return x_m >= box->x_min_m && x_m <= box->x_max_m && y_m >= box->y_min_m && y_m <= box->y_max_m;
 }
 
-static void put(const struct scenario_plan *plan, size_t scan, size_t target,
-                struct scenario_state state)
+void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
+              struct scenario_state state)
 {
     struct truth_point *point = plan_truth(plan, scan, target);
     point->x_m = state.x_m;
@@ -81,7 +81,7 @@ void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_st
         struct scenario_state now = start;
         now.x_m += start.vx_mps * t_s;
         now.y_m += start.vy_mps * t_s;
-        put(plan, scan, target, now);
+        plan_put(plan, scan, target, now);
     }
 }
 
@@ -90,7 +90,7 @@ void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_stat
 {
     struct scenario_state now = start;
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
-        put(plan, scan, target, now);
+        plan_put(plan, scan, target, now);
         double dvx_mps = change_mps * random_normal(random);
         double dvy_mps = change_mps * random_normal(random);
         now.x_m += plan->interval_s * (now.vx_mps + dvx_mps / 2.0);
@@ -105,7 +105,7 @@ void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state 
 {
     struct scenario_state now = start;
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
-        put(plan, scan, target, now);
+        plan_put(plan, scan, target, now);
         double vx_mps = now.vx_mps * cos(turn_rad) - now.vy_mps * sin(turn_rad);
         double vy_mps = now.vx_mps * sin(turn_rad) + now.vy_mps * cos(turn_rad);
         now = (struct scenario_state){.x_m = now.x_m + plan->interval_s * vx_mps,
@@ -123,11 +123,11 @@ void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_
         double t_s = (double)scan * plan->interval_s;
         double path_m = speed_mps * t_s + mps2 * t_s * t_s / 2.0;
         double gain = 1.0 + mps2 * t_s / speed_mps;
-        put(plan, scan, target,
-            (struct scenario_state){.x_m = start.x_m + path_m * start.vx_mps / speed_mps,
-                                    .vx_mps = start.vx_mps * gain,
-                                    .y_m = start.y_m + path_m * start.vy_mps / speed_mps,
-                                    .vy_mps = start.vy_mps * gain});
+        plan_put(plan, scan, target,
+                 (struct scenario_state){.x_m = start.x_m + path_m * start.vx_mps / speed_mps,
+                                         .vx_mps = start.vx_mps * gain,
+                                         .y_m = start.y_m + path_m * start.vy_mps / speed_mps,
+                                         .vy_mps = start.vy_mps * gain});
     }
 }
 
@@ -151,7 +151,7 @@ void plan_radar_table(struct scenario_plan *plan)
         for (size_t scan = 0; scan < plan->num_scans; scan++) {
             state.x_m = radar_table_m[scan][target][0];
             state.y_m = radar_table_m[scan][target][1];
-            put(plan, scan, target, state);
+            plan_put(plan, scan, target, state);
         }
     }
 }

@@ -66,6 +66,10 @@ void plan_free(struct scenario_plan *plan);
 
 struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, size_t target);
 
+/* The state of a target at a scan. */
+void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
+              struct scenario_state state);
+
 /* The area that the parameters say, and whether a place is in it. */
 struct scenario_box plan_box_of(const struct parameters *parameters);
 bool plan_box_holds(const struct scenario_box *box, double x_m, double y_m);
@@ -104,6 +108,7 @@ struct scenario_plan plan_radar(const struct parameters *parameters, struct rand
 struct scenario_plan plan_parallel(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_crossing_angle(const struct parameters *parameters,
                                          struct random *random);
+struct scenario_plan plan_formation(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_same_line(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_clutter_alone(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_slow_turn(const struct parameters *parameters, struct random *random);
