@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "common.h"
 #include "experiment.h"
+#include "experiment_air_traffic.h"
 #include "experiment_classic.h"
 #include "method.h"
 
@@ -20,6 +21,11 @@ static bool is_kernel(const char *name)
 static bool is_passive_method(const char *name)
 {
     return strcmp(name, "passive") == 0 || strcmp(name, "passive-paper") == 0;
+}
+
+static bool is_air_part(const char *name)
+{
+    return air_part_named(name) != 0;
 }
 
 static bool knows_no_method(const char *name)
@@ -39,9 +45,11 @@ static const struct {
     {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
     {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
     {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
+    {"air-traffic", experiment_air_traffic, is_air_part,
+     "parts grid, stress, operation, pairs, clutter, rivals"},
 };
 
-#define NAMES "initiation, polar, false-alarms, passive, maneuver"
+#define NAMES "initiation, polar, false-alarms, passive, maneuver, air-traffic"
 
 int command_experiment(struct command_line *line)
 {

@@ -10,6 +10,7 @@ int experiment_initiation(const struct command_line *line);
 int experiment_polar(const struct command_line *line);
 int experiment_false_alarms(const struct command_line *line);
 int experiment_passive(const struct command_line *line);
+int experiment_air_traffic(const struct command_line *line);
 int experiment_maneuver(const struct command_line *line);
 
 #endif

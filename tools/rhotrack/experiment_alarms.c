@@ -9,6 +9,7 @@
 #include "common.h"
 #include "experiment.h"
 #include "experiment_alarms_page.h"
+#include "poisson.h"
 #include "workers.h"
 
 #define DEFAULT_RUNS 8
@@ -50,19 +51,6 @@ static void run_delays(void *context, size_t worker, size_t index)
     }
     experiment->delays[index] = delay_run(delay_per_km2[index % DELAY_LEVELS], experiment->seed,
                                           index / DELAY_LEVELS, chain);
-}
-
-/* 95 % limits of a Poisson mean from a count: Garwood's, by Wilson and Hilferty's approximation. */
-static double poisson_low(double count)
-{
-    return count < 1.0 ? 0.0
-                       : count * pow(1.0 - 1.0 / (9.0 * count) - 1.96 / (3.0 * sqrt(count)), 3.0);
-}
-
-static double poisson_high(double count)
-{
-    double next = count + 1.0;
-    return next * pow(1.0 - 1.0 / (9.0 * next) + 1.96 / (3.0 * sqrt(next)), 3.0);
 }
 
 static struct alarm_summary summarise_alarms(const struct experiment *experiment, size_t number)

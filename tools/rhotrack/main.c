@@ -80,9 +80,12 @@ static const struct command commands[] = {
      "orSmj", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
-     "build/experiment/NAME). Experiments: initiation, polar, false-alarms, passive, maneuver;\n"
-     "initiation takes --method kernel, ht, mht, iht or nht, passive takes passive or\n"
-     "passive-paper; without it they run all.\n"},
+     "build/experiment/NAME). Experiments: initiation, polar, false-alarms, passive, maneuver,\n"
+     "air-traffic; initiation takes --method kernel, ht, mht, iht or nht, passive takes passive "
+     "or\n"
+     "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "
+     "rivals;\n"
+     "without it they run all.\n"},
     {"plot", command_plot, "scans|tracks|parameter-space|errors FILES... -o FILE.svg", 2, INT_MAX,
      "osC", "pictures",
      "Draws plots or bearings, tracks, the parameter space of lines, or errors, as SVG.\n"},

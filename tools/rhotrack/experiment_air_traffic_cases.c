@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* experiment_air_traffic_cases: what is measured. */
+#include <math.h>
+#include <string.h>
+
+#include "experiment_air_traffic.h"
+
+#define SCANS 120 /* 20 minutes */
+#define SCANS_LARGE 40
+#define NONE NAN
+
+const double air_cutoffs_m[AIR_CUTOFFS] = {1000.0, 200.0};
+
+#define PLAIN                                                                                      \
+    {                                                                                              \
+        {                                                                                          \
+            0, NONE                                                                                \
+        }                                                                                          \
+    }
+#define GRID(targets, clutter, scans, share)                                                       \
+    {                                                                                              \
+        AIR_GRID, "as assumed", targets, clutter, scans, share, true, PLAIN                        \
+    }
+#define STRESS(name, ...)                                                                          \
+    {                                                                                              \
+        AIR_STRESS, name, 50, 100, SCANS, 1, true,                                                 \
+        {                                                                                          \
+            __VA_ARGS__,                                                                           \
+            {                                                                                      \
+                0, NONE                                                                            \
+            }                                                                                      \
+        }                                                                                          \
+    }
+#define OPERATION(name, per_hour)                                                                  \
+    {                                                                                              \
+        AIR_OPERATION, name, 50, 1000, SCANS, 1, false,                                            \
+        {                                                                                          \
+            {PARAMETER_FALSE_TRACKS_PER_HOUR, per_hour},                                           \
+            {                                                                                      \
+                0, NONE                                                                            \
+            }                                                                                      \
+        }                                                                                          \
+    }
+
+const struct air_case air_cases[] = {
+    GRID(10, 0, SCANS, 1),
+    GRID(10, 100, SCANS, 1),
+    GRID(10, 1000, SCANS, 1),
+    GRID(10, 5000, SCANS, 2),
+    GRID(50, 0, SCANS, 1),
+    GRID(50, 100, SCANS, 1),
+    GRID(50, 1000, SCANS, 1),
+    GRID(50, 5000, SCANS, 2),
+    GRID(200, 0, SCANS, 2),
+    GRID(200, 100, SCANS, 2),
+    GRID(200, 1000, SCANS, 2),
+    GRID(200, 5000, SCANS, 4),
+    GRID(1000, 0, SCANS_LARGE, 4),
+    GRID(1000, 100, SCANS_LARGE, 4),
+    GRID(1000, 1000, SCANS_LARGE, 4),
+    GRID(1000, 5000, SCANS_LARGE, 4),
+    STRESS("fades: 4 an hour, 3 scans", {PARAMETER_FADES_PER_HOUR, 4}),
+    STRESS("5 hot spots, 20 plots each", {PARAMETER_SPOTS, 5}, {PARAMETER_SPOT_CLUTTER, 20}),
+    STRESS("50 persistent sources", {PARAMETER_PERSISTENT_SOURCES, 50}),
+    STRESS("merged plots within 1 km, half cross", {PARAMETER_MERGE_M, 1000},
+           {PARAMETER_CROSSING_SHARE, 0.5}),
+    STRESS("sigma assumed 0.7 of the true one", {PARAMETER_SIGMA_M, 35},
+           {PARAMETER_TRUE_SIGMA_M, 50}),
+    STRESS("sigma assumed 1.5 of the true one", {PARAMETER_SIGMA_M, 75},
+           {PARAMETER_TRUE_SIGMA_M, 50}),
+    STRESS("P_D 0.8, 0.95 assumed", {PARAMETER_TRUE_PD, 0.8}),
+    STRESS("P_D 0.95, 0.8 assumed", {PARAMETER_PD, 0.8}, {PARAMETER_TRUE_PD, 0.95}),
+    OPERATION("0.01", 0.01),
+    OPERATION("0.1", 0.1),
+    OPERATION("1", 1),
+    OPERATION("10", 10),
+    OPERATION("100", 100),
+    OPERATION("1000", 1000),
+    OPERATION("10000", 10000),
+};
+
+size_t air_num_cases(void)
+{
+    return sizeof air_cases / sizeof air_cases[0];
+}
+
+/* Sigma is 50 m: 8, 3 and 3 sigma apart, the last seen as one. */
+const struct air_pair air_pairs[AIR_PAIRS] = {
+    {"crossing at 10 degrees", "crossing-angle", 41, 0, 0, 395, 0.95},
+    {"side by side at 8 sigma", "formation", 61, 400, 0, 395, 0.95},
+    {"side by side at 3 sigma", "formation", 61, 150, 0, 395, NONE},
+    {"at 3 sigma, merged within 5", "formation", 61, 150, 250, 395, NONE},
+};
+
+const struct air_alarm air_alarms[AIR_ALARMS] = {
+    {100, 1}, {100, 20}, {1000, 1}, {1000, 20}, {5000, 20},
+};
+
+unsigned air_part_named(const char *name)
+{
+    static const struct {
+        const char *name;
+        unsigned part;
+    } parts[] = {{"grid", AIR_PART_GRID},           {"stress", AIR_PART_STRESS},
+                 {"operation", AIR_PART_OPERATION}, {"pairs", AIR_PART_PAIRS},
+                 {"clutter", AIR_PART_CLUTTER},     {"rivals", AIR_PART_RIVALS}};
+
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        if (strcmp(name, parts[i].name) == 0) {
+            return parts[i].part;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT */
+/* experiment_air_traffic_pairs: two aircraft that cross, or fly side by side: who is who afterwards? */
+#include <math.h>
+#include <stdlib.h>
+
+#include "common.h"
+#include "experiment_air_traffic.h"
+
+static struct parameters parameters_of(const struct air_pair *of)
+{
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    scenario_suggest("formation", &parameters);
+    /* as dense on its area as 1000 plots on that of air-traffic */
+    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, 68);
+    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, of->num_scans);
+    parameters_suggest(&parameters, PARAMETER_SPACING_M, fmax(1.0, of->spacing_m));
+    parameters_suggest(&parameters, PARAMETER_MERGE_M, of->merge_m);
+    return parameters;
+}
+
+static size_t fill_truth(const struct simulation *simulation, size_t scan,
+                         struct evaluation_point points[2])
+{
+    for (size_t i = 0; i < 2; i++) {
+        const struct truth_point *from = &simulation->truth[scan * 2 + i];
+        points[i] = (struct evaluation_point){.id = from->target_id,
+                                              .x_m = from->x_m,
+                                              .y_m = from->y_m,
+                                              .vx_mps = NAN,
+                                              .vy_mps = NAN,
+                                              .vz_mps = NAN};
+    }
+    return 2;
+}
+
+/* A scan at which they are apart; true where both have a track. */
+static bool evaluate_scan(struct evaluation *evaluation, const struct simulation *simulation,
+                          size_t scan, const struct air_points *tracks, double apart_m)
+{
+    struct evaluation_point truth[2];
+    size_t count = fill_truth(simulation, scan, truth), times = 0;
+
+    if (hypot(truth[0].x_m - truth[1].x_m, truth[0].y_m - truth[1].y_m) < apart_m) {
+        return false;
+    }
+    evaluation_time(evaluation, llround(simulation->scans[scan].t_s * 1e6), truth, count,
+                    tracks->points, tracks->count);
+    const struct evaluation_scan *over_time = evaluation_over_time(evaluation, &times);
+    return over_time[times - 1].pairs == 2;
+}
+
+struct air_pair_result air_pair_run(const struct air_pair *of, uint64_t seed, uint64_t run,
+                                    struct chain *chain)
+{
+    struct parameters parameters = parameters_of(of);
+    struct simulation *simulation = scenario_simulate(of->scenario, &parameters, seed, run);
+    struct evaluation *evaluation = evaluation_start(air_cutoffs_m[0]);
+    struct air_points tracks = {0};
+    bool has_both = false;
+
+    chain_open(chain, &parameters);
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        struct rho_scan scan = air_scan(simulation, i, chain);
+        chain_step(chain, &scan);
+        tracks.count = 0;
+        air_points_add(&tracks, chain->report, 0);
+        has_both = evaluate_scan(evaluation, simulation, i, &tracks, of->apart_m);
+    }
+    struct evaluation_result result = evaluation_result(evaluation);
+    evaluation_free(evaluation);
+    free(tracks.points);
+    simulation_free(simulation);
+    return (struct air_pair_result){
+        .kept = result.switches == 0, .lost = !has_both, .completeness = result.completeness};
+}

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/* experiment_air_traffic_run: one run of one case of traffic, followed, timed and evaluated. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "common.h"
+#include "experiment_air_traffic.h"
+
+struct parameters air_parameters(const struct air_case *of)
+{
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    scenario_suggest("air-traffic", &parameters);
+    parameters_suggest(&parameters, PARAMETER_TARGETS, of->targets);
+    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, of->clutter);
+    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, (double)of->num_scans);
+    for (size_t i = 0; i < AIR_SETTINGS && !isnan(of->settings[i].value); i++) {
+        parameters_suggest(&parameters, of->settings[i].id, of->settings[i].value);
+    }
+    return parameters;
+}
+
+/* ---- scans in, points out --------------------------------------------------------------------- */
+
+struct rho_scan air_scan(const struct simulation *simulation, size_t index, struct chain *chain)
+{
+    const struct simulated_scan *from = &simulation->scans[index];
+    size_t count = from->num_plots < RHO_MAX_PLOTS ? from->num_plots : RHO_MAX_PLOTS;
+    float sigma_m = (float)simulation->sigma_m;
+
+    for (size_t i = 0; i < count; i++) {
+        chain->plots[i] = (struct rho_plot){.x_m = (float)from->plots[i].x_m,
+                                            .y_m = (float)from->plots[i].y_m,
+                                            .sigma_range_m = sigma_m,
+                                            .sigma_cross_m = sigma_m,
+                                            .sigma_up_m = sigma_m};
+    }
+    return (struct rho_scan){
+        .time_us = llround(from->t_s * 1e6), .num_plots = (uint32_t)count, .plots = chain->plots};
+}
+
+static struct evaluation_point track_point(const struct rho_track_report *track, int32_t id)
+{
+    return (struct evaluation_point){.id = id,
+                                     .x_m = track->state[0],
+                                     .y_m = track->state[1],
+                                     .vx_mps = track->state[3],
+                                     .vy_mps = track->state[4],
+                                     .cov_xx_m2 = track->covariance[0],
+                                     .cov_yx_m2 = track->covariance[1],
+                                     .cov_yy_m2 = track->covariance[2]};
+}
+
+void air_points_add(struct air_points *points, const struct rho_report *report, int32_t first_id)
+{
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        const struct rho_track_report *track = &report->tracks[i];
+        if (track->status == RHO_TRACK_TENTATIVE) {
+            continue;
+        }
+        points->points =
+            must_grow(points->points, points->count, &points->capacity, sizeof *points->points);
+        points->points[points->count++] = track_point(track, first_id + (int32_t)track->track_id);
+    }
+}
+
+static void fill_truth(const struct simulation *simulation, size_t scan, struct air_points *truth)
+{
+    const struct truth_point *from = &simulation->truth[scan * simulation->targets_a_scan];
+
+    truth->count = 0;
+    for (size_t i = 0; i < simulation->targets_a_scan; i++) {
+        truth->points =
+            must_grow(truth->points, truth->count, &truth->capacity, sizeof *truth->points);
+        truth->points[truth->count++] = (struct evaluation_point){.id = from[i].target_id,
+                                                                  .x_m = from[i].x_m,
+                                                                  .y_m = from[i].y_m,
+                                                                  .vx_mps = from[i].vx_mps,
+                                                                  .vy_mps = from[i].vy_mps,
+                                                                  .cov_xx_m2 = NAN,
+                                                                  .cov_yx_m2 = NAN,
+                                                                  .cov_yy_m2 = NAN};
+    }
+}
+
+/* ---- figures ---------------------------------------------------------------------------------- */
+
+static struct evaluation *evaluate(const struct simulation *simulation,
+                                   const struct air_points *scans, double cutoff_m)
+{
+    struct evaluation *evaluation = evaluation_start(cutoff_m);
+    struct air_points truth = {0};
+
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        fill_truth(simulation, i, &truth);
+        evaluation_time(evaluation, llround(simulation->scans[i].t_s * 1e6), truth.points,
+                        truth.count, scans[i].points, scans[i].count);
+    }
+    free(truth.points);
+    return evaluation;
+}
+
+struct air_figures air_figures_of(const struct evaluation *evaluation)
+{
+    struct evaluation_result of = evaluation_result(evaluation);
+
+    return (struct air_figures){.gospa_m = of.gospa_m,
+                                .localisation_m = of.gospa_localisation_m,
+                                .missed = of.gospa_missed,
+                                .false_a_scan = of.gospa_false,
+                                .completeness = of.completeness,
+                                .switches = (double)of.switches,
+                                .fragments = (double)of.fragments,
+                                .delay_scans = of.delay_scans,
+                                .rmse_m = of.errors.rmse_m,
+                                .nees = of.errors.nees};
+}
+
+static void count_found(const struct evaluation *evaluation, struct air_result *result)
+{
+    size_t count = 0;
+    struct evaluation_target *targets = evaluation_by_target(evaluation, &count);
+
+    for (size_t i = 0; i < count; i++) {
+        for (size_t scan = 0; scan < AIR_FOUND_SCANS && scan < targets[i].scans; scan++) {
+            result->alive[scan] += 1.0;
+            result->found[scan] += targets[i].paired > 0 && targets[i].delay_scans <= scan;
+        }
+    }
+    free(targets);
+}
+
+static void evaluate_tracks(const struct simulation *simulation, const struct air_points *scans,
+                            struct air_result *result)
+{
+    for (size_t i = 0; i < AIR_CUTOFFS; i++) {
+        struct evaluation *evaluation = evaluate(simulation, scans, air_cutoffs_m[i]);
+        result->tracks[i] = air_figures_of(evaluation);
+        if (i == 0) {
+            struct evaluation_result of = evaluation_result(evaluation);
+            result->false_tracks = (double)of.false_tracks;
+            result->hours = (double)simulation->num_scans * simulation->interval_s / 3600.0;
+            count_found(evaluation, result);
+        }
+        evaluation_free(evaluation);
+    }
+}
+
+/* ---- one run ---------------------------------------------------------------------------------- */
+
+/* Steps through the recording; returns the hits that started tracks in most scans. */
+static unsigned follow(const struct parameters *parameters, const struct simulation *simulation,
+                       struct chain *chain, struct air_points *scans, struct air_result *result)
+{
+    unsigned counts[RHO_MAX_SCANS + 1] = {0}, best = 0;
+
+    chain_open(chain, parameters);
+    for (size_t i = 0; i < simulation->num_scans; i++) {
+        struct rho_scan scan = air_scan(simulation, i, chain);
+        int64_t start_us = clock_us();
+        chain_step(chain, &scan);
+        double us = (double)(clock_us() - start_us);
+        result->us += us / (double)simulation->num_scans;
+        result->max_us = fmax(result->max_us, us);
+        result->plots += (double)scan.num_plots / (double)simulation->num_scans;
+        counts[chain->initiator->min_scans]++;
+        scans[i].count = 0;
+        air_points_add(&scans[i], chain->report, 0);
+    }
+    for (unsigned i = 3; i <= RHO_MAX_SCANS; i++) {
+        best = counts[i] > counts[best] || best == 0 ? i : best;
+    }
+    return best;
+}
+
+static void free_scans(struct air_points *scans, size_t num_scans)
+{
+    for (size_t i = 0; i < num_scans; i++) {
+        free(scans[i].points);
+    }
+    free(scans);
+}
+
+struct air_result air_simulated(const struct parameters *parameters,
+                                const struct simulation *simulation, bool has_limit,
+                                struct chain *chain)
+{
+    struct air_points *scans = must_calloc(simulation->num_scans, sizeof *scans);
+    struct air_result result = {0};
+    unsigned min_scans = follow(parameters, simulation, chain, scans, &result);
+
+    result.min_scans = min_scans;
+    evaluate_tracks(simulation, scans, &result);
+    if (has_limit) {
+        air_limit(parameters, simulation, min_scans, chain, scans);
+        for (size_t i = 0; i < AIR_CUTOFFS; i++) {
+            struct evaluation *evaluation = evaluate(simulation, scans, air_cutoffs_m[i]);
+            result.limit[i] = air_figures_of(evaluation);
+            evaluation_free(evaluation);
+        }
+    }
+    free_scans(scans, simulation->num_scans);
+    return result;
+}
+
+struct air_result air_run(const struct air_case *of, uint64_t seed, uint64_t run,
+                          struct chain *chain)
+{
+    struct parameters parameters = air_parameters(of);
+    struct simulation *simulation = scenario_simulate("air-traffic", &parameters, seed, run);
+    struct air_result result = air_simulated(&parameters, simulation, of->has_limit, chain);
+
+    simulation_free(simulation);
+    return result;
+}
