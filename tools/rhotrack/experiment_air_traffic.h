@@ -99,7 +99,7 @@ struct air_pair {
     double apart_m;    /* times at which they are closer do not count: who is who? */
     double kept_least; /* bar of `kept`; NAN: none */
 };
-#define AIR_PAIRS 4
+#define AIR_PAIRS 6
 extern const struct air_pair air_pairs[AIR_PAIRS];
 
 /* Shares of the runs. */

@@ -84,12 +84,14 @@ size_t air_num_cases(void)
     return sizeof air_cases / sizeof air_cases[0];
 }
 
-/* Sigma is 50 m: 8, 3 and 3 sigma apart, the last seen as one. */
+/* Sigma is 50 m. */
 const struct air_pair air_pairs[AIR_PAIRS] = {
     {"crossing at 10 degrees", "crossing-angle", 41, 0, 0, 395, 0.95},
-    {"side by side at 8 sigma", "formation", 61, 400, 0, 395, 0.95},
-    {"side by side at 3 sigma", "formation", 61, 150, 0, 395, NONE},
-    {"at 3 sigma, merged within 5", "formation", 61, 150, 250, 395, NONE},
+    {"parallel at 8 sigma", "parallel", 31, 400, 0, 395, 0.95},
+    {"parallel at 3 sigma", "parallel", 31, 150, 0, 0, NONE},
+    {"meet, 8 sigma, part", "formation", 61, 400, 0, 395, NONE},
+    {"meet, 3 sigma, part", "formation", 61, 150, 0, 395, NONE},
+    {"meet, 3 sigma, merged within 5, part", "formation", 61, 150, 250, 395, NONE},
 };
 
 const struct air_alarm air_alarms[AIR_ALARMS] = {

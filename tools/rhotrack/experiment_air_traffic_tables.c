@@ -173,10 +173,10 @@ size_t air_tables(const struct air_report *report, struct air_table tables[AIR_T
     if (has(report, AIR_PART_PAIRS)) {
         tables[count++] = (struct air_table){
             "Pairs",
-            "0.004 clutter plots a km^2. Side by side for 5 minutes, after they came together and "
-            "before they part at 10 degrees. Scans at which they are within 395 m do not count: "
-            "who "
-            "is who is not to be seen there.",
+            "0.004 clutter plots a km^2. Parallel for 5 minutes, all the time or after they met "
+            "and before they "
+            "part at 10 degrees. Scans at which those that cross or meet are within 395 m do not "
+            "count: who is who is not to be seen there.",
             pairs_grid(report)};
     }
     if (has(report, AIR_PART_CLUTTER)) {
