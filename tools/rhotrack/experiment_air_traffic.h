@@ -61,6 +61,9 @@ struct air_result {
     double alive[AIR_FOUND_SCANS], found[AIR_FOUND_SCANS];
 };
 
+/* This thread's time of the processor, in which other programs on the machine do not count. */
+double air_clock_us(void);
+
 /* Parameters of a case, as one would type them. */
 struct parameters air_parameters(const struct air_case *of);
 
@@ -143,7 +146,6 @@ struct air_rival {
 struct air_rivals {
     const char *missing; /* NULL, or why there are none, and how to get them */
     struct air_rival own, others[AIR_RIVALS];
-    double clutter, targets;
 };
 
 /* Runs it on files in FOLDER/stonesoup, and rhotrack on the same plots. */

@@ -44,9 +44,9 @@ struct air_alarm_result air_alarm_run(const struct air_alarm *of, uint64_t seed,
         struct rho_scan scan = {.time_us = llround((double)i * interval_s * 1e6),
                                 .num_plots = (uint32_t)count,
                                 .plots = chain->plots};
-        int64_t start_us = clock_us();
+        double start_us = air_clock_us();
         chain_step(chain, &scan);
-        result.us += (double)(clock_us() - start_us) / AIR_ALARM_SCANS;
+        result.us += (air_clock_us() - start_us) / AIR_ALARM_SCANS;
         result.min_scans += chain->initiator->min_scans / (double)AIR_ALARM_SCANS;
     }
     result.confirmed = chain->tracker->counters.tracks_confirmed;

@@ -5,6 +5,7 @@
  */
 #include <cjson/cJSON.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +16,7 @@
 #include "evaluation_input.h"
 #include "experiment_air_traffic.h"
 #include "simulation_output.h"
+#include "workers.h"
 
 #define TARGETS 50
 #define CLUTTER 100
@@ -74,23 +76,30 @@ static char *find_python(void)
     return python != NULL ? python : must_copy("python3");
 }
 
-/* Runs it, its standard output into the text, its complaints nowhere. Returns the exit code, or -1. */
+/* In the child: standard output to the pipe, complaints nowhere. */
+static _Noreturn void become(char *const arguments[], int output)
+{
+    int nowhere = open("/dev/null", O_WRONLY);
+
+    dup2(output, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    execvp(arguments[0], arguments);
+    _exit(127);
+}
+
+/* Runs it; the text is what it prints. Returns its exit code, or -1. */
 static int run(char *const arguments[], char *text, size_t bytes)
 {
     int ends[2], status = 0;
     size_t length = 0;
     ssize_t count;
 
-    if (pipe(ends) != 0) {
+    if (pipe2(ends, O_CLOEXEC) != 0) {
         fail(EXIT_RUNTIME, "pipe: %s", strerror(errno));
     }
     pid_t child = fork();
     if (child == 0) {
-        dup2(ends[1], STDOUT_FILENO);
-        if (freopen("/dev/null", "w", stderr) != NULL) {
-            execvp(arguments[0], arguments);
-        }
-        _exit(127);
+        become(arguments, ends[1]);
     }
     close(ends[1]);
     while (child > 0 && (count = read(ends[0], text + length, bytes - 1 - length)) > 0) {
@@ -129,38 +138,65 @@ static struct air_figures evaluate_files(const char *truth_path, const char *tra
     return figures;
 }
 
-static const char *run_rival(const char *folder, const char *script, const char *python,
-                             const char *method, struct air_rival *rival)
-{
-    char text[4096], name[32];
-    snprintf(name, sizeof name, "%s.csv", method);
-    char *plots = path_join(folder, "plots.csv"), *truth = path_join(folder, "truth.csv");
-    char *tracks = path_join(folder, name);
-    char *const arguments[] = {(char *)(uintptr_t)python,
-                               (char *)(uintptr_t)script,
-                               plots,
-                               "-o",
-                               tracks,
-                               "--method",
-                               (char *)(uintptr_t)method,
-                               NULL};
-    const char *missing = NULL;
-    int code = run(arguments, text, sizeof text);
+struct contest {
+    char *folder, *script, *python;
+    struct air_rival *others;
+    const char *missing[AIR_RIVALS];
+};
 
+static const char *reason(int code)
+{
+    if (code == NOT_INSTALLED || code == 127) {
+        return "The Python package stonesoup is not installed: `make bench-stonesoup` installs it; "
+               "or name "
+               "an interpreter that has it in RHOTRACK_STONESOUP_PYTHON.";
+    }
+    return "tests/bench/air_traffic_stonesoup.py failed.";
+}
+
+static void run_rival(void *context, size_t worker, size_t index)
+{
+    struct contest *contest = context;
+    struct air_rival *rival = &contest->others[index];
+    char text[4096], name[32], dash_o[] = "-o", dash_method[] = "--method", method[8];
+    (void)worker;
+
+    snprintf(name, sizeof name, "%s.csv", rivals[index].method);
+    snprintf(method, sizeof method, "%s", rivals[index].method);
+    char *plots = path_join(contest->folder, "plots.csv");
+    char *truth = path_join(contest->folder, "truth.csv");
+    char *tracks = path_join(contest->folder, name);
+    char *const arguments[] = {contest->python, contest->script, plots,  dash_o,
+                               tracks,          dash_method,     method, NULL};
+    int code = run(arguments, text, sizeof text);
+    rival->name = rivals[index].name;
     if (code == 0) {
         rival->us = mean_us(text);
         rival->figures = evaluate_files(truth, tracks);
     } else {
-        missing =
-            code == NOT_INSTALLED || code == 127
-                ? "the Python package stonesoup is not installed: `make bench-stonesoup` installs "
-                  "it; or name an interpreter that has it in RHOTRACK_STONESOUP_PYTHON"
-                : "tests/bench/air_traffic_stonesoup.py failed";
+        contest->missing[index] = reason(code);
     }
     free(plots);
     free(truth);
     free(tracks);
-    return missing;
+}
+
+static const char *run_rivals(const char *folder, struct air_rival others[AIR_RIVALS])
+{
+    struct contest contest = {.folder = must_copy(folder),
+                              .script = find_script(),
+                              .python = find_python(),
+                              .others = others,
+                              .missing = {"tests/bench/air_traffic_stonesoup.py is not there."}};
+
+    if (contest.script != NULL) {
+        contest.missing[0] = NULL;
+        workers_run(AIR_RIVALS, "rivals", run_rival, &contest);
+    }
+    free(contest.folder);
+    free(contest.script);
+    free(contest.python);
+    return contest.missing[0] != NULL ? contest.missing[0] : contest.missing[1];
 }
 
 struct air_rivals air_rivals_run(uint64_t seed, const char *folder, struct chain *chain)
@@ -171,20 +207,14 @@ struct air_rivals air_rivals_run(uint64_t seed, const char *folder, struct chain
                           .settings = {{0, NAN}}};
     struct parameters parameters = air_parameters(&of);
     struct simulation *simulation = scenario_simulate("air-traffic", &parameters, seed, 0);
-    struct air_rivals result = {.clutter = CLUTTER, .targets = TARGETS};
-    char *files = path_join(folder, "stonesoup"), *script = find_script(), *python = find_python();
+    struct air_rivals result = {.missing = NULL};
     struct air_result own = air_simulated(&parameters, simulation, false, chain);
+    char *files = path_join(folder, "stonesoup");
 
     result.own = (struct air_rival){"rhotrack", own.tracks[0], own.us};
     simulation_write("air-traffic", simulation, &parameters, files);
-    result.missing = script == NULL ? "tests/bench/air_traffic_stonesoup.py is not there" : NULL;
-    for (size_t i = 0; i < AIR_RIVALS && result.missing == NULL; i++) {
-        result.others[i].name = rivals[i].name;
-        result.missing = run_rival(files, script, python, rivals[i].method, &result.others[i]);
-    }
+    result.missing = run_rivals(files, result.others);
     simulation_free(simulation);
     free(files);
-    free(script);
-    free(python);
     return result;
 }

@@ -2,6 +2,7 @@
 /* experiment_air_traffic_run: one run of one case of traffic, followed, timed and evaluated. */
 #include <math.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "common.h"
 #include "experiment_air_traffic.h"
@@ -19,6 +20,14 @@ struct parameters air_parameters(const struct air_case *of)
         parameters_suggest(&parameters, of->settings[i].id, of->settings[i].value);
     }
     return parameters;
+}
+
+double air_clock_us(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e6 * (double)now.tv_sec + 1e-3 * (double)now.tv_nsec;
 }
 
 /* ---- scans in, points out --------------------------------------------------------------------- */
@@ -158,9 +167,9 @@ static unsigned follow(const struct parameters *parameters, const struct simulat
     chain_open(chain, parameters);
     for (size_t i = 0; i < simulation->num_scans; i++) {
         struct rho_scan scan = air_scan(simulation, i, chain);
-        int64_t start_us = clock_us();
+        double start_us = air_clock_us();
         chain_step(chain, &scan);
-        double us = (double)(clock_us() - start_us);
+        double us = air_clock_us() - start_us;
         result->us += us / (double)simulation->num_scans;
         result->max_us = fmax(result->max_us, us);
         result->plots += (double)scan.num_plots / (double)simulation->num_scans;
