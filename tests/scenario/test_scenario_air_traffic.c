@@ -180,6 +180,35 @@ static void a_share_of_flights_meets_another(void **state)
     assert_true(some >= 40 && none <= some / 3);
 }
 
+/* ---- formation -------------------------------------------------------------------------------- */
+
+/* Apart, side by side from a quarter to three quarters of the time, apart; at one speed. */
+static void a_formation_meets_flies_side_by_side_and_parts(void **state)
+{
+    struct parameters parameters;
+    struct simulation *simulation;
+    (void)state;
+
+    parameters_default(&parameters);
+    scenario_suggest("formation", &parameters);
+    parameters_suggest(&parameters, PARAMETER_SPACING_M, 300);
+    simulation = scenario_simulate("formation", &parameters, SEED, 0);
+    assert_int_equal(simulation->num_scans, 61);
+    for (size_t scan = 0; scan < 61; scan++) {
+        const struct truth_point *one = &simulation->truth[2 * scan], *other = one + 1;
+        double off_scans = fmax(0.0, fabs((double)scan - 30.0) - 15.0);
+        double spacing_m = 300.0 + off_scans * 10.0 * 2.0 * 250.0 * sin(5.0 * DEG_RAD);
+        assert_true(fabs(one->y_m - other->y_m - spacing_m) < 1e-6);
+        assert_true(fabs(one->x_m - other->x_m) < 1e-6);
+        assert_true(fabs(hypot(one->vx_mps, one->vy_mps) - 250.0) < 1e-9);
+        if (scan > 0) {
+            assert_true(fabs(hypot(one->x_m - one[-2].x_m, one->y_m - one[-2].y_m) - 2500.0) <
+                        1e-6);
+        }
+    }
+    simulation_free(simulation);
+}
+
 /* ---- seeds ------------------------------------------------------------------------------------ */
 
 static void assert_same_bytes(const struct simulation *one, const struct simulation *other)
@@ -246,6 +275,7 @@ int main(void)
         cmocka_unit_test(flights_keep_to_their_speeds_and_turn_rates),
         cmocka_unit_test(flights_come_over_the_border_and_from_the_ground),
         cmocka_unit_test(a_share_of_flights_meets_another),
+        cmocka_unit_test(a_formation_meets_flies_side_by_side_and_parts),
         cmocka_unit_test(a_seed_gives_the_same_bytes_again),
         cmocka_unit_test(clutter_leaves_the_targets_plots_as_they_are),
     };

@@ -1,0 +1,60 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+#
+# `simulate air-traffic` and `formation` as files, `track` with what they tell, and parts of `experiment air-traffic`; Stone
+# Soup's part by a script that stands in for it.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+
+# --- simulate
+run simulate air-traffic -o sky --seed 3 --set targets=20 --set num_scans=50 --set sigma_m=40 --set true_pd=0.9
+check "simulate air-traffic" exits 0
+check "truth has as many rows a scan" sh -c "
+    awk -F, 'NR > 1 { rows[\$1]++ } END { for (t in rows) if (rows[t] != 20) exit 1; exit NR != 1001 }' '$folder/sky/truth.csv'"
+check "scenario.ini tells the assumed sigma and pd" sh -c "
+    grep -qx 'sigma_m = 40' '$folder/sky/scenario.ini' && grep -qx 'pd = 0.95' '$folder/sky/scenario.ini'"
+run track sky/plots.csv --config sky/scenario.ini -o sky/tracks.csv
+check "track with its scenario.ini" exits 0
+run evaluate sky/truth.csv sky/tracks.csv --json
+check "most aircraft have tracks" json stdout 'o["completeness"] > 0.85 and o["false_per_scan"] < 2'
+run simulate air-traffic -o again --seed 3 --set targets=20 --set num_scans=50 --set sigma_m=40 --set true_pd=0.9
+check "the same seed gives the same bytes" diff -r "$folder/sky/plots.csv" "$folder/again/plots.csv"
+run simulate formation -o pair --set merge_m=500 --set clutter_per_scan=0 --set true_pd=1
+check "those that fly together give one plot" sh -c "
+    awk -F, 'NR > 1 { rows[\$1]++ } END { for (t in rows) one += rows[t] == 1; exit one < 31 }' '$folder/pair/plots.csv'"
+for bad in targets=-1 merge_m=-1 fade_scans=0.5 crossing_share=2 persistent_sources=0.5; do
+    run simulate air-traffic -o bad --set "$bad"
+    check "simulate refuses $bad" says 2 "rhotrack: --set $bad: *"
+done
+check "... and makes nothing" test ! -e "$folder/bad"
+run simulate air-traffic -o bad --set area_x_min_m=0 --set area_x_max_m=9000 --set area_y_min_m=0 --set area_y_max_m=9000
+check "an area that no flight fits into" says 2 "rhotrack: scenario air-traffic: no flight of 40 scans fits*"
+
+# --- experiment
+run experiment air-traffic --method pairs --runs 1 -o out --json
+check "part pairs" json stdout 'o["experiment"] == "air-traffic" and len(o["pairs"]) == 6 and o["cases"] == o["clutter"] == []'
+check "... has bars" json stdout 'o["bars_held"] + o["bars_missed"] == 8'
+check "... and a page" grep -q "Two aircraft\|two aircraft" "$folder/out/index.html"
+run experiment air-traffic --method nothing -o out
+check "an unknown part" says 2 "*experiment air-traffic knows the parts grid, stress*"
+
+# stands in for an interpreter with Stone Soup: tracks are the truth, 300 m to the east
+cat >"$folder/python" <<'END'
+#!/bin/sh
+truth=$(dirname "$2")/truth.csv
+awk -F, 'NR == 1 { print "t_s,track_id,status,x_m,y_m" } NR > 1 { print $1 "," $2 + 1 ",confirmed," $3 + 300 "," $4 }' \
+    "$truth" >"$4"
+echo "{\"method\": \"$6\", \"mean_ms\": 700}"
+END
+chmod +x "$folder/python"
+RHOTRACK_STONESOUP_PYTHON=$folder/python run experiment air-traffic --method rivals -o out --json
+check "part rivals: time and tracks are the other's" json stdout '(
+    len(o["rivals"]) == 2 and o["rivals"][0]["scan_us"] == 700000 and o["rivals"][1]["completeness"] == 1
+    and abs(o["rivals"][0]["gospa_m"] - 300 * 50 ** 0.5) < 5)'
+check "... and judged" json stdout 'o["bars_held"] + o["bars_missed"] == 4'
+RHOTRACK_STONESOUP_PYTHON=/bin/false run experiment air-traffic --method rivals -o out
+check "one that fails" grep -q "air_traffic_stonesoup.py failed" stdout
+RHOTRACK_STONESOUP_PYTHON=$folder/none run experiment air-traffic --method rivals -o out
+check "one that is not there" grep -q "stonesoup is not installed.*make bench-stonesoup" stdout
+
+finish
