@@ -70,6 +70,7 @@ static void pairs_to_json(const struct air_report *report, cJSON *root)
         cJSON_AddStringToObject(object, "case", air_pairs[i].name);
         json_add_number(object, "runs", (double)report->pair_runs);
         json_add_number(object, "no_switch", report->pairs[i].kept);
+        json_add_number(object, "switches", report->pairs[i].switches);
         json_add_number(object, "lost", report->pairs[i].lost);
         json_add_number(object, "completeness", report->pairs[i].completeness);
         cJSON_AddItemToArray(list, object);

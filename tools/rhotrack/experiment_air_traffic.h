@@ -57,6 +57,7 @@ struct air_result {
     double plots;      /* a scan */
     double min_scans;  /* hits that started a track in most scans */
     double false_tracks, hours;
+    double alarms, alarm_hours; /* operation: false tracks with the same clutter alone */
     /* by scans since its first one: targets that lived so long, and had had a track by then */
     double alive[AIR_FOUND_SCANS], found[AIR_FOUND_SCANS];
 };
@@ -107,9 +108,9 @@ extern const struct air_pair air_pairs[AIR_PAIRS];
 
 /* Shares of the runs. */
 struct air_pair_result {
-    double kept; /* no target's track became another */
-    double lost; /* at the last scan not both had a track */
-    double completeness;
+    double kept;                   /* no target's track became another */
+    double lost;                   /* at the last scan not both had a track */
+    double switches, completeness; /* means */
 };
 
 struct air_pair_result air_pair_run(const struct air_pair *of, uint64_t seed, uint64_t run,

@@ -116,6 +116,8 @@ static void add_result(struct air_result *sum, const struct air_result *of)
     sum->min_scans += of->min_scans;
     sum->false_tracks += of->false_tracks;
     sum->hours += of->hours;
+    sum->alarms += of->alarms;
+    sum->alarm_hours += of->alarm_hours;
     for (size_t i = 0; i < AIR_FOUND_SCANS; i++) {
         sum->alive[i] += of->alive[i];
         sum->found[i] += of->found[i];
@@ -200,6 +202,7 @@ static void measure_pairs(struct air_report *report)
         struct air_pair_result *mean = &report->pairs[i % AIR_PAIRS];
         mean->kept += jobs.pairs[i].kept / runs;
         mean->lost += jobs.pairs[i].lost / runs;
+        mean->switches += jobs.pairs[i].switches / runs;
         mean->completeness += jobs.pairs[i].completeness / runs;
     }
     free_chains(&jobs);

@@ -36,40 +36,66 @@ static double time_ms(const struct air_result *result, bool is_limit)
 static const double levels[] = {10, 50, 200, 1000};
 #define LEVELS (sizeof levels / sizeof levels[0])
 
+/* A picture: a curve for each number of aircraft, over that number to a power. */
+struct curves {
+    const char *name, *label, *more, *caption;
+    figure_of of;
+    double power;
+    bool has_limit;
+};
+
+static const struct curves pictures[] = {
+    {"gospa.svg", "GOSPA over the root of the number of aircraft, m", "set yrange [0:*]",
+     "GOSPA (p 2, alpha 2, cutoff 1 km) over the root of the number of aircraft; dashed: the "
+     "limit. Runs "
+     "with 1000 aircraft are short, and aircraft have no track in the first scans.",
+     gospa_m, 0.5, true},
+    {"complete.svg", "completeness", "set yrange [*:1.002]",
+     "Share of the aircraft's scans that have a track.", complete, 0.0, true},
+    {"false.svg", "false tracks a scan and aircraft", "set yrange [0:*]",
+     "Tracks without an aircraft, a scan and aircraft.", false_a_scan, 1.0, true},
+    {"time.svg", "ms a scan", "set logscale y", "Time of a scan, one core.", time_ms, 0.0, false},
+};
+#define PICTURES (sizeof pictures / sizeof pictures[0])
+
 /* Clutter 0 stands at 10 on the logarithmic axis. */
-static void put_level(FILE *file, const struct air_report *report, size_t level, figure_of figure)
+static void put_level(FILE *file, const struct air_report *report, size_t level,
+                      const struct curves *curves)
 {
+    double scale = pow(levels[level], -curves->power);
+
     fprintf(file, "$level%zu << EOD\n", level);
     for (size_t i = 0; i < air_num_cases(); i++) {
         const struct air_case *of = &air_cases[i];
         if (of->group == AIR_GRID && fabs(of->targets - levels[level]) < 0.5) {
-            fprintf(file, "%g %g %g\n", fmax(of->clutter, 10.0), figure(&report->results[i], false),
-                    figure(&report->results[i], true));
+            fprintf(file, "%g %g %g\n", fmax(of->clutter, 10.0),
+                    scale * curves->of(&report->results[i], false),
+                    scale * curves->of(&report->results[i], true));
         }
     }
     fprintf(file, "EOD\n");
 }
 
-static void draw_figure(const struct air_report *report, figure_of figure, const char *label,
-                        const char *more, bool has_limit, const char *path)
+static void draw_curves(const struct air_report *report, const struct curves *curves,
+                        const char *path)
 {
     struct picture picture = picture_open(path, 1000, 520);
     FILE *file = picture.script;
 
     for (size_t level = 0; level < LEVELS; level++) {
-        put_level(file, report, level, figure);
+        put_level(file, report, level, curves);
     }
     fprintf(
         file,
         "set logscale x\nset xrange [8:7000]\nset xtics ('0' 10, '100' 100, '1000' 1000, '5000' "
         "5000)\nset xlabel 'clutter plots a scan'\nset ylabel '%s'\nset key outside right\n%s\n"
         "plot ",
-        label, more);
+        curves->label, curves->more);
     for (size_t level = 0; level < LEVELS; level++) {
         fprintf(
             file, "%s$level%zu using 1:2 with linespoints lw 2 lt %zu pt %d title '%g aircraft'",
             level == 0 ? "" : ", \\\n ", level, level + 1, picture_marker(level), levels[level]);
-        if (has_limit) {
+        if (curves->has_limit) {
             fprintf(file,
                     ", \\\n $level%zu using 1:3 with lines lw 1.5 dt 2 lt %zu title 'its limit'",
                     level, level + 1);
@@ -92,7 +118,7 @@ static void draw_operation(const struct air_report *report, const char *path)
         const struct air_result *of = &report->results[i];
         if (air_cases[i].group == AIR_OPERATION) {
             /* none seen: half a track */
-            fprintf(file, "%g", fmax(of->false_tracks, 0.5) / of->hours);
+            fprintf(file, "%g", fmax(of->alarms, 0.5) / of->alarm_hours);
             for (size_t k = 0; k < sizeof by / sizeof by[0]; k++) {
                 fprintf(file, " %g", of->found[by[k] - 1] / of->alive[by[k] - 1]);
             }
@@ -100,7 +126,8 @@ static void draw_operation(const struct air_report *report, const char *path)
         }
     }
     fprintf(file,
-            "EOD\nset logscale x\nset xlabel 'false tracks an hour'\nset ylabel 'share of the "
+            "EOD\nset logscale x\nset xlabel 'false tracks an hour in clutter alone'\nset ylabel "
+            "'share of the "
             "aircraft that have a track'\nset yrange [-0.02:1.02]\nset key outside right\nplot ");
     for (size_t k = 0; k < sizeof by / sizeof by[0]; k++) {
         fprintf(file, "%s$cases using 1:%zu with linespoints lw 2 lt %zu pt %d title 'by scan %zu'",
@@ -114,32 +141,17 @@ static void draw_operation(const struct air_report *report, const char *path)
 
 static void draw_grid(const struct air_report *report, const char *folder)
 {
-    static const struct {
-        const char *name, *label, *more;
-        figure_of of;
-        bool has_limit;
-    } pictures[] = {
-        {"gospa.svg", "GOSPA, m", "set logscale y", gospa_m, true},
-        {"complete.svg", "completeness", "set yrange [*:1.002]", complete, true},
-        {"false.svg", "false tracks a scan", "", false_a_scan, true},
-        {"time.svg", "ms a scan", "set logscale y", time_ms, false},
-    };
-
-    for (size_t i = 0; i < sizeof pictures / sizeof pictures[0]; i++) {
+    for (size_t i = 0; i < PICTURES; i++) {
         char *path = path_join(folder, pictures[i].name);
-        draw_figure(report, pictures[i].of, pictures[i].label, pictures[i].more,
-                    pictures[i].has_limit, path);
+        draw_curves(report, &pictures[i], path);
         free(path);
     }
 }
 
 static void put_pictures(struct page *page, const struct air_report *report)
 {
-    if ((report->parts & AIR_PART_GRID) != 0) {
-        page_figure(page, "gospa.svg", "GOSPA (p 2, alpha 2, cutoff 1 km); dashed: the limit.");
-        page_figure(page, "complete.svg", "Share of the aircraft's scans that have a track.");
-        page_figure(page, "false.svg", "Tracks without an aircraft, a scan.");
-        page_figure(page, "time.svg", "Time of a scan, one core.");
+    for (size_t i = 0; i < PICTURES && (report->parts & AIR_PART_GRID) != 0; i++) {
+        page_figure(page, pictures[i].name, pictures[i].caption);
     }
     if ((report->parts & AIR_PART_OPERATION) != 0) {
         page_figure(page, "operation.svg",

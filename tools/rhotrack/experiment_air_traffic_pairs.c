@@ -72,6 +72,8 @@ struct air_pair_result air_pair_run(const struct air_pair *of, uint64_t seed, ui
     evaluation_free(evaluation);
     free(tracks.points);
     simulation_free(simulation);
-    return (struct air_pair_result){
-        .kept = result.switches == 0, .lost = !has_both, .completeness = result.completeness};
+    return (struct air_pair_result){.kept = result.switches == 0,
+                                    .lost = !has_both,
+                                    .switches = (double)result.switches,
+                                    .completeness = result.completeness};
 }

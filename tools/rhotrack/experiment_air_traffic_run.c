@@ -221,5 +221,11 @@ struct air_result air_run(const struct air_case *of, uint64_t seed, uint64_t run
     struct air_result result = air_simulated(&parameters, simulation, of->has_limit, chain);
 
     simulation_free(simulation);
+    if (of->group == AIR_OPERATION) {
+        struct air_alarm alone = {of->clutter, parameters.value[PARAMETER_FALSE_TRACKS_PER_HOUR]};
+        struct air_alarm_result alarms = air_alarm_run(&alone, seed, run, chain);
+        result.alarms = alarms.confirmed;
+        result.alarm_hours = alarms.hours;
+    }
     return result;
 }
