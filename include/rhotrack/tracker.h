@@ -49,6 +49,8 @@ enum rho_tracker_gate {
 
 struct rho_tracker_config {
     float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
+    /* slowest target: a track that is surely slower follows something that stands, and is dropped; 0: none. 0 .. v_max_mps */
+    float v_min_mps;
     /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
@@ -145,7 +147,7 @@ struct rho_report {
 };
 
 /*
- * pd 0.9, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
+ * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
  * hough and nearest without input estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);

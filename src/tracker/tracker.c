@@ -269,7 +269,8 @@ static int is_usable(const struct rho_tracker_config *config)
     return rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
-           rho_is_within(config->steady_s, 0.0f, 1e5f) && config->coast_scans_max >= 1 &&
+           rho_is_within(config->steady_s, 0.0f, 1e5f) &&
+           rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) && config->coast_scans_max >= 1 &&
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
            RHO_HAS_FILTER(filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&

@@ -15,6 +15,9 @@
  * as if all sensors missed what one does. */
 #define LIFETIME_MNAT 5298
 
+/* Standard deviations of a speed that is surely below the slowest target's. */
+#define SLOW_SIGMAS 3.0f
+
 /* ---- age -------------------------------------------------------------------------------------- */
 
 void rho_tracker_end_track(struct step *step, struct rho_track *track)
@@ -71,6 +74,18 @@ static void judge(struct step *step, struct rho_track *track, const struct rho_t
     }
 }
 
+/* It has come upon something that stands: no target, however often it is seen. */
+static int is_too_slow(const struct step *step, const struct rho_track *track)
+{
+    const float *velocity_mps = &track->kalman.state[3];
+    const float least_mps =
+        step->tracker->config.v_min_mps - SLOW_SIGMAS * rho_track_sigma_mps(track);
+    return least_mps > 0.0f && velocity_mps[0] * velocity_mps[0] +
+                                       velocity_mps[1] * velocity_mps[1] +
+                                       velocity_mps[2] * velocity_mps[2] <
+                                   least_mps * least_mps;
+}
+
 void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -90,6 +105,9 @@ void rho_tracker_age(struct step *step)
                                       : rho_tracker_mnat(-step->log_miss));
         }
         judge(step, track, &limits);
+        if (track->status != RHO_TRACK_FREE && is_too_slow(step, track)) {
+            rho_tracker_end_track(step, track);
+        }
         if (track->status != RHO_TRACK_FREE) {
             tracker->tracks[live++] = *track;
         }

@@ -59,6 +59,7 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->pd = (float)value[PARAMETER_PD];
     config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     config->accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    config->v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
     config->steady_s = (float)value[PARAMETER_STEADY_S];
     config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
     config->gate = (uint8_t)value[PARAMETER_GATE];
