@@ -160,6 +160,8 @@ static void write_settings(const char *name, const struct simulation *simulation
 {
     static const enum parameter_id told[] = {PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS,
                                              PARAMETER_ACCEL_MAX_MPS2};
+    static const enum parameter_id told_if_set[] = {PARAMETER_STEADY_S,
+                                                    PARAMETER_PROCESS_NOISE_MPS2};
     char *path = path_join(folder, "scenario.ini");
     struct output output = output_open(path);
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
@@ -178,6 +180,12 @@ static void write_settings(const char *name, const struct simulation *simulation
     }
     for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
         fprintf(output.file, "%s = %g\n", parameters_name(told[i]), parameters->value[told[i]]);
+    }
+    for (size_t i = 0; i < sizeof told_if_set / sizeof told_if_set[0]; i++) {
+        double value = parameters->value[told_if_set[i]];
+        if (value > 0.0) {
+            fprintf(output.file, "%s = %g\n", parameters_name(told_if_set[i]), value);
+        }
     }
     if (!simulation->beam.is_used) { /* whose clutter moves with it */
         write_area(&simulation->area, output.file);
