@@ -37,7 +37,7 @@
 
 /* Candidate tracks that one search keeps before the exclusive selection; the lowest score gives way. 1 .. 4096. */
 #ifndef RHO_MAX_CANDIDATES
-#define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 512)
+#define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 2048)
 #endif
 
 /* Cells along each side of the clutter density map. RAM: 2 bytes a cell. 1 .. 64. */
