@@ -239,7 +239,7 @@ static const struct scenario {
      0,
      50,
      300,
-     10,
+     6,
      {-50000, 120000, -50000, 50000},
      0,
      40},
@@ -358,6 +358,9 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     if (scenario->plan == plan_air_traffic) {
         parameters_suggest(parameters, PARAMETER_CROSSING_SHARE, 0.2);
         suggest_motion(parameters);
+    }
+    if (scenario->plan == plan_formation) {
+        parameters_suggest(parameters, PARAMETER_STEADY_S, 300); /* and the aircraft keep to a course */
     }
     suggest_sky(parameters);
     if (scenario->plan == plan_passive) {
