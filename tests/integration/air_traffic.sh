@@ -47,14 +47,14 @@ awk -F, 'NR == 1 { print "t_s,track_id,status,x_m,y_m" } NR > 1 { print $1 "," $
 echo "{\"method\": \"$6\", \"mean_ms\": 700}"
 END
 chmod +x "$folder/python"
-RHOTRACK_STONESOUP_PYTHON=$folder/python run experiment air-traffic --method rivals -o out --json
+RHOTRACK_STONESOUP_PYTHON=$folder/python run experiment air-traffic --method rivals --runs 1 -o out --json
 check "part rivals: time and tracks are the other's" json stdout '(
     len(o["rivals"]) == 2 and o["rivals"][0]["scan_us"] == 700000 and o["rivals"][1]["completeness"] == 1
     and abs(o["rivals"][0]["gospa_m"] - 300 * 50 ** 0.5) < 5)'
 check "... and judged" json stdout 'o["bars_held"] + o["bars_missed"] == 4'
-RHOTRACK_STONESOUP_PYTHON=/bin/false run experiment air-traffic --method rivals -o out
+RHOTRACK_STONESOUP_PYTHON=/bin/false run experiment air-traffic --method rivals --runs 1 -o out
 check "one that fails" grep -q "air_traffic_stonesoup.py failed" stdout
-RHOTRACK_STONESOUP_PYTHON=$folder/none run experiment air-traffic --method rivals -o out
+RHOTRACK_STONESOUP_PYTHON=$folder/none run experiment air-traffic --method rivals --runs 1 -o out
 check "one that is not there" grep -q "stonesoup is not installed.*make bench-stonesoup" stdout
 
 finish

@@ -68,8 +68,10 @@ double air_clock_us(void);
 /* Parameters of a case, as one would type them. */
 struct parameters air_parameters(const struct air_case *of);
 
-/* Of an evaluation's result. */
+/* Of an evaluation's result; and for means over runs: adds (squares of distances), then divides. */
 struct air_figures air_figures_of(const struct evaluation *evaluation);
+void air_figures_add(struct air_figures *sum, const struct air_figures *of);
+void air_figures_divide(struct air_figures *sum, double runs);
 
 /* A simulation through the chain, evaluated; and its limit. */
 struct air_result air_simulated(const struct parameters *parameters,
@@ -136,7 +138,8 @@ struct air_alarm_result air_alarm_run(const struct air_alarm *of, uint64_t seed,
 /* ---- Stone Soup ------------------------------------------------------------------------------- */
 
 #define AIR_RIVALS 2
-#define AIR_RIVAL_SCANS 60
+#define AIR_RIVAL_SCANS 120
+#define AIR_RIVAL_RUNS 2 /* at most */
 
 struct air_rival {
     const char *name;
@@ -145,12 +148,14 @@ struct air_rival {
 };
 
 struct air_rivals {
+    size_t num_runs;
     const char *missing; /* NULL, or why there are none, and how to get them */
     struct air_rival own, others[AIR_RIVALS];
 };
 
-/* Runs it on files in FOLDER/stonesoup, and rhotrack on the same plots. */
-struct air_rivals air_rivals_run(uint64_t seed, const char *folder, struct chain *chain);
+/* Runs it on files in FOLDER/stonesoup, and rhotrack on the same plots: so many runs, or AIR_RIVAL_RUNS. */
+struct air_rivals air_rivals_run(uint64_t seed, size_t num_runs, const char *folder,
+                                 struct chain *chain);
 
 /* ---- all of it -------------------------------------------------------------------------------- */
 

@@ -73,40 +73,11 @@ static void free_chains(struct jobs *jobs)
 
 /* ---- means ------------------------------------------------------------------------------------ */
 
-/* Sums; of GOSPA of squares. */
-static void add_figures(struct air_figures *sum, const struct air_figures *of)
-{
-    sum->gospa_m += of->gospa_m * of->gospa_m;
-    sum->localisation_m += of->localisation_m * of->localisation_m;
-    sum->missed += of->missed;
-    sum->false_a_scan += of->false_a_scan;
-    sum->completeness += of->completeness;
-    sum->switches += of->switches;
-    sum->fragments += of->fragments;
-    sum->delay_scans += of->delay_scans;
-    sum->rmse_m += of->rmse_m * of->rmse_m;
-    sum->nees += of->nees;
-}
-
-static void divide_figures(struct air_figures *sum, double runs)
-{
-    sum->gospa_m = sqrt(sum->gospa_m / runs);
-    sum->localisation_m = sqrt(sum->localisation_m / runs);
-    sum->missed /= runs;
-    sum->false_a_scan /= runs;
-    sum->completeness /= runs;
-    sum->switches /= runs;
-    sum->fragments /= runs;
-    sum->delay_scans /= runs;
-    sum->rmse_m = sqrt(sum->rmse_m / runs);
-    sum->nees /= runs;
-}
-
 static void add_result(struct air_result *sum, const struct air_result *of)
 {
     for (size_t i = 0; i < AIR_CUTOFFS; i++) {
-        add_figures(&sum->tracks[i], &of->tracks[i]);
-        add_figures(&sum->limit[i], &of->limit[i]);
+        air_figures_add(&sum->tracks[i], &of->tracks[i]);
+        air_figures_add(&sum->limit[i], &of->limit[i]);
     }
     if (sum->us <= 0.0 || of->us < sum->us) {
         sum->us = of->us;
@@ -137,8 +108,8 @@ static struct air_result mean_of(const struct jobs *jobs, size_t of)
     }
     if (runs > 0.0) {
         for (size_t i = 0; i < AIR_CUTOFFS; i++) {
-            divide_figures(&mean.tracks[i], runs);
-            divide_figures(&mean.limit[i], runs);
+            air_figures_divide(&mean.tracks[i], runs);
+            air_figures_divide(&mean.limit[i], runs);
         }
         mean.plots /= runs;
         mean.min_scans /= runs;
@@ -242,7 +213,7 @@ static void measure_rivals(struct air_report *report, const char *folder)
 {
     struct chain chain = chain_start();
 
-    report->rivals = air_rivals_run(report->seed, folder, &chain);
+    report->rivals = air_rivals_run(report->seed, report->num_runs, folder, &chain);
     chain_free(&chain);
 }
 

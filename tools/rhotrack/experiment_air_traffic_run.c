@@ -126,6 +126,34 @@ struct air_figures air_figures_of(const struct evaluation *evaluation)
                                 .nees = of.errors.nees};
 }
 
+void air_figures_add(struct air_figures *sum, const struct air_figures *of)
+{
+    sum->gospa_m += of->gospa_m * of->gospa_m;
+    sum->localisation_m += of->localisation_m * of->localisation_m;
+    sum->missed += of->missed;
+    sum->false_a_scan += of->false_a_scan;
+    sum->completeness += of->completeness;
+    sum->switches += of->switches;
+    sum->fragments += of->fragments;
+    sum->delay_scans += of->delay_scans;
+    sum->rmse_m += of->rmse_m * of->rmse_m;
+    sum->nees += of->nees;
+}
+
+void air_figures_divide(struct air_figures *sum, double runs)
+{
+    sum->gospa_m = sqrt(sum->gospa_m / runs);
+    sum->localisation_m = sqrt(sum->localisation_m / runs);
+    sum->missed /= runs;
+    sum->false_a_scan /= runs;
+    sum->completeness /= runs;
+    sum->switches /= runs;
+    sum->fragments /= runs;
+    sum->delay_scans /= runs;
+    sum->rmse_m = sqrt(sum->rmse_m / runs);
+    sum->nees /= runs;
+}
+
 static void count_found(const struct evaluation *evaluation, struct air_result *result)
 {
     size_t count = 0;
