@@ -17,11 +17,9 @@
 
 /* ---- places ----------------------------------------------------------------------------------- */
 
-/* Process noise widens what a plot says of a straight track. */
-static float log_sigma_m(const struct search *search, uint16_t code)
+static float log_sigma(uint16_t code)
 {
-    float sigma_m = rho_window_sigma(code);
-    return 0.5f * rho_log(sigma_m * sigma_m + search->fit_process_m2);
+    return rho_log(rho_window_sigma(code));
 }
 
 static struct place_class class_of(const struct chance *chance, const struct rho_window_scan *scan,
@@ -31,14 +29,14 @@ static struct place_class class_of(const struct chance *chance, const struct rho
     const struct rho_window_plot *plot = &scan->plots[index];
     struct place_class place = {
         .log_density = rho_log(rho_initiator_mean_density(search->initiator, plot->x_m, plot->y_m)),
-        .log_range = log_sigma_m(search, plot->sigma_range),
-        .log_cross = log_sigma_m(search, plot->sigma_cross),
+        .log_range = log_sigma(plot->sigma_range),
+        .log_cross = log_sigma(plot->sigma_cross),
     };
     if (chance->has_z) {
-        place.log_up = log_sigma_m(search, plot->sigma_up);
+        place.log_up = log_sigma(plot->sigma_up);
     }
     if (chance->has_range_rate) {
-        place.log_range_rate = rho_log(rho_window_sigma(plot->sigma_range_rate));
+        place.log_range_rate = log_sigma(plot->sigma_range_rate);
     }
     /* a plot stands for the area that has one plot like it */
     place.share = rho_exp(-place.log_density);
@@ -265,13 +263,36 @@ static void add_pattern(struct chance *chance, unsigned first, unsigned hits)
     };
 }
 
+static float wider(float log_sigma_m, float bend_m2)
+{
+    return 0.5f * rho_log(rho_exp(2.0f * log_sigma_m) + bend_m2);
+}
+
+/* Process noise widens what a plot says of a straight track: by what it bends tracks from `first` on, on average over the
+ * dimensions of the residual. */
+static struct place_class widened(const struct search *search, const struct place_class *place,
+                                  unsigned first)
+{
+    struct place_class wide = *place;
+    float bend_m2;
+    if (search->fit_process_m2 > 0.0f) {
+        (void)rho_initiator_bend_m2(search, first, &bend_m2);
+        bend_m2 /= (float)(search->num_scans - first - 2u);
+        wide.log_range = wider(place->log_range, bend_m2);
+        wide.log_cross = wider(place->log_cross, bend_m2);
+        wide.log_up = wider(place->log_up, bend_m2);
+    }
+    return wide;
+}
+
 /* A scan ago a track was as long, by a hit less. */
 static struct reach reach_of(const struct chance *chance, const struct place_class *place,
                              const struct pattern *pattern)
 {
     const struct search *search = chance->search;
     unsigned first = pattern->first, hits = pattern->hits;
-    struct reach reach = {.best_nat = best_score(chance, place, first, hits, pattern->spread_s2),
+    struct place_class wide = widened(search, place, first);
+    struct reach reach = {.best_nat = best_score(chance, &wide, first, hits, pattern->spread_s2),
                           .before_nat = NEVER_NAT};
     reach.weight = 0.5f * place->share * pattern->inside *
                    rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
@@ -279,7 +300,8 @@ static struct reach reach_of(const struct chance *chance, const struct place_cla
     reach.weight = reach.weight < WEIGHT_MAX ? reach.weight : WEIGHT_MAX;
     if (hits > 3u) {
         float before_s2 = mean_spread_s2(search, first + 1u, hits - 1u);
-        reach.before_nat = best_score(chance, place, first + 1u, hits - 1u, before_s2);
+        wide = widened(search, place, first + 1u);
+        reach.before_nat = best_score(chance, &wide, first + 1u, hits - 1u, before_s2);
     }
     return reach;
 }
@@ -395,9 +417,10 @@ float rho_initiator_gain_of_hit(const struct chance *chance)
     const struct search *search = chance->search;
     float least = GAIN_MAX_NAT;
     for (unsigned i = 0; i < chance->num_classes; i++) {
-        const struct place_class *place = &chance->classes[i];
-        float gain = search->log_pd[search->num_scans - 1u] - place->log_density -
-                     0.5f * dimensions_of_hit(chance) * LOG_TWO_PI - log_noise(chance, place) -
+        const struct place_class wide =
+            widened(search, &chance->classes[i], search->num_scans - 3u);
+        float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
+                     0.5f * dimensions_of_hit(chance) * LOG_TWO_PI - log_noise(chance, &wide) -
                      rho_log(PREDICTION_SPREAD) +
                      rho_initiator_log_room(search, 0, 0, chance->has_range_rate ? 1u : 0u);
         least = gain < least ? gain : least;

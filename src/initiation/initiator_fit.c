@@ -25,30 +25,32 @@ static float displacement_s2(const struct search *search, unsigned l, unsigned m
     return interval_s * (0.5f * interval_s + search->time_s[m] - search->time_s[l + 1]);
 }
 
-/* Largest diagonal element of H K H, H projecting off the straight lines over all scans: how far process noise K
- * bends a track away from its own fit. */
-static float bend_m2(const struct search *search)
+/* Diagonal elements of H K H, H projecting off the straight lines over the scans from `first` on: how far process noise K
+ * bends a track away from its own fit. Returns the largest; *sum_m2: all of them. */
+float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2)
 {
-    unsigned n = search->num_scans;
-    float mean_s = 0.0f, spread_s2 = 0.0f, largest_m2 = 0.0f;
+    unsigned end = search->num_scans;
+    float n = (float)(end - first), mean_s = 0.0f, spread_s2 = 0.0f, largest_m2 = 0.0f;
     float project[RHO_MAX_SCANS];
-    for (unsigned m = 0; m < n; m++) {
-        mean_s += search->time_s[m] / (float)n;
+    *sum_m2 = 0.0f;
+    for (unsigned m = first; m < end; m++) {
+        mean_s += search->time_s[m] / n;
     }
-    for (unsigned m = 0; m < n; m++) {
+    for (unsigned m = first; m < end; m++) {
         spread_s2 += (search->time_s[m] - mean_s) * (search->time_s[m] - mean_s);
     }
-    for (unsigned r = 0; r < n && spread_s2 > 0.0f; r++) {
+    for (unsigned r = first; r < end && spread_s2 > 0.0f; r++) {
         float bend = 0.0f;
-        for (unsigned m = 0; m < n; m++) {
+        for (unsigned m = first; m < end; m++) {
             float lever = (search->time_s[r] - mean_s) * (search->time_s[m] - mean_s) / spread_s2;
-            project[m] = (r == m ? 1.0f : 0.0f) - 1.0f / (float)n - lever;
+            project[m] = (r == m ? 1.0f : 0.0f) - 1.0f / n - lever;
         }
-        for (unsigned i = 0; i < n; i++) {
-            for (unsigned j = 0; j < n; j++) {
+        for (unsigned i = first; i < end; i++) {
+            for (unsigned j = first; j < end; j++) {
                 bend += project[i] * search->process_m2[RHO_AT(i, j)] * project[j];
             }
         }
+        *sum_m2 += bend;
         largest_m2 = bend > largest_m2 ? bend : largest_m2;
     }
     return largest_m2;
@@ -67,7 +69,8 @@ void rho_initiator_prepare_process(struct search *search)
             search->process_m2[RHO_AT(i, j)] = variance * sum;
         }
     }
-    search->fit_process_m2 = variance > 0.0f ? bend_m2(search) : 0.0f;
+    search->fit_process_m2 =
+        variance > 0.0f ? rho_initiator_bend_m2(search, 0, &(float){0.0f}) : 0.0f;
 }
 
 /* Variance by process noise of scan m's place between the places of scans a and b. */

@@ -116,6 +116,7 @@ float rho_initiator_log_factorial(unsigned n);
 
 /* initiator_fit.c: least squares and the score */
 void rho_initiator_prepare_process(struct search *search);
+float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2);
 float rho_initiator_process_gap_m2(const struct search *search, unsigned a, unsigned m, unsigned b);
 int rho_initiator_settle(struct search *search, struct plot_set *set, struct line_fit *fit);
 void rho_initiator_collect(struct search *search, const struct line_fit *fit, float factor,
