@@ -91,7 +91,7 @@ struct rho_density_map {
 /* Where plots have left the window unused, over the last hundred scans. */
 struct rho_clutter_memory {
     float x_min_m, y_min_m, columns_per_m, rows_per_m;
-    uint32_t num_scans; /* 0: nothing has left yet */
+    uint32_t num_scans;                                            /* 0: nothing has left yet */
     uint16_t count[RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS]; /* row * cells a side + column */
 };
 #endif

@@ -4,9 +4,9 @@
  * stand and are seen again and again.
  *
  * What leaves the window unused was clutter. Its plots are counted by cells of the area, much smaller than those of the
- * window's map, and all counts are halved now and then. A cell's density is drawn towards what the window tells there; where
- * it is the higher one, it counts. So the memory only ever raises a density: clutter that has gone is forgotten slowly, and
- * new clutter is the window's affair.
+ * window's map, and all counts are halved now and then. Where a cell has many more than the window's density makes one expect,
+ * its own counts. So the memory only ever raises a density: clutter that has gone is forgotten slowly, and new clutter is the
+ * window's affair.
  */
 #include <string.h>
 
@@ -16,8 +16,9 @@
 
 /* All counts are halved at so many scans: a memory of 64 to 128. */
 #define SCANS_MAX 128u
-/* Plots at the window's density that a cell's own count is weighed against. */
-#define PRIOR_PLOTS 8.0f
+/* A cell counts where it has more plots than expected by so many standard deviations: else chance would raise densities
+ * everywhere. */
+#define SIGMAS 3.0f
 /* The map is laid anew where the area has grown out of it, wider by this than what was seen; or has become much smaller. */
 #define MARGIN_SHARE 0.25f
 #define TOO_WIDE 4.0f
@@ -94,9 +95,12 @@ float rho_initiator_remembered(const struct rho_initiator *initiator, float x_m,
         return density_per_m2;
     }
     const float scans_m2 = (float)memory->num_scans / (memory->columns_per_m * memory->rows_per_m);
-    const float expected = density_per_m2 * scans_m2, count = (float)memory->count[cell];
-    return count > expected ? density_per_m2 * (count + PRIOR_PLOTS) / (expected + PRIOR_PLOTS)
-                            : density_per_m2;
+    /* one plot more at the window's density: few tell little, and none divide by nothing */
+    const float expected = density_per_m2 * scans_m2 + 1.0f;
+    const float count = (float)memory->count[cell] + 1.0f, excess = count - expected;
+    return excess > 0.0f && excess * excess > SIGMAS * SIGMAS * expected
+               ? density_per_m2 * count / expected
+               : density_per_m2;
 }
 
 #else

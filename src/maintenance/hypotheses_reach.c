@@ -126,8 +126,9 @@ int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
-    const float slack_m = rho_hypotheses_slack_m(
-        pool, slot, reach, sigma_m, (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f));
+    const float slack_m =
+        rho_hypotheses_slack_m(pool, slot, reach, sigma_m,
+                               (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f));
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
            plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&
            (!(measures & RHO_MEASURES_Z) ||

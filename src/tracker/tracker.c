@@ -270,9 +270,9 @@ static int is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
            rho_is_within(config->steady_s, 0.0f, 1e5f) &&
-           rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) && config->coast_scans_max >= 1 &&
-           config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
-           RHO_HAS_FILTER(filter_of(config)) &&
+           rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
+           config->coast_scans_max >= 1 && config->coast_scans_max <= UINT8_MAX &&
+           config->gate < RHO_NUM_TRACKER_GATES && RHO_HAS_FILTER(filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            rho_input_is_usable(&config->input) && config->planes > 0 &&
            config->planes <= ALL_PLANES &&

@@ -136,9 +136,8 @@ static int make_room(struct step *step, int32_t score_mnat)
     if (lowest == RHO_MAX_TRACKS) {
         return 0;
     }
-    rho_track_end(&tracker->tracks[lowest], &step->model);
+    rho_tracker_end_track(step, &tracker->tracks[lowest]);
     tracker->num_tracks--;
-    tracker->counters.tracks_ended = rho_count(tracker->counters.tracks_ended, 1);
     memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
             (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
     return 1;

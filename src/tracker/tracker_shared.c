@@ -29,15 +29,15 @@
 struct pair {
     struct rho_track *first, *second; /* first: has the plot */
     int plot;
-    float variance_m2;   /* of the plot's noise on an axis */
-    float half_m[2];     /* from the middle to the second */
+    float variance_m2; /* of the plot's noise on an axis */
+    float half_m[2];   /* from the middle to the second */
     float distance2_m2;
 };
 
 static int is_old(const struct rho_track *track)
 {
-    return track->is_believed && track->status != RHO_TRACK_TENTATIVE && track->hits >= HITS_MIN &&
-           track->plot < 0;
+    /* one in doubt, too: a plot of both that is missed twice says nothing of the second target alone */
+    return track->is_believed && track->hits >= HITS_MIN && track->plot < 0;
 }
 
 /* Of a track without a plot: the likeliest one that another old track got, which must be near. */
@@ -79,11 +79,11 @@ static float larger(float a, float b)
 static int is_merged(const struct step *step, const struct pair *pair, float *gain_nat)
 {
     const struct rho_plot *plot = &step->scan->plots[pair->plot];
-    const float first_m = rho_track_sigma_m(pair->first), second_m = rho_track_sigma_m(pair->second);
+    const float first_m = rho_track_sigma_m(pair->first),
+                second_m = rho_track_sigma_m(pair->second);
     const float near_m2 = 4.0f * pair->variance_m2;
     const float spread_m2 = near_m2 + first_m * first_m + second_m * second_m;
-    const float merged =
-        near_m2 / spread_m2 * rho_exp(-0.5f * pair->distance2_m2 / spread_m2);
+    const float merged = near_m2 / spread_m2 * rho_exp(-0.5f * pair->distance2_m2 / spread_m2);
     const float from_m[2] = {plot->x_m - pair->first->kalman.state[0],
                              plot->y_m - pair->first->kalman.state[1]};
     /* |z - first|^2 less |z - middle|^2 */
@@ -114,9 +114,9 @@ void rho_tracker_share(struct step *step)
             continue;
         }
         /* one that refuses goes on as if there were no pair */
-        if (take(step, pair.second, pair.plot, gain_nat) &&
-            take(step, pair.first, pair.plot, 0.0f)) {
+        if (take(step, pair.second, pair.plot, gain_nat)) {
             step->report->fates[pair.plot] = RHO_FATE_CLAIMED;
+            (void)!take(step, pair.first, pair.plot, 0.0f);
         }
     }
 }

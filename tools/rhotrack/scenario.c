@@ -360,7 +360,8 @@ void scenario_suggest(const char *name, struct parameters *parameters)
         suggest_motion(parameters);
     }
     if (scenario->plan == plan_formation) {
-        parameters_suggest(parameters, PARAMETER_STEADY_S, 300); /* and the aircraft keep to a course */
+        parameters_suggest(parameters, PARAMETER_STEADY_S,
+                           300); /* and the aircraft keep to a course */
     }
     suggest_sky(parameters);
     if (scenario->plan == plan_passive) {
