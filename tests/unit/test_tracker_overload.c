@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * More of everything than there is room for, in the embedded profile: tracks that there are stay as they are, and what had
+ * no room is counted. The workstation's capacities are not filled in a unit test.
+ */
+#include "tracker_setup.h"
+
+#ifndef RHO_PROFILE_WORKSTATION
+
+#define TARGETS 60
+#define FIRST 20 /* targets that have tracks before the others come */
+#define PLOTS 400
+#define QUIET 12 /* scans with the first targets alone */
+#define SCANS 60
+
+/* In rows 8 km apart, 200 m/s along x. */
+static void see_target(int i, int k)
+{
+    const double x_m = 8000.0 * (i % 10) + 400.0 * k + 20.0 * normal();
+    add(x_m, 8000.0 * (i / 10) + 20.0 * normal(), 20.0);
+}
+
+static void see_clutter(uint32_t up_to)
+{
+    while (num_plots < up_to) {
+        const double x_m = uniform(-1e4, 11e4);
+        add(x_m, uniform(-1e4, 6e4), 20.0);
+    }
+}
+
+/* The targets that have tracks first in the scan, all others among clutter. */
+static void see_too_much(int k)
+{
+    for (int i = 0; i < TARGETS; i++) {
+        see_target(i, k);
+    }
+    see_clutter(PLOTS);
+}
+
+static void fly_quietly(void)
+{
+    for (int k = 0; k < QUIET; k++) {
+        for (int i = 0; i < FIRST; i++) {
+            see_target(i, k);
+        }
+        step(2.0 * k);
+    }
+    assert_int_equal(report.num_tracks, FIRST);
+    assert_int_equal(tracker.counters.tracks_confirmed, FIRST);
+}
+
+static void expect_first_tracks(int k)
+{
+    for (uint32_t id = 1; id <= FIRST; id++) {
+        const struct rho_track_report *track = report_of(id);
+        assert_non_null(track);
+        assert_true(track->status == RHO_TRACK_CONFIRMED || track->status == RHO_TRACK_COASTING);
+        double nearest_m = 1e9;
+        for (int i = 0; i < FIRST; i++) {
+            const double off_m = hypot((double)track->state[0] - 8000.0 * (i % 10) - 400.0 * k,
+                                       (double)track->state[1] - 8000.0 * (i / 10));
+            nearest_m = off_m < nearest_m ? off_m : nearest_m;
+        }
+        assert_true(nearest_m < 150.0);
+    }
+}
+
+static void begin_overload(uint8_t gate)
+{
+    draw(11);
+    config.gate = gate;
+    config.accel_max_mps2 = 30.0f;
+    begin();
+}
+
+/* Tracks that never were believed give way to what has more evidence, those that were do not. */
+static void existing_tracks_are_kept_and_all_else_is_counted(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        begin_overload((uint8_t)gate);
+        fly_quietly();
+        const struct rho_tracker_counters then = tracker.counters;
+        for (int k = QUIET; k < SCANS; k++) {
+            see_too_much(k);
+            step(2.0 * k);
+            expect_first_tracks(k);
+            assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], PLOTS - RHO_MAX_PLOTS);
+            assert_true(report.num_tracks <= RHO_MAX_TRACKS);
+            assert_true(report.num_ended <= RHO_MAX_TRACKS);
+        }
+        assert_int_equal(report.num_tracks, RHO_MAX_TRACKS);
+        assert_true(tracker.counters.tracks_no_room > then.tracks_no_room);
+        assert_int_equal(tracker.counters.fates[RHO_FATE_NO_ROOM],
+                         (SCANS - QUIET) * (PLOTS - RHO_MAX_PLOTS));
+        assert_true(tracker.counters.candidates_dropped > 0);
+        assert_int_equal(tracker.counters.tracks_started - tracker.counters.tracks_ended,
+                         RHO_MAX_TRACKS);
+    }
+}
+
+/* 32 tracks in clutter so dense that each would want eight hypotheses, of which there are three a track. */
+static void crowded_tracks_count_what_was_cut(void **state)
+{
+    (void)state;
+    begin_overload(RHO_TRACKER_BEST);
+    fly_quietly();
+    for (int k = QUIET; k < QUIET + 12; k++) {
+        for (int i = 0; i < FIRST; i++) {
+            see_target(i, k);
+            for (int n = 0; n < 11; n++) {
+                const double x_m = 8000.0 * (i % 10) + 400.0 * k + uniform(-100.0, 100.0);
+                add(x_m, 8000.0 * (i / 10) + uniform(-100.0, 100.0), 20.0);
+            }
+        }
+        step(2.0 * k);
+        for (unsigned i = 0; i < report.num_tracks; i++) {
+            assert_true(report.tracks[i].num_hypotheses >= 1);
+        }
+    }
+    expect_first_tracks(QUIET + 11);
+    assert_true(tracker.counters.hypotheses_cut > 0);
+    assert_true(tracker.counters.gate_plots_dropped > 0);
+}
+
+static void nothing_is_counted_where_there_is_room(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        begin_overload((uint8_t)gate);
+        fly_quietly();
+        assert_int_equal(tracker.counters.tracks_no_room, 0);
+        assert_int_equal(tracker.counters.candidates_dropped, 0);
+        assert_int_equal(tracker.counters.hypotheses_cut, 0);
+        assert_int_equal(tracker.counters.gate_plots_dropped, 0);
+        assert_int_equal(tracker.counters.updates_refused, 0);
+        assert_int_equal(tracker.counters.fates[RHO_FATE_NO_ROOM], 0);
+    }
+}
+
+/* A full table of tracks with plots so vague that new targets' four are more evidence than they have; those of `gone` are not
+ * seen from scan 5 on. The new ones are there at scan 8. Returns how many had been confirmed and were reported as ended. */
+static unsigned fill_and_add(uint32_t gone, int late)
+{
+    unsigned ended = 0;
+    begin_overload(RHO_TRACKER_BEST);
+    for (int k = 0; k < 9; k++) {
+        for (uint32_t i = 0; i < RHO_MAX_TRACKS; i++) {
+            if (k < 5 || i >= gone) {
+                add(8000.0 * (i % 8) + 400.0 * k, 8000.0 * (i / 8), 400.0);
+            }
+        }
+        for (int i = 0; i < 4 && k >= late; i++) {
+            add(-4000.0 + 400.0 * k, 4000.0 + 8000.0 * i, 2.0);
+        }
+        step(2.0 * k);
+        assert_int_equal(report.num_tracks, k < 3 ? 0 : RHO_MAX_TRACKS);
+        ended += report.num_ended;
+    }
+    return ended;
+}
+
+static void tracks_that_are_believed_never_give_way(void **state)
+{
+    (void)state;
+    assert_int_equal(fill_and_add(0, 5), 0);
+    for (uint32_t i = 0; i < RHO_MAX_TRACKS; i++) {
+        assert_int_equal(report.tracks[i].track_id, i + 1);
+        assert_int_equal(report.tracks[i].status, RHO_TRACK_CONFIRMED);
+    }
+    assert_int_equal(tracker.counters.tracks_no_room, 4);
+    assert_int_equal(tracker.counters.tracks_ended, 0);
+}
+
+/* Plots have room by their order: those beyond the capacity are not looked at, whoever they are of. */
+static void plots_beyond_the_capacity_are_nobody_s(void **state)
+{
+    (void)state;
+    begin_overload(RHO_TRACKER_BEST);
+    fly_quietly();
+    see_clutter(RHO_MAX_PLOTS - FIRST / 2);
+    for (int i = 0; i < FIRST; i++) {
+        see_target(i, QUIET);
+    }
+    step(2.0 * QUIET);
+    unsigned missed = 0;
+    for (uint32_t id = 1; id <= FIRST; id++) {
+        const struct rho_track_report *track = report_of(id);
+        assert_non_null(track);
+        assert_true(track->plot < RHO_MAX_PLOTS);
+        missed += track->plot < 0;
+    }
+    assert_in_range(missed, FIRST / 2 - 2, FIRST / 2);
+    assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], FIRST / 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(existing_tracks_are_kept_and_all_else_is_counted),
+        cmocka_unit_test(crowded_tracks_count_what_was_cut),
+        cmocka_unit_test(nothing_is_counted_where_there_is_room),
+        cmocka_unit_test(tracks_that_are_believed_never_give_way),
+        cmocka_unit_test(plots_beyond_the_capacity_are_nobody_s),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+int main(void)
+{
+    return 0;
+}
+
+#endif

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+/* What tests of the tracker share: a tracker with its initiator, scans filled plot by plot, and what holds after each. */
+#ifndef RHOTRACK_TESTS_TRACKER_SETUP_H
+#define RHOTRACK_TESTS_TRACKER_SETUP_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rhotrack/tracker.h"
+
+#define PLOTS_MAX (RHO_MAX_PLOTS + 400)
+
+static struct rho_tracker tracker;
+static struct rho_initiator initiator;
+static struct rho_report report;
+static struct rho_tracker_config config;
+static struct rho_initiator_config initiation;
+static struct rho_plot plots[PLOTS_MAX];
+static uint32_t num_plots;
+static uint64_t random_state = 1;
+
+static inline double uniform(double from, double to)
+{
+    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
+}
+
+static inline double normal(void)
+{
+    double radius = sqrt(-2.0 * log(1.0 - uniform(0.0, 1.0)));
+    return radius * cos(uniform(0.0, 6.283185307179586));
+}
+
+/* The usual configurations, to be changed before begin(): four plots of five start a track, and it is believed at once. */
+static inline void draw(uint64_t seed)
+{
+    random_state = seed;
+    memset(&config, 0, sizeof config);
+    memset(&initiation, 0, sizeof initiation);
+    rho_tracker_config_default(&config);
+    rho_initiator_config_default(&initiation);
+    config.v_max_mps = initiation.v_max_mps = 400.0f;
+    config.accel_max_mps2 = 5.0f;
+    initiation.scans = 5;
+    initiation.min_scans = 4;
+    initiation.false_tracks_per_hour = 0.0f;
+}
+
+static inline void begin(void)
+{
+    num_plots = 0;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+    assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &initiation), RHO_OK);
+}
+
+/* Of random numbers in its arguments there may be one: compilers draw them in any order. */
+static inline struct rho_plot *add(double x_m, double y_m, double sigma_m)
+{
+    assert_true(num_plots < PLOTS_MAX);
+    plots[num_plots] = (struct rho_plot){.x_m = (float)x_m,
+                                         .y_m = (float)y_m,
+                                         .sigma_range_m = (float)sigma_m,
+                                         .sigma_cross_m = (float)sigma_m};
+    return &plots[num_plots++];
+}
+
+static inline void check_sums(void)
+{
+    uint32_t sum = 0, counted = 0, claimed = 0;
+    for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
+        sum += report.fates_total[fate];
+        counted += tracker.counters.fates[fate];
+    }
+    assert_int_equal(sum, report.num_plots);
+    assert_int_equal(counted, tracker.counters.plots_in);
+    for (uint32_t i = 0; i < report.num_plots && i < RHO_MAX_PLOTS; i++) {
+        claimed += report.fates[i] == RHO_FATE_CLAIMED;
+    }
+    assert_int_equal(claimed, report.fates_total[RHO_FATE_CLAIMED]);
+    for (unsigned i = 1; i < report.num_tracks; i++) {
+        assert_true(report.tracks[i - 1].track_id < report.tracks[i].track_id);
+    }
+}
+
+/* The plots added since; the scan says the rest of itself. */
+static inline void step_scan(struct rho_scan scan)
+{
+    scan.num_plots = num_plots;
+    scan.plots = plots;
+    memset(&report, 0xee, sizeof report);
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+    assert_int_equal(report.num_plots, num_plots);
+    check_sums();
+    num_plots = 0;
+}
+
+static inline void step(double t_s)
+{
+    step_scan((struct rho_scan){.time_us = llround(t_s * 1e6)});
+}
+
+/* NULL: not reported. */
+static inline const struct rho_track_report *report_of(uint32_t track_id)
+{
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        if (report.tracks[i].track_id == track_id) {
+            return &report.tracks[i];
+        }
+    }
+    return NULL;
+}
+
+#endif
