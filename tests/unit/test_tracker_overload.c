@@ -172,6 +172,14 @@ static void tracks_that_are_believed_never_give_way(void **state)
     assert_int_equal(tracker.counters.tracks_ended, 0);
 }
 
+/* They had been confirmed. */
+static void tracks_in_doubt_that_give_way_are_reported_as_ended(void **state)
+{
+    (void)state;
+    assert_int_equal(fill_and_add(4, 5), 4);
+    assert_int_equal(tracker.counters.tracks_ended, 4);
+}
+
 /* Plots have room by their order: those beyond the capacity are not looked at, whoever they are of. */
 static void plots_beyond_the_capacity_are_nobody_s(void **state)
 {
@@ -201,6 +209,7 @@ int main(void)
         cmocka_unit_test(crowded_tracks_count_what_was_cut),
         cmocka_unit_test(nothing_is_counted_where_there_is_room),
         cmocka_unit_test(tracks_that_are_believed_never_give_way),
+        cmocka_unit_test(tracks_in_doubt_that_give_way_are_reported_as_ended),
         cmocka_unit_test(plots_beyond_the_capacity_are_nobody_s),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
