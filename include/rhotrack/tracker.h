@@ -59,7 +59,8 @@ struct rho_tracker_config {
     uint16_t coast_scans_max; /* misses in a row that end a track: 1 .. 255 */
     uint8_t gate;             /* enum rho_tracker_gate */
     uint8_t planes;           /* hough: RHO_GATE_PLANE_... */
-    /* gates hough and nearest: is_estimated 0 is a Kalman filter with white acceleration of half accel_max for 1 s */
+    /* gates hough and nearest: is_estimated 0 is a Kalman filter with white acceleration of half accel_max for 1 s; not
+     * looked at where RHO_FILTERS has no input estimation */
     struct rho_input_config input;
     float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
 };

@@ -274,8 +274,8 @@ static int is_usable(const struct rho_tracker_config *config)
            config->coast_scans_max >= 1 && config->coast_scans_max <= UINT8_MAX &&
            config->gate < RHO_NUM_TRACKER_GATES && RHO_HAS_FILTER(filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
-           rho_input_is_usable(&config->input) && config->planes > 0 &&
-           config->planes <= ALL_PLANES &&
+           (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
+           config->planes > 0 && config->planes <= ALL_PLANES &&
            rho_is_within(config->theta_cell_rad, 1e-3f, RHO_HALF_PI);
 }
 
