@@ -98,15 +98,13 @@ static int has_ended(const struct rho_track *track, const struct rho_track_limit
 enum rho_track_status rho_track_judge(struct rho_track *track,
                                       const struct rho_track_limits *limits)
 {
-    if (fall_of(track) >= limits->doubt_mnat) {
-        rho_track_apply(track, RHO_TRACK_DOUBT);
-    } else if (track->is_believed || track->score_mnat >= limits->confirm_mnat) {
-        rho_track_apply(track, RHO_TRACK_CONFIRM);
+    enum rho_track_event event = RHO_TRACK_DOUBT; /* of what was never believed, too */
+    if (fall_of(track) < limits->doubt_mnat &&
+        (track->is_believed || track->score_mnat >= limits->confirm_mnat)) {
+        event = RHO_TRACK_CONFIRM;
         track->is_believed = 1;
     }
-    if (has_ended(track, limits)) {
-        rho_track_apply(track, RHO_TRACK_DROP);
-    }
+    rho_track_apply(track, has_ended(track, limits) ? RHO_TRACK_DROP : event);
     return (enum rho_track_status)track->status;
 }
 
