@@ -45,25 +45,31 @@ static enum rho_status start(void)
     return node_start(&config);
 }
 
-/* Where a number has grown: it goes to the end of the text, "stack       3904", which has room for ten digits. */
-static void say_growth(char *text, size_t last, uint32_t number, uint32_t *said)
+/* A number that only grows goes to the end of the text, "stack       3904", which has room for ten digits. */
+struct growth {
+    char text[sizeof "stack           "];
+    uint32_t said;
+};
+
+static void say_growth(struct growth *growth, uint32_t number)
 {
-    if (number <= *said) {
+    size_t last = sizeof growth->text - 2;
+    if (number <= growth->said) {
         return;
     }
-    *said = number;
+    growth->said = number;
     for (; number > 0; number /= 10) {
-        text[last--] = (char)('0' + number % 10);
+        growth->text[last--] = (char)('0' + number % 10);
     }
-    board_say(text);
+    board_say(growth->text);
 }
 
 static void report(void)
 {
-    static uint32_t stack, unsent;
-    char stack_text[] = "stack           ", unsent_text[] = "unsent          ";
-    say_growth(stack_text, sizeof stack_text - 2, (uint32_t)board_stack_used(), &stack);
-    say_growth(unsent_text, sizeof unsent_text - 2, board_unsent(), &unsent);
+    static struct growth stack = {.text = "stack           "},
+                         unsent = {.text = "unsent          "};
+    say_growth(&stack, (uint32_t)board_stack_used());
+    say_growth(&unsent, board_unsent());
 }
 
 int main(void)
