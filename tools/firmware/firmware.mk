@@ -6,9 +6,10 @@ firmware := $(BUILD)/firmware
 firmware_folder := tools/firmware
 board := $(firmware_folder)/board
 ARM_CC ?= arm-none-eabi-gcc
-# For 64 KiB of flash: the whole program at once, no code moved out of loops, none rearranged. For 4 KiB of stack: no large
-# frames put into one another.
+# For 64 KiB of flash: the whole program at once, no code moved out of loops, none rearranged, no paths taken apart,
+# parameters as they are written. For 4 KiB of stack: no large frames put into one another.
 FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
+                -fno-tree-dominator-opts -fno-ipa-sra \
                 --param=large-stack-frame=128 --param=large-stack-frame-growth=50
 
 m4_flags := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0x40200000u
