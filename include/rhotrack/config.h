@@ -172,6 +172,12 @@
 #define RHO_SHARES_PLOTS 1
 #endif
 
+/* 1: of scans of more than RHO_MAX_PLOTS, tracks may claim the others, up to four times as many; 0: left out of the program (400
+ * bytes less on a Cortex-M4), for who never steps larger scans: rho_feed makes none. */
+#ifndef RHO_CLAIMS_BEYOND
+#define RHO_CLAIMS_BEYOND 1
+#endif
+
 /* Strips that a scan's plots are sorted into, so that a track looks at those near it alone: worth it where tracks times plots
  * are a million. 1: no sorting. RAM: 2 bytes each, and 2 a plot. 1 .. 16384. */
 #ifndef RHO_PLOT_STRIPS

@@ -137,7 +137,7 @@ struct rho_track_report {
 /* What one step did. Tracks in the order of their identities. */
 struct rho_report {
     int64_t time_us;
-    /* of the scan: fates of the first RHO_MAX_PLOTS follow; the others are NO_ROOM, or STALE of a late scan */
+    /* of the scan: fates of the first RHO_MAX_PLOTS follow; the others are claimed, INVALID or NO_ROOM, or STALE of a late scan */
     uint32_t num_plots;
     uint16_t num_tracks, num_ended;
     uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
@@ -179,7 +179,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tra
 /*
  * Takes one scan through all phases above.
  *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held nowhere (fate NO_ROOM)
- *   scan       num_plots plots; bad ones get the fate INVALID, those beyond RHO_MAX_PLOTS get NO_ROOM.
+ *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks may claim up to four
+ *              times as many (RHO_CLAIMS_BEYOND); what nobody claims of them is not held, but gets NO_ROOM.
  *              A scan older than the last accepted one is late: all its plots are STALE, and but for counters
  *              nothing else changes.
  *   report     filled whole, whatever it held before

@@ -87,7 +87,7 @@ static void note_widest(struct step *step, const struct rho_plot *plot)
     }
 }
 
-static void judge_plots(struct step *step)
+void rho_tracker_judge_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (uint32_t i = 0; i < step->num_gated; i++) {
@@ -213,8 +213,10 @@ static void count_fates(const struct step *step)
         report->fates_total[report->fates[i]]++;
     }
     int late = step->num_gated > 0 && report->fates[0] == RHO_FATE_STALE;
+    report->fates_total[RHO_FATE_CLAIMED] += step->num_beyond_claimed;
+    report->fates_total[RHO_FATE_INVALID] += step->num_beyond_invalid;
     report->fates_total[late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] +=
-        step->num_inputs - step->num_gated;
+        step->num_inputs - step->num_gated - step->num_beyond_claimed - step->num_beyond_invalid;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
     }
@@ -380,15 +382,26 @@ static void refuse_late(struct step *step)
     step->tracker->counters.scans_late = rho_count(step->tracker->counters.scans_late, 1);
 }
 
+static void claim(struct step *step)
+{
+#if RHO_CLAIMS_BEYOND
+    if (step->num_inputs > RHO_MAX_PLOTS) {
+        rho_tracker_claim_parts(step);
+        return;
+    }
+#endif
+    rho_tracker_claim(step);
+    rho_tracker_update(step);
+}
+
 static void take_in(struct step *step)
 {
     step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
     rho_tracker_set_pd(step);
-    judge_plots(step);
+    rho_tracker_judge_plots(step);
     rho_tracker_sort_plots(step);
     rho_tracker_predict(step);
-    rho_tracker_claim(step);
-    rho_tracker_update(step);
+    claim(step);
     rho_tracker_age(step);
     rho_tracker_initiate(step);
     rho_tracker_settle(step);

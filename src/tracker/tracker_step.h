@@ -22,6 +22,9 @@ struct step {
     const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
     uint32_t num_inputs;             /* plots or bearings */
     uint32_t num_gated;              /* of them: have a place in report->fates */
+    /* of the plots that have none: claimed, invalid */
+    uint32_t num_beyond_claimed, num_beyond_invalid;
+    int has_more_parts; /* of the scan: tracks that have no plot yet may have one there */
     /* of the scan's valid plots, the most: noise on any axis, own time either way */
     float sigma_max_m, offset_max_s;
     /* bit i: track i is within the scan's reach, or there is no scan but a frame */
@@ -41,6 +44,9 @@ int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
 /* NULL: not in the table */
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
                                                  int32_t sensor_id);
+
+/* Which plots can be believed: their fates. */
+void rho_tracker_judge_plots(struct step *step);
 
 /* The pd of the sensor that looks. */
 void rho_tracker_set_pd(struct step *step);
@@ -88,6 +94,11 @@ static inline uint32_t rho_tracker_plot_at(const struct step *step, uint32_t pla
     (void)step;
     return place;
 }
+#endif
+
+/* tracker_beyond.c: claim and update, of a scan of more than RHO_MAX_PLOTS */
+#if RHO_CLAIMS_BEYOND
+void rho_tracker_claim_parts(struct step *step);
 #endif
 
 /* tracker_claim.c: existing tracks take their plots */

@@ -85,14 +85,14 @@ static void existing_tracks_are_kept_and_all_else_is_counted(void **state)
             see_too_much(k);
             step(2.0 * k);
             expect_first_tracks(k);
-            assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], PLOTS - RHO_MAX_PLOTS);
+            /* of those beyond only what tracks claim has another fate */
+            assert_in_range(report.fates_total[RHO_FATE_NO_ROOM],
+                            PLOTS - RHO_MAX_PLOTS - RHO_MAX_TRACKS, PLOTS - RHO_MAX_PLOTS);
             assert_true(report.num_tracks <= RHO_MAX_TRACKS);
             assert_true(report.num_ended <= RHO_MAX_TRACKS);
         }
         assert_int_equal(report.num_tracks, RHO_MAX_TRACKS);
         assert_true(tracker.counters.tracks_no_room > then.tracks_no_room);
-        assert_int_equal(tracker.counters.fates[RHO_FATE_NO_ROOM],
-                         (SCANS - QUIET) * (PLOTS - RHO_MAX_PLOTS));
         assert_true(tracker.counters.candidates_dropped > 0);
         assert_int_equal(tracker.counters.tracks_started - tracker.counters.tracks_ended,
                          RHO_MAX_TRACKS);
@@ -180,26 +180,67 @@ static void tracks_in_doubt_that_give_way_are_reported_as_ended(void **state)
     assert_int_equal(tracker.counters.tracks_ended, 4);
 }
 
-/* Plots have room by their order: those beyond the capacity are not looked at, whoever they are of. */
-static void plots_beyond_the_capacity_are_nobody_s(void **state)
+/* ---- scans of more plots than have room -------------------------------------------------------- */
+
+/* The targets' plots are the last ones of the scan, behind so much clutter. */
+static void see_late(int k, uint32_t behind)
+{
+    see_clutter(behind);
+    for (int i = 0; i < FIRST; i++) {
+        see_target(i, k);
+    }
+}
+
+static void tracks_find_plots_beyond_the_capacity(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        begin_overload((uint8_t)gate);
+        fly_quietly();
+        for (int k = QUIET; k < SCANS; k++) {
+            /* in the second part, in the third, and across the border of both */
+            see_late(k, k % 3 == 0 ? RHO_MAX_PLOTS + 7 : k % 3 == 1 ? 700 : 2 * RHO_MAX_PLOTS - 9);
+            step(2.0 * k);
+            expect_first_tracks(k);
+            assert_true(report.fates_total[RHO_FATE_CLAIMED] >= FIRST - 4);
+        }
+    }
+}
+
+/* Which of them was claimed is told by its row in the whole scan, and it is the target's. */
+static void a_claimed_plot_beyond_is_told_by_its_row(void **state)
 {
     (void)state;
     begin_overload(RHO_TRACKER_BEST);
     fly_quietly();
-    see_clutter(RHO_MAX_PLOTS - FIRST / 2);
-    for (int i = 0; i < FIRST; i++) {
-        see_target(i, QUIET);
-    }
+    see_late(QUIET, RHO_MAX_PLOTS + 50);
     step(2.0 * QUIET);
-    unsigned missed = 0;
     for (uint32_t id = 1; id <= FIRST; id++) {
         const struct rho_track_report *track = report_of(id);
         assert_non_null(track);
-        assert_true(track->plot < RHO_MAX_PLOTS);
-        missed += track->plot < 0;
+        assert_in_range(track->plot, RHO_MAX_PLOTS + 50, RHO_MAX_PLOTS + 50 + FIRST - 1);
     }
-    assert_in_range(missed, FIRST / 2 - 2, FIRST / 2);
-    assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], FIRST / 2);
+    assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], FIRST);
+    assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], 50);
+}
+
+/* Bad ones are INVALID there as well; what lies beyond four times the capacity nobody looks at. */
+static void plots_far_beyond_are_nobody_s(void **state)
+{
+    (void)state;
+    begin_overload(RHO_TRACKER_BEST);
+    fly_quietly();
+    see_clutter(RHO_MAX_PLOTS + 10);
+    plots[RHO_MAX_PLOTS + 3].x_m = NAN;
+    see_late(QUIET, 4 * RHO_MAX_PLOTS);
+    step(2.0 * QUIET);
+    assert_int_equal(report.fates_total[RHO_FATE_INVALID], 1);
+    for (uint32_t id = 1; id <= FIRST; id++) {
+        const struct rho_track_report *track = report_of(id);
+        assert_non_null(track);
+        assert_true(track->plot < 4 * RHO_MAX_PLOTS);
+        assert_int_equal(track->status, RHO_TRACK_COASTING);
+    }
 }
 
 int main(void)
@@ -210,7 +251,9 @@ int main(void)
         cmocka_unit_test(nothing_is_counted_where_there_is_room),
         cmocka_unit_test(tracks_that_are_believed_never_give_way),
         cmocka_unit_test(tracks_in_doubt_that_give_way_are_reported_as_ended),
-        cmocka_unit_test(plots_beyond_the_capacity_are_nobody_s),
+        cmocka_unit_test(tracks_find_plots_beyond_the_capacity),
+        cmocka_unit_test(a_claimed_plot_beyond_is_told_by_its_row),
+        cmocka_unit_test(plots_far_beyond_are_nobody_s),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

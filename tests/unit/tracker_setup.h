@@ -14,7 +14,7 @@
 
 #include "rhotrack/tracker.h"
 
-#define PLOTS_MAX (RHO_MAX_PLOTS + 400)
+#define PLOTS_MAX (RHO_MAX_PLOTS + 1000)
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
@@ -82,7 +82,9 @@ static inline void check_sums(void)
     for (uint32_t i = 0; i < report.num_plots && i < RHO_MAX_PLOTS; i++) {
         claimed += report.fates[i] == RHO_FATE_CLAIMED;
     }
-    assert_int_equal(claimed, report.fates_total[RHO_FATE_CLAIMED]);
+    /* others may be beyond the places */
+    assert_in_range(report.fates_total[RHO_FATE_CLAIMED], claimed,
+                    report.num_plots > RHO_MAX_PLOTS ? claimed + RHO_MAX_TRACKS : claimed);
     for (unsigned i = 1; i < report.num_tracks; i++) {
         assert_true(report.tracks[i - 1].track_id < report.tracks[i].track_id);
     }

@@ -13,5 +13,8 @@
 /* No plots of two targets: the flash is full. */
 #define RHO_SHARES_PLOTS 0
 
+/* The feed's scans are never larger. */
+#define RHO_CLAIMS_BEYOND 0
+
 /* Nor a memory of clutter, for the same reason. */
 #define RHO_MAX_CLUTTER_CELLS 0
