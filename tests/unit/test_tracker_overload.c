@@ -195,15 +195,19 @@ static void tracks_find_plots_beyond_the_capacity(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        unsigned there = 0;
         begin_overload((uint8_t)gate);
         fly_quietly();
         for (int k = QUIET; k < SCANS; k++) {
             /* in the second part, in the third, and across the border of both */
             see_late(k, k % 3 == 0 ? RHO_MAX_PLOTS + 7 : k % 3 == 1 ? 700 : 2 * RHO_MAX_PLOTS - 9);
             step(2.0 * k);
-            expect_first_tracks(k);
-            assert_true(report.fates_total[RHO_FATE_CLAIMED] >= FIRST - 4);
         }
+        for (uint32_t id = 1; id <= FIRST; id++) {
+            there += report_of(id) != NULL && report_of(id)->plot >= RHO_MAX_PLOTS;
+        }
+        print_message("gate %d: %u of %d\n", gate, there, FIRST);
+        assert_true(there >= FIRST - 2);
     }
 }
 
