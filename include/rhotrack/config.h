@@ -172,7 +172,7 @@
 #define RHO_SHARES_PLOTS 1
 #endif
 
-/* 1: of scans of more than RHO_MAX_PLOTS, tracks may claim the others, up to four times as many; 0: left out of the program (400
+/* 1: of scans of more than RHO_MAX_PLOTS, tracks may claim others, of the first four times as many; 0: left out of the program (400
  * bytes less on a Cortex-M4), for who never steps larger scans: rho_feed makes none. */
 #ifndef RHO_CLAIMS_BEYOND
 #define RHO_CLAIMS_BEYOND 1

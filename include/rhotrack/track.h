@@ -38,7 +38,7 @@ enum rho_track_status {
 
 enum rho_track_event {
     RHO_TRACK_START = 0, /* initiation found it */
-    RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold */
+    RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold, or the doubt has gone */
     RHO_TRACK_UPDATE,    /* a plot was claimed */
     RHO_TRACK_MISS,      /* the sensor looked there, and no plot was claimed */
     RHO_TRACK_DOUBT,     /* the score fell so far that the target is rather gone than missed */
@@ -215,7 +215,7 @@ void rho_track_lose(struct rho_track *track, int32_t loss_mnat);
 /* Counts a scan that looked and saw nothing; loss_mnat >= 0 is taken from the score. Constant cost. */
 void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
 
-/* Applies the limits to the evidence: confirm and drop. Returns the status, RHO_TRACK_FREE where it ended. Constant
+/* Applies the limits to the evidence: confirm, doubt, confirm again what had been, and drop. Returns the status, RHO_TRACK_FREE where it ended. Constant
  * cost. */
 enum rho_track_status rho_track_judge(struct rho_track *track,
                                       const struct rho_track_limits *limits);

@@ -49,7 +49,8 @@ enum rho_tracker_gate {
 
 struct rho_tracker_config {
     float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
-    /* slowest target: a track that is surely slower follows something that stands, and is dropped; 0: none. 0 .. v_max_mps */
+    /* slowest target: a track that is surely slower follows something that stands, and is dropped; 0: none. 0 .. v_max_mps.
+     * The initiator is to have the same, or it starts one after the other there. */
     float v_min_mps;
     /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
     float v_max_mps;
@@ -179,8 +180,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tra
 /*
  * Takes one scan through all phases above.
  *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held nowhere (fate NO_ROOM)
- *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks may claim up to four
- *              times as many (RHO_CLAIMS_BEYOND); what nobody claims of them is not held, but gets NO_ROOM.
+ *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks may claim (RHO_CLAIMS_BEYOND), in
+ *              the first 4 RHO_MAX_PLOTS and 32767 of the scan; what nobody claims of them is not held, but NO_ROOM.
  *              A scan older than the last accepted one is late: all its plots are STALE, and but for counters
  *              nothing else changes.
  *   report     filled whole, whatever it held before

@@ -84,7 +84,9 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    if (scan && rho_window_accepts(&initiator->window, scan->time_us) &&
+    /* what leaves is remembered before it is overwritten, unless the push is going to be refused */
+    if (scan && left_unused && (scan->num_plots == 0 || (scan->plots && fates)) &&
+        rho_window_accepts(&initiator->window, scan->time_us) &&
         initiator->window.num_scans == initiator->config.scans) {
         rho_initiator_remember(initiator);
     }

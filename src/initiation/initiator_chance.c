@@ -270,14 +270,12 @@ static float wider(float log_sigma_m, float bend_m2)
 
 /* Process noise widens what a plot says of a straight track: by what it bends tracks from `first` on, on average over the
  * dimensions of the residual. */
-static struct place_class widened(const struct search *search, const struct place_class *place,
+static struct place_class widened(const struct chance *chance, const struct place_class *place,
                                   unsigned first)
 {
     struct place_class wide = *place;
-    float bend_m2;
-    if (search->fit_process_m2 > 0.0f) {
-        (void)rho_initiator_bend_m2(search, first, &bend_m2);
-        bend_m2 /= (float)(search->num_scans - first - 2u);
+    if (chance->search->fit_process_m2 > 0.0f) {
+        const float bend_m2 = chance->bend_m2[first];
         wide.log_range = wider(place->log_range, bend_m2);
         wide.log_cross = wider(place->log_cross, bend_m2);
         wide.log_up = wider(place->log_up, bend_m2);
@@ -291,7 +289,7 @@ static struct reach reach_of(const struct chance *chance, const struct place_cla
 {
     const struct search *search = chance->search;
     unsigned first = pattern->first, hits = pattern->hits;
-    struct place_class wide = widened(search, place, first);
+    struct place_class wide = widened(chance, place, first);
     struct reach reach = {.best_nat = best_score(chance, &wide, first, hits, pattern->spread_s2),
                           .before_nat = NEVER_NAT};
     reach.weight = 0.5f * place->share * pattern->inside *
@@ -300,7 +298,7 @@ static struct reach reach_of(const struct chance *chance, const struct place_cla
     reach.weight = reach.weight < WEIGHT_MAX ? reach.weight : WEIGHT_MAX;
     if (hits > 3u) {
         float before_s2 = mean_spread_s2(search, first + 1u, hits - 1u);
-        wide = widened(search, place, first + 1u);
+        wide = widened(chance, place, first + 1u);
         reach.before_nat = best_score(chance, &wide, first + 1u, hits - 1u, before_s2);
     }
     return reach;
@@ -312,6 +310,10 @@ static void lay_patterns(struct chance *chance)
     chance->num_patterns = 0;
     chance->least_hits = 3;
     for (unsigned first = 0; first + 3u <= num_scans; first++) {
+        if (chance->search->fit_process_m2 > 0.0f) {
+            (void)rho_initiator_bend_m2(chance->search, first, &chance->bend_m2[first]);
+            chance->bend_m2[first] /= (float)(num_scans - first - 2u);
+        }
         for (unsigned hits = 3; hits <= num_scans - first; hits++) {
             add_pattern(chance, first, hits);
         }
@@ -418,7 +420,7 @@ float rho_initiator_gain_of_hit(const struct chance *chance)
     float least = GAIN_MAX_NAT;
     for (unsigned i = 0; i < chance->num_classes; i++) {
         const struct place_class wide =
-            widened(search, &chance->classes[i], search->num_scans - 3u);
+            widened(chance, &chance->classes[i], search->num_scans - 3u);
         float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
                      0.5f * dimensions_of_hit(chance) * LOG_TWO_PI - log_noise(chance, &wide) -
                      rho_log(PREDICTION_SPREAD) +

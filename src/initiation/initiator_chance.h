@@ -50,6 +50,8 @@ struct reach {
 struct chance {
     const struct search *search;
     int has_z, has_range_rate;
+    float bend_m2
+        [RHO_MAX_SCANS]; /* by process noise, of tracks from this scan on: mean over the residual's dimensions */
     unsigned num_classes, num_patterns;
     unsigned least_hits; /* patterns with fewer do not count */
     struct place_class classes[CLASSES_MAX];

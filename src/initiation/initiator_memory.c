@@ -79,10 +79,13 @@ void rho_initiator_remember(struct rho_initiator *initiator)
     memory->num_scans++;
     for (unsigned i = 0; i < scan->num_plots; i++) {
         const int cell = cell_of(memory, scan->plots[i].x_m, scan->plots[i].y_m);
-        if (cell >= 0 && !(scan->marks[i] & RHO_WINDOW_INITIATED) &&
-            memory->count[cell] < UINT16_MAX) {
-            memory->count[cell]++;
+        if (cell < 0 || (scan->marks[i] & RHO_WINDOW_INITIATED)) {
+            continue;
         }
+        if (memory->count[cell] == UINT16_MAX) {
+            halve(memory); /* the others keep their proportion */
+        }
+        memory->count[cell]++;
     }
 }
 

@@ -146,9 +146,9 @@ static void open_changes(struct rho_imm_step *step, const struct rho_imm_model *
     const float begins = step->dt_s / model->steady_s, ends = step->dt_s / model->maneuver_s;
     step->begins = step->ends = 0.0f;
     if (step->dt_s > 0.0f) {
-        const float moved = 1.0f - rho_exp(-(begins + ends)), begins_of = begins / (begins + ends);
-        step->begins = begins_of * moved;
-        step->ends = (1.0f - begins_of) * moved;
+        const float moved = 1.0f - rho_exp(-(begins + ends));
+        step->begins = begins / (begins + ends) * moved;
+        step->ends = ends / (begins + ends) * moved;
     }
 }
 

@@ -213,10 +213,13 @@ static void count_fates(const struct step *step)
         report->fates_total[report->fates[i]]++;
     }
     int late = step->num_gated > 0 && report->fates[0] == RHO_FATE_STALE;
-    report->fates_total[RHO_FATE_CLAIMED] += step->num_beyond_claimed;
-    report->fates_total[RHO_FATE_INVALID] += step->num_beyond_invalid;
-    report->fates_total[late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] +=
-        step->num_inputs - step->num_gated - step->num_beyond_claimed - step->num_beyond_invalid;
+    uint32_t others = step->num_inputs - step->num_gated;
+    if (RHO_CLAIMS_BEYOND) {
+        report->fates_total[RHO_FATE_CLAIMED] += step->num_beyond_claimed;
+        report->fates_total[RHO_FATE_INVALID] += step->num_beyond_invalid;
+        others -= step->num_beyond_claimed + step->num_beyond_invalid;
+    }
+    report->fates_total[late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] += others;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
     }

@@ -14,41 +14,63 @@
 
 /* Work is bounded: what lies beyond so many parts nobody looks at. */
 #define PARTS_MAX 4u
+/* Rows that a track can tell. */
+#define ROWS_MAX ((uint32_t)INT16_MAX)
 
 struct part {
     struct rho_scan scan;
     uint32_t first;
-    uint32_t had_plot[(RHO_MAX_TRACKS + 31) / 32]; /* bit i: track i came with a plot */
 };
 
-static void begin_part(struct step *step, struct part *part, const struct rho_scan *whole,
-                       uint32_t first)
+/*
+ * What the initiator knows of clutter is of the first parts of the scans before. The others are as dense as their own plots
+ * lie, or as the first one where all are mixed.
+ */
+static void measure_part(struct step *step, const struct rho_scan *whole)
 {
-    const struct rho_tracker *tracker = step->tracker;
-    const uint32_t left = whole->num_plots - first;
-    part->scan = *whole;
-    part->scan.plots += first;
-    part->scan.num_plots = left < RHO_MAX_PLOTS ? left : RHO_MAX_PLOTS;
-    part->first = first;
-    memset(part->had_plot, 0, sizeof part->had_plot);
-    for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        part->had_plot[i / 32] |= (tracker->tracks[i].plot >= 0 ? 1u : 0u) << i % 32;
+    struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
+    float num = 0.0f;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &step->scan->plots[i];
+            if (num < 1.0f) {
+                extent = (struct rho_extent){plot->x_m, plot->x_m, plot->y_m, plot->y_m};
+            }
+            rho_extent_add(&extent, plot->x_m, plot->y_m);
+            num += 1.0f;
+        }
     }
-    step->scan = &part->scan;
-    step->num_gated = part->scan.num_plots;
-    rho_tracker_judge_plots(step);
-    rho_tracker_sort_plots(step);
+    step->part_per_m2 = num / rho_extent_area_m2(&extent, RHO_CLUTTER_SIDE_MIN_M);
+    step->part_share = (float)whole->num_plots / (float)RHO_MAX_PLOTS;
 }
 
-/* Plots are told by their rows in the whole scan; those beyond 32767 by that. */
+static void begin_part(struct step *step, struct part *part, const struct rho_scan *whole,
+                       uint32_t first, uint32_t end)
+{
+    part->scan = *whole;
+    part->scan.plots += first;
+    part->scan.num_plots = end - first < RHO_MAX_PLOTS ? end - first : RHO_MAX_PLOTS;
+    part->first = first;
+    step->scan = &part->scan;
+    step->num_gated = part->scan.num_plots;
+    step->has_more_parts = end - first > RHO_MAX_PLOTS;
+    rho_tracker_judge_plots(step);
+    rho_tracker_sort_plots(step);
+    if (first > 0) {
+        measure_part(step, whole);
+    }
+}
+
+/* Who got a plot, taken or refused, is out of the others' reach. Plots are told by their rows in the whole scan. */
 static void end_part(struct step *step, const struct part *part)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
-        if (track->plot >= 0 && !((part->had_plot[i / 32] >> (i % 32)) & 1u)) {
-            const uint32_t row = part->first + (uint16_t)track->plot;
-            track->plot = row < INT16_MAX ? (int16_t)row : INT16_MAX;
+        const int had = rho_assignment_column(&tracker->assignment, i) != RHO_ASSIGNMENT_NONE;
+        if (rho_tracker_is_reached(step, i) && (track->plot >= 0 || had)) {
+            track->plot = (int16_t)(track->plot < 0 ? -1 : track->plot + (int32_t)part->first);
+            step->reached[i / 32] &= ~(1u << i % 32);
         }
     }
     for (uint32_t i = 0; i < step->num_gated && part->first > 0; i++) {
@@ -57,17 +79,21 @@ static void end_part(struct step *step, const struct part *part)
     }
 }
 
+static uint32_t end_of_parts(const struct rho_scan *whole)
+{
+    const uint32_t most =
+        PARTS_MAX * RHO_MAX_PLOTS < ROWS_MAX ? PARTS_MAX * RHO_MAX_PLOTS : ROWS_MAX;
+    return whole->num_plots < most ? whole->num_plots : most;
+}
+
 void rho_tracker_claim_parts(struct step *step)
 {
-    const struct rho_scan *whole = step->scan;
-    const uint32_t num_gated = step->num_gated;
-    const uint32_t end =
-        whole->num_plots < PARTS_MAX * RHO_MAX_PLOTS ? whole->num_plots : PARTS_MAX * RHO_MAX_PLOTS;
+    const struct step before = *step;
+    const uint32_t end = end_of_parts(before.scan);
     uint8_t fates[RHO_MAX_PLOTS];
     struct part part;
     for (uint32_t first = 0; first < end; first += RHO_MAX_PLOTS) {
-        begin_part(step, &part, whole, first);
-        step->has_more_parts = end - first > RHO_MAX_PLOTS;
+        begin_part(step, &part, before.scan, first, end);
         rho_tracker_claim(step);
         rho_tracker_update(step);
         end_part(step, &part);
@@ -76,8 +102,9 @@ void rho_tracker_claim_parts(struct step *step)
         }
     }
     memcpy(step->report->fates, fates, sizeof fates);
-    step->scan = whole;
-    step->num_gated = num_gated;
+    memcpy(step->reached, before.reached, sizeof step->reached);
+    step->scan = before.scan;
+    step->num_gated = before.num_gated;
 }
 
 #else

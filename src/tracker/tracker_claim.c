@@ -5,9 +5,6 @@
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
 
-/* The least area that clutter is spread over while few plots were seen. */
-#define CLUTTER_SIDE_MIN_M 1000.0f
-
 /* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the paper. */
 #define HOUGH_VELOCITIES_MIN 3
 /* More than any two velocities within the limits can differ, m/s for nat: only the order counts. */
@@ -43,7 +40,7 @@ void rho_tracker_predict(struct step *step)
 
 /* ---- claim ------------------------------------------------------------------------------------ */
 
-static float clutter_density(const struct step *step, float x_m, float y_m)
+static float usual_density(const struct step *step, float x_m, float y_m)
 {
     const struct rho_tracker *tracker = step->tracker;
     if (step->initiator) {
@@ -52,8 +49,18 @@ static float clutter_density(const struct step *step, float x_m, float y_m)
             return density;
         }
     }
-    float area_m2 = rho_extent_area_m2(&tracker->extent, CLUTTER_SIDE_MIN_M);
+    float area_m2 = rho_extent_area_m2(&tracker->extent, RHO_CLUTTER_SIDE_MIN_M);
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
+}
+
+static float clutter_density(const struct step *step, float x_m, float y_m)
+{
+    float density = usual_density(step, x_m, y_m);
+    if (RHO_CLAIMS_BEYOND && step->part_share > 0.0f) {
+        density *= step->part_share;
+        density = step->part_per_m2 > density ? step->part_per_m2 : density;
+    }
+    return density;
 }
 
 /* ln of the plot's density as the track's, over its density as clutter, whose range rates are any that a target may
@@ -371,7 +378,7 @@ void rho_tracker_update(struct step *step)
             !rho_tracker_is_reached(step, row)) {
             continue;
         }
-        if (plot == RHO_ASSIGNMENT_NONE && step->has_more_parts) {
+        if (RHO_CLAIMS_BEYOND && step->has_more_parts && plot == RHO_ASSIGNMENT_NONE) {
             continue;
         }
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {

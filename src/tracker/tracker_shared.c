@@ -29,6 +29,7 @@
 struct pair {
     struct rho_track *first, *second; /* first: has the plot */
     int plot;
+    float gain_nat;    /* of the first */
     float variance_m2; /* of the plot's noise on an axis */
     float half_m[2];   /* from the middle to the second */
     float distance2_m2;
@@ -38,6 +39,25 @@ static int is_old(const struct rho_track *track)
 {
     /* one in doubt, too: a plot of both that is missed twice says nothing of the second target alone */
     return track->is_believed && track->hits >= HITS_MIN && track->plot < 0;
+}
+
+/* What the assignment reckoned with: it is told over a miss. */
+static float gain_of(const struct step *step, unsigned row, int column)
+{
+    const struct rho_assignment *assignment = &step->tracker->assignment;
+    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
+        if (assignment->pairs[row][i].column == column) {
+            return step->log_miss - 0.001f * (float)assignment->pairs[row][i].cost;
+        }
+    }
+    return 0.0f;
+}
+
+/* Of the place on the ground, mean of both axes. */
+static float variance_m2(const struct rho_track *track)
+{
+    const float *covariance = track->kalman.covariance;
+    return 0.5f * (covariance[RHO_AT(0, 0)] + covariance[RHO_AT(1, 1)]);
 }
 
 /* Of a track without a plot: the likeliest one that another old track got, which must be near. */
@@ -54,6 +74,7 @@ static int find_pair(const struct step *step, unsigned row, struct pair *pair)
             least = offer->cost;
             pair->plot = offer->column;
             pair->first = &tracker->tracks[owner];
+            pair->gain_nat = gain_of(step, (unsigned)owner, offer->column);
         }
     }
     if (least == 0) {
@@ -79,17 +100,18 @@ static float larger(float a, float b)
 static int is_merged(const struct step *step, const struct pair *pair, float *gain_nat)
 {
     const struct rho_plot *plot = &step->scan->plots[pair->plot];
-    const float first_m = rho_track_sigma_m(pair->first),
-                second_m = rho_track_sigma_m(pair->second);
+    const float first_m2 = variance_m2(pair->first);
     const float near_m2 = 4.0f * pair->variance_m2;
-    const float spread_m2 = near_m2 + first_m * first_m + second_m * second_m;
+    const float spread_m2 = near_m2 + first_m2 + variance_m2(pair->second);
     const float merged = near_m2 / spread_m2 * rho_exp(-0.5f * pair->distance2_m2 / spread_m2);
-    const float from_m[2] = {plot->x_m - pair->first->kalman.state[0],
-                             plot->y_m - pair->first->kalman.state[1]};
+    /* at the plot's own time; the way from one to the other is taken to be the same then */
+    const float after_s = (float)plot->offset_us * 1e-6f, *state = pair->first->kalman.state;
+    const float from_m[2] = {plot->x_m - state[0] - after_s * state[3],
+                             plot->y_m - state[1] - after_s * state[4]};
     /* |z - first|^2 less |z - middle|^2 */
     const float nearer_m2 = 2.0f * (from_m[0] * pair->half_m[0] + from_m[1] * pair->half_m[1]) -
                             0.25f * pair->distance2_m2;
-    const float ratio_nat = 0.5f * nearer_m2 / (pair->variance_m2 + first_m * first_m);
+    const float ratio_nat = 0.5f * nearer_m2 / (pair->variance_m2 + first_m2);
     *gain_nat = larger(step->log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
     return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(step->log_miss);
 }
@@ -99,7 +121,12 @@ static int take(struct step *step, struct rho_track *track, int plot, float gain
     struct rho_track_plot seen = rho_tracker_plot_of(step, plot);
     seen.plot.sigma_range_m *= WIDER;
     seen.plot.sigma_cross_m *= WIDER;
-    return rho_track_update(track, &seen, &step->model, rho_tracker_mnat(gain_nat)) == RHO_OK;
+    if (rho_track_update(track, &seen, &step->model, rho_tracker_mnat(gain_nat)) != RHO_OK) {
+        return 0;
+    }
+    /* hypotheses are at the plot's own time, and so is said of the track */
+    rho_track_settle(track, step->time_us, &step->model);
+    return 1;
 }
 
 void rho_tracker_share(struct step *step)
@@ -107,16 +134,20 @@ void rho_tracker_share(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     struct pair pair;
     float gain_nat;
+    if (step->has_more_parts) {
+        return; /* its own plot may be there */
+    }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         if (rho_assignment_column(&tracker->assignment, row) != RHO_ASSIGNMENT_NONE ||
             !is_old(&tracker->tracks[row]) || !find_pair(step, row, &pair) ||
             !is_merged(step, &pair, &gain_nat)) {
             continue;
         }
-        /* one that refuses goes on as if there were no pair */
-        if (take(step, pair.second, pair.plot, gain_nat)) {
+        /* one that refuses goes on as if there were no pair; the elder one has what the plot is worth */
+        const int second_is_elder = pair.second < pair.first;
+        if (take(step, pair.second, pair.plot, second_is_elder ? pair.gain_nat : gain_nat)) {
             step->report->fates[pair.plot] = RHO_FATE_CLAIMED;
-            (void)!take(step, pair.first, pair.plot, 0.0f);
+            (void)!take(step, pair.first, pair.plot, second_is_elder ? gain_nat : pair.gain_nat);
         }
     }
 }

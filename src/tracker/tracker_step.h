@@ -9,6 +9,9 @@
 
 #define LOG_TWO_PI 1.83787707f
 
+/* The least side of an area that clutter is spread over. */
+#define RHO_CLUTTER_SIDE_MIN_M 1000.0f
+
 struct step {
     struct rho_tracker *tracker;
     int64_t time_us;
@@ -25,6 +28,8 @@ struct step {
     /* of the plots that have none: claimed, invalid */
     uint32_t num_beyond_claimed, num_beyond_invalid;
     int has_more_parts; /* of the scan: tracks that have no plot yet may have one there */
+    /* of a part beyond the first: its own density, and the whole scan's plots over those of the first; 0: the first */
+    float part_per_m2, part_share;
     /* of the scan's valid plots, the most: noise on any axis, own time either way */
     float sigma_max_m, offset_max_s;
     /* bit i: track i is within the scan's reach, or there is no scan but a frame */

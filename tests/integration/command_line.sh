@@ -63,7 +63,6 @@ refuse 'a cell beyond a quarter turn' '--set gate_theta_deg=91: gate_theta_deg 9
     config --set gate_theta_deg=91
 refuse 'track decides on inputs by itself' 'track takes no --no-input-estimation*' \
     track plots.csv --no-input-estimation
-refuse 'follow of a later version' '--follow is not in this version' track plots.csv --follow
 refuse 'unknown method' "no method 'passive-papers'; there are: kernel, ht, mht, iht, nht, passive, passive-paper" \
     initiate plots.csv --method passive-papers
 refuse 'runs not a number' "--runs 'many' is not a whole number" experiment initiation --runs many

@@ -258,6 +258,11 @@ static void refused_scans_are_not_remembered(void **state)
     old.time_us = llround((time_s - 1.5 * SCAN_S) * 1e6);
     assert_int_equal(rho_initiator_push(&initiator, &old, NULL, fates, &unused), RHO_ERROR_STATE);
     assert_memory_equal(&initiator, &then, sizeof initiator);
+    old.time_us = llround(time_s * 1e6);
+    assert_int_equal(rho_initiator_push(&initiator, &old, NULL, NULL, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_initiator_push(&initiator, &old, NULL, fates, NULL), RHO_ERROR_NULL);
+    old.plots = NULL;
+    assert_int_equal(rho_initiator_push(&initiator, &old, NULL, fates, &unused), RHO_ERROR_NULL);
     assert_int_equal(rho_initiator_push(&initiator, NULL, NULL, fates, &unused), RHO_ERROR_NULL);
     assert_memory_equal(&initiator, &then, sizeof initiator);
 }

@@ -279,6 +279,53 @@ static void a_short_steady_time_is_as_none(void **state)
     assert_memory_equal(&report, &other, sizeof report);
 }
 
+/* ---- what stands -------------------------------------------------------------------------------- */
+
+static void what_stands_is_no_target_where_targets_move(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        for (int has_least = 0; has_least < 2; has_least++) {
+            unsigned ended = 0;
+            draw(3);
+            config.gate = (uint8_t)gate;
+            config.v_min_mps = has_least ? 50.0f : 0.0f;
+            begin();
+            for (int k = 0; k < 40; k++) {
+                /* it flies, then it has come upon something that stands */
+                add(k < 20 ? 400.0 * k - 8000.0 : 10.0 * normal(), 10.0 * normal(), 10.0);
+                step(2.0 * k);
+                for (unsigned i = 0; i < report.num_ended; i++) {
+                    ended += report.ended[i] == 1;
+                }
+            }
+            if (has_least) {
+                assert_int_equal(ended, 1);
+            } else {
+                assert_true(report.num_tracks >= 1);
+            }
+        }
+    }
+}
+
+static void least_speeds_out_of_range_are_refused(void **state)
+{
+    static const float bad[] = {-1.0f, NAN, INFINITY, 701.0f};
+    (void)state;
+    draw(3);
+    begin();
+    static struct rho_tracker before;
+    before = tracker;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        config.v_max_mps = 700.0f;
+        config.v_min_mps = bad[i];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+        assert_memory_equal(&tracker, &before, sizeof tracker);
+    }
+    config.v_min_mps = 700.0f;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +339,8 @@ int main(void)
         cmocka_unit_test(steady_times_out_of_range_are_refused),
         cmocka_unit_test(steady_targets_are_known_better_and_turns_are_followed),
         cmocka_unit_test(a_short_steady_time_is_as_none),
+        cmocka_unit_test(what_stands_is_no_target_where_targets_move),
+        cmocka_unit_test(least_speeds_out_of_range_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

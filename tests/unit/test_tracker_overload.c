@@ -228,6 +228,33 @@ static void a_claimed_plot_beyond_is_told_by_its_row(void **state)
     assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], 50);
 }
 
+/*
+ * Plots in the order of y: the targets, which have gone, were in the last part, where the initiator has seen no clutter. Their
+ * tracks are not kept alive by it.
+ */
+static void tracks_of_what_has_gone_end_in_any_part(void **state)
+{
+    (void)state;
+    unsigned believed = 0;
+    begin_overload(RHO_TRACKER_BEST);
+    fly_quietly();
+    for (int k = QUIET; k < QUIET + 20; k++) {
+        for (int band = 0; band < 4; band++) {
+            for (uint32_t i = 0; i < RHO_MAX_PLOTS; i++) {
+                const double x_m = uniform(-1e4, 11e4), off_m = uniform(0.0, 1e4);
+                add(x_m, 2e4 - 1e4 * band + off_m, 20.0);
+            }
+        }
+        step(2.0 * k);
+        for (uint32_t id = 1; id <= FIRST; id++) {
+            const struct rho_track_report *track = report_of(id);
+            believed += track != NULL && track->status != RHO_TRACK_TENTATIVE;
+        }
+    }
+    print_message("%u of %d track-scans\n", believed, 20 * FIRST);
+    assert_true(believed < 5 * FIRST); /* 2 scans each are the misses that tell */
+}
+
 /* Bad ones are INVALID there as well; what lies beyond four times the capacity nobody looks at. */
 static void plots_far_beyond_are_nobody_s(void **state)
 {
@@ -257,6 +284,7 @@ int main(void)
         cmocka_unit_test(tracks_in_doubt_that_give_way_are_reported_as_ended),
         cmocka_unit_test(tracks_find_plots_beyond_the_capacity),
         cmocka_unit_test(a_claimed_plot_beyond_is_told_by_its_row),
+        cmocka_unit_test(tracks_of_what_has_gone_end_in_any_part),
         cmocka_unit_test(plots_far_beyond_are_nobody_s),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -312,6 +312,47 @@ static void one_that_is_far_shares_nothing(void **state)
     assert_int_equal(report.tracks[0].misses + report.tracks[1].misses, 2);
 }
 
+/* Two abreast, seen as one from scan 20 on, half an interval after the scan's time: both keep to their plot's time. */
+static void a_shared_plot_has_its_own_time(void **state)
+{
+    (void)state;
+    for (int offset_s = 0; offset_s <= 5; offset_s += 5) {
+        begin_pair(5);
+        for (int k = 0; k < 32; k++) {
+            const double x_m = SPEED_MPS * (10.0 * k + offset_s);
+            const int is_one = k >= 20;
+            for (int i = 0; i < 2 - is_one; i++) {
+                add(x_m, is_one ? 30.0 : 60.0 * i, SIGMA_M)->offset_us = offset_s * 1000000;
+            }
+            step(10.0 * k);
+        }
+        assert_int_equal(report.num_tracks, 2);
+        assert_int_equal(find_share().tracks, 1);
+        for (unsigned i = 0; i < 2; i++) {
+            assert_float_equal(report.tracks[i].state[0], SPEED_MPS * 310.0, 60.0);
+            assert_float_equal(report.tracks[i].state[1], 30.0, 40.0);
+        }
+    }
+}
+
+/* Two scans that show neither: the one that the plots are claimed by is believed again. */
+static void a_pair_that_was_missed_is_seen_again(void **state)
+{
+    (void)state;
+    begin_pair(6);
+    for (int k = 0; k < 30; k++) {
+        for (int i = 0; i < (k < 20 ? 2 : k < 22 ? 0 : 1); i++) {
+            add(SPEED_MPS * 10.0 * k, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
+        }
+        step(10.0 * k);
+    }
+    unsigned confirmed = 0;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        confirmed += report.tracks[i].status == RHO_TRACK_CONFIRMED;
+    }
+    assert_true(confirmed >= 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,6 +364,8 @@ int main(void)
         cmocka_unit_test(a_plot_has_two_tracks_at_most),
         cmocka_unit_test(what_is_seen_apart_is_not_shared),
         cmocka_unit_test(one_that_is_far_shares_nothing),
+        cmocka_unit_test(a_shared_plot_has_its_own_time),
+        cmocka_unit_test(a_pair_that_was_missed_is_seen_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@
 
 #include "rhotrack/tracker.h"
 
-#define PLOTS_MAX (RHO_MAX_PLOTS + 1000)
+#define PLOTS_MAX (RHO_MAX_PLOTS + 1200)
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;

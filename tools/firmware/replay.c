@@ -151,6 +151,7 @@ static int set(struct node_config *config, const char *argument)
         config->tracker.input.is_estimated = config->tracker.gate != RHO_TRACKER_BEST;
     } else if (length == 9 && strncmp(argument, "v_min_mps", length) == 0) {
         config->initiator.v_min_mps = whole_number(value + 1);
+        config->tracker.v_min_mps = config->initiator.v_min_mps;
     } else if (length == 9 && strncmp(argument, "v_max_mps", length) == 0) {
         config->initiator.v_max_mps = whole_number(value + 1);
         config->tracker.v_max_mps = config->initiator.v_max_mps;

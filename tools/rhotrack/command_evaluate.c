@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* evaluate: tracks against truth. */
+#include "command_line.h"
 #include "commands.h"
 #include "common.h"
 #include "evaluation.h"
@@ -33,6 +34,7 @@ static struct evaluation *evaluate_files(const struct command_line *line)
 int command_evaluate(struct command_line *line)
 {
     check_output(line->output);
+    refuse_own_input(line);
     struct evaluation *e = evaluate_files(line);
     if (line->output != NULL && path_ends_with(line->output, ".svg")) {
         evaluation_draw(e, line->output);

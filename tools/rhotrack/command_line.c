@@ -17,8 +17,10 @@ static const struct {
     char letter;
     const char *name, *argument, *text; /* no text: not in this version */
 } options[NUM_OPTIONS] = {
-    {'o', "output", "OUTPUT", "where to write; it appears there only when it is complete"},
-    {'m', "method", "METHOD", "how tracks are initiated: " METHOD_NAMES},
+    {'o', "output", "OUTPUT",
+     "where to write; it appears there only when it is complete (--follow: in place)"},
+    {'m', "method", "METHOD",
+     "how tracks are initiated: " METHOD_NAMES "; or an experiment's part"},
     {'g', "gate", "GATE", "how a track chooses its plots; the parameter gate says the same"},
     {'K', "kind", "KIND", "which messages of a log: plots, polar, bearings, truth or tracks"},
     {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
@@ -282,5 +284,14 @@ void command_line_read(struct command_line *line, const struct command *command,
     if (line->num_arguments > command->max_arguments) {
         fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
              line->arguments[command->max_arguments], command->name, command->usage);
+    }
+}
+
+void refuse_own_input(const struct command_line *line)
+{
+    for (int i = 0; line->output && i < line->num_arguments; i++) {
+        if (is_same_file(line->output, line->arguments[i])) {
+            fail(EXIT_USAGE, "%s: the output cannot be an input", line->arguments[i]);
+        }
     }
 }

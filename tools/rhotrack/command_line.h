@@ -28,4 +28,7 @@ void command_line_read(struct command_line *line, const struct command *command,
 /* Help of one command. */
 void command_line_help(const struct command *command, FILE *file);
 
+/* Exit 2 where --output names one of the arguments: nobody wants an input overwritten by what is made of it. */
+void refuse_own_input(const struct command_line *line);
+
 #endif

@@ -9,6 +9,7 @@
 
 #include "bearings_batch.h"
 #include "chain.h"
+#include "command_line.h"
 #include "commands.h"
 #include "common.h"
 #include "frame_reader.h"
@@ -293,18 +294,13 @@ static void open_chain(struct tracking *tracking, const struct inputs *inputs,
 
 static struct inputs *open_inputs(const struct command_line *line)
 {
-    const char *path = line->arguments[0];
-
+    refuse_own_input(line);
     if (!line->follow) {
         return inputs_open(line->arguments, line->num_arguments, &line->parameters,
                            line->keep_going);
     }
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
-    }
-    if (line->output && is_same_file(line->output, path)) {
-        fail(EXIT_USAGE, "%s: with --follow the output is written in place: it cannot be the input",
-             path);
     }
     return inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
 }

@@ -111,7 +111,7 @@ extern const struct air_pair air_pairs[AIR_PAIRS];
 /* Shares of the runs. */
 struct air_pair_result {
     double kept;                   /* no target's track became another */
-    double lost;                   /* at the last scan not both had a track */
+    double lost;                   /* at the last four scans never both had a track */
     double switches, completeness; /* means */
 };
 

@@ -6,6 +6,9 @@
 #include "common.h"
 #include "experiment_air_traffic.h"
 
+/* At the end of a run, without a track: fewer scans are a target that was missed, and is in doubt. */
+#define LOST_SCANS 4
+
 static struct parameters parameters_of(const struct air_pair *of)
 {
     struct parameters parameters;
@@ -58,7 +61,7 @@ struct air_pair_result air_pair_run(const struct air_pair *of, uint64_t seed, ui
     struct simulation *simulation = scenario_simulate(of->scenario, &parameters, seed, run);
     struct evaluation *evaluation = evaluation_start(air_cutoffs_m[0]);
     struct air_points tracks = {0};
-    bool has_both = false;
+    size_t without = 0; /* scans since both had a track */
 
     chain_open(chain, &parameters);
     for (size_t i = 0; i < simulation->num_scans; i++) {
@@ -66,14 +69,14 @@ struct air_pair_result air_pair_run(const struct air_pair *of, uint64_t seed, ui
         chain_step(chain, &scan);
         tracks.count = 0;
         air_points_add(&tracks, chain->report, 0);
-        has_both = evaluate_scan(evaluation, simulation, i, &tracks, of->apart_m);
+        without = evaluate_scan(evaluation, simulation, i, &tracks, of->apart_m) ? 0 : without + 1;
     }
     struct evaluation_result result = evaluation_result(evaluation);
     evaluation_free(evaluation);
     free(tracks.points);
     simulation_free(simulation);
     return (struct air_pair_result){.kept = result.switches == 0,
-                                    .lost = !has_both,
+                                    .lost = without >= LOST_SCANS,
                                     .switches = (double)result.switches,
                                     .completeness = result.completeness};
 }

@@ -57,11 +57,8 @@ static char *existing(const char *folder, const char *name)
 static char *find_script(void)
 {
     char *folder = own_folder();
-    char *script = existing(".", "tests/bench/air_traffic_stonesoup.py");
+    char *script = existing(folder, "../tests/bench/air_traffic_stonesoup.py");
 
-    if (script == NULL) {
-        script = existing(folder, "../tests/bench/air_traffic_stonesoup.py");
-    }
     free(folder);
     return script;
 }
@@ -169,11 +166,11 @@ static void run_rival(void *context, size_t worker, size_t index)
     char *const arguments[] = {contest->python, contest->script, plots,  dash_o,
                                tracks,          dash_method,     method, NULL};
     int code = run(arguments, text, sizeof text);
-    if (code == 0) {
+    if (code == 0 && access(tracks, R_OK) == 0 && isfinite(mean_us(text))) {
         contest->results[index].us = mean_us(text);
         contest->results[index].figures = evaluate_files(truth, tracks);
     } else {
-        contest->missing[index] = reason(code);
+        contest->missing[index] = reason(code == 0 ? 1 : code);
     }
     free(plots);
     free(truth);

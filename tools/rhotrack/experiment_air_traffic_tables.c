@@ -91,7 +91,8 @@ static struct grid operation_grid(const struct air_report *report)
 static struct grid pairs_grid(const struct air_report *report)
 {
     struct grid grid = grid_start(
-        1, "two aircraft|runs|no switch|switches a run|a track is missing at the end|complete");
+        1,
+        "two aircraft|runs|no switch|switches a run|a track is missing at the last four|complete");
 
     for (size_t i = 0; i < AIR_PAIRS; i++) {
         grid_row(&grid, "%s|%zu|%.3f|%.2f|%.3f|%.4f", air_pairs[i].name, report->pair_runs,

@@ -44,7 +44,8 @@
     X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
       "bearings of different sensors within it are one frame")                                     \
     X(PD, "pd", "-", 0.9, 0.01, 0.999, 0, 1, "assumed probability of detection")                   \
-    X(V_MIN_MPS, "v_min_mps", "m/s", 0, 0, 2e4, 0, 1, "slowest target")                            \
+    X(V_MIN_MPS, "v_min_mps", "m/s", 0, 0, 2e4, 0, 1,                                              \
+      "slowest target; what is surely slower is none")                                             \
     X(V_MAX_MPS, "v_max_mps", "m/s", 700, 1, 2e4, 0, 1, "fastest target")                          \
     X(RANGE_MIN_M, "range_min_m", "m", 0, 0, 2e6, 0, 1, "nearest range a sensor sees")             \
     X(RANGE_MAX_M, "range_max_m", "m", 100000, 1, 2e6, 0, 1, "farthest range a sensor sees")       \
