@@ -104,6 +104,10 @@ check 'and said in full' grep -q '^last_s  *1790000040$' stdout
 
 run evaluate truth.csv tracks.csv -o over.png
 check 'another ending' says 2 "rhotrack: evaluate: -o 'over.png' is neither NAME.svg*NAME.csv*"
+cp tracks.csv own.csv
+run evaluate truth.csv own.csv -o own.csv
+check 'its own input' says 2 'rhotrack: own.csv: the output cannot be an input'
+check '... is as it was' cmp own.csv tracks.csv
 run evaluate truth.csv tracks.csv -o nowhere/over.csv
 check 'a folder that is not there' exits 1
 # refuses NAME FILE LINE SED: that tracks file line, changed so, is named, and what stood under -o stays.

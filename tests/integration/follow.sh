@@ -193,7 +193,7 @@ run track --follow plots.csv plots.csv
 check 'two inputs' says 2 'rhotrack: --follow takes one input'
 ln -s plots.csv same.csv
 run track --follow plots.csv -o same.csv
-check 'an output that is the input' says 2 'rhotrack: plots.csv: with --follow the output is written in place: *'
+check 'an output that is the input' says 2 'rhotrack: plots.csv: the output cannot be an input'
 check 'which is as it was' has_rows plots.csv 25
 run track --follow none.csv
 check 'no such file' says 2 'rhotrack: none.csv: No such file or directory'
