@@ -28,7 +28,7 @@ void command_line_read(struct command_line *line, const struct command *command,
 /* Help of one command. */
 void command_line_help(const struct command *command, FILE *file);
 
-/* Exit 2 where --output names one of the arguments: nobody wants an input overwritten by what is made of it. */
+/* Exit 2 where --output names one of the arguments: of commands that nobody wants to put their output in an input's place. */
 void refuse_own_input(const struct command_line *line);
 
 #endif

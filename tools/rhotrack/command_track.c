@@ -294,7 +294,6 @@ static void open_chain(struct tracking *tracking, const struct inputs *inputs,
 
 static struct inputs *open_inputs(const struct command_line *line)
 {
-    refuse_own_input(line);
     if (!line->follow) {
         return inputs_open(line->arguments, line->num_arguments, &line->parameters,
                            line->keep_going);
@@ -302,6 +301,7 @@ static struct inputs *open_inputs(const struct command_line *line)
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
     }
+    refuse_own_input(line); /* the output is written in place */
     return inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
 }
 
