@@ -382,7 +382,9 @@ static void assert_next(const struct rho_frames *frames, const struct rho_frame 
 
 static void scans_as_they_come_make_the_same_frames(void **state)
 {
-    static struct rho_bearing_scan in_frames[LOOKS], scans[LOOKS]; /* without their bearings */
+    static const struct rho_bearing bearing = {.bearing_rad = 0.5f, .sigma_rad = 0.001f};
+    static struct rho_bearing_scan in_frames[LOOKS],
+        scans[LOOKS]; /* theirs end with the reader's frame */
     static struct rho_frame expected[LOOKS];
     static struct rho_frames frames;
     struct given given = random_looks();
@@ -399,6 +401,10 @@ static void scans_as_they_come_make_the_same_frames(void **state)
         num_scans += frame->num_scans;
     }
     memcpy(scans, in_frames, num_scans * sizeof *scans);
+    for (size_t i = 0; i < num_scans; i++) {
+        assert_int_equal(scans[i].num_bearings, 1);
+        scans[i].bearings = &bearing;
+    }
     qsort(scans, num_scans, sizeof *scans, compare_times);
     rho_frames_config_default(&config);
     config.sensors_min = 3;
