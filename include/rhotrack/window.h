@@ -120,6 +120,12 @@ RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t
 /* True where a scan of this time can be pushed: the window is initialised, and holds no newer scan. Constant cost. */
 int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 
+/* What rho_window_push would say, without taking anything. Constant cost. */
+RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *window,
+                                                     const struct rho_scan *scan,
+                                                     const uint8_t *fates,
+                                                     const uint32_t *left_unused);
+
 /*
  * Takes the plots of a scan whose fate is RHO_FATE_HELD; the oldest scan leaves when the window is full.
  *   scan    a valid scan, not older than the newest held; its plots are copied

@@ -85,9 +85,8 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
         return RHO_ERROR_STATE;
     }
     /* what leaves is remembered before it is overwritten, unless the push is going to be refused */
-    if (scan && left_unused && (scan->num_plots == 0 || (scan->plots && fates)) &&
-        rho_window_accepts(&initiator->window, scan->time_us) &&
-        initiator->window.num_scans == initiator->config.scans) {
+    if (initiator->window.num_scans == initiator->config.scans &&
+        rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK) {
         rho_initiator_remember(initiator);
     }
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);

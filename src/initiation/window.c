@@ -326,15 +326,22 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us)
     return window->num_scans == 0 || window->ring[newest].time_us <= time_us;
 }
 
-enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
-                                const struct rho_sensor *sensor, uint8_t *fates,
-                                uint32_t *left_unused)
+enum rho_status rho_window_check_push(const struct rho_window *window, const struct rho_scan *scan,
+                                      const uint8_t *fates, const uint32_t *left_unused)
 {
     if (!window || !scan || !left_unused || (scan->num_plots && (!scan->plots || !fates))) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_window_accepts(window, scan->time_us)) {
-        return RHO_ERROR_STATE;
+    return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
+}
+
+enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
+                                const struct rho_sensor *sensor, uint8_t *fates,
+                                uint32_t *left_unused)
+{
+    enum rho_status status = rho_window_check_push(window, scan, fates, left_unused);
+    if (status != RHO_OK) {
+        return status;
     }
     struct rho_window_scan *slot = next_slot(window, left_unused);
     unsigned held = admit(scan, fates);

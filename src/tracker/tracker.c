@@ -393,6 +393,8 @@ static void claim(struct step *step)
         return;
     }
 #endif
+    rho_tracker_judge_plots(step);
+    rho_tracker_sort_plots(step);
     rho_tracker_claim(step);
     rho_tracker_update(step);
 }
@@ -401,8 +403,6 @@ static void take_in(struct step *step)
 {
     step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
     rho_tracker_set_pd(step);
-    rho_tracker_judge_plots(step);
-    rho_tracker_sort_plots(step);
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_age(step);

@@ -60,7 +60,7 @@ static float variance_m2(const struct rho_track *track)
     return 0.5f * (covariance[RHO_AT(0, 0)] + covariance[RHO_AT(1, 1)]);
 }
 
-/* Of a track without a plot: the likeliest one that another old track got, which must be near. */
+/* Of a track without a plot: the likeliest one that another old track got. */
 static int find_pair(const struct step *step, unsigned row, struct pair *pair)
 {
     struct rho_tracker *tracker = step->tracker;

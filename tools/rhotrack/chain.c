@@ -6,6 +6,7 @@
 
 #include "common.h"
 #include "method.h"
+#include "random.h"
 
 void must_succeed(enum rho_status status, const char *what)
 {
@@ -74,6 +75,32 @@ void chain_step_frame(struct chain *chain, const struct rho_frame *frame)
 {
     must_succeed(rho_tracker_step_frame(chain->tracker, chain->passive, frame, chain->report),
                  "step");
+}
+
+struct rho_plot chain_plot(double x_m, double y_m, double sigma_m)
+{
+    return (struct rho_plot){.x_m = (float)x_m,
+                             .y_m = (float)y_m,
+                             .sigma_range_m = (float)sigma_m,
+                             .sigma_cross_m = (float)sigma_m,
+                             .sigma_up_m = (float)sigma_m};
+}
+
+size_t chain_fill_clutter(struct chain *chain, const struct parameters *parameters, double mean,
+                          struct random *random)
+{
+    size_t count = random_poisson(random, mean);
+    double sigma_m = parameters->value[PARAMETER_SIGMA_M];
+
+    count = count < RHO_MAX_PLOTS ? count : RHO_MAX_PLOTS;
+    for (size_t i = 0; i < count; i++) {
+        double x_m = random_between(random, parameters->value[PARAMETER_AREA_X_MIN_M],
+                                    parameters->value[PARAMETER_AREA_X_MAX_M]);
+        double y_m = random_between(random, parameters->value[PARAMETER_AREA_Y_MIN_M],
+                                    parameters->value[PARAMETER_AREA_Y_MAX_M]);
+        chain->plots[i] = chain_plot(x_m, y_m, sigma_m);
+    }
+    return count;
 }
 
 struct rho_bearing_scan chain_look(const struct scenario_passive *passive,

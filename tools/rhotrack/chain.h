@@ -30,6 +30,14 @@ void chain_open_passive(struct chain *chain, const struct parameters *parameters
 void chain_step(struct chain *chain, const struct rho_scan *scan);
 void chain_step_frame(struct chain *chain, const struct rho_frame *frame);
 
+/* A plot with the same noise on all axes. */
+struct rho_plot chain_plot(double x_m, double y_m, double sigma_m);
+
+/* Clutter alone, so many plots on average, even over the parameters' area, goes into the chain's plots: how many it is. */
+struct random;
+size_t chain_fill_clutter(struct chain *chain, const struct parameters *parameters, double mean,
+                          struct random *random);
+
 /* A simulated look as the library takes it, `most` bearings of it at most; these go into the caller's array. */
 struct rho_bearing_scan chain_look(const struct scenario_passive *passive,
                                    const struct simulated_look *look, struct rho_bearing *bearings,

@@ -80,11 +80,12 @@ struct air_result air_simulated(const struct parameters *parameters,
 struct air_result air_run(const struct air_case *of, uint64_t seed, uint64_t run,
                           struct chain *chain);
 
-/* The tracks of one scan, in memory that grows. */
+/* The targets or the tracks of one scan, in memory that grows. Targets replace what is there. */
 struct air_points {
     size_t count, capacity;
     struct evaluation_point *points;
 };
+void air_points_truth(struct air_points *truth, const struct simulation *simulation, size_t scan);
 void air_points_add(struct air_points *points, const struct rho_report *report, int32_t first_id);
 
 /* A simulated scan as the library takes it, plots in the chain's memory. */

@@ -6,27 +6,6 @@
 #include "experiment_air_traffic.h"
 #include "random.h"
 
-static size_t fill_clutter(const struct parameters *parameters, double mean, struct random *random,
-                           struct rho_plot *plots)
-{
-    size_t count = random_poisson(random, mean);
-    float sigma_m = (float)parameters->value[PARAMETER_SIGMA_M];
-
-    count = count < RHO_MAX_PLOTS ? count : RHO_MAX_PLOTS;
-    for (size_t i = 0; i < count; i++) {
-        double x_m = random_between(random, parameters->value[PARAMETER_AREA_X_MIN_M],
-                                    parameters->value[PARAMETER_AREA_X_MAX_M]);
-        double y_m = random_between(random, parameters->value[PARAMETER_AREA_Y_MIN_M],
-                                    parameters->value[PARAMETER_AREA_Y_MAX_M]);
-        plots[i] = (struct rho_plot){.x_m = (float)x_m,
-                                     .y_m = (float)y_m,
-                                     .sigma_range_m = sigma_m,
-                                     .sigma_cross_m = sigma_m,
-                                     .sigma_up_m = sigma_m};
-    }
-    return count;
-}
-
 struct air_alarm_result air_alarm_run(const struct air_alarm *of, uint64_t seed, uint64_t run,
                                       struct chain *chain)
 {
@@ -40,7 +19,7 @@ struct air_alarm_result air_alarm_run(const struct air_alarm *of, uint64_t seed,
     parameters_suggest(&parameters, PARAMETER_FALSE_TRACKS_PER_HOUR, of->wanted_per_hour);
     chain_open(chain, &parameters);
     for (size_t i = 0; i < AIR_ALARM_SCANS; i++) {
-        size_t count = fill_clutter(&parameters, of->clutter, &random, chain->plots);
+        size_t count = chain_fill_clutter(chain, &parameters, of->clutter, &random);
         struct rho_scan scan = {.time_us = llround((double)i * interval_s * 1e6),
                                 .num_plots = (uint32_t)count,
                                 .plots = chain->plots};

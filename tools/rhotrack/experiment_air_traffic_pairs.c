@@ -23,33 +23,20 @@ static struct parameters parameters_of(const struct air_pair *of)
     return parameters;
 }
 
-static size_t fill_truth(const struct simulation *simulation, size_t scan,
-                         struct evaluation_point points[2])
-{
-    for (size_t i = 0; i < 2; i++) {
-        const struct truth_point *from = &simulation->truth[scan * 2 + i];
-        points[i] = (struct evaluation_point){.id = from->target_id,
-                                              .x_m = from->x_m,
-                                              .y_m = from->y_m,
-                                              .vx_mps = NAN,
-                                              .vy_mps = NAN,
-                                              .vz_mps = NAN};
-    }
-    return 2;
-}
-
 /* A scan at which they are apart; true where both have a track. */
 static bool evaluate_scan(struct evaluation *evaluation, const struct simulation *simulation,
-                          size_t scan, const struct air_points *tracks, double apart_m)
+                          size_t scan, const struct air_points *tracks, double apart_m,
+                          struct air_points *truth)
 {
-    struct evaluation_point truth[2];
-    size_t count = fill_truth(simulation, scan, truth), times = 0;
+    size_t times = 0;
 
-    if (hypot(truth[0].x_m - truth[1].x_m, truth[0].y_m - truth[1].y_m) < apart_m) {
+    air_points_truth(truth, simulation, scan);
+    if (hypot(truth->points[0].x_m - truth->points[1].x_m,
+              truth->points[0].y_m - truth->points[1].y_m) < apart_m) {
         return false;
     }
-    evaluation_time(evaluation, llround(simulation->scans[scan].t_s * 1e6), truth, count,
-                    tracks->points, tracks->count);
+    evaluation_time(evaluation, llround(simulation->scans[scan].t_s * 1e6), truth->points,
+                    truth->count, tracks->points, tracks->count);
     const struct evaluation_scan *over_time = evaluation_over_time(evaluation, &times);
     return over_time[times - 1].pairs == 2;
 }
@@ -60,7 +47,7 @@ struct air_pair_result air_pair_run(const struct air_pair *of, uint64_t seed, ui
     struct parameters parameters = parameters_of(of);
     struct simulation *simulation = scenario_simulate(of->scenario, &parameters, seed, run);
     struct evaluation *evaluation = evaluation_start(air_cutoffs_m[0]);
-    struct air_points tracks = {0};
+    struct air_points tracks = {0}, truth = {0};
     size_t without = 0; /* scans since both had a track */
 
     chain_open(chain, &parameters);
@@ -69,11 +56,14 @@ struct air_pair_result air_pair_run(const struct air_pair *of, uint64_t seed, ui
         chain_step(chain, &scan);
         tracks.count = 0;
         air_points_add(&tracks, chain->report, 0);
-        without = evaluate_scan(evaluation, simulation, i, &tracks, of->apart_m) ? 0 : without + 1;
+        without = evaluate_scan(evaluation, simulation, i, &tracks, of->apart_m, &truth)
+                      ? 0
+                      : without + 1;
     }
     struct evaluation_result result = evaluation_result(evaluation);
     evaluation_free(evaluation);
     free(tracks.points);
+    free(truth.points);
     simulation_free(simulation);
     return (struct air_pair_result){.kept = result.switches == 0,
                                     .lost = without >= LOST_SCANS,

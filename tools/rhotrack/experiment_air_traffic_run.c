@@ -74,7 +74,7 @@ void air_points_add(struct air_points *points, const struct rho_report *report, 
     }
 }
 
-static void fill_truth(const struct simulation *simulation, size_t scan, struct air_points *truth)
+void air_points_truth(struct air_points *truth, const struct simulation *simulation, size_t scan)
 {
     const struct truth_point *from = &simulation->truth[scan * simulation->targets_a_scan];
 
@@ -102,7 +102,7 @@ static struct evaluation *evaluate(const struct simulation *simulation,
     struct air_points truth = {0};
 
     for (size_t i = 0; i < simulation->num_scans; i++) {
-        fill_truth(simulation, i, &truth);
+        air_points_truth(&truth, simulation, i);
         evaluation_time(evaluation, llround(simulation->scans[i].t_s * 1e6), truth.points,
                         truth.count, scans[i].points, scans[i].count);
     }

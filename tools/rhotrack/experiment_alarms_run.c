@@ -24,15 +24,6 @@ static struct parameters parameters_of(double wanted_per_hour)
     return parameters;
 }
 
-static struct rho_plot plot_at(double x_m, double y_m, double sigma_m)
-{
-    return (struct rho_plot){.x_m = (float)x_m,
-                             .y_m = (float)y_m,
-                             .sigma_range_m = (float)sigma_m,
-                             .sigma_cross_m = (float)sigma_m,
-                             .sigma_up_m = (float)sigma_m};
-}
-
 static void step(struct chain *chain, double t_s, size_t num_plots)
 {
     struct rho_scan scan = {
@@ -42,45 +33,27 @@ static void step(struct chain *chain, double t_s, size_t num_plots)
 
 /* ---- clutter alone ---------------------------------------------------------------------------- */
 
-struct clutter {
-    double x_min_m, x_max_m, y_min_m, y_max_m, sigma_m, mean;
-};
-
-static struct clutter clutter_of(const struct parameters *parameters, double per_km2)
+static double mean_of(const struct parameters *parameters, double per_km2)
 {
-    struct clutter clutter = {.x_min_m = parameters->value[PARAMETER_AREA_X_MIN_M],
-                              .x_max_m = parameters->value[PARAMETER_AREA_X_MAX_M],
-                              .y_min_m = parameters->value[PARAMETER_AREA_Y_MIN_M],
-                              .y_max_m = parameters->value[PARAMETER_AREA_Y_MAX_M],
-                              .sigma_m = parameters->value[PARAMETER_SIGMA_M]};
-    clutter.mean =
-        per_km2 * 1e-6 * (clutter.x_max_m - clutter.x_min_m) * (clutter.y_max_m - clutter.y_min_m);
-    return clutter;
-}
+    double width_m =
+        parameters->value[PARAMETER_AREA_X_MAX_M] - parameters->value[PARAMETER_AREA_X_MIN_M];
+    double height_m =
+        parameters->value[PARAMETER_AREA_Y_MAX_M] - parameters->value[PARAMETER_AREA_Y_MIN_M];
 
-static size_t fill_clutter(const struct clutter *clutter, struct random *random,
-                           struct rho_plot *plots)
-{
-    size_t count = random_poisson(random, clutter->mean);
-    for (size_t i = 0; i < count; i++) {
-        double x_m = random_between(random, clutter->x_min_m, clutter->x_max_m);
-        double y_m = random_between(random, clutter->y_min_m, clutter->y_max_m);
-        plots[i] = plot_at(x_m, y_m, clutter->sigma_m);
-    }
-    return count;
+    return per_km2 * 1e-6 * width_m * height_m;
 }
 
 struct alarm_result alarm_run(double per_km2, double wanted_per_hour, uint64_t seed, uint64_t run,
                               struct chain *chain)
 {
     struct parameters parameters = parameters_of(wanted_per_hour);
-    struct clutter clutter = clutter_of(&parameters, per_km2);
+    double mean = mean_of(&parameters, per_km2);
     struct random random = random_start(seed, (uint64_t)llround(per_km2 * 1e3), run);
     double interval_s = parameters.value[PARAMETER_INTERVAL_S];
     struct alarm_result result = {.scans = ALARM_SCANS, .hours = ALARM_SCANS * interval_s / 3600.0};
     chain_open(chain, &parameters);
     for (size_t scan = 0; scan < ALARM_SCANS; scan++) {
-        size_t num_plots = fill_clutter(&clutter, &random, chain->plots);
+        size_t num_plots = chain_fill_clutter(chain, &parameters, mean, &random);
         int64_t start_us = clock_us();
         step(chain, (double)scan * interval_s, num_plots);
         result.time_us += (double)(clock_us() - start_us);
@@ -134,7 +107,7 @@ static void note_plots(const struct simulated_scan *scan, struct history histori
 {
     for (size_t i = 0; i < scan->num_plots; i++) {
         const struct simulated_plot *plot = &scan->plots[i];
-        plots[i] = plot_at(plot->x_m, plot->y_m, sigma_m);
+        plots[i] = chain_plot(plot->x_m, plot->y_m, sigma_m);
         if (plot->target_id >= 0) {
             struct history *history = &histories[plot->target_id];
             history->plots[history->count++] =
