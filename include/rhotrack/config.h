@@ -32,7 +32,7 @@
 
 /* Bins of one scan's neighbour look-up. More bins mean fewer distance tests. RAM: 2 bytes a bin and scan. 1 .. 32767. */
 #ifndef RHO_MAX_BINS
-#define RHO_MAX_BINS RHO_CONFIG_PICK(592, 16384)
+#define RHO_MAX_BINS RHO_CONFIG_PICK(576, 16384)
 #endif
 
 /* Candidate tracks that one search keeps before the exclusive selection; the lowest score gives way. 1 .. 4096. */
@@ -178,6 +178,13 @@
 #define RHO_CLAIMS_BEYOND 1
 #endif
 
+/* 1: a radar may be stepped sector by sector as its antenna turns: sectors that follow one another are one scan of the initiation
+ * window, and a target between two of them is seen once a turn; 0: left out of the program (1 KB less on a Cortex-M4), each scan
+ * is a look of its own. RAM: 36 bytes a scan of the window, 16 a sensor. */
+#ifndef RHO_SECTORS
+#define RHO_SECTORS 1
+#endif
+
 /* Strips that a scan's plots are sorted into, so that a track looks at those near it alone: worth it where tracks times plots
  * are a million. 1: no sorting. RAM: 2 bytes each, and 2 a plot. 1 .. 16384. */
 #ifndef RHO_PLOT_STRIPS
@@ -313,7 +320,7 @@
  * Embedded: initiator 64 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \
-    (RHO_MAX_SCANS * (30 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160) + 96)
+    (RHO_MAX_SCANS * (30 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160 + 36 * RHO_SECTORS) + 96)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS +                                           \
@@ -333,8 +340,9 @@
 #define RHO_RAM_HYPOTHESES_BYTES (410 * RHO_MAX_HYPOTHESES + 17 * (RHO_MAX_TRACKS + 1) + 2048)
 #define RHO_RAM_STRIPS_BYTES (RHO_PLOT_STRIPS > 1 ? 2 * (RHO_PLOT_STRIPS + RHO_MAX_PLOTS) + 16 : 0)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
-    (RHO_MAX_TRACKS * (480 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS + 68 * RHO_MAX_SENSORS + \
-     RHO_RAM_HYPOTHESES_BYTES + RHO_RAM_STRIPS_BYTES + 640)
+    (RHO_MAX_TRACKS * (480 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
+     (68 + 16 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES + RHO_RAM_STRIPS_BYTES + \
+     640)
 #define RHO_RAM_FEED_BYTES                                                                         \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      240 * RHO_MAX_SENSORS + 520)

@@ -74,8 +74,11 @@ struct rho_initiator_work {
  * noise has its directions, and they look even in range rather than on the ground, range and azimuth.
  */
 struct rho_density_map {
-    float mean;                               /* plots a scan and unit of content */
-    float prior_plots;                        /* weight of the mean against a cell's own count */
+    float mean;        /* plots a scan and unit of content */
+    float prior_plots; /* weight of the mean against a cell's own count */
+#if RHO_SECTORS
+    float scans; /* that were counted: of a turn that is only begun its share */
+#endif
     float content;                            /* of the whole map: m^2, or m rad */
     float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from there */
     float u0, v0, width, height;

@@ -84,6 +84,10 @@ struct rho_track {
     float newest_mps[3], before_mps[3];
     uint8_t num_velocities;
     uint8_t is_believed; /* has been confirmed */
+#if RHO_SECTORS
+    uint16_t
+        look; /* of the sensor's scans, by the tracker's count: that of the last claimed plot */
+#endif
     struct rho_input input;
 };
 

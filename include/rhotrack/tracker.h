@@ -15,6 +15,10 @@
  *   age       the others, where the sensor looked; the dead make room
  *   initiate  tracks from the plots that nobody claimed
  *   report    tracks, one fate a plot, counters
+ * A scan is a whole turn of a radar, or a sector of it (RHO_SECTORS): sectors that go on where the one before ended, either way
+ * round, are one turn. A target at the edge of two has one hit or one miss a turn; tracks start as from whole turns.
+ * Several radars: each scan is stepped by itself, in the order of time, with the initiator of its sensor or a common one.
+ * Sectors of several need an initiator each.
  * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on every machine: there
  * is no clock, no random number and no global variable inside. Calls on one tracker must not overlap; several
  * trackers are independent. The objects hold no pointers: a memcpy is a snapshot.
@@ -91,6 +95,15 @@ struct rho_tracker_strips {
 };
 #endif
 
+#if RHO_SECTORS
+/* A sensor's newest scan. */
+struct rho_tracker_look {
+    int32_t sensor_id;
+    float sector_from_rad, sector_to_rad;
+    uint16_t count; /* its scans so far, 1 .. 65535 round and round */
+};
+#endif
+
 struct rho_tracker {
     uint32_t magic;
     uint32_t next_track_id;
@@ -107,6 +120,10 @@ struct rho_tracker {
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
+#if RHO_SECTORS
+    uint32_t num_looks;
+    struct rho_tracker_look looks[RHO_MAX_SENSORS]; /* of the sensors that came first */
+#endif
     struct rho_track tracks[RHO_MAX_TRACKS];
     struct rho_assignment assignment;
     struct rho_hypotheses hypotheses; /* of the gate best */

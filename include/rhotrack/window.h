@@ -6,6 +6,9 @@
  * nearest plot to a predicted place is found in constant time while plots are spread out. Scans are addressed by age
  * order: 0 is the oldest held, num_scans - 1 the newest.
  *
+ * A radar may say what it sees sector by sector (RHO_SECTORS). One that goes on where the newest held scan of the same sensor
+ * ends becomes part of it, until the turn is whole: N scans are N turns. Sectors of several radars need a window each.
+ *
  * Stack: 100 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_WINDOW_H
@@ -37,6 +40,16 @@ struct rho_window_plot {
 #define RHO_WINDOW_INITIATED 0x4000u /* started a track: no longer there for look-ups */
 #define RHO_WINDOW_ROW 0x3fffu
 
+#if RHO_SECTORS
+/* What came last of a scan that is held: all of it, or the sector that was added to it. */
+struct rho_window_sector {
+    int64_t time_us;
+    float offset_min_s;       /* its plots' own times after the held scan's begin there */
+    float width_rad;          /* how far the held scan goes round now */
+    struct rho_extent extent; /* where its plots are; empty: there are none */
+};
+#endif
+
 /* One held scan. plots[bin_start[c]] .. plots[bin_start[c + 1] - 1] lie in bin c = row * bins_x + column. */
 struct rho_window_scan {
     int64_t time_us;
@@ -51,6 +64,9 @@ struct rho_window_scan {
     float sigma_max_m;                /* over the plots, along or across */
     float offset_min_s, offset_max_s; /* over the plots */
     int is_isotropic;                 /* every plot has the same noise along and across */
+#if RHO_SECTORS
+    struct rho_window_sector newest;
+#endif
     uint16_t bin_start[RHO_MAX_BINS + 1];
     uint16_t marks[RHO_MAX_PLOTS]; /* row and flags of each plot */
     struct rho_window_plot plots[RHO_MAX_PLOTS];
@@ -62,6 +78,9 @@ struct rho_window {
     uint16_t num_scans;
     uint16_t first; /* ring place of the oldest */
     uint16_t area_is_fixed;
+#if RHO_SECTORS
+    uint32_t is_continued; /* the last push went into the newest scan */
+#endif
     float side_min_m; /* the area is taken at least this wide and high */
     struct rho_extent
         extent; /* fixed, or that of the plots held, without outliers; it shrinks slowly */
@@ -120,6 +139,12 @@ RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t
 /* True where a scan of this time can be pushed: the window is initialised, and holds no newer scan. Constant cost. */
 int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 
+/*
+ * True where a scan would become part of the newest one held: a sector of the same sensor that measures the same, beside what
+ * that one has seen so far, and within RHO_LIMIT_OFFSET_US of its time. Constant cost.
+ */
+int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan);
+
 /* What rho_window_push would say, without taking anything. Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *window,
                                                      const struct rho_scan *scan,
@@ -127,7 +152,8 @@ RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *wi
                                                      const uint32_t *left_unused);
 
 /*
- * Takes the plots of a scan whose fate is RHO_FATE_HELD; the oldest scan leaves when the window is full.
+ * Takes the plots of a scan whose fate is RHO_FATE_HELD. A scan that goes on with the newest one becomes part of it, its plots'
+ * own times then count from that one's; before any other the oldest scan leaves when the window is full.
  *   scan    a valid scan, not older than the newest held; its plots are copied
  *   sensor  copied; NULL: not described, at the origin
  *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 16384 and up, becomes NO_ROOM

@@ -9,6 +9,8 @@
 
 /* What is left of an angle in float32 after it was brought into one turn. */
 #define SECTOR_TOLERANCE_RAD 1.0e-6f
+/* Ends of two sectors so near are one. */
+#define END_TOLERANCE_RAD 1.0e-3f
 
 /* 2 pi in three parts (Cody and Waite): the first two times a count up to 17 are exact. */
 #define TURN_HIGH 6.28125f
@@ -62,6 +64,33 @@ int rho_angle_is_sector(float from_rad, float to_rad)
 {
     return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
            rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
+}
+
+float rho_angle_sector_width(float from_rad, float to_rad)
+{
+    const float width = way_between(from_rad, to_rad);
+
+    return width <= SECTOR_TOLERANCE_RAD ? RHO_TWO_PI : width;
+}
+
+static int is_same_end(float a_rad, float b_rad)
+{
+    const float off_rad = rho_angle_difference(a_rad, b_rad);
+
+    return off_rad <= END_TOLERANCE_RAD && off_rad >= -END_TOLERANCE_RAD;
+}
+
+unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_rad,
+                                  float next_to_rad)
+{
+    const float both = rho_angle_sector_width(from_rad, to_rad) +
+                       rho_angle_sector_width(next_from_rad, next_to_rad);
+
+    if (!(both <= RHO_TWO_PI + END_TOLERANCE_RAD)) {
+        return 0;
+    }
+    return (is_same_end(next_from_rad, to_rad) ? RHO_ANGLE_GOES_ON_LEFT : 0u) |
+           (is_same_end(next_to_rad, from_rad) ? RHO_ANGLE_GOES_ON_RIGHT : 0u);
 }
 
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)

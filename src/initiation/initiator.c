@@ -84,11 +84,14 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
+#if RHO_MAX_CLUTTER_CELLS > 0
     /* what leaves is remembered before it is overwritten, unless the push is going to be refused */
     if (initiator->window.num_scans == initiator->config.scans &&
-        rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK) {
+        rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
+        !rho_window_goes_on(&initiator->window, scan)) {
         rho_initiator_remember(initiator);
     }
+#endif
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
         initiator->num_candidates = 0;
@@ -154,9 +157,57 @@ static void lay_times(struct search *search)
     }
 }
 
+#if RHO_SECTORS
+/* Of a turn that is only begun, its share of the widest of the window's. */
+static float share_of_newest(struct search *search)
+{
+    struct rho_window *window = &search->initiator->window;
+    const float newest_rad = rho_window_scan_at(window, search->num_scans - 1u)->newest.width_rad;
+    float widest_rad = newest_rad;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        const float width_rad = rho_window_scan_at(window, m)->newest.width_rad;
+        widest_rad = width_rad > widest_rad ? width_rad : widest_rad;
+    }
+    return newest_rad / widest_rad;
+}
+
+/* A further sector of a turn, whose first one had everything measured and decided. */
+static int is_continued(const struct search *search)
+{
+    return search->kind == RHO_SEARCH_NEWEST && search->initiator->window.is_continued &&
+           search->initiator->min_scans > 0;
+}
+
+static void use_turn(struct search *search)
+{
+    search->scans_seen = (float)(search->num_scans - 1u) + share_of_newest(search);
+    search->is_continued = is_continued(search);
+    if (search->kind == RHO_SEARCH_NEWEST) {
+        search->newest =
+            &rho_window_scan_at(&search->initiator->window, search->num_scans - 1u)->newest;
+    }
+}
+
+/* Those of the sector before hold for the whole turn. */
+static int keeps_thresholds(struct search *search)
+{
+    const struct rho_initiator *initiator = search->initiator;
+    if (search->is_continued) {
+        search->min_scans = initiator->min_scans;
+        search->score_min_nat = (float)initiator->start_mnat * 0.001f;
+    }
+    return search->is_continued;
+}
+#endif
+
 /* Without a rate to keep, the one threshold starts tracks and is enough to believe them. */
 static void set_thresholds(struct search *search)
 {
+#if RHO_SECTORS
+    if (keeps_thresholds(search)) {
+        return;
+    }
+#endif
     struct rate rate = {.start_nat = search->initiator->config.score_min_nat,
                         .confirm_nat = search->initiator->config.score_min_nat,
                         .min_scans = search->min_scans};
@@ -205,6 +256,9 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     search.has_more = has_more(&search);
     search.reach_chi2 = search.has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
     search.is_isotropic = is_isotropic(&search);
+#if RHO_SECTORS
+    use_turn(&search);
+#endif
     lay_times(&search);
     rho_initiator_prepare_process(&search);
     rho_initiator_prepare(&search);

@@ -198,7 +198,7 @@ static void lay_square(const struct rho_initiator *initiator, struct rho_density
 }
 
 /* Where the map lies follows from all plots held, whichever are counted. */
-void rho_initiator_lay_map(struct search *search)
+static void lay_map(struct search *search)
 {
     struct rho_density_map *map = &search->initiator->density;
     const struct rho_sensor *radar = only_radar(search);
@@ -244,11 +244,21 @@ static void count_plots(struct rho_initiator *initiator, uint16_t skip_flags, in
     }
 }
 
+/* Whole turns that the map counts. */
+static float scans_of(const struct rho_initiator *initiator)
+{
+#if RHO_SECTORS
+    return initiator->density.scans;
+#else
+    return (float)initiator->window.num_scans;
+#endif
+}
+
 static float mean_cell_count(const struct rho_initiator *initiator)
 {
     const struct rho_density_map *map = &initiator->density;
     float cells = (float)map->columns * (float)map->rows;
-    return map->mean * map->content * (float)initiator->window.num_scans / cells;
+    return map->mean * map->content * scans_of(initiator) / cells;
 }
 
 /*
@@ -273,10 +283,19 @@ static float prior_plots(const struct rho_initiator *initiator)
                                                          : PRIOR_PLOTS_MAX;
 }
 
+static float scans_held(const struct search *search)
+{
+#if RHO_SECTORS
+    return search->scans_seen;
+#else
+    return (float)search->num_scans;
+#endif
+}
+
 static float mean_density(const struct search *search, float plots, float content)
 {
     float mean =
-        (plots + (search->keeps_rate ? PLOTS_UNSEEN : 0.0f)) / ((float)search->num_scans * content);
+        (plots + (search->keeps_rate ? PLOTS_UNSEEN : 0.0f)) / (scans_held(search) * content);
     float floor = search->keeps_rate ? 0.0f : 1.0f / content;
     return mean > floor ? mean : floor;
 }
@@ -315,6 +334,10 @@ void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, f
         plots += by_scan[m];
     }
     lay_cells(&initiator->density, plots);
+#if RHO_SECTORS
+    initiator->density.scans = search->scans_seen;
+    search->is_continued = 0; /* all plots are in the map now */
+#endif
     initiator->density.mean =
         mean_density(search, (float)plots + more_plots, initiator->density.content);
     initiator->density_per_m2 =
@@ -322,6 +345,20 @@ void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, f
     count_plots(initiator, skip_flags, 1, by_scan);
     initiator->density.prior_plots = prior_plots(initiator);
     measure_sensors(search, by_scan, plots);
+}
+
+void rho_initiator_begin_density(struct search *search)
+{
+#if RHO_SECTORS
+    if (search->is_continued) {
+        for (unsigned m = 0; m < search->num_scans; m++) {
+            search->log_ratio[m] = rho_log(search->initiator->density.sensor_ratio[m]);
+        }
+        return;
+    }
+#endif
+    lay_map(search);
+    rho_initiator_measure_density(search, RHO_WINDOW_INITIATED, 0.0f);
 }
 
 /* ---- asking ----------------------------------------------------------------------------------- */
@@ -358,6 +395,17 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
     return rho_initiator_mean_density(initiator, x_m, y_m) * ratio;
 }
 
+/* A scan's plots; of a turn's further sectors they are not. */
+static int is_in_map(const struct search *search, unsigned m)
+{
+#if RHO_SECTORS
+    return !search->is_continued || m + 1u < search->num_scans;
+#else
+    (void)search, (void)m;
+    return 1;
+#endif
+}
+
 /* The density that hit m of a set is measured against: the set's own plots are taken out of its cell, where they are in
  * it. */
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set, unsigned m)
@@ -367,7 +415,7 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
     float per_m2, other_per_m2;
     unsigned cell = map_cell(map, plot->x_m, plot->y_m, &per_m2), own = 0;
     for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
-        if (set->mask >> k & 1u) {
+        if ((set->mask >> k & 1u) && is_in_map(search, k)) {
             const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
             own += map_cell(map, other->x_m, other->y_m, &other_per_m2) == cell;
         }

@@ -134,6 +134,49 @@ struct start {
     struct rho_window_noise noise; /* not isotropic: its covariance */
 };
 
+#if RHO_SECTORS
+/* Plots of the turn's earlier sectors have been the ends of kernels when they came. */
+static int is_new(const struct search *search, const struct rho_window_plot *plot)
+{
+    return !search->newest || plot->offset_s >= search->newest->offset_min_s;
+}
+
+/* Bins that may hold the end of a kernel that begins here; none where rows end before they begin. */
+static struct rho_window_bins bins_of_ends(const struct search *search,
+                                           const struct rho_window_scan *scan,
+                                           const struct rho_window_plot *from, float far_m)
+{
+    struct rho_extent near = {from->x_m - far_m, from->x_m + far_m, from->y_m - far_m,
+                              from->y_m + far_m};
+    if (search->newest) {
+        const struct rho_extent *newest = &search->newest->extent;
+        near.x_min_m = near.x_min_m > newest->x_min_m ? near.x_min_m : newest->x_min_m;
+        near.x_max_m = near.x_max_m < newest->x_max_m ? near.x_max_m : newest->x_max_m;
+        near.y_min_m = near.y_min_m > newest->y_min_m ? near.y_min_m : newest->y_min_m;
+        near.y_max_m = near.y_max_m < newest->y_max_m ? near.y_max_m : newest->y_max_m;
+    }
+    if (!(near.x_min_m <= near.x_max_m && near.y_min_m <= near.y_max_m)) {
+        return (struct rho_window_bins){.row_first = 1, .row_last = 0};
+    }
+    return rho_window_bins_under(scan, near.x_min_m, near.x_max_m, near.y_min_m, near.y_max_m);
+}
+#else
+static int is_new(const struct search *search, const struct rho_window_plot *plot)
+{
+    (void)search, (void)plot;
+    return 1;
+}
+
+static struct rho_window_bins bins_of_ends(const struct search *search,
+                                           const struct rho_window_scan *scan,
+                                           const struct rho_window_plot *from, float far_m)
+{
+    (void)search;
+    return rho_window_bins_under(scan, from->x_m - far_m, from->x_m + far_m, from->y_m - far_m,
+                                 from->y_m + far_m);
+}
+#endif
+
 static void pair_with(struct search *search, const struct span *span, const struct start *start,
                       unsigned j)
 {
@@ -146,7 +189,7 @@ static void pair_with(struct search *search, const struct span *span, const stru
     float far_m = config->v_max_mps * duration_s + span->slack_m;
     if (!(duration_s > 0.0f && distance2_m2 <= far_m * far_m &&
           (near_m < 0.0f || distance2_m2 >= near_m * near_m)) ||
-        (span->scan_b->marks[j] & search->skip_flags)) {
+        (span->scan_b->marks[j] & search->skip_flags) || !is_new(search, to)) {
         return;
     }
     struct kernel kernel;
@@ -166,15 +209,17 @@ static void pair_from(struct search *search, const struct span *span, unsigned i
 {
     const struct rho_window_plot *from = &span->scan_a->plots[i];
     const struct rho_window_scan *scan = span->scan_b;
+    float far_m =
+        search->initiator->config.v_max_mps * (span->gap_s + scan->offset_max_s - from->offset_s) +
+        span->slack_m;
+    struct rho_window_bins bins = bins_of_ends(search, scan, from, far_m);
+    if (RHO_SECTORS && bins.row_first > bins.row_last) {
+        return;
+    }
     struct start first = {.plot = from};
     if (!search->is_isotropic) {
         first.noise = rho_window_noise(span->scan_a, from);
     }
-    float far_m =
-        search->initiator->config.v_max_mps * (span->gap_s + scan->offset_max_s - from->offset_s) +
-        span->slack_m;
-    struct rho_window_bins bins = rho_window_bins_under(scan, from->x_m - far_m, from->x_m + far_m,
-                                                        from->y_m - far_m, from->y_m + far_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];

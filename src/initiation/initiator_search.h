@@ -17,7 +17,14 @@ struct search {
     enum rho_search kind;
     /* scans that must have voted: the newest, or none in particular */
     unsigned wanted_mask;
-    unsigned num_scans;          /* N: scans held */
+    unsigned num_scans; /* N: scans held */
+#if RHO_SECTORS
+    float scans_seen; /* the same; of the newest the share of a turn that it has seen */
+    /* a further sector of the newest scan: the map and the thresholds are those of its first, and the plots of that scan are
+     * not in the map */
+    int is_continued;
+    const struct rho_window_sector *newest; /* kernels end there; NULL: anywhere */
+#endif
     unsigned min_scans;          /* M */
     float time_s[RHO_MAX_SCANS]; /* of the scans, after the newest: <= 0 */
     float interval_s;            /* usual time between scans */
@@ -82,7 +89,8 @@ void rho_initiator_prepare(struct search *search);
 /* initiator_density.c: what the scans tell of clutter */
 float rho_initiator_area_m2(const struct rho_initiator *initiator);
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m);
-void rho_initiator_lay_map(struct search *search);
+void rho_initiator_begin_density(
+    struct search *search); /* measured anew, or as the turn's first sector had it */
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
                                 unsigned m);
@@ -93,11 +101,6 @@ void rho_initiator_remember(struct rho_initiator *initiator);
 float rho_initiator_remembered(const struct rho_initiator *initiator, float x_m, float y_m,
                                float density_per_m2);
 #else
-static inline void rho_initiator_remember(struct rho_initiator *initiator)
-{
-    (void)initiator;
-}
-
 static inline float rho_initiator_remembered(const struct rho_initiator *initiator, float x_m,
                                              float y_m, float density_per_m2)
 {

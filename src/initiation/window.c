@@ -1,59 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/window.h"
 
+#include <float.h>
 #include <string.h>
 
+#include "rhotrack/angle.h"
 #include "rhotrack/measurement.h"
+#include "window_extent.h"
 #include "window_sigma.h"
 
 #define WINDOW_MAGIC 0x57494e44u /* "WIND" */
 
 #define ROW_MAX RHO_WINDOW_ROW
 
-/* Where the area is not given: plots farther out than so many standard deviations are left out, in so many rounds, once
- * there are a dozen; and what it was before gives way to what it is now by this share a scan. */
-#define OUTLIER_SIGMAS2 9.0f
-#define OUTLIER_ROUNDS 3
-#define OUTLIER_PLOTS 12.0f
-#define EXTENT_DECAY 0.02f
-
 /* Bins a plot that are worth their memory traffic when a scan has few plots. */
 #define BINS_PER_PLOT 8u
 
-/* ---- extents ---------------------------------------------------------------------------------- */
+/* ---- areas and bins ---------------------------------------------------------------------------- */
 
 static float at_least(float v, float limit)
 {
     return v > limit ? v : limit;
-}
-
-float rho_extent_width_m(const struct rho_extent *extent, float side_min_m)
-{
-    return at_least(extent->x_max_m - extent->x_min_m, side_min_m);
-}
-
-float rho_extent_height_m(const struct rho_extent *extent, float side_min_m)
-{
-    return at_least(extent->y_max_m - extent->y_min_m, side_min_m);
-}
-
-float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m)
-{
-    return at_least(rho_extent_width_m(extent, side_min_m), 0.0f) *
-           at_least(rho_extent_height_m(extent, side_min_m), 0.0f);
-}
-
-void rho_extent_add(struct rho_extent *extent, float x_m, float y_m)
-{
-    if (!(extent->x_min_m <= extent->x_max_m)) {
-        extent->x_min_m = extent->x_max_m = x_m;
-        extent->y_min_m = extent->y_max_m = y_m;
-        return;
-    }
-    extent->x_min_m = x_m < extent->x_min_m ? x_m : extent->x_min_m;
-    extent->x_max_m = x_m > extent->x_max_m ? x_m : extent->x_max_m;
-    extent->y_min_m = y_m < extent->y_min_m ? y_m : extent->y_min_m;
-    extent->y_max_m = y_m > extent->y_max_m ? y_m : extent->y_max_m;
 }
 
 static int is_usable_area(const struct rho_extent *area)
@@ -62,8 +29,6 @@ static int is_usable_area(const struct rho_extent *area)
            rho_is_coordinate(area->y_min_m) && rho_is_coordinate(area->y_max_m) &&
            area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
 }
-
-/* ---- bins ------------------------------------------------------------------------------------- */
 
 /* Cell of a coordinate among n, its border cells outside; NaN counts as the first. */
 static int cell_of(float v_m, float origin_m, float cells_per_m, int n)
@@ -123,10 +88,9 @@ static float seconds(int32_t offset_us)
     return (float)offset_us * 1e-6f;
 }
 
-/* Decides who fits. */
-static unsigned admit(const struct rho_scan *scan, uint8_t *fates)
+/* Decides who fits, beside those that are held. */
+static unsigned admit(const struct rho_scan *scan, unsigned held, uint8_t *fates)
 {
-    unsigned held = 0;
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         if (fates[i] != RHO_FATE_HELD) {
             continue;
@@ -151,82 +115,28 @@ static void guess_extent(struct rho_window *window, const struct rho_scan *scan,
     }
 }
 
-/* ---- the area that the plots show ------------------------------------------------------------- */
-
-/* Plots within some standard deviations of a mean, one axis after the other. */
-struct crowd {
-    float plots, mean_m[2], sum2_m2[2]; /* of the last round: the others are outliers */
-    struct rho_extent extent;
+/* The scan that plots go into, and their scan's time after its own. */
+struct entry {
+    struct rho_window_scan *slot;
+    const struct rho_scan *scan;
+    const uint8_t *fates;
+#if RHO_SECTORS
+    float after_s;
+#endif
 };
 
-static int is_far(const struct crowd *crowd, float x_m, float y_m)
+static struct rho_window_plot window_plot(const struct entry *entry, uint32_t row)
 {
-    float dx_m = x_m - crowd->mean_m[0], dy_m = y_m - crowd->mean_m[1];
-    return crowd->plots >= OUTLIER_PLOTS &&
-           (dx_m * dx_m * crowd->plots > OUTLIER_SIGMAS2 * crowd->sum2_m2[0] ||
-            dy_m * dy_m * crowd->plots > OUTLIER_SIGMAS2 * crowd->sum2_m2[1]);
-}
-
-/* Welford's running mean and sum of squares. */
-static void join(struct crowd *crowd, const struct crowd *before, float x_m, float y_m)
-{
-    const float place_m[2] = {x_m, y_m};
-    if (is_far(before, x_m, y_m)) {
-        return;
-    }
-    crowd->plots += 1.0f;
-    for (int axis = 0; axis < 2; axis++) {
-        float off_m = place_m[axis] - crowd->mean_m[axis];
-        crowd->mean_m[axis] += off_m / crowd->plots;
-        crowd->sum2_m2[axis] += off_m * (place_m[axis] - crowd->mean_m[axis]);
-    }
-    rho_extent_add(&crowd->extent, x_m, y_m);
-}
-
-static void join_all(struct crowd *crowd, const struct crowd *before, struct rho_window *window)
-{
-    *crowd = (struct crowd){.extent = {1.0f, 0.0f, 1.0f, 0.0f}};
-    for (unsigned m = 0; m < window->num_scans; m++) {
-        const struct rho_window_scan *held = rho_window_scan_at(window, m);
-        for (unsigned i = 0; i < held->num_plots; i++) {
-            join(crowd, before, held->plots[i].x_m, held->plots[i].y_m);
-        }
-    }
-}
-
-static float decayed(float was, float is, int is_wider)
-{
-    return is_wider ? is : was + EXTENT_DECAY * (is - was);
-}
-
-/* Outliers would make clutter look thin everywhere. */
-static void follow_extent(struct rho_window *window)
-{
-    struct crowd crowd = {0}, before;
-    for (int round = 0; round < OUTLIER_ROUNDS; round++) {
-        before = crowd;
-        join_all(&crowd, &before, window);
-    }
-    struct rho_extent *was = &window->extent, is = crowd.extent;
-    if (crowd.plots < 1.0f) {
-        return;
-    }
-    if (window->num_scans == 1) {
-        *was = is;
-    }
-    was->x_min_m = decayed(was->x_min_m, is.x_min_m, is.x_min_m < was->x_min_m);
-    was->x_max_m = decayed(was->x_max_m, is.x_max_m, is.x_max_m > was->x_max_m);
-    was->y_min_m = decayed(was->y_min_m, is.y_min_m, is.y_min_m < was->y_min_m);
-    was->y_max_m = decayed(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
-}
-
-static struct rho_window_plot window_plot(const struct rho_scan *scan, uint32_t row)
-{
+    const struct rho_scan *scan = entry->scan;
     const struct rho_plot *plot = &scan->plots[row];
     struct rho_window_plot held = {
         .x_m = plot->x_m,
         .y_m = plot->y_m,
+#if RHO_SECTORS
+        .offset_s = entry->after_s + seconds(plot->offset_us),
+#else
         .offset_s = seconds(plot->offset_us),
+#endif
         .sigma_range = sigma_code(plot->sigma_range_m),
         .sigma_cross = sigma_code(plot->sigma_cross_m),
     };
@@ -251,26 +161,72 @@ static void widen_ranges(struct rho_window_scan *slot, const struct rho_window_p
     slot->is_isotropic = slot->is_isotropic && plot->sigma_range == plot->sigma_cross;
     slot->offset_max_s = at_least(slot->offset_max_s, plot->offset_s);
     slot->offset_min_s = plot->offset_s < slot->offset_min_s ? plot->offset_s : slot->offset_min_s;
+#if RHO_SECTORS
+    if (plot->offset_s < slot->newest.offset_min_s) {
+        slot->newest.offset_min_s = plot->offset_s;
+    }
+    rho_extent_add(&slot->newest.extent, plot->x_m, plot->y_m);
+#endif
 }
 
-/* Counting sort by bin, stable, without a second array: starts move up as bins fill, and are then shifted back. */
-static void sort_into_bins(struct rho_window_scan *slot, const struct rho_scan *scan,
-                           const uint8_t *fates)
+/* Where each bin's plots will begin, with those that come. */
+static void lay_starts(const struct entry *entry)
 {
+    struct rho_window_scan *slot = entry->slot;
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
     uint16_t *start = slot->bin_start;
-    memset(start, 0, (bins + 1) * sizeof start[0]);
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        if (fates[i] == RHO_FATE_HELD) {
-            start[bin_of(slot, scan->plots[i].x_m, scan->plots[i].y_m) + 1]++;
+    if (RHO_SECTORS && slot->num_plots > 0) {
+        for (unsigned c = bins; c > 0; c--) { /* as many as there are */
+            start[c] = (uint16_t)(start[c] - start[c - 1]);
+        }
+    } else {
+        memset(start, 0, (bins + 1) * sizeof start[0]);
+    }
+    for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
+        const struct rho_plot *plot = &entry->scan->plots[i];
+        if (entry->fates[i] == RHO_FATE_HELD) {
+            start[bin_of(slot, plot->x_m, plot->y_m) + 1]++;
         }
     }
     for (unsigned c = 0; c < bins; c++) {
         start[c + 1] = (uint16_t)(start[c + 1] + start[c]);
     }
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        if (fates[i] == RHO_FATE_HELD) {
-            struct rho_window_plot plot = window_plot(scan, i);
+}
+
+#if RHO_SECTORS
+/* Plots that are there move up to where their bins begin now, the last bin first; the starts then are behind them. */
+static void move_up(struct rho_window_scan *slot)
+{
+    unsigned end = slot->num_plots;
+    while (end > 0) {
+        unsigned bin = bin_of(slot, slot->plots[end - 1].x_m, slot->plots[end - 1].y_m);
+        unsigned first = end - 1;
+        while (first > 0 &&
+               bin_of(slot, slot->plots[first - 1].x_m, slot->plots[first - 1].y_m) == bin) {
+            first--;
+        }
+        unsigned to = slot->bin_start[bin];
+        memmove(&slot->plots[to], &slot->plots[first], (end - first) * sizeof slot->plots[0]);
+        memmove(&slot->marks[to], &slot->marks[first], (end - first) * sizeof slot->marks[0]);
+        slot->bin_start[bin] = (uint16_t)(to + end - first);
+        end = first;
+    }
+}
+#endif
+
+/* Counting sort by bin, stable, without a second array: starts move up as bins fill, and are then shifted back. */
+static void sort_into_bins(const struct entry *entry)
+{
+    struct rho_window_scan *slot = entry->slot;
+    unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
+    uint16_t *start = slot->bin_start;
+    lay_starts(entry);
+#if RHO_SECTORS
+    move_up(slot);
+#endif
+    for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
+        if (entry->fates[i] == RHO_FATE_HELD) {
+            struct rho_window_plot plot = window_plot(entry, i);
             unsigned place = start[bin_of(slot, plot.x_m, plot.y_m)]++;
             slot->plots[place] = plot;
             slot->marks[place] = (uint16_t)i;
@@ -291,6 +247,105 @@ static struct rho_window_scan *next_slot(struct rho_window *window, uint32_t *le
     window->num_scans++;
     return rho_window_scan_at(window, window->num_scans - 1u);
 }
+
+/* ---- sectors ---------------------------------------------------------------------------------- */
+
+#if RHO_SECTORS
+
+static const struct rho_window_scan *newest_of(const struct rho_window *window)
+{
+    return &window->ring[((unsigned)window->first + window->num_scans + window->scans_max - 1u) %
+                         window->scans_max];
+}
+
+static int is_newest_older(const struct rho_window *window, int64_t time_us)
+{
+    return newest_of(window)->newest.time_us <= time_us;
+}
+
+int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan)
+{
+    const struct rho_window_scan *held = newest_of(window);
+    return window->num_scans > 0 && held->sensor.sensor_id == scan->sensor_id &&
+           held->measures == scan->measures && held->newest.time_us <= scan->time_us &&
+           scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
+           rho_angle_sector_goes_on(held->sector_from_rad, held->sector_to_rad,
+                                    scan->sector_from_rad, scan->sector_to_rad) != 0;
+}
+
+/* How many plots the turn will have that begins with so many in a sector: as the turn before, if there was one. */
+static unsigned plots_of_turn(struct rho_window *window, const struct rho_scan *scan, unsigned held)
+{
+    const float turns =
+        RHO_TWO_PI / rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
+    if (!(turns > 1.0f)) {
+        return held;
+    }
+    if (window->num_scans < 2) {
+        return RHO_MAX_PLOTS;
+    }
+    const unsigned before = rho_window_scan_at(window, window->num_scans - 2u)->num_plots;
+    return held > before ? held : before;
+}
+
+/* A scan that has come, or what of one has. */
+static void begin_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
+{
+    slot->newest.time_us = scan->time_us;
+    slot->newest.offset_min_s = FLT_MAX;
+    slot->newest.extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
+    slot->newest.width_rad = rho_angle_sector_width(slot->sector_from_rad, slot->sector_to_rad);
+}
+
+static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
+{
+    const unsigned ends = rho_angle_sector_goes_on(slot->sector_from_rad, slot->sector_to_rad,
+                                                   scan->sector_from_rad, scan->sector_to_rad);
+    if (ends & RHO_ANGLE_GOES_ON_RIGHT) {
+        slot->sector_from_rad = scan->sector_from_rad;
+    } else {
+        slot->sector_to_rad = scan->sector_to_rad;
+    }
+    if (ends == (RHO_ANGLE_GOES_ON_LEFT | RHO_ANGLE_GOES_ON_RIGHT)) {
+        slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the turn is whole */
+    }
+}
+
+static void add_sector(struct rho_window *window, const struct rho_scan *scan, uint8_t *fates)
+{
+    struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
+    const struct entry entry = {slot, scan, fates,
+                                rho_seconds_between(slot->time_us, scan->time_us)};
+    const unsigned held = admit(scan, slot->num_plots, fates);
+    widen_sector(slot, scan);
+    begin_sector(slot, scan);
+    sort_into_bins(&entry);
+    slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
+    slot->num_plots = (uint16_t)held;
+}
+
+#else
+
+static int is_newest_older(const struct rho_window *window, int64_t time_us)
+{
+    unsigned newest =
+        ((unsigned)window->first + window->num_scans + window->scans_max - 1u) % window->scans_max;
+    return window->ring[newest].time_us <= time_us;
+}
+
+int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan)
+{
+    (void)window, (void)scan;
+    return 0;
+}
+
+static unsigned plots_of_turn(struct rho_window *window, const struct rho_scan *scan, unsigned held)
+{
+    (void)window, (void)scan;
+    return held;
+}
+
+#endif
 
 /* ---- public ----------------------------------------------------------------------------------- */
 
@@ -321,9 +376,7 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us)
     if (window->magic != WINDOW_MAGIC) {
         return 0;
     }
-    unsigned newest =
-        ((unsigned)window->first + window->num_scans + window->scans_max - 1u) % window->scans_max;
-    return window->num_scans == 0 || window->ring[newest].time_us <= time_us;
+    return window->num_scans == 0 || is_newest_older(window, time_us);
 }
 
 enum rho_status rho_window_check_push(const struct rho_window *window, const struct rho_scan *scan,
@@ -335,6 +388,35 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
     return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
 }
 
+static void add_scan(struct rho_window *window, const struct rho_scan *scan,
+                     const struct rho_sensor *sensor, uint8_t *fates, uint32_t *left_unused)
+{
+    struct rho_window_scan *slot = next_slot(window, left_unused);
+    const struct entry entry = {.slot = slot, .scan = scan, .fates = fates};
+    unsigned held = admit(scan, 0, fates);
+    slot->time_us = scan->time_us;
+    slot->measures = scan->measures;
+    slot->sector_from_rad = scan->sector_from_rad;
+    slot->sector_to_rad = scan->sector_to_rad;
+    slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
+    slot->sensor.pd = sensor ? sensor->pd : 0.0f;
+    slot->num_plots = 0;
+    slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
+    slot->is_isotropic = 1;
+#if RHO_SECTORS
+    begin_sector(slot, scan);
+#endif
+    if (!window->area_is_fixed && !(window->extent.x_min_m <= window->extent.x_max_m)) {
+        guess_extent(window, scan, fates);
+    }
+    lay_bins(slot, window, plots_of_turn(window, scan, held));
+    sort_into_bins(&entry);
+    slot->num_plots = slot->num_unused = (uint16_t)held;
+    if (!window->area_is_fixed) {
+        rho_window_follow_extent(window);
+    }
+}
+
 enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
                                 const struct rho_sensor *sensor, uint8_t *fates,
                                 uint32_t *left_unused)
@@ -343,25 +425,14 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     if (status != RHO_OK) {
         return status;
     }
-    struct rho_window_scan *slot = next_slot(window, left_unused);
-    unsigned held = admit(scan, fates);
-    slot->time_us = scan->time_us;
-    slot->measures = scan->measures;
-    slot->sector_from_rad = scan->sector_from_rad;
-    slot->sector_to_rad = scan->sector_to_rad;
-    slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
-    slot->sensor.pd = sensor ? sensor->pd : 0.0f;
-    slot->num_plots = slot->num_unused = (uint16_t)held;
-    slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
-    slot->is_isotropic = 1;
-    if (!window->area_is_fixed && !(window->extent.x_min_m <= window->extent.x_max_m)) {
-        guess_extent(window, scan, fates);
+#if RHO_SECTORS
+    window->is_continued = (uint32_t)rho_window_goes_on(window, scan);
+    if (window->is_continued) {
+        add_sector(window, scan, fates);
+        return RHO_OK;
     }
-    lay_bins(slot, window, held);
-    sort_into_bins(slot, scan, fates);
-    if (!window->area_is_fixed) {
-        follow_extent(window);
-    }
+#endif
+    add_scan(window, scan, sensor, fates, left_unused);
     return RHO_OK;
 }
 

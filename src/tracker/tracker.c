@@ -238,7 +238,7 @@ static void note_unclaimed(struct step *step)
         uint8_t fate = step->report->fates[i];
         unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
     }
-    rho_tracker_smooth(&step->tracker->unclaimed_plots, unclaimed);
+    rho_tracker_smooth(&step->tracker->unclaimed_plots, unclaimed * rho_tracker_turns(step));
 }
 
 void rho_tracker_close(struct step *step)
@@ -403,6 +403,7 @@ static void take_in(struct step *step)
 {
     step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
     rho_tracker_set_pd(step);
+    rho_tracker_note_look(step);
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_age(step);

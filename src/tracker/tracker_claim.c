@@ -27,7 +27,7 @@ void rho_tracker_predict(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
-        if (!rho_tracker_reaches(step, track)) {
+        if (!rho_tracker_reaches(step, track) || rho_tracker_was_seen(step, track)) {
             continue;
         }
         step->reached[i / 32] |= 1u << i % 32;
@@ -202,10 +202,7 @@ static struct rho_hypotheses_clutter clutter_at(const struct step *step,
 /* A miss says nothing of a target where the sensor did not look. */
 static float log_miss_of(const struct step *step, const struct rho_track *track)
 {
-    return rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
-                                 track)
-               ? step->log_miss
-               : 0.0f;
+    return rho_tracker_scan_looked_at(step, track) ? step->log_miss : 0.0f;
 }
 
 /* By the noise and the own time of the plots that have most of them. */

@@ -38,6 +38,16 @@ int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float 
                                     track->kalman.state[0], track->kalman.state[1]);
 }
 
+int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track)
+{
+#if RHO_SECTORS
+    return rho_tracker_has_passed(step, track);
+#else
+    return rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
+                                 track);
+#endif
+}
+
 /* What a miss of the best sensor costs: a weak sensor's scan must not make earlier misses of a better one weigh more. */
 static float largest_loss(const struct step *step)
 {
@@ -86,6 +96,15 @@ static int is_too_slow(const struct step *step, const struct rho_track *track)
                                    least_mps * least_mps;
 }
 
+static void note_look(const struct step *step, struct rho_track *track)
+{
+#if RHO_SECTORS
+    track->look = step->scan && track->plot >= 0 ? step->look : track->look;
+#else
+    (void)step, (void)track;
+#endif
+}
+
 void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -97,13 +116,13 @@ void rho_tracker_age(struct step *step)
             continue;
         }
         if (step->scan && track->plot < 0 && rho_tracker_is_reached(step, i) &&
-            rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
-                                  track)) {
+            rho_tracker_scan_looked_at(step, track)) {
             /* what a miss says of a track of hypotheses is in its score already */
             rho_track_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                                       ? 0
                                       : rho_tracker_mnat(-step->log_miss));
         }
+        note_look(step, track);
         judge(step, track, &limits);
         if (track->status != RHO_TRACK_FREE && is_too_slow(step, track)) {
             rho_tracker_end_track(step, track);
@@ -173,6 +192,7 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
         rho_track_end(track, &step->model);
         return 0;
     }
+    note_look(step, track);
     judge(step, track, limits);
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;

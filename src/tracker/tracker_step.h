@@ -23,8 +23,13 @@ struct step {
     struct rho_passive *passive;
     struct rho_report *report;
     const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
-    uint32_t num_inputs;             /* plots or bearings */
-    uint32_t num_gated;              /* of them: have a place in report->fates */
+#if RHO_SECTORS
+    uint16_t look; /* count of the sensor's scans; 0: not known */
+    float
+        turning; /* the scan is the sector after the one before: 1 counter-clockwise, -1 clockwise; else 0 */
+#endif
+    uint32_t num_inputs; /* plots or bearings */
+    uint32_t num_gated;  /* of them: have a place in report->fates */
     /* of the plots that have none: claimed, invalid */
     uint32_t num_beyond_claimed, num_beyond_invalid;
     int has_more_parts; /* of the scan: tracks that have no plot yet may have one there */
@@ -62,6 +67,34 @@ void rho_tracker_smooth(float *mean, float newest);
 /* A report begins; 0 where the inputs are late, and have their fates. It ends with rho_tracker_close in any case. */
 int rho_tracker_open(struct step *step);
 void rho_tracker_close(struct step *step);
+
+/* tracker_sector.c: what sectors of a turn are to each other */
+#if RHO_SECTORS
+void rho_tracker_note_look(struct step *step);
+/* The track took a plot in the sector before: the antenna is still at the same pass. */
+int rho_tracker_was_seen(const struct step *step, const struct rho_track *track);
+/* The antenna has passed all of the track's gate in this scan, or the sensor looked there at once. */
+int rho_tracker_has_passed(const struct step *step, const struct rho_track *track);
+/* How many such scans make a turn, where they do. */
+float rho_tracker_turns(const struct step *step);
+#else
+static inline void rho_tracker_note_look(struct step *step)
+{
+    (void)step;
+}
+
+static inline int rho_tracker_was_seen(const struct step *step, const struct rho_track *track)
+{
+    (void)step, (void)track;
+    return 0;
+}
+
+static inline float rho_tracker_turns(const struct step *step)
+{
+    (void)step;
+    return 1.0f;
+}
+#endif
 
 /* tracker_reach.c: whether the scan can say anything of a track; as found by rho_tracker_predict, by its row */
 int rho_tracker_reaches(const struct step *step, const struct rho_track *track);
@@ -135,6 +168,7 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
 struct rho_track_limits rho_tracker_limits(const struct step *step);
 int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
                           const struct rho_track *track);
+int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track);
 
 /* tracker_passive.c: tracks start from the bearings that nobody claimed. This file and tracker_frame.c are not needed by
  * who steps plots alone: a linker leaves them and all of passive out. */

@@ -154,7 +154,7 @@ static void no_plot_is_lost_at_the_edge_of_a_sector(void **state)
         start(gate);
         describe(NEAR, 0.0f, 50000.0f);
         for (int k = 0; k < 68; k++) {
-            double turned = (k - 8) / 20.0; /* sectors: at an edge every twenty turns */
+            double turned = 1.0 + (k - 8) / 20.0; /* sectors: at an edge every twenty turns */
             int is_at_edge = k % 20 == 8;
             /* the antenna's lobe is wide: the sector before may bring what is at the edge */
             int brings = ((int)floor(turned + 0.001) - (is_at_edge && k % 40 < 20)) & 15;

@@ -18,3 +18,6 @@
 
 /* Nor a memory of clutter, for the same reason. */
 #define RHO_MAX_CLUTTER_CELLS 0
+
+/* Its scans are whole turns. */
+#define RHO_SECTORS 0

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_sector: a radar that is stepped sector by sector sees each target once a turn, also one at the edge of two sectors.
+ *
+ *      previous sector  |  this sector          the antenna turns this way ->
+ *            .--------. |
+ *           (   gate   )|      wholly passed: no plot of it is a miss, here
+ *            '--------' |
+ *                  .----|---.
+ *                 (   gate   )  its plot may be in the next one, or was in the previous one: a track that took one there takes
+ *                  '----|---'   none here, and one that has none is missed where the antenna has passed the whole gate
+ */
+#include "rhotrack/angle.h"
+#include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
+#include "tracker_step.h"
+
+#if RHO_SECTORS
+
+/* Standard deviations from a track's place to the end of where its plot is expected. */
+#define GATE_SIGMAS 3.0f
+
+/* NULL: of a new sensor that has no room. */
+static struct rho_tracker_look *look_of(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned place = 0;
+    while (place < tracker->num_looks && tracker->looks[place].sensor_id != sensor_id) {
+        place++;
+    }
+    if (place == RHO_MAX_SENSORS) {
+        return 0;
+    }
+    if (place == tracker->num_looks) {
+        tracker->num_looks++;
+        tracker->looks[place] = (struct rho_tracker_look){.sensor_id = sensor_id};
+    }
+    return &tracker->looks[place];
+}
+
+void rho_tracker_note_look(struct step *step)
+{
+    const struct rho_scan *scan = step->scan;
+    struct rho_tracker_look *look = look_of(step->tracker, scan->sensor_id);
+    if (!look) {
+        return;
+    }
+    if (look->count > 0) {
+        const unsigned ends = rho_angle_sector_goes_on(look->sector_from_rad, look->sector_to_rad,
+                                                       scan->sector_from_rad, scan->sector_to_rad);
+        /* both ends are those of two halves, which do not tell the direction */
+        step->turning = ends == RHO_ANGLE_GOES_ON_LEFT    ? 1.0f
+                        : ends == RHO_ANGLE_GOES_ON_RIGHT ? -1.0f
+                                                          : 0.0f;
+    }
+    look->count = (uint16_t)(look->count == UINT16_MAX ? 1 : look->count + 1);
+    look->sector_from_rad = scan->sector_from_rad;
+    look->sector_to_rad = scan->sector_to_rad;
+    step->look = look->count;
+}
+
+static int is_turning(const struct step *step)
+{
+    return step->turning > 0.0f || step->turning < 0.0f;
+}
+
+int rho_tracker_was_seen(const struct step *step, const struct rho_track *track)
+{
+    const uint16_t before = (uint16_t)(step->look == 1 ? UINT16_MAX : step->look - 1);
+    return is_turning(step) && track->sensor_id == step->scan->sensor_id && track->look == before;
+}
+
+int rho_tracker_has_passed(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_scan *scan = step->scan;
+    if (!is_turning(step)) {
+        return rho_tracker_looked_at(step, scan->sector_from_rad, scan->sector_to_rad, track);
+    }
+    const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
+    const float dx_m = track->kalman.state[0] - (step->sensor ? step->sensor->x_m : 0.0f);
+    const float dy_m = track->kalman.state[1] - (step->sensor ? step->sensor->y_m : 0.0f);
+    const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    float margin_rad = GATE_SIGMAS * rho_track_sigma_m(track) / (range_m > 1.0f ? range_m : 1.0f);
+    if (!(margin_rad < 0.5f * width_rad)) {
+        margin_rad = 0.5f * width_rad;
+    }
+    /* the far end of the gate: turned by a small angle */
+    const float turn = step->turning * margin_rad;
+    return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                    track->kalman.state[0] - turn * dy_m,
+                                    track->kalman.state[1] + turn * dx_m);
+}
+
+float rho_tracker_turns(const struct step *step)
+{
+    return is_turning(step) ? RHO_TWO_PI / rho_angle_sector_width(step->scan->sector_from_rad,
+                                                                  step->scan->sector_to_rad)
+                            : 1.0f;
+}
+
+#else
+
+typedef int rho_tracker_has_no_sectors; /* a file must not be empty */
+
+#endif
