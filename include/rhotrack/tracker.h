@@ -100,6 +100,9 @@ struct rho_tracker_strips {
 struct rho_tracker_look {
     int32_t sensor_id;
     float sector_from_rad, sector_to_rad;
+    int64_t time_us;
+    /* of the last search of its initiator: scores that start and confirm a track; 0, 0: there was none */
+    int32_t start_mnat, confirm_mnat;
     uint16_t count; /* its scans so far, 1 .. 65535 round and round */
 };
 #endif

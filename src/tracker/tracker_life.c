@@ -253,6 +253,7 @@ void rho_tracker_initiate(struct step *step)
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
     tracker->start_mnat = initiator->start_mnat;
     tracker->confirm_mnat = initiator->confirm_mnat;
+    rho_tracker_note_thresholds(step);
     struct rho_track_limits limits = rho_tracker_limits(step);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         if (!is_doubled(initiator, &initiator->candidates[i])) {

@@ -20,6 +20,9 @@
 /* Standard deviations from a track's place to the end of where its plot is expected. */
 #define GATE_SIGMAS 3.0f
 
+/* Who has said nothing for so long has no say any more. */
+#define SILENT_US 60000000
+
 /* NULL: of a new sensor that has no room. */
 static struct rho_tracker_look *look_of(struct rho_tracker *tracker, int32_t sensor_id)
 {
@@ -52,10 +55,33 @@ void rho_tracker_note_look(struct step *step)
                         : ends == RHO_ANGLE_GOES_ON_RIGHT ? -1.0f
                                                           : 0.0f;
     }
+    look->time_us = scan->time_us;
     look->count = (uint16_t)(look->count == UINT16_MAX ? 1 : look->count + 1);
     look->sector_from_rad = scan->sector_from_rad;
     look->sector_to_rad = scan->sector_to_rad;
     step->look = look->count;
+}
+
+/* A track of one radar's plots is judged at another one's scans, too: it falls by the lower threshold and rises by the higher. */
+void rho_tracker_note_thresholds(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_tracker_look *own = look_of(tracker, step->scan->sensor_id);
+    if (own) {
+        own->start_mnat = step->initiator->start_mnat;
+        own->confirm_mnat = step->initiator->confirm_mnat;
+    }
+    for (unsigned i = 0; i < tracker->num_looks; i++) {
+        const struct rho_tracker_look *look = &tracker->looks[i];
+        if (step->time_us - look->time_us > SILENT_US ||
+            (look->start_mnat == 0 && look->confirm_mnat == 0)) {
+            continue;
+        }
+        tracker->start_mnat =
+            look->start_mnat < tracker->start_mnat ? look->start_mnat : tracker->start_mnat;
+        tracker->confirm_mnat =
+            look->confirm_mnat > tracker->confirm_mnat ? look->confirm_mnat : tracker->confirm_mnat;
+    }
 }
 
 static int is_turning(const struct step *step)

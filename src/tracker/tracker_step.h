@@ -71,6 +71,8 @@ void rho_tracker_close(struct step *step);
 /* tracker_sector.c: what sectors of a turn are to each other */
 #if RHO_SECTORS
 void rho_tracker_note_look(struct step *step);
+/* The initiator's thresholds are the tracker's; beside them, those of the other sensors'. */
+void rho_tracker_note_thresholds(struct step *step);
 /* The track took a plot in the sector before: the antenna is still at the same pass. */
 int rho_tracker_was_seen(const struct step *step, const struct rho_track *track);
 /* The antenna has passed all of the track's gate in this scan, or the sensor looked there at once. */
@@ -79,6 +81,11 @@ int rho_tracker_has_passed(const struct step *step, const struct rho_track *trac
 float rho_tracker_turns(const struct step *step);
 #else
 static inline void rho_tracker_note_look(struct step *step)
+{
+    (void)step;
+}
+
+static inline void rho_tracker_note_thresholds(struct step *step)
 {
     (void)step;
 }

@@ -15,17 +15,30 @@ void must_succeed(enum rho_status status, const char *what)
     }
 }
 
+static void allocate_initiator(struct chain *chain)
+{
+    chain->initiators = must_grow(chain->initiators, chain->num_allocated, &chain->capacity,
+                                  sizeof *chain->initiators);
+    chain->initiators[chain->num_allocated++].initiator = must_alloc(sizeof(struct rho_initiator));
+}
+
 struct chain chain_start(void)
 {
-    return (struct chain){.initiator = must_alloc(sizeof(struct rho_initiator)),
-                          .tracker = must_alloc(sizeof(struct rho_tracker)),
+    struct chain chain = {.tracker = must_alloc(sizeof(struct rho_tracker)),
                           .report = must_alloc(sizeof(struct rho_report)),
                           .plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot))};
+
+    allocate_initiator(&chain);
+    chain.initiator = chain.initiators[0].initiator;
+    return chain;
 }
 
 void chain_free(struct chain *chain)
 {
-    free(chain->initiator);
+    for (size_t i = 0; i < chain->num_allocated; i++) {
+        free(chain->initiators[i].initiator);
+    }
+    free(chain->initiators);
     free(chain->passive);
     free(chain->tracker);
     free(chain->report);
@@ -43,14 +56,50 @@ void chain_set_gate(struct parameters *parameters, const char *gate)
     }
 }
 
+/* Memory of an earlier run is used again. */
+static struct chain_initiator *add_initiator(struct chain *chain, int32_t sensor_id)
+{
+    struct chain_initiator *added;
+
+    if (chain->num_initiators == chain->num_allocated) {
+        allocate_initiator(chain);
+    }
+    added = &chain->initiators[chain->num_initiators++];
+    added->sensor_id = sensor_id;
+    must_succeed(rho_initiator_init(added->initiator, sizeof *added->initiator, &chain->start),
+                 "initiator");
+    return added;
+}
+
+/* The first one is there before its sensor is known. */
+struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id)
+{
+    struct chain_initiator *of = NULL;
+
+    if (chain->has_one_initiator) {
+        return chain->initiator;
+    }
+    if (!chain->has_sensor) {
+        chain->has_sensor = true;
+        chain->initiators[0].sensor_id = sensor_id;
+    }
+    for (size_t i = 0; i < chain->num_initiators && !of; i++) {
+        of = chain->initiators[i].sensor_id == sensor_id ? &chain->initiators[i] : NULL;
+    }
+    of = of ? of : add_initiator(chain, sensor_id);
+    chain->initiator = of->initiator;
+    return chain->initiator;
+}
+
 void chain_open(struct chain *chain, const struct parameters *parameters)
 {
-    struct rho_initiator_config start;
     struct rho_tracker_config maintain;
-    parameters_to_initiator(parameters, &start);
+    parameters_to_initiator(parameters, &chain->start);
     parameters_to_tracker(parameters, &maintain);
-    must_succeed(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &start),
-                 "initiator");
+    chain->has_one_initiator = parameters->value[PARAMETER_INITIATORS] > 0.0;
+    chain->has_sensor = false;
+    chain->num_initiators = 0;
+    chain->initiator = add_initiator(chain, 0)->initiator;
     must_succeed(rho_tracker_init(chain->tracker, sizeof *chain->tracker, &maintain), "tracker");
 }
 
@@ -68,7 +117,9 @@ void chain_open_passive(struct chain *chain, const struct parameters *parameters
 
 void chain_step(struct chain *chain, const struct rho_scan *scan)
 {
-    must_succeed(rho_tracker_step(chain->tracker, chain->initiator, scan, chain->report), "step");
+    must_succeed(rho_tracker_step(chain->tracker, chain_initiator(chain, scan->sensor_id), scan,
+                                  chain->report),
+                 "step");
 }
 
 void chain_step_frame(struct chain *chain, const struct rho_frame *frame)

@@ -6,8 +6,19 @@
 #include "parameters.h"
 #include "scenario.h"
 
-struct chain {
+/* Who starts a sensor's tracks. */
+struct chain_initiator {
+    int32_t sensor_id;
     struct rho_initiator *initiator;
+};
+
+struct chain {
+    struct rho_initiator *initiator; /* that of the newest scan */
+    /* one a sensor, in the order in which these came; or one for all */
+    struct chain_initiator *initiators;
+    size_t num_initiators, num_allocated, capacity;
+    bool has_one_initiator, has_sensor;
+    struct rho_initiator_config start;
     struct rho_passive *passive; /* NULL before chain_open_passive */
     struct rho_tracker *tracker;
     struct rho_report *report;
@@ -25,6 +36,9 @@ void chain_open(struct chain *chain, const struct parameters *parameters);
 
 /* The same with bearings: the tracks that these start. After chain_open. */
 void chain_open_passive(struct chain *chain, const struct parameters *parameters);
+
+/* A sensor's initiator, which is the chain's from then on. */
+struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id);
 
 /* One step; the report is the chain's. */
 void chain_step(struct chain *chain, const struct rho_scan *scan);

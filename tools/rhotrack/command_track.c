@@ -252,7 +252,9 @@ static cJSON *counters_json(const struct rho_tracker_counters *counters)
 static size_t count_bytes(const struct tracking *tracking, const struct inputs *inputs)
 {
     return sizeof *tracking->chain.tracker +
-           (inputs_have_plots(inputs) ? sizeof *tracking->chain.initiator : 0) +
+           (inputs_have_plots(inputs)
+                ? tracking->chain.num_initiators * sizeof *tracking->chain.initiator
+                : 0) +
            (inputs_have_bearings(inputs) ? sizeof *tracking->chain.passive : 0);
 }
 

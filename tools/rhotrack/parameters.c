@@ -33,6 +33,8 @@ static const char *choices_of(enum parameter_id id)
         return "scans|counts";
     case PARAMETER_PRUNE:
         return "safe|literal|none";
+    case PARAMETER_INITIATORS:
+        return "sensor|one";
     case PARAMETER_GATE:
         return "best|hough|nearest|none";
     case PARAMETER_INPUT_MODEL:
