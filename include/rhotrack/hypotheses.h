@@ -155,6 +155,12 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
                                                       int64_t time_us);
 
+#if RHO_SECTORS
+/* The same without noise, and without change: on to where they had been before they were moved back. */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot,
+                                                     int64_t time_us);
+#endif
+
 /* Begins a scan: no plot has been weighed. *reach (may be NULL) is filled. Cost: 70 instructions a hypothesis and model.
  * Stack: 240 bytes. */
 void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,

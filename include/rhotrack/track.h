@@ -85,8 +85,8 @@ struct rho_track {
     uint8_t num_velocities;
     uint8_t is_believed; /* has been confirmed */
 #if RHO_SECTORS
-    uint16_t
-        look; /* of the sensor's scans, by the tracker's count: that of the last claimed plot */
+    uint16_t look;    /* the tracker's count of the sensor's scans at the last claimed plot */
+    int64_t ahead_us; /* while a late scan is stepped: the time from which it was moved back */
 #endif
     struct rho_input input;
 };
@@ -148,6 +148,15 @@ void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
  */
 RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                                  const struct rho_track_model *model);
+
+#if RHO_SECTORS
+/*
+ * Moves a track on to time_us without noise: back to where it had been before it was moved back, with what it has learned there.
+ * Errors and costs as rho_track_predict.
+ */
+RHO_MUST_CHECK enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
+                                                const struct rho_track_model *model);
+#endif
 
 /*
  * Updates with a plot: predicts to its own time, and takes its position, velocity and range rate, as far as measured,

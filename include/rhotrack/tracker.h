@@ -61,6 +61,10 @@ struct rho_tracker_config {
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /* best: mean time between manoeuvres, 0 .. 1e5; where that is less than they last, as long as these */
     float steady_s;
+#if RHO_SECTORS
+    /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
+    float late_max_s;
+#endif
     uint16_t coast_scans_max; /* misses in a row that end a track: 1 .. 255 */
     uint8_t gate;             /* enum rho_tracker_gate */
     uint8_t planes;           /* hough: RHO_GATE_PLANE_... */
@@ -84,6 +88,9 @@ struct rho_tracker_counters {
     uint32_t candidates_dropped; /* RHO_MAX_CANDIDATES */
     uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
     uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
+#if RHO_SECTORS
+    uint32_t scans_retrodicted; /* of the accepted: late, by late_max_s at most */
+#endif
 };
 
 #if RHO_PLOT_STRIPS > 1
@@ -169,7 +176,7 @@ struct rho_report {
 };
 
 /*
- * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
+ * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, late_max 20 s, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
  * hough and nearest without input estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);
@@ -202,9 +209,10 @@ RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tra
  *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held nowhere (fate NO_ROOM)
  *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks may claim (RHO_CLAIMS_BEYOND), in
  *              the first 4 RHO_MAX_PLOTS and 32767 of the scan; what nobody claims of them is not held, but NO_ROOM.
- *              A scan older than the last accepted one is late: all its plots are STALE, and but for counters
- *              nothing else changes.
- *   report     filled whole, whatever it held before
+ *              A scan older than the newest accepted one is late. By late_max_s at most, tracks are moved back to its time,
+ *              claim its plots and are missed as at any scan; no track starts from it: the other plots are STALE. Beyond that
+ *              all its plots are, and but for counters nothing else changes.
+ *   report     filled whole, whatever it held before; of a late scan that updates tracks at the newest scan's time
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
  * VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.
  * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of the newest scan.

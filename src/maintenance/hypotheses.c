@@ -194,7 +194,31 @@ float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot)
     return best;
 }
 
-enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
+#if RHO_SECTORS
+static enum rho_status move_quietly(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                    int64_t time_us)
+{
+    struct rho_imm_step step = *find_step(pool, at->time_us, time_us);
+    memset(step.noise, 0, sizeof step.noise);
+    memset(step.quiet_noise, 0, sizeof step.quiet_noise);
+    return rho_imm_move(&at->imm, &step);
+}
+#endif
+
+static enum rho_status move(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us,
+                            int is_quiet)
+{
+#if RHO_SECTORS
+    if (is_quiet) {
+        return move_quietly(pool, at, time_us);
+    }
+#endif
+    (void)is_quiet;
+    return rho_imm_predict(&at->imm, find_step(pool, at->time_us, time_us));
+}
+
+static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                                int is_quiet)
 {
     if (!pool) {
         return RHO_ERROR_NULL;
@@ -206,8 +230,7 @@ enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slo
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         uint16_t node = pool->node_of[slot][i];
         struct rho_hypothesis *at = &pool->nodes[node];
-        if (at->time_us != time_us &&
-            rho_imm_predict(&at->imm, find_step(pool, at->time_us, time_us)) != RHO_OK) {
+        if (at->time_us != time_us && move(pool, at, time_us, is_quiet) != RHO_OK) {
             rho_hypotheses_release(pool, node);
             continue;
         }
@@ -223,6 +246,18 @@ enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slo
     }
     return RHO_OK;
 }
+
+enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
+{
+    return move_all(pool, slot, time_us, 0);
+}
+
+#if RHO_SECTORS
+enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
+{
+    return move_all(pool, slot, time_us, 1);
+}
+#endif
 
 /* ---- the mean --------------------------------------------------------------------------------- */
 

@@ -306,11 +306,10 @@ void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
 
 /* ---- predict and update ----------------------------------------------------------------------- */
 
-/* The estimate itself is only moved along for now: rho_track_settle finds it once a step. */
-static enum rho_status predict_hypotheses(struct rho_track *track, int64_t time_us,
-                                          const struct rho_track_model *model)
+/* Hypotheses were moved: the estimate itself only along with them for now; rho_track_settle finds it once a step. */
+static enum rho_status move_estimate(struct rho_track *track, int64_t time_us,
+                                     enum rho_status status)
 {
-    enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, time_us);
     return status == RHO_OK ? rho_kalman_predict(&track->kalman,
                                                  rho_seconds_between(track->time_us, time_us), 0.0f)
                             : status;
@@ -325,7 +324,8 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     }
     float dt_s = rho_seconds_between(track->time_us, time_us);
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        status = predict_hypotheses(track, time_us, model);
+        status = move_estimate(track, time_us,
+                               rho_hypotheses_predict(model->hypotheses, track->slot, time_us));
     } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         status = rho_input_predict(&track->input, model->input, dt_s);
         show_input(track);
@@ -337,6 +337,29 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     }
     return status;
 }
+
+#if RHO_SECTORS
+enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
+                                 const struct rho_track_model *model)
+{
+    if (!track || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        return rho_track_predict(track, time_us, model); /* its noise is a scan's, not a second's */
+    }
+    enum rho_status status =
+        RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
+            ? move_estimate(track, time_us,
+                            rho_hypotheses_return(model->hypotheses, track->slot, time_us))
+            : rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us),
+                                 0.0f);
+    if (status == RHO_OK) {
+        track->time_us = time_us;
+    }
+    return status;
+}
+#endif
 
 static void take_sighting(struct rho_track *track, int64_t time_us, int32_t sensor_id, int16_t row)
 {

@@ -137,6 +137,10 @@ static void begin(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
+    if (RHO_SECTORS && rho_tracker_is_late(tracker, step->time_us)) {
+        rho_tracker_begin_late(step);
+        return;
+    }
     tracker->time_us = step->time_us;
     tracker->has_time = 1;
 }
@@ -260,6 +264,9 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .pd = 0.9f,
         .v_max_mps = 700.0f,
         .accel_max_mps2 = 30.0f,
+#if RHO_SECTORS
+        .late_max_s = 20.0f,
+#endif
         .coast_scans_max = 5,
         .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
         .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
@@ -276,8 +283,9 @@ static int is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
            rho_is_within(config->steady_s, 0.0f, 1e5f) &&
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
-           config->coast_scans_max >= 1 && config->coast_scans_max <= UINT8_MAX &&
-           config->gate < RHO_NUM_TRACKER_GATES && RHO_HAS_FILTER(filter_of(config)) &&
+           rho_tracker_is_late_usable(config) && config->coast_scans_max >= 1 &&
+           config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
+           RHO_HAS_FILTER(filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
            config->planes > 0 && config->planes <= ALL_PLANES &&
@@ -407,6 +415,10 @@ static void take_in(struct step *step)
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_age(step);
+    if (RHO_SECTORS && rho_tracker_is_late(step->tracker, step->time_us)) {
+        rho_tracker_end_late(step);
+        return;
+    }
     rho_tracker_initiate(step);
     rho_tracker_settle(step);
     note_unclaimed(step);
@@ -420,7 +432,7 @@ int rho_tracker_open(struct step *step)
     report->time_us = step->time_us;
     report->num_plots = step->num_inputs;
     set_model(step);
-    if (rho_tracker_is_late(step->tracker, step->time_us)) {
+    if (rho_tracker_is_late(step->tracker, step->time_us) && !rho_tracker_takes_late(step)) {
         refuse_late(step);
         return 0;
     }

@@ -31,6 +31,7 @@ void rho_tracker_predict(struct step *step)
             continue;
         }
         step->reached[i / 32] |= 1u << i % 32;
+        rho_tracker_note_ahead(track);
         /* an estimate that time has made worthless cannot be carried on */
         if (rho_track_predict(track, step->time_us, &step->model) != RHO_OK) {
             rho_tracker_end_track(step, track);

@@ -44,7 +44,7 @@ void rho_tracker_note_look(struct step *step)
 {
     const struct rho_scan *scan = step->scan;
     struct rho_tracker_look *look = look_of(step->tracker, scan->sensor_id);
-    if (!look) {
+    if (!look || rho_tracker_is_late(step->tracker, step->time_us)) {
         return;
     }
     if (look->count > 0) {

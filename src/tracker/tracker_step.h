@@ -73,6 +73,15 @@ void rho_tracker_close(struct step *step);
 void rho_tracker_note_look(struct step *step);
 /* The initiator's thresholds are the tracker's; beside them, those of the other sensors'. */
 void rho_tracker_note_thresholds(struct step *step);
+/* tracker_late.c: scans that are older than what was stepped, and may still update tracks */
+int rho_tracker_is_late_usable(const struct rho_tracker_config *config);
+int rho_tracker_takes_late(const struct step *step);
+void rho_tracker_begin_late(struct step *step);
+static inline void rho_tracker_note_ahead(struct rho_track *track)
+{
+    track->ahead_us = track->time_us;
+}
+void rho_tracker_end_late(struct step *step);
 /* The track took a plot in the sector before: the antenna is still at the same pass. */
 int rho_tracker_was_seen(const struct step *step, const struct rho_track *track);
 /* The antenna has passed all of the track's gate in this scan, or the sensor looked there at once. */
@@ -86,6 +95,33 @@ static inline void rho_tracker_note_look(struct step *step)
 }
 
 static inline void rho_tracker_note_thresholds(struct step *step)
+{
+    (void)step;
+}
+
+static inline int rho_tracker_is_late_usable(const struct rho_tracker_config *config)
+{
+    (void)config;
+    return 1;
+}
+
+static inline int rho_tracker_takes_late(const struct step *step)
+{
+    (void)step;
+    return 0;
+}
+
+static inline void rho_tracker_begin_late(struct step *step)
+{
+    (void)step;
+}
+
+static inline void rho_tracker_note_ahead(struct rho_track *track)
+{
+    (void)track;
+}
+
+static inline void rho_tracker_end_late(struct step *step)
 {
     (void)step;
 }

@@ -338,6 +338,7 @@ static inline void draw(uint8_t gate, uint64_t seed)
     memset(&config, 0, sizeof config);
     memset(&initiation, 0, sizeof initiation);
     rho_tracker_config_default(&config);
+    config.late_max_s = 0.0f;
     rho_initiator_config_default(&initiation);
     config.gate = gate;
     config.v_max_mps = initiation.v_max_mps = 400.0f;

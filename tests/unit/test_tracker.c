@@ -50,6 +50,7 @@ static void start(void)
 {
     struct rho_tracker_config config;
     rho_tracker_config_default(&config);
+    config.late_max_s = 0.5f;
     start_with(config, 5, 4, 0.0f);
 }
 

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "draws.h"
 #include "rhotrack/tracker.h"
 
 #define PLOTS_MAX (RHO_MAX_PLOTS + 1200)
@@ -23,19 +24,6 @@ static struct rho_tracker_config config;
 static struct rho_initiator_config initiation;
 static struct rho_plot plots[PLOTS_MAX];
 static uint32_t num_plots;
-static uint64_t random_state = 1;
-
-static inline double uniform(double from, double to)
-{
-    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
-}
-
-static inline double normal(void)
-{
-    double radius = sqrt(-2.0 * log(1.0 - uniform(0.0, 1.0)));
-    return radius * cos(uniform(0.0, 6.283185307179586));
-}
 
 /* The usual configurations, to be changed before begin(): four plots of five start a track, and it is believed at once. */
 static inline void draw(uint64_t seed)
@@ -44,6 +32,7 @@ static inline void draw(uint64_t seed)
     memset(&config, 0, sizeof config);
     memset(&initiation, 0, sizeof initiation);
     rho_tracker_config_default(&config);
+    config.late_max_s = 0.0f;
     rho_initiator_config_default(&initiation);
     config.v_max_mps = initiation.v_max_mps = 400.0f;
     config.accel_max_mps2 = 5.0f;

@@ -59,6 +59,8 @@
       "acceleration that the initiation window allows for; 0: straight")                           \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
       "misses in a row that end a track")                                                          \
+    X(LATE_MAX_S, "late_max_s", "s", 20, 0, 60, 0, 1,                                              \
+      "older scans update tracks where they are no older than the newest by this")                 \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
       "rows of a sensor within it are one scan; 0: rows of equal t_s")                             \
     X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0,                                       \
