@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* convert: a CSV file as an LCM log, or the messages of one kind of a log as a CSV file. */
+/* convert: a CSV file as an LCM log, the messages of one kind of a log as a CSV file, or tracks of either as GeoJSON. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,9 +7,12 @@
 
 #include "commands.h"
 #include "common.h"
+#include "geojson.h"
+#include "geojson_rows.h"
 #include "lcm_log.h"
 #include "message_source.h"
 #include "rows_collect.h"
+#include "rows_read.h"
 #include "rows_write.h"
 
 /* ---- Which way ---- */
@@ -201,20 +204,61 @@ static void convert_from_log(const struct command_line *line)
              reading.kind->name);
     }
     output = output_open(line->arguments[1]);
-    rows_write(output.file, &reading.collection.rows, line->covariance);
+    if (geojson_is_wanted(line->arguments[1])) {
+        geojson_write_rows(output.file, &reading.collection.rows, &line->parameters);
+    } else {
+        rows_write(output.file, &reading.collection.rows, line->covariance);
+    }
     output_close(&output);
     report(&reading, log);
     rows_collect_free(&reading.collection);
     lcm_log_close(log);
 }
 
+/* ---- To GeoJSON ---- */
+
+static void convert_to_map(const struct command_line *line)
+{
+    struct rows_file file;
+    struct output output;
+
+    rows_read(&file, line->arguments[0], &line->parameters, line->keep_going);
+    if (file.rows.kind != &rows_kind_tracks) {
+        fail(EXIT_USAGE, "%s: these are %s; GeoJSON is made of tracks", line->arguments[0],
+             file.rows.kind->name);
+    }
+    output = output_open(line->arguments[1]);
+    geojson_write_rows(output.file, &file.rows, &line->parameters);
+    output_close(&output);
+    say_rows_skipped(file.rows_skipped);
+    rows_read_end(&file);
+}
+
+/* Tracks alone become a map. */
+static void check_map(struct command_line *line)
+{
+    if (line->covariance) {
+        fail(EXIT_USAGE, "convert: --covariance has no place in GeoJSON");
+    }
+    if (line->kind && strcmp(line->kind, rows_kind_tracks.name) != 0) {
+        fail(EXIT_USAGE, "convert: --kind %s: GeoJSON is made of tracks", line->kind);
+    }
+    line->kind = rows_kind_tracks.name;
+}
+
 int command_convert(struct command_line *line)
 {
     bool from_log = input_is_log(line->arguments[0], line->arguments[1]);
+    bool to_map = geojson_is_wanted(line->arguments[1]);
 
     parameters_check(&line->parameters);
     check_output(line->arguments[1], from_log);
-    if (from_log) {
+    if (to_map) {
+        check_map(line);
+    }
+    if (to_map && !from_log) {
+        convert_to_map(line);
+    } else if (from_log) {
         convert_from_log(line);
     } else {
         convert_to_log(line);

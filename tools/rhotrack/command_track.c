@@ -313,7 +313,7 @@ static struct tracks_output *open_tracks(const struct command_line *line)
         return NULL;
     }
     return line->follow ? tracks_output_open_in_place(line->output, line->covariance)
-                        : tracks_output_open(line->output, line->covariance);
+                        : tracks_output_open(line->output, line->covariance, &line->parameters);
 }
 
 static void print_results(const struct tracking *tracking, const struct inputs *inputs, bool json)

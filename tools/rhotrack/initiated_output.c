@@ -6,6 +6,7 @@
 
 #include "chain.h"
 #include "common.h"
+#include "geojson.h"
 #include "lcm_log.h"
 #include "rhotrack/message.h"
 #include "tracks_output.h"
@@ -22,6 +23,10 @@ struct initiated_output *initiated_output_open(const char *path)
 {
     struct initiated_output *found = must_calloc(1, sizeof *found);
 
+    if (geojson_is_wanted(path)) {
+        fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; GeoJSON is made of tracks",
+             path);
+    }
     found->path = path;
     found->is_log = tracks_output_is_log(path);
     found->output = output_open(path);

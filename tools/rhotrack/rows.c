@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "common.h"
 
@@ -22,6 +23,16 @@ const char *rows_status_name(int status)
     };
 
     return names[status];
+}
+
+int rows_find_column(const struct rows_kind *kind, const char *name)
+{
+    int i = 0;
+
+    while (strcmp(kind->columns[i].name, name) != 0) {
+        i++;
+    }
+    return i;
 }
 
 int rows_compare(int64_t one, int64_t other)

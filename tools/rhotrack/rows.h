@@ -117,6 +117,9 @@ extern const struct rows_kind rows_kind_plots, rows_kind_polar, rows_kind_bearin
 #define ROWS_STATUS_MAX RHO_MESSAGE_TRACK_DELETED
 const char *rows_status_name(int status);
 
+/* The index of a column that the kind has. */
+int rows_find_column(const struct rows_kind *kind, const char *name);
+
 /* How two numbers are ordered, for qsort. */
 int rows_compare(int64_t one, int64_t other);
 

@@ -29,15 +29,9 @@ bool rows_geodetic_stands_for(const struct rows_geodetic *geodetic,
            (strcmp(column->name, "x_m") == 0 || strcmp(column->name, "y_m") == 0);
 }
 
-/* The kind has it. */
 static double *cell_of(const struct rows_geodetic *geodetic, double *cells, const char *name)
 {
-    int i = 0;
-
-    while (strcmp(geodetic->kind->columns[i].name, name) != 0) {
-        i++;
-    }
-    return &cells[i];
+    return &cells[rows_find_column(geodetic->kind, name)];
 }
 
 static void put(const struct rows_geodetic *geodetic, double *cells, const char *name, double value)

@@ -2,9 +2,11 @@
 #include "tracks_output.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "chain.h"
 #include "common.h"
+#include "geojson.h"
 #include "lcm_log.h"
 #include "rhotrack/publish.h"
 #include "tracks_writer.h"
@@ -18,6 +20,7 @@ struct tracks_output {
     struct lcm_log_writer log;
     int32_t step;
     struct rho_report *single; /* of a step that has one track */
+    struct geojson *map;       /* or NULL */
 };
 
 bool tracks_output_is_log(const char *path)
@@ -38,20 +41,34 @@ static struct tracks_output *open_output(const char *path, struct output output,
     return tracks;
 }
 
-struct tracks_output *tracks_output_open(const char *path, bool with_covariance)
+struct tracks_output *tracks_output_open(const char *path, bool with_covariance,
+                                         const struct parameters *parameters)
 {
-    return open_output(path, output_open(path), with_covariance);
+    struct tracks_output *tracks;
+
+    if (geojson_is_wanted(path) && with_covariance) {
+        fail(EXIT_USAGE, "%s: --covariance has no place in GeoJSON", path);
+    }
+    tracks = open_output(path, output_open(path), with_covariance);
+    tracks->map = geojson_is_wanted(path) ? geojson_open(tracks->output.file, parameters) : NULL;
+    return tracks;
 }
 
 struct tracks_output *tracks_output_open_in_place(const char *path, bool with_covariance)
 {
+    if (geojson_is_wanted(path)) {
+        fail(EXIT_USAGE,
+             "%s: GeoJSON is complete at the end alone, and cannot be written in place; `convert` "
+             "makes it of a CSV file",
+             path);
+    }
     return open_output(path, output_open_in_place(path), with_covariance);
 }
 
 /* Not before there is something to write: what is refused on the way leaves no header on standard output. */
 static void need_header(struct tracks_output *tracks)
 {
-    if (!tracks->is_log && !tracks->has_header) {
+    if (!tracks->is_log && !tracks->map && !tracks->has_header) {
         tracks->has_header = true;
         tracks_write_header(tracks->output.file, tracks->with_covariance);
     }
@@ -78,9 +95,33 @@ static void write_list(struct tracks_output *tracks, const struct rho_report *re
     }
 }
 
+static void add_to_map(struct geojson *map, int64_t time_us, const struct rho_track_report *track)
+{
+    struct geojson_row row = {.time_us = time_us,
+                              .track_id = (int32_t)track->track_id,
+                              .status = rho_track_status_name(track->status),
+                              .sigma_m = track->sigma_m,
+                              .hits = track->hits,
+                              .misses = track->misses};
+
+    memcpy(row.state, track->state, sizeof row.state);
+    geojson_add(map, &row);
+}
+
+/* Every report names all tracks that go on. */
+static void add_report_to_map(struct geojson *map, const struct rho_report *report)
+{
+    for (int i = 0; i < report->num_tracks; i++) {
+        add_to_map(map, report->time_us, &report->tracks[i]);
+    }
+    geojson_end_time(map);
+}
+
 void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report)
 {
-    if (tracks->is_log) {
+    if (tracks->map) {
+        add_report_to_map(tracks->map, report);
+    } else if (tracks->is_log) {
         write_list(tracks, report);
     } else {
         need_header(tracks);
@@ -91,6 +132,10 @@ void tracks_output_report(struct tracks_output *tracks, const struct rho_report 
 void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
                          const struct rho_track_report *track)
 {
+    if (tracks->map) {
+        add_to_map(tracks->map, time_us, track);
+        return;
+    }
     if (!tracks->is_log) {
         need_header(tracks);
         tracks_write_row(tracks->output.file, time_us, track, tracks->with_covariance);
@@ -109,6 +154,9 @@ void tracks_output_close(struct tracks_output *tracks)
 {
     if (tracks) {
         need_header(tracks);
+        if (tracks->map) {
+            geojson_close(tracks->map);
+        }
         output_close(&tracks->output);
         free(tracks->single);
         free(tracks);
