@@ -18,6 +18,7 @@
 
 struct heard {
     unsigned lists, tracks; /* tracks: in the last list */
+    struct rho_message_status status;
 };
 
 static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
@@ -30,6 +31,9 @@ static void on_send(void *context, const char *channel, const uint8_t *data, siz
         assert_int_equal(rho_message_track_list_validate(&list, NULL), RHO_OK);
         heard->lists++;
         heard->tracks = (unsigned)list.num_tracks_total;
+    } else if (strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
+        assert_int_equal(rho_message_status_decode(data, size, &heard->status), RHO_OK);
+        assert_int_equal(rho_message_status_validate(&heard->status, NULL), RHO_OK);
     }
 }
 
@@ -186,6 +190,29 @@ static void radars_that_are_gone_make_room(void **state)
     node_core_close(live.core);
 }
 
+static void a_status_says_the_origin(void **state)
+{
+    struct live live;
+    char reason[PARAMETER_REASON_BYTES];
+    const struct rho_message_status *status = &live.heard.status;
+
+    (void)state;
+    start(&live);
+    node_core_status(live.core, 0);
+    assert_true(status->origin_lat_1e7deg == 0 && status->origin_lon_1e7deg == 0);
+    assert_true(parameters_assign(&live.parameters, "origin_lat_deg", "-33.9461234", SOURCE_CONFIG,
+                                  reason));
+    assert_true(parameters_assign(&live.parameters, "origin_lon_deg", "151.1771234", SOURCE_CONFIG,
+                                  reason));
+    assert_true(
+        parameters_assign(&live.parameters, "origin_alt_m", "27.4321", SOURCE_CONFIG, reason));
+    node_core_status(live.core, 0);
+    assert_int_equal(status->origin_lat_1e7deg, -339461234);
+    assert_int_equal(status->origin_lon_1e7deg, 1511771234);
+    assert_int_equal(status->origin_alt_mm, 27432);
+    node_core_close(live.core);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -194,6 +221,7 @@ int main(void)
         cmocka_unit_test(radars_that_are_gone_make_room),
         cmocka_unit_test(a_sensor_that_has_moved_is_believed_in_the_end),
         cmocka_unit_test(sensors_that_have_moved_together_are_believed),
+        cmocka_unit_test(a_status_says_the_origin),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
