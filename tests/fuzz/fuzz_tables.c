@@ -21,6 +21,7 @@
 
 #include "common.h"
 #include "frame_reader.h"
+#include "local_frame.h"
 #include "parameters.h"
 #include "plot_data.h"
 #include "rhotrack/types.h"
@@ -219,6 +220,31 @@ static void read_file(char *path, const struct parameters *parameters, unsigned 
     }
 }
 
+/* Where there is an origin latitudes and longitudes are read, and sensor 3 stands on the earth. */
+static void set_origin(struct parameters *parameters, bool is_set)
+{
+    const enum parameter_source source = is_set ? SOURCE_SET : SOURCE_UNSET;
+
+    parameters->source[PARAMETER_ORIGIN_LAT_DEG] = source;
+    parameters->source[PARAMETER_ORIGIN_LON_DEG] = source;
+    parameters->value[PARAMETER_ORIGIN_LAT_DEG] = 50.0;
+    parameters->value[PARAMETER_ORIGIN_LON_DEG] = 10.0;
+    parameters->num_sensors = is_set ? 1 : 0;
+    parameters->sensors[0] = (struct sensor_parameters){.sensor_id = 3};
+    for (int id = SENSOR_LAT_DEG; id <= SENSOR_LON_DEG; id++) {
+        parameters->sensors[0].source[id] = source;
+        parameters->sensors[0].value[id] = 20.0;
+    }
+}
+
+/* What PROJ keeps for the whole program is there before a run's memory is looked at. It does without its database. */
+static void warm_up(struct parameters *parameters)
+{
+    must(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
+    set_origin(parameters, true);
+    local_frame_close(parameters_open_origin(parameters));
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -232,6 +258,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         must(file >= 0);
         snprintf(path, sizeof path, "/proc/self/fd/%d", file);
         parameters_default(&parameters);
+        warm_up(&parameters);
         must(__sanitizer_install_malloc_and_free_hooks(on_malloc, on_free) != 0);
     }
     if (size == 0) {
@@ -239,6 +266,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     first_free = first_free_file();
     must(ftruncate(file, 0) == 0 && pwrite(file, data + 1, size - 1, 0) == (ssize_t)(size - 1));
+    set_origin(&parameters, (data[0] & 16) != 0);
     parameters.value[PARAMETER_SCAN_INTERVAL_S] = (data[0] & 8) != 0 ? 0.5 : 0.0;
     is_keeping = true;
     if (setjmp(refused) == 0) {

@@ -35,6 +35,12 @@ def local(origin, place):
             math.sin(lat) * dz + math.cos(lat) * outward)
 
 
+def turn_deg(stands):
+    """Where a radar's own north is in the local frame, clockwise from the frame's."""
+    here, north = local(ORIGIN, stands), local(ORIGIN, (stands[0] + 1e-3, *stands[1:]))
+    return math.degrees(math.atan2(north[0] - here[0], north[1] - here[1]))
+
+
 def places(t_s):
     for number, (lat, lon, lat_s, lon_s, alt, climb) in enumerate(AIRCRAFT, 1):
         yield number, (lat + lat_s * t_s, lon + lon_s * t_s, alt + climb * t_s)
@@ -71,6 +77,8 @@ def scene():
           [row + cell[1:] for row, cell in zip(polar, cells)])
     write("heights.csv", head + ",alt_m", [row[:4] + cell[:1] for row, cell in zip(polar, cells)])
     write("ground.csv", head, [row[:4] for row in polar])
+    write("turned.csv", head + ",alt_m", [(row[0], row[1], row[2], (row[3] + turn_deg(RADARS[row[1]])) % 360, cell[0])
+                                          for row, cell in zip(polar, cells)])
     for radar, stands in RADARS.items():
         x, y, z = local(ORIGIN, stands)
         print(f"[sensor {radar}]\nx_m = {x:.6f}\ny_m = {y:.6f}\nz_m = {z:.6f}")

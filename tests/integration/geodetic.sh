@@ -75,6 +75,10 @@ run track polar.csv --config places_m.ini -o metres.csv
 judge truth.csv metres.csv
 check 'a place in metres: azimuths are not turned, horizons not tilted' json stdout \
     'o["targets_found"] == 0 or o["rmse_m"] > 300'
+run track turned.csv --config places_m.ini -o turned.tracks.csv
+judge truth.csv turned.tracks.csv
+check 'a place in metres, azimuths of the local frame, heights above the ellipsoid: on the truth' json stdout \
+    'o["targets_found"] == 4 and o["rmse_m"] < 2'
 run config --config radars.ini
 check 'config shows the place in metres, too' grep -q '^sensor.1.x_m .* 70[0-9][0-9][0-9]' stdout
 

@@ -208,6 +208,16 @@ static struct kept_radar *find_radar(struct geodetic *geodetic, int32_t sensor_i
     return &geodetic->radars[geodetic->num_radars++ % RHO_MAX_SENSORS];
 }
 
+static bool is_same_place(const double one[3], const double other[3])
+{
+    for (int i = 0; i < 3; i++) {
+        if (one[i] < other[i] || one[i] > other[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Its frame, made anew where the radar is not the one that was kept there, or has moved. */
 static const struct radar_frame *have_radar(struct geodetic *geodetic, int32_t sensor_id,
                                             bool has_own_north, const double on_earth[3])
@@ -215,7 +225,7 @@ static const struct radar_frame *have_radar(struct geodetic *geodetic, int32_t s
     struct kept_radar *radar = find_radar(geodetic, sensor_id, has_own_north);
 
     if (!radar->frame || radar->sensor_id != sensor_id || radar->has_own_north != has_own_north ||
-        memcmp(radar->geodetic, on_earth, sizeof radar->geodetic) != 0) {
+        !is_same_place(radar->geodetic, on_earth)) {
         radar_frame_close(radar->frame);
         radar->frame = radar_frame_open(origin_of(geodetic), on_earth, has_own_north);
         radar->sensor_id = sensor_id;

@@ -90,12 +90,12 @@ void local_frame_between(const struct local_frame *from, const struct local_fram
 
 double local_frame_turn_rad(const struct local_frame *from, const struct local_frame *to)
 {
-    static const double origin_m[3] = {0, 0, 0}, east_m[3] = {1000, 0, 0};
-    double origin[3], east[3];
+    static const double origin_m[3] = {0, 0, 0}, north_m[3] = {0, 1000, 0};
+    double origin[3], north[3];
 
     local_frame_between(from, to, origin_m, origin);
-    local_frame_between(from, to, east_m, east);
-    return atan2(east[1] - origin[1], east[0] - origin[0]);
+    local_frame_between(from, to, north_m, north);
+    return atan2(origin[0] - north[0], north[1] - origin[1]);
 }
 
 /* ---- A slant range and a height ---- */

@@ -21,7 +21,8 @@ static const struct command commands[] = {
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
      "and writes one row a track and scan (CSV) to OUTPUT or standard output. Inputs may be LCM\n"
-     "logs, and OUTPUT is one where it is named NAME.lcm. A summary goes to standard error. With\n"
+     "logs, and OUTPUT is one where it is named NAME.lcm, or a map where NAME.geojson (with the\n"
+     "parameters origin_lat_deg and origin_lon_deg). A summary goes to standard error. With\n"
      "--json the results go to standard output as one JSON object, and tracks only to OUTPUT.\n"
      "INPUT - is standard input (CSV). Files may be of any length: memory does not grow with "
      "them.\n"
@@ -95,6 +96,8 @@ static const struct command commands[] = {
      "CSV files to LCM logs and back",
      "Writes a CSV file (plots, polar plots, bearings, truth or tracks) as an LCM log, or the\n"
      "messages of one kind of a log as a CSV file. CSV files end with .csv, LCM logs with .lcm.\n"
+     "Tracks of either become a map where OUT is NAME.geojson; that needs the parameters\n"
+     "origin_lat_deg and origin_lon_deg.\n"
      "Values keep float32 and times microseconds. Rows of one sensor are one scan where they have\n"
      "the same scan and epoch (columns), else the same t_s, or are within scan_interval_s. "
      "Damaged\n"

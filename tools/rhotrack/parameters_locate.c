@@ -90,7 +90,7 @@ static void put(struct sensor_parameters *sensor, enum sensor_parameter_id id, d
 static void locate(const struct parameters *parameters, const struct local_frame *origin,
                    struct sensor_parameters *sensor)
 {
-    double geodetic[3], place_m[3];
+    double geodetic[3] = {0, 0, 0}, place_m[3];
     struct local_frame *own;
 
     parameters_sensor_on_earth(parameters, sensor->sensor_id, geodetic);

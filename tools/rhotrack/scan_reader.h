@@ -4,8 +4,8 @@
  *
  * columns by name: t_s,sensor_id,x_m,y_m[,z_m][,vx_mps,vy_mps,vz_mps][,sigma_m][,sigma_mps], or polar:
  * t_s,sensor_id,range_m,azimuth_rad[,elevation_rad][,range_rate_mps][,sensor_x_m,sensor_y_m,sensor_z_m]
- * [,sigma_range_m,...]; azimuth_deg (clockwise from north) and elevation_deg may stand for the radians. Others are
- * ignored. Rows of one sensor with the same t_s (or within scan_interval_s) are one scan; with a column scan those
+ * [,sigma_range_m,...]; azimuth_deg (clockwise from north) and elevation_deg may stand for the radians, latitudes and
+ * longitudes for metres (geodetic.h). Others are ignored. Rows of one sensor with the same t_s (or within scan_interval_s) are one scan; with a column scan those
  * of the same scan and epoch, up to a minute apart (gather.h). A row whose measurement columns are empty is a scan that saw nothing.
  *
  * Files are read once, row by row; memory does not grow with them. A path "-" is standard input, as CSV.
