@@ -29,6 +29,7 @@ static inline void start_chain(float accel_max_mps2)
 {
     struct rho_tracker_config config;
     rho_tracker_config_default(&config);
+    config.late_max_s = 0.0f;
     config.v_max_mps = 450.0f;
     config.accel_max_mps2 = accel_max_mps2;
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
