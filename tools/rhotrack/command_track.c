@@ -237,6 +237,7 @@ static cJSON *counters_json(const struct rho_tracker_counters *counters)
 
     cJSON_AddNumberToObject(object, "scans_accepted", counters->scans_accepted);
     cJSON_AddNumberToObject(object, "scans_late", counters->scans_late);
+    cJSON_AddNumberToObject(object, "scans_retrodicted", counters->scans_retrodicted);
     cJSON_AddNumberToObject(object, "plots_initiated", counters->plots_initiated);
     cJSON_AddNumberToObject(object, "plots_clutter", counters->plots_clutter);
     cJSON_AddNumberToObject(object, "tracks_started", counters->tracks_started);

@@ -11,6 +11,18 @@ void gather_start(struct gather *gather, size_t element_bytes, int64_t interval_
     *gather = (struct gather){.element_bytes = element_bytes, .interval_us = interval_us};
 }
 
+void gather_set_clock(struct gather *gather, int64_t clock_us)
+{
+    gather->has_clock = true;
+    gather->clock_us = clock_us;
+}
+
+/* What must not go back. */
+static int64_t clock_of(const struct gather *gather, int64_t time_us)
+{
+    return gather->has_clock ? gather->clock_us : time_us;
+}
+
 /* ---- Rows ---- */
 
 /* The sensor's newest scan, or the newest with that order; NULL where it is not in memory any more. */
@@ -57,16 +69,21 @@ struct gathered *gather_find(struct gather *gather, int32_t sensor_id,
 bool gather_check_time(const struct gather *gather, const struct gathered *scan, int64_t time_us,
                        const struct row_check *check)
 {
-    bool is_within = scan && scan->number.is_given;
+    bool is_within = scan && scan->number.is_given && !gather->has_clock;
+    int64_t clock_us = clock_of(gather, time_us);
 
-    return is_within || !gather->has_rows || time_us >= gather->last_us ||
-           row_refuse(check, "time goes back from %.6f s to %.6f s", (double)gather->last_us * 1e-6,
-                      (double)time_us * 1e-6);
+    return is_within || !gather->has_rows || clock_us >= gather->last_us ||
+           row_refuse(check, "%s goes back from %.6f s to %.6f s",
+                      gather->has_clock ? "received_s" : "time", (double)gather->last_us * 1e-6,
+                      (double)clock_us * 1e-6);
 }
 
-static void pass_time(struct gather *gather, int64_t time_us)
+static void pass_time(struct gather *gather, struct gathered *scan, int64_t time_us)
 {
-    gather->last_us = gather->has_rows && gather->last_us > time_us ? gather->last_us : time_us;
+    scan->heard_us = clock_of(gather, time_us);
+    if (!gather->has_rows || scan->heard_us > gather->last_us) {
+        gather->last_us = scan->heard_us;
+    }
     gather->has_rows = true;
 }
 
@@ -87,6 +104,7 @@ struct gathered *gather_begin(struct gather *gather, const struct gathered *scan
     begun = &gather->scans[gather->count++];
     *begun = *scan;
     begun->start_us = begun->time_us = time_us;
+    begun->begun_us = begun->heard_us = clock_of(gather, time_us);
     begun->order = gather->order++;
     scan_numbers_drop(&gather->numbers, gather->scans[0].order);
     scan_numbers_set(&gather->numbers, scan->sensor_id, &scan->number, begun->order);
@@ -101,25 +119,26 @@ void gather_add(struct gather *gather, struct gathered *scan, int64_t time_us, c
     memcpy((char *)scan->elements + scan->count * gather->element_bytes, element,
            gather->element_bytes);
     scan->times_us[scan->count++] = time_us;
-    pass_time(gather, time_us);
+    pass_time(gather, scan, time_us);
 }
 
 void gather_add_nothing(struct gather *gather, struct gathered *scan, int64_t time_us)
 {
-    bool is_given = gather->has_given && time_us < gather->given_us; /* that time is over */
+    /* that time is over */
+    bool is_given = gather->has_given && !gather->has_clock && time_us < gather->given_us;
 
     if (scan->number.is_given && !scan->has_time && !is_given) {
         scan->has_time = true;
         scan->time_us = time_us;
     }
-    pass_time(gather, time_us);
+    pass_time(gather, scan, time_us);
 }
 
 /* ---- Scans ---- */
 
 static bool is_complete(const struct gather *gather, const struct gathered *scan)
 {
-    int64_t since_us = gather->last_us - scan->start_us;
+    int64_t since_us = gather->last_us - scan->begun_us;
 
     if (scan->number.is_given && since_us <= RHO_LIMIT_OFFSET_US &&
         !(gather->begun_max && scan->begun_since >= gather->begun_max)) {
@@ -128,13 +147,19 @@ static bool is_complete(const struct gather *gather, const struct gathered *scan
     return since_us > 0 && since_us >= gather->interval_us;
 }
 
+static bool comes_before(const struct gather *gather, const struct gathered *one,
+                         const struct gathered *other)
+{
+    return gather->has_clock ? one->begun_us < other->begun_us : one->time_us < other->time_us;
+}
+
 /* The one that is before all others. */
 static size_t find_first(const struct gather *gather)
 {
     size_t first = 0;
 
     for (size_t i = 1; i < gather->count; i++) {
-        if (gather->scans[i].time_us < gather->scans[first].time_us) {
+        if (comes_before(gather, &gather->scans[i], &gather->scans[first])) {
             first = i;
         }
     }

@@ -5,6 +5,9 @@
  * Rows of one sensor are a scan as row_joins has it: a row belongs to the scan of its number, else to the sensor's newest
  * one. Their times do not go back, but within a scan that has a number. A scan is complete when rows have come to a time
  * that cannot be its own: of a numbered one RHO_LIMIT_OFFSET_US after its first row.
+ *
+ * Where rows say when they were received, these are the times that do not go back, and that complete scans; those are given out
+ * as they were received.
  */
 #ifndef RHOTRACK_TOOL_GATHER_H
 #define RHOTRACK_TOOL_GATHER_H
@@ -22,6 +25,8 @@ struct gathered {
     int32_t sensor_id;
     struct row_number number;
     int64_t start_us; /* of its first row */
+    int64_t begun_us,
+        heard_us; /* its first and its last row were received; without such times: start_us, its last row's */
     int64_t
         time_us;   /* its own: the first row's, or with a number that of the row that saw nothing */
     bool has_time; /* by such a row */
@@ -48,11 +53,16 @@ struct gather {
     size_t order; /* of the next one */
     struct scan_numbers numbers;
     bool has_rows, has_given;
-    int64_t last_us;  /* the latest time of a row */
+    int64_t last_us; /* the latest time of a row, or when the last one was received */
+    bool has_clock;  /* the row that comes was received at ... */
+    int64_t clock_us;
     int64_t given_us; /* the newest scan's that was given out */
 };
 
 void gather_start(struct gather *gather, size_t element_bytes, int64_t interval_us);
+
+/* When the row was received that is checked and added next. Of all rows, or of none. */
+void gather_set_clock(struct gather *gather, int64_t clock_us);
 
 /* The scan that such a row belongs to; NULL: it begins one. Valid until the next scan begins or is taken. */
 struct gathered *gather_find(struct gather *gather, int32_t sensor_id,

@@ -44,6 +44,7 @@ struct plot_columns plot_columns_find(const struct table *table,
     has_no_xy = is_polar || table_find(table, "lat_deg") >= 0;
     columns = (struct plot_columns){
         .t_s = table_need(table, "t_s"),
+        .received_s = table_find(table, "received_s"),
         .sensor_id = table_need(table, "sensor_id"),
         .x_m = has_no_xy ? table_find(table, "x_m") : table_need(table, "x_m"),
         .y_m = has_no_xy ? -1 : table_need(table, "y_m"),
@@ -398,6 +399,7 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
     *plot_row = (struct plot_row){.has_plot = false};
     if (!row_key(&checking.cells, columns->t_s, columns->sensor_id, &plot_row->time_us,
                  &plot_row->sensor_id) ||
+        !row_received(&checking.cells, columns->received_s, &plot_row->received_us) ||
         !row_number(&checking.cells, columns->scan, columns->epoch, &plot_row->number) ||
         !row_sector(&checking.cells, columns->sector_from_rad, columns->sector_to_rad,
                     &plot_row->sector_from_rad, &plot_row->sector_to_rad) ||

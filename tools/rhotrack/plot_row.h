@@ -15,6 +15,7 @@
 
 struct plot_row {
     int64_t time_us;
+    int64_t received_us;      /* where the file has that column */
     struct row_number number; /* of the scan */
     int32_t sensor_id;
     float sector_from_rad, sector_to_rad; /* of the scan; both 0 where not given */
@@ -32,7 +33,8 @@ struct plot_row {
  * and longitude.
  */
 struct plot_columns {
-    int t_s, sensor_id, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps, sigma_m, sigma_mps;
+    int t_s, received_s;
+    int sensor_id, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps, sigma_m, sigma_mps;
     int range_m, azimuth_rad, azimuth_deg, elevation_rad, elevation_deg;
     int range_rate_mps;
     int sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;

@@ -8,6 +8,7 @@
 #include "bearing_row.h"
 #include "common.h"
 #include "gather.h"
+#include "hold.h"
 #include "lcm_log.h"
 #include "log_scans.h"
 #include "plot_row.h"
@@ -23,6 +24,7 @@ struct plot_source {
     bool has_columns, has_good, is_over, waits, is_complete;
     struct plot_columns columns;
     struct gather gather;
+    struct hold hold;      /* of a file that says when its rows were received */
     uint64_t rows_skipped; /* but those of the stream */
 };
 
@@ -88,6 +90,9 @@ static void find_columns(struct plot_source *source, const struct table *table)
     }
     source->columns = plot_columns_find(table, source->parameters);
     source->has_columns = true;
+    if (source->columns.received_s >= 0) {
+        source->gather.begun_max = FOLLOW_BEGUN_MAX;
+    }
 }
 
 /* The row that the table has. */
@@ -101,6 +106,9 @@ static void take_row(struct plot_source *source, const struct table *table)
 
     find_columns(source, table);
     is_good = plot_row_read(table, &source->columns, 0, source->parameters, &row, reason);
+    if (is_good && source->columns.received_s >= 0) {
+        gather_set_clock(&source->gather, row.received_us);
+    }
     if (is_good) {
         scan = gather_find(&source->gather, row.sensor_id, &row.number, row.time_us);
         is_good = gather_check_time(&source->gather, scan, row.time_us, &check) &&
@@ -167,7 +175,8 @@ static void fill_scan(struct plot_scan *out, struct gathered *scan)
     gathered_free(scan);
 }
 
-static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
+/* The next one as its rows came. heard_us: its last one. */
+static bool next_gathered(struct plot_source *source, struct plot_scan *scan, int64_t *heard_us)
 {
     struct gathered gathered;
 
@@ -180,7 +189,28 @@ static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
             return false;
         }
     }
+    *heard_us = gathered.heard_us;
     fill_scan(scan, &gathered);
+    return true;
+}
+
+/* Where rows say when they were received, scans wait hold_ms for earlier ones. */
+static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
+{
+    int64_t heard_us;
+
+    if (source->has_columns && source->columns.received_s < 0) {
+        return next_gathered(source, scan, &heard_us);
+    }
+    while (!hold_take(&source->hold, false, scan)) {
+        struct plot_scan next;
+
+        if (!next_gathered(source, &next, &heard_us)) {
+            return (source->is_over || source->is_complete) &&
+                   hold_take(&source->hold, true, scan);
+        }
+        hold_put(&source->hold, &next, heard_us);
+    }
     return true;
 }
 
@@ -217,6 +247,7 @@ static void open_table(struct plot_source *source, const char *path)
     gather_start(&source->gather, sizeof(struct rho_plot),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     source->gather.begun_max = source->follow ? FOLLOW_BEGUN_MAX : 0;
+    source->hold.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
     find_columns(source, table_stream_table(source->stream));
 }
 
@@ -280,6 +311,7 @@ void plot_source_close(struct plot_source *source)
         log_scans_close(source->log);
     } else {
         gather_free(&source->gather);
+        hold_free(&source->hold);
         plot_columns_free(&source->columns);
         table_stream_close(source->stream);
     }

@@ -102,6 +102,15 @@ bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *tim
     return why ? row_refuse_cell(check, sensor_id, why) : true;
 }
 
+bool row_received(const struct row_check *check, int column, int64_t *received_us)
+{
+    const char *why =
+        column < 0 ? NULL
+                   : table_time_us(table_cell(check->table, check->row, column), received_us);
+
+    return why ? row_refuse_cell(check, column, why) : true;
+}
+
 bool row_number(const struct row_check *check, int scan, int epoch, struct row_number *number)
 {
     const char *why;

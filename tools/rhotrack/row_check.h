@@ -44,6 +44,9 @@ bool row_snr(const struct row_check *check, int column, float *snr_db);
 bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
              int32_t *sensor);
 
+/* When the row was received; *received_us is left alone where the file does not say. */
+bool row_received(const struct row_check *check, int column, int64_t *received_us);
+
 /* The scan's number, where the file says it: rows of one sensor with the same are one scan, whatever their own times. */
 struct row_number {
     bool is_given;
