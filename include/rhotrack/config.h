@@ -178,9 +178,9 @@
 #define RHO_CLAIMS_BEYOND 1
 #endif
 
-/* 1: a radar may be stepped sector by sector as its antenna turns: sectors that follow one another are one scan of the initiation
- * window, and a target between two of them is seen once a turn; 0: left out of the program (1 KB less on a Cortex-M4), each scan
- * is a look of its own. RAM: 36 bytes a scan of the window, 32 a sensor. */
+/* 1: what turning radars and several of them need. Sectors that follow one another are one scan of the initiation window, and a
+ * target between two of them is seen once a turn; late scans update tracks; a sensor that contradicts the others is doubted. 0: left
+ * out of the program (5 KB less on a Cortex-M4), each scan is a look of its own. RAM: 36 bytes a scan of the window, 52 a sensor. */
 #ifndef RHO_SECTORS
 #define RHO_SECTORS 1
 #endif
@@ -341,7 +341,7 @@
 #define RHO_RAM_STRIPS_BYTES (RHO_PLOT_STRIPS > 1 ? 2 * (RHO_PLOT_STRIPS + RHO_MAX_PLOTS) + 16 : 0)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (480 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
-     (68 + 32 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES + RHO_RAM_STRIPS_BYTES + \
+     (68 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES + RHO_RAM_STRIPS_BYTES + \
      640)
 #define RHO_RAM_FEED_BYTES                                                                         \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \

@@ -85,8 +85,9 @@ struct rho_track {
     uint8_t num_velocities;
     uint8_t is_believed; /* has been confirmed */
 #if RHO_SECTORS
-    uint16_t look;    /* the tracker's count of the sensor's scans at the last claimed plot */
-    int64_t ahead_us; /* while a late scan is stepped: the time from which it was moved back */
+    uint8_t is_shared; /* two sensors have seen it */
+    uint16_t look;     /* the tracker's count of the sensor's scans at the last claimed plot */
+    int64_t ahead_us;  /* while a late scan is stepped: the time from which it was moved back */
 #endif
     struct rho_input input;
 };

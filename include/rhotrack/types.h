@@ -120,6 +120,10 @@ struct rho_sensor {
     float sector_from_rad, sector_to_rad;
     /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said */
     float range_bias_m, azimuth_bias_rad, time_bias_s;
+#if RHO_SECTORS
+    /* how many times the variances of its plots' places count; 0: once. The tracker sets it of a sensor that it doubts */
+    float variance_factor;
+#endif
 };
 
 /*

@@ -253,6 +253,13 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     out->variance_m2[1] = plot->sigma_cross_m * plot->sigma_cross_m;
     out->variance_m2[2] = out->has_z ? plot->sigma_up_m * plot->sigma_up_m : 0.0f;
     out->is_isotropic = are_equal(plot, out->has_z);
+#if RHO_SECTORS
+    if (sensor && sensor->variance_factor > 1.0f) {
+        for (int axis = 0; axis < 3; axis++) {
+            out->variance_m2[axis] *= sensor->variance_factor;
+        }
+    }
+#endif
 }
 
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6])

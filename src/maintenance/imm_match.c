@@ -51,7 +51,12 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
     seen->measures = measures;
     seen->plot = plot;
     seen->sensor = sensor;
-    if (open_isotropic(&seen->position, seen->covariance, plot, measures)) {
+#if RHO_SECTORS
+    const int is_doubted = sensor && sensor->variance_factor > 1.0f;
+#else
+    const int is_doubted = 0;
+#endif
+    if (!is_doubted && open_isotropic(&seen->position, seen->covariance, plot, measures)) {
         return;
     }
     rho_measurement_open(plot, measures, sensor, &seen->position);

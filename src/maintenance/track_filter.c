@@ -363,6 +363,9 @@ enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
 
 static void take_sighting(struct rho_track *track, int64_t time_us, int32_t sensor_id, int16_t row)
 {
+#if RHO_SECTORS
+    track->is_shared |= (uint8_t)(track->sensor_id != sensor_id);
+#endif
     track->updated_us = time_us;
     track->sensor_id = sensor_id;
     track->plot = row;

@@ -260,10 +260,9 @@ void rho_tracker_close(struct step *step)
 
 void rho_tracker_config_default(struct rho_tracker_config *config)
 {
-    *config = (struct rho_tracker_config){
-        .pd = 0.9f,
-        .v_max_mps = 700.0f,
-        .accel_max_mps2 = 30.0f,
+    *config = (struct rho_tracker_config)
+    {
+        .pd = 0.9f, .v_max_mps = 700.0f, .accel_max_mps2 = 30.0f,
 #if RHO_SECTORS
         .late_max_s = 20.0f,
 #endif
@@ -404,6 +403,7 @@ static void claim(struct step *step)
     rho_tracker_judge_plots(step);
     rho_tracker_sort_plots(step);
     rho_tracker_claim(step);
+    rho_tracker_watch(step);
     rho_tracker_update(step);
 }
 
@@ -412,6 +412,7 @@ static void take_in(struct step *step)
     step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
     rho_tracker_set_pd(step);
     rho_tracker_note_look(step);
+    rho_tracker_weigh_sensor(step);
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_age(step);

@@ -27,7 +27,8 @@ void rho_tracker_predict(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
-        if (!rho_tracker_reaches(step, track) || rho_tracker_was_seen(step, track)) {
+        if (!rho_tracker_reaches(step, track) || rho_tracker_was_seen(step, track) ||
+            rho_tracker_is_hearsay(step, track)) {
             continue;
         }
         step->reached[i / 32] |= 1u << i % 32;

@@ -41,7 +41,7 @@ int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float 
 int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track)
 {
 #if RHO_SECTORS
-    return rho_tracker_has_passed(step, track);
+    return !step->is_doubted && rho_tracker_has_passed(step, track);
 #else
     return rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
                                  track);
@@ -235,6 +235,17 @@ void rho_tracker_refuse_unclaimed(struct step *step)
     }
 }
 
+/* What a doubted sensor alone sees is no target. */
+static int is_without_say(const struct step *step)
+{
+#if RHO_SECTORS
+    return step->is_doubted;
+#else
+    (void)step;
+    return 0;
+#endif
+}
+
 void rho_tracker_initiate(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -255,7 +266,7 @@ void rho_tracker_initiate(struct step *step)
     tracker->confirm_mnat = initiator->confirm_mnat;
     rho_tracker_note_thresholds(step);
     struct rho_track_limits limits = rho_tracker_limits(step);
-    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+    for (unsigned i = 0; i < initiator->num_candidates && !is_without_say(step); i++) {
         if (!is_doubled(initiator, &initiator->candidates[i])) {
             start_track(step, &initiator->candidates[i], &limits);
         }

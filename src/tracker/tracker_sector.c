@@ -20,11 +20,8 @@
 /* Standard deviations from a track's place to the end of where its plot is expected. */
 #define GATE_SIGMAS 3.0f
 
-/* Who has said nothing for so long has no say any more. */
-#define SILENT_US 60000000
-
 /* NULL: of a new sensor that has no room. */
-static struct rho_tracker_look *look_of(struct rho_tracker *tracker, int32_t sensor_id)
+struct rho_tracker_look *rho_tracker_own_look(struct rho_tracker *tracker, int32_t sensor_id)
 {
     unsigned place = 0;
     while (place < tracker->num_looks && tracker->looks[place].sensor_id != sensor_id) {
@@ -43,7 +40,7 @@ static struct rho_tracker_look *look_of(struct rho_tracker *tracker, int32_t sen
 void rho_tracker_note_look(struct step *step)
 {
     const struct rho_scan *scan = step->scan;
-    struct rho_tracker_look *look = look_of(step->tracker, scan->sensor_id);
+    struct rho_tracker_look *look = rho_tracker_own_look(step->tracker, scan->sensor_id);
     if (!look || rho_tracker_is_late(step->tracker, step->time_us)) {
         return;
     }
@@ -66,14 +63,14 @@ void rho_tracker_note_look(struct step *step)
 void rho_tracker_note_thresholds(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *own = look_of(tracker, step->scan->sensor_id);
+    struct rho_tracker_look *own = rho_tracker_own_look(tracker, step->scan->sensor_id);
     if (own) {
         own->start_mnat = step->initiator->start_mnat;
         own->confirm_mnat = step->initiator->confirm_mnat;
     }
     for (unsigned i = 0; i < tracker->num_looks; i++) {
         const struct rho_tracker_look *look = &tracker->looks[i];
-        if (step->time_us - look->time_us > SILENT_US ||
+        if (step->time_us - look->time_us > RHO_TRACKER_SILENT_US ||
             (look->start_mnat == 0 && look->confirm_mnat == 0)) {
             continue;
         }

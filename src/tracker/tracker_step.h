@@ -24,7 +24,8 @@ struct step {
     struct rho_report *report;
     const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
 #if RHO_SECTORS
-    uint16_t look; /* count of the sensor's scans; 0: not known */
+    int is_doubted; /* the sensor contradicts the others */
+    uint16_t look;  /* count of the sensor's scans; 0: not known */
     float
         turning; /* the scan is the sector after the one before: 1 counter-clockwise, -1 clockwise; else 0 */
 #endif
@@ -70,6 +71,21 @@ void rho_tracker_close(struct step *step);
 
 /* tracker_sector.c: what sectors of a turn are to each other */
 #if RHO_SECTORS
+/* Who has said nothing for so long has no say any more. */
+#define RHO_TRACKER_SILENT_US 60000000
+
+/* What is known of a sensor's scans; a new one is added. NULL: no room. */
+struct rho_tracker_look *rho_tracker_own_look(struct rho_tracker *tracker, int32_t sensor_id);
+
+/* tracker_doubt.c: before its plots are gated; and between assignment and update: whether the sensor agrees with others */
+void rho_tracker_weigh_sensor(struct step *step);
+void rho_tracker_watch(struct step *step);
+/* The track is known from the sensor's word alone, which is doubted. */
+static inline int rho_tracker_is_hearsay(const struct step *step, const struct rho_track *track)
+{
+    return step->is_doubted && !track->is_shared;
+}
+
 void rho_tracker_note_look(struct step *step);
 /* The initiator's thresholds are the tracker's; beside them, those of the other sensors'. */
 void rho_tracker_note_thresholds(struct step *step);
@@ -97,6 +113,22 @@ static inline void rho_tracker_note_look(struct step *step)
 static inline void rho_tracker_note_thresholds(struct step *step)
 {
     (void)step;
+}
+
+static inline void rho_tracker_weigh_sensor(struct step *step)
+{
+    (void)step;
+}
+
+static inline void rho_tracker_watch(struct step *step)
+{
+    (void)step;
+}
+
+static inline int rho_tracker_is_hearsay(const struct step *step, const struct rho_track *track)
+{
+    (void)step, (void)track;
+    return 0;
 }
 
 static inline int rho_tracker_is_late_usable(const struct rho_tracker_config *config)

@@ -217,6 +217,12 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
+    for (uint32_t i = 0; i < tracking->chain.tracker->num_looks; i++) {
+        if (tracking->chain.tracker->looks[i].is_doubted) {
+            fprintf(stderr, ", sensor %" PRId32 " contradicts the others",
+                    tracking->chain.tracker->looks[i].sensor_id);
+        }
+    }
     fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),
             tracking->max_us);
 }
@@ -238,6 +244,7 @@ static cJSON *counters_json(const struct rho_tracker_counters *counters)
     cJSON_AddNumberToObject(object, "scans_accepted", counters->scans_accepted);
     cJSON_AddNumberToObject(object, "scans_late", counters->scans_late);
     cJSON_AddNumberToObject(object, "scans_retrodicted", counters->scans_retrodicted);
+    cJSON_AddNumberToObject(object, "sensors_doubted", counters->sensors_doubted);
     cJSON_AddNumberToObject(object, "plots_initiated", counters->plots_initiated);
     cJSON_AddNumberToObject(object, "plots_clutter", counters->plots_clutter);
     cJSON_AddNumberToObject(object, "tracks_started", counters->tracks_started);
@@ -248,6 +255,23 @@ static cJSON *counters_json(const struct rho_tracker_counters *counters)
     cJSON_AddNumberToObject(object, "updates_refused", counters->updates_refused);
     cJSON_AddNumberToObject(object, "hypotheses_cut", counters->hypotheses_cut);
     return object;
+}
+
+static cJSON *sensors_json(const struct rho_tracker *tracker)
+{
+    cJSON *list = cJSON_CreateArray();
+
+    for (uint32_t i = 0; i < tracker->num_looks; i++) {
+        const struct rho_tracker_look *look = &tracker->looks[i];
+        cJSON *object = cJSON_CreateObject();
+
+        cJSON_AddNumberToObject(object, "sensor_id", look->sensor_id);
+        cJSON_AddNumberToObject(object, "seen_share", (double)look->seen_share);
+        cJSON_AddNumberToObject(object, "distance2", (double)look->distance2);
+        cJSON_AddBoolToObject(object, "is_doubted", look->is_doubted);
+        cJSON_AddItemToArray(list, object);
+    }
+    return list;
 }
 
 static size_t count_bytes(const struct tracking *tracking, const struct inputs *inputs)
@@ -276,6 +300,7 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
     cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
     cJSON_AddItemToObject(object, "counters", counters_json(counters));
+    cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->chain.tracker));
     json_print(object);
 }
 

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_doubt: a sensor that fails or lies. Each is watched by the tracks that another one saw before it: does it see them where
+ * it looks, and where they are expected? One that does not, while another does, is doubted: it starts no tracks, its misses say
+ * nothing, and its plots count with the noise that they show. It is watched on, and believed again when it agrees.
+ */
+#include "rhotrack/approx.h"
+#include "tracker_step.h"
+
+#if RHO_SECTORS
+
+/* Looks and hits that the means go back, and how many there must be before they say anything. */
+#define WATCH_MAX 16u
+#define WATCH_MIN 12u
+/* Of pd: sees too few; sees as many as it should. */
+#define SHARE_LOW 0.3f
+#define SHARE_GOOD 0.6f
+/* Squared distances a dimension. Manoeuvres, and tracks that are surer than they should be, make 2 of 1. */
+#define DISTANCE2_HIGH 4.0f
+#define DISTANCE2_GOOD 2.5f
+/* Of what a manoeuvre model claims beyond the plain gate. */
+#define DISTANCE2_OUTSIDE 9.0f
+#define FACTOR_MAX 400.0f
+
+static void average(float *mean, float value, uint16_t *count)
+{
+    *count = (uint16_t)(*count < WATCH_MAX ? *count + 1u : WATCH_MAX);
+    *mean += (value - *mean) / (float)*count;
+}
+
+static float distance2_of(const struct step *step, const struct rho_track *track, int plot)
+{
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    struct rho_sensor sensor;
+    rho_tracker_open_gate(step, track, &gate);
+    if (gate.sensor) {
+        /* as the plot itself says, not as it counts while its sensor is doubted */
+        sensor = *gate.sensor;
+        sensor.variance_factor = 0.0f;
+        gate.sensor = &sensor;
+    }
+    if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
+        return DISTANCE2_OUTSIDE;
+    }
+    return result.distance2 /
+           (2.0f + (result.has_z ? 1.0f : 0.0f) + (result.has_range_rate ? 1.0f : 0.0f));
+}
+
+static void watch(const struct step *step, struct rho_tracker_look *look, unsigned row)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[row];
+    const int plot = rho_assignment_column(&tracker->assignment, row);
+    if (plot != RHO_ASSIGNMENT_NONE) {
+        average(&look->seen_share, 1.0f, &look->watched);
+        average(&look->distance2, distance2_of(step, track, plot), &look->watched_hits);
+    } else if (rho_tracker_has_passed(step, track)) {
+        average(&look->seen_share, 0.0f, &look->watched);
+    }
+}
+
+static float pd_of(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    const struct rho_sensor *sensor = rho_tracker_find_sensor(tracker, sensor_id);
+    return sensor ? sensor->pd : tracker->config.pd;
+}
+
+/* It does not see what others see. */
+static int is_blind(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
+{
+    return look->watched >= WATCH_MIN &&
+           look->seen_share < SHARE_LOW * pd_of(tracker, look->sensor_id);
+}
+
+/* It sees it elsewhere. */
+static int is_off(const struct rho_tracker_look *look)
+{
+    return look->watched_hits >= WATCH_MIN && look->distance2 > DISTANCE2_HIGH;
+}
+
+static int agrees(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
+{
+    return look->watched >= WATCH_MIN &&
+           look->seen_share > SHARE_GOOD * pd_of(tracker, look->sensor_id) &&
+           look->distance2 < DISTANCE2_GOOD;
+}
+
+/* Others that are heard, and have nothing against them. */
+static unsigned count_witnesses(const struct step *step, const struct rho_tracker_look *look)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    unsigned count = 0;
+    for (unsigned i = 0; i < tracker->num_looks; i++) {
+        const struct rho_tracker_look *other = &tracker->looks[i];
+        count += other != look && !other->is_doubted && agrees(tracker, other) &&
+                 step->time_us - other->time_us <= RHO_TRACKER_SILENT_US;
+    }
+    return count;
+}
+
+/* Of two that see the same things in other places nobody can tell who is wrong: that takes a third one. */
+static void judge(struct step *step, struct rho_tracker_look *look)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const unsigned witnesses = count_witnesses(step, look);
+    if (look->is_doubted && (agrees(tracker, look) || witnesses == 0)) {
+        look->is_doubted = 0;
+    } else if (!look->is_doubted &&
+               ((is_blind(tracker, look) && witnesses >= 1) || (is_off(look) && witnesses >= 2))) {
+        look->is_doubted = 1;
+        tracker->counters.sensors_doubted = rho_count(tracker->counters.sensors_doubted, 1);
+    }
+}
+
+/* What says something of the sensor: what one alone has seen does not, nor what a doubted one saw last. */
+static int is_telling(const struct step *step, unsigned row)
+{
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_tracker_look *last = rho_tracker_look_of(step->tracker, track->sensor_id);
+    return track->status != RHO_TRACK_FREE && track->is_believed && track->is_shared &&
+           track->sensor_id != step->scan->sensor_id && !(last && last->is_doubted) &&
+           rho_tracker_is_reached(step, row);
+}
+
+void rho_tracker_watch(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_tracker_look *look = rho_tracker_own_look(tracker, step->scan->sensor_id);
+    if (!look) {
+        return;
+    }
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        if (is_telling(step, row)) {
+            watch(step, look, row);
+        }
+    }
+    judge(step, look);
+    step->is_doubted = look->is_doubted;
+}
+
+void rho_tracker_weigh_sensor(struct step *step)
+{
+    const struct rho_tracker_look *look =
+        rho_tracker_own_look(step->tracker, step->scan->sensor_id);
+    step->is_doubted = look && look->is_doubted;
+    for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
+        struct rho_sensor *sensor = &step->tracker->sensors[i];
+        if (sensor->sensor_id == step->scan->sensor_id) {
+            /* a bias is no noise: that its plots pull a track off takes more than the variance that they show */
+            const float shown = step->is_doubted ? look->distance2 * look->distance2 : 0.0f;
+            sensor->variance_factor = shown < FACTOR_MAX ? shown : FACTOR_MAX;
+        }
+    }
+}
+
+const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
+                                                   int32_t sensor_id)
+{
+    for (unsigned i = 0; tracker && i < tracker->num_looks; i++) {
+        if (tracker->looks[i].sensor_id == sensor_id) {
+            return &tracker->looks[i];
+        }
+    }
+    return 0;
+}
+
+#else
+
+typedef int rho_tracker_doubts_nobody; /* a file must not be empty */
+
+#endif
