@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* convert: a CSV file as an LCM log, or the messages of one kind of a log as a CSV file. */
+/* convert: a CSV file as an LCM log, the messages of one kind of a log as a CSV file, or a recording in ASTERIX as either. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "asterix_file.h"
+#include "asterix_text.h"
 #include "commands.h"
 #include "common.h"
 #include "lcm_log.h"
@@ -66,6 +68,27 @@ static void convert_to_log(const struct command_line *line)
     write_log(source, line->arguments[1]);
     message_source_report(source);
     message_source_close(source);
+}
+
+/* ---- ASTERIX to CSV ---- */
+
+static void convert_from_asterix(const struct command_line *line)
+{
+    const char *path = line->arguments[0];
+    struct asterix_text *text = asterix_text_open(path, &line->parameters, line->keep_going);
+    struct output output = output_open(line->arguments[1]);
+    struct progress progress = progress_start("rows", 0);
+    char row[ASTERIX_LINE_BYTES];
+    uint64_t bytes = file_bytes(path), rows = 0;
+    size_t length;
+
+    while (asterix_text_next(text, row, &length)) {
+        fwrite(row, 1, length, output.file);
+        progress_show_bytes(&progress, ++rows, asterix_text_position(text), bytes);
+    }
+    progress_end(&progress);
+    output_close(&output);
+    asterix_text_close(text);
 }
 
 /* ---- Log to CSV ---- */
@@ -213,6 +236,15 @@ int command_convert(struct command_line *line)
     bool from_log = input_is_log(line->arguments[0], line->arguments[1]);
 
     parameters_check(&line->parameters);
+    if (asterix_file_is_asterix(line->arguments[0]) &&
+        !path_ends_with(line->arguments[1], ".lcm")) {
+        if (line->kind) {
+            fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is in ASTERIX",
+                 line->arguments[0]);
+        }
+        convert_from_asterix(line);
+        return 0;
+    }
     check_output(line->arguments[1], from_log);
     if (from_log) {
         convert_from_log(line);

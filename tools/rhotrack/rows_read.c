@@ -311,7 +311,7 @@ void rows_read(struct rows_file *file, const char *path, const struct parameters
                bool keep_going)
 {
     struct reading reading = {
-        .file = file, .table = table_read(path, keep_going), .parameters = parameters};
+        .file = file, .table = table_read_as(path, parameters, keep_going), .parameters = parameters};
 
     table_need_rows(reading.table);
     *file = (struct rows_file){.path = must_copy(path),
