@@ -65,7 +65,7 @@ program_flags := -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags
                  -Wconversion -pthread
 test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itools/rhotrack $(warnings)
 capacities := $(if $(RHO_CONFIG_FILE),-DRHO_CONFIG_FILE='"$(abspath $(RHO_CONFIG_FILE))"')
-program_libraries := -llcm -lcsv -linih -lcjson -pthread -lm
+program_libraries := -llcm -lcsv -linih -lcjson -lproj -pthread -lm
 
 compile = @mkdir -p $(@D) && echo "  cc       $@" && $(CC) $(1) $(OPT) $(CFLAGS)
 

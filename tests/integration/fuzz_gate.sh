@@ -30,7 +30,7 @@ build_message() { # codec
 # shellcheck disable=SC2086
 build_tables() { # reader
     clang $flags -DRHO_PROFILE_WORKSTATION -Wl,--wrap=fail -o "$folder/fuzz_tables" tests/fuzz/fuzz_tables.c "$1" \
-        "$folder/program.a" "$build/workstation/librhotrack.a" -lcsv -linih -lcjson -pthread -lm
+        "$folder/program.a" "$build/workstation/librhotrack.a" -lcsv -linih -lcjson -lproj -pthread -lm
 }
 
 fuzz() { # target, seconds
