@@ -43,10 +43,18 @@ static void to_local(const double origin[3], const double geodetic[3], double pl
     place_m[2] = (double)(cosl(lat) * outward + sinl(lat) * to[2]);
 }
 
+/* cmocka compares as float32. */
+static void assert_close(double a, double b, double tolerance)
+{
+    if (!(fabs(a - b) <= tolerance)) {
+        fail_msg("%.12g is not %.12g to %g", a, b, tolerance);
+    }
+}
+
 static void assert_near(const double a[3], const double b[3], double tolerance_m)
 {
     for (int i = 0; i < 3; i++) {
-        assert_float_equal(a[i], b[i], tolerance_m);
+        assert_close(a[i], b[i], tolerance_m);
     }
 }
 
@@ -142,6 +150,23 @@ static void the_date_line_is_no_line(void **state)
     local_frame_close(frame);
 }
 
+static void a_place_is_found_at_its_height(void **state)
+{
+    struct local_frame *frame = local_frame_open(50, 10, 100);
+
+    (void)state;
+    for (int km = 0; km <= 1400; km += 100) {
+        double geodetic[3], place_m[3];
+
+        local_frame_at_height(frame, km * 1e3, -km * 1e3, 2500, geodetic);
+        local_frame_to_local(frame, geodetic, place_m);
+        assert_close(geodetic[2], 2500, 1e-3);
+        assert_close(place_m[0], km * 1e3, 1e-3);
+        assert_close(place_m[1], -km * 1e3, 1e-3);
+    }
+    local_frame_close(frame);
+}
+
 /* ---- Another frame ---- */
 
 /* sin(latitude) times the difference in longitude, for small ones: north converges to the east of a western sensor. */
@@ -151,9 +176,9 @@ static void frames_are_turned_by_the_convergence(void **state)
     struct local_frame *east = local_frame_open(50, 12, 0), *south = local_frame_open(48, 10, 300);
 
     (void)state;
-    assert_float_equal(local_frame_turn_rad(common, common), 0, 1e-12);
-    assert_float_equal(local_frame_turn_rad(south, common), 0, 1e-12);
-    assert_float_equal(local_frame_turn_rad(east, common), sin(50 * PI / 180) * 2 * PI / 180, 1e-4);
+    assert_close(local_frame_turn_rad(common, common), 0, 1e-12);
+    assert_close(local_frame_turn_rad(south, common), 0, 1e-12);
+    assert_close(local_frame_turn_rad(east, common), sin(50 * PI / 180) * 2 * PI / 180, 1e-4);
     local_frame_close(common);
     local_frame_close(east);
     local_frame_close(south);
@@ -172,7 +197,7 @@ static void between_frames_distances_stay(void **state)
         before[i] = a_m[i] - b_m[i];
         after[i] = a[i] - b[i];
     }
-    assert_float_equal(distance_m(before), distance_m(after), 1e-6);
+    assert_close(distance_m(before), distance_m(after), 1e-6);
     local_frame_between(other, one, a, a);
     assert_near(a, a_m, 1e-6);
     local_frame_close(one);
@@ -234,8 +259,8 @@ static void a_height_beyond_the_range_is_no_place(void **state)
     assert_near(place_m, (double[3]){0, 0, 5000}, 1.5);
     assert_true(
         local_frame_from_radar(radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
-    assert_float_equal(distance_m(place_m), 5000, 1e-6);
-    assert_float_equal(atan2(place_m[1], place_m[0]), 0.3, 1e-9);
+    assert_close(distance_m(place_m), 5000, 1e-6);
+    assert_close(atan2(place_m[1], place_m[0]), 0.3, 1e-9);
     local_frame_close(radar);
 }
 
@@ -246,6 +271,7 @@ int main(void)
         cmocka_unit_test(agrees_with_formulas_and_comes_back),
         cmocka_unit_test(axes_point_east_north_and_up),
         cmocka_unit_test(the_date_line_is_no_line),
+        cmocka_unit_test(a_place_is_found_at_its_height),
         cmocka_unit_test(frames_are_turned_by_the_convergence),
         cmocka_unit_test(between_frames_distances_stay),
         cmocka_unit_test(range_and_height_are_a_place),

@@ -24,8 +24,8 @@ static struct evaluation *evaluate_files(const struct command_line *line)
     struct table *tracks =
         log_table_or_csv(line->arguments[1], &rows_kind_tracks, line->keep_going);
     table_need_rows(truth);
-    struct evaluation *e =
-        evaluation_read(truth, tracks, line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);
+    struct evaluation *e = evaluation_read(truth, tracks, &line->parameters,
+                                           line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);
     table_free(truth);
     table_free(tracks);
     return e;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "common.h"
+#include "geodetic.h"
 #include "identities.h"
 
 #define TIME_TOLERANCE_US 1000
@@ -30,17 +31,21 @@ struct points {
 struct columns {
     int time, id, status, x, y, z, vx, vy, vz, cov_xx, cov_yx, cov_yy;
     const char *id_name;
+    struct geodetic *geodetic; /* of the truth; NULL of tracks */
 };
 
-static struct columns find_columns(const struct table *table, const char *id_name)
+static struct columns find_columns(const struct table *table, const char *id_name,
+                                   const struct parameters *parameters)
 {
+    struct geodetic *geodetic = parameters ? geodetic_open(table, parameters) : NULL;
+    bool has_places = geodetic_has_places(geodetic);
     return (struct columns){
         .time = table_need(table, "t_s"),
         .id = table_need(table, id_name),
         .status = table_find(table, "status"),
-        .x = table_need(table, "x_m"),
-        .y = table_need(table, "y_m"),
-        .z = table_find(table, "z_m"),
+        .x = has_places ? -1 : table_need(table, "x_m"),
+        .y = has_places ? -1 : table_need(table, "y_m"),
+        .z = table_find(table, has_places ? "alt_m" : "z_m"),
         .vx = table_find(table, "vx_mps"),
         .vy = table_find(table, "vy_mps"),
         .vz = table_find(table, "vz_mps"),
@@ -48,7 +53,29 @@ static struct columns find_columns(const struct table *table, const char *id_nam
         .cov_yx = table_find(table, "cov_y_x"),
         .cov_yy = table_find(table, "cov_y_y"),
         .id_name = id_name,
+        .geodetic = geodetic,
     };
+}
+
+static void read_place(const struct table *table, size_t row, const struct columns *at,
+                       struct evaluation_point *point)
+{
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.table = table, .row = row, .reason = reason};
+    double place_m[3];
+    bool has_alt;
+    if (!geodetic_has_places(at->geodetic)) {
+        point->x_m = table_number_at(table, row, at->x);
+        point->y_m = table_number_at(table, row, at->y);
+        point->z_m = table_number_or(table, row, at->z, 0.0);
+        return;
+    }
+    if (!geodetic_place(at->geodetic, &check, place_m, &has_alt)) {
+        table_fail(table, row, "%s", reason);
+    }
+    point->x_m = place_m[0];
+    point->y_m = place_m[1];
+    point->z_m = place_m[2];
 }
 
 static struct timed_point read_point(const struct table *table, size_t row,
@@ -64,9 +91,7 @@ static struct timed_point read_point(const struct table *table, size_t row,
     if (reason != NULL) {
         table_fail(table, row, "%s: '%s' %s", at->id_name, id, reason);
     }
-    timed.point.x_m = table_number_at(table, row, at->x);
-    timed.point.y_m = table_number_at(table, row, at->y);
-    timed.point.z_m = table_number_or(table, row, at->z, 0.0);
+    read_place(table, row, at, &timed.point);
     timed.point.vx_mps = table_number_or(table, row, at->vx, NAN);
     timed.point.vy_mps = table_number_or(table, row, at->vy, NAN);
     timed.point.vz_mps = table_number_or(table, row, at->vz, 0.0);
@@ -98,9 +123,10 @@ static int by_time(const void *a, const void *b)
     return one->row < other->row ? -1 : one->row > other->row;
 }
 
-static struct points read_points(const struct table *table, const char *id_name)
+static struct points read_points(const struct table *table, const char *id_name,
+                                 const struct parameters *parameters)
 {
-    struct columns at = find_columns(table, id_name);
+    struct columns at = find_columns(table, id_name, parameters);
     struct points points = {.table = table,
                             .list = must_calloc(table->num_rows, sizeof *points.list),
                             .has_z = at.z >= 0,
@@ -111,6 +137,7 @@ static struct points read_points(const struct table *table, const char *id_name)
             points.list[points.count++] = timed;
         }
     }
+    geodetic_close(at.geodetic);
     qsort(points.list, points.count, sizeof points.list[0], by_time);
     return points;
 }
@@ -206,11 +233,12 @@ static void evaluate_times(struct evaluation *e, const struct points *truth,
 }
 
 struct evaluation *evaluation_read(const struct table *truth_table,
-                                   const struct table *tracks_table, double cutoff_m)
+                                   const struct table *tracks_table,
+                                   const struct parameters *parameters, double cutoff_m)
 {
     struct evaluation *e = evaluation_start(cutoff_m);
-    struct points truth = read_points(truth_table, "target_id");
-    struct points tracks = read_points(tracks_table, "track_id");
+    struct points truth = read_points(truth_table, "target_id", parameters);
+    struct points tracks = read_points(tracks_table, "track_id", NULL);
     level(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     level(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     evaluate_times(e, &truth, &tracks);

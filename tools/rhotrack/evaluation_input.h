@@ -4,13 +4,15 @@
 #define RHOTRACK_TOOL_EVALUATION_INPUT_H
 
 #include "evaluation.h"
+#include "parameters.h"
 #include "table.h"
 
 /*
  * The times are those of the truth; confirmed and coasting rows count. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2:
- * bad cells, a tracks time that is not a truth time within 1 ms.
+ * bad cells, a tracks time that is not a truth time within 1 ms. The parameters say where the origin is of a truth in
+ * latitude and longitude.
  */
 struct evaluation *evaluation_read(const struct table *truth, const struct table *tracks,
-                                   double cutoff_m);
+                                   const struct parameters *parameters, double cutoff_m);
 
 #endif

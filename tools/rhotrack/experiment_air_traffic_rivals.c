@@ -126,9 +126,13 @@ static double mean_us(const char *text)
 static struct air_figures evaluate_files(const char *truth_path, const char *tracks_path)
 {
     struct table *truth = table_read(truth_path, false), *tracks = table_read(tracks_path, false);
-    struct evaluation *evaluation = evaluation_read(truth, tracks, air_cutoffs_m[0]);
-    struct air_figures figures = air_figures_of(evaluation);
+    struct parameters parameters;
+    struct evaluation *evaluation;
+    struct air_figures figures;
 
+    parameters_default(&parameters);
+    evaluation = evaluation_read(truth, tracks, &parameters, air_cutoffs_m[0]);
+    figures = air_figures_of(evaluation);
     evaluation_free(evaluation);
     table_free(truth);
     table_free(tracks);

@@ -27,6 +27,7 @@ struct local_frame *local_frame_open(double lat_deg, double lon_deg, double alt_
              "+lat_0=%.17g +lon_0=%.17g +h_0=%.17g",
              lat_deg, lon_deg, alt_m);
     frame->context = proj_context_create();
+    proj_log_level(frame->context, PJ_LOG_NONE); /* it misses its database, which is not needed */
     frame->to_local = proj_create(frame->context, pipeline);
     if (!frame->to_local) {
         fail(EXIT_RUNTIME, "PROJ: %s: %s", pipeline,
@@ -65,6 +66,17 @@ void local_frame_to_geodetic(const struct local_frame *frame, const double place
     geodetic[0] = to.lpz.phi / DEG_RAD;
     geodetic[1] = to.lpz.lam / DEG_RAD;
     geodetic[2] = to.lpz.z;
+}
+
+void local_frame_at_height(const struct local_frame *frame, double x_m, double y_m, double alt_m,
+                           double geodetic[3])
+{
+    double place_m[3] = {x_m, y_m, alt_m - frame->alt_m};
+
+    for (int i = 0; i < 10; i++) { /* of the rest each step leaves a twentieth at 2000 km */
+        local_frame_to_geodetic(frame, place_m, geodetic);
+        place_m[2] += alt_m - geodetic[2];
+    }
 }
 
 void local_frame_between(const struct local_frame *from, const struct local_frame *to,

@@ -26,6 +26,10 @@ void local_frame_to_local(const struct local_frame *frame, const double geodetic
 void local_frame_to_geodetic(const struct local_frame *frame, const double place_m[3],
                              double geodetic[3]); /* longitude -180 .. 180 */
 
+/* The place above or below x, y that has this height: to 1 mm as far as 2000 km away. */
+void local_frame_at_height(const struct local_frame *frame, double x_m, double y_m, double alt_m,
+                           double geodetic[3]);
+
 /* What a radar says of a target whose height is known otherwise, by its own transponder for one. */
 struct local_frame_plot {
     double range_m;     /* slant range, from the radar to the target */

@@ -37,6 +37,8 @@
       "azimuth noise of a polar plot")                                                             \
     X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 0.003, 1e-6, 0.5, 0, 1,                   \
       "elevation noise of a polar plot")                                                           \
+    X(SIGMA_ALT_M, "sigma_alt_m", "m", 30, 0.001, 1e5, 0, 1,                                       \
+      "noise of alt_m of a polar plot, a transponder's height")                                    \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 1, 0.001, 1e5, 0, 1,                    \
       "range-rate noise of a plot")                                                                \
     X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
@@ -82,9 +84,10 @@
       "system area and identification code of tracks written in ASTERIX")                          \
     X(ASTERIX_SIC, "asterix_sic", "-", 0, 0, 255, 1, 1, "")                                        \
     X(ORIGIN_LAT_DEG, "origin_lat_deg", "deg", 0, -90, 90, 0, 0,                                   \
-      "of the local frame, passed on in RHO_STATUS")                                               \
+      "of the local frame, where latitudes and longitudes are used; passed on in RHO_STATUS")      \
     X(ORIGIN_LON_DEG, "origin_lon_deg", "deg", 0, -180, 180, 0, 0, "")                             \
-    X(ORIGIN_ALT_M, "origin_alt_m", "m", 0, -1e4, 1e5, 0, 0, "")                                   \
+    X(ORIGIN_ALT_M, "origin_alt_m", "m", 0, -1e4, 1e5, 0, 0,                                       \
+      "above the WGS 84 ellipsoid; unset: 0")                                                      \
     X(D_RHO_M, "d_rho_m", "m", 5, 0.001, 1e5, 0, 1, "all methods but kernel: cell of rho")         \
     X(D_THETA_RAD, "d_theta_rad", "rad", 0.001, 1e-4, 0.5, 0, 1,                                   \
       "all methods but kernel: cell of theta")                                                     \
@@ -204,6 +207,7 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 1e-6, 0.5, "azimuth noise of a polar plot")   \
     X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 1e-6, 0.5,                                \
       "elevation noise of a polar plot")                                                           \
+    X(SIGMA_ALT_M, "sigma_alt_m", "m", 0.001, 1e5, "noise of alt_m of a polar plot")               \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 0.001, 1e5,                             \
       "range-rate noise of a plot")                                                                \
     X(SIGMA_RAD, "sigma_rad", "rad", 1e-6, 0.5, "bearing noise of a passive sensor")               \
@@ -218,7 +222,10 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(SECTOR_TO_RAD, "sector_to_rad", "rad", -6.2831853, 6.2831853, "to here; equal: all round")   \
     X(X_M, "x_m", "m", -2e6, 2e6, "its place")                                                     \
     X(Y_M, "y_m", "m", -2e6, 2e6, "")                                                              \
-    X(Z_M, "z_m", "m", -2e6, 2e6, "")
+    X(Z_M, "z_m", "m", -2e6, 2e6, "")                                                              \
+    X(LAT_DEG, "lat_deg", "deg", -90, 90, "its place on the earth, instead of x_m, y_m, z_m")      \
+    X(LON_DEG, "lon_deg", "deg", -180, 360, "")                                                    \
+    X(ALT_M, "alt_m", "m", -1e4, 1e5, "above the WGS 84 ellipsoid; unset: origin_alt_m")
 
 enum sensor_parameter_id {
 #define X(id, name, unit, min, max, text) SENSOR_##id,
@@ -231,6 +238,8 @@ struct sensor_parameters {
     int32_t sensor_id;
     double value[NUM_SENSOR_PARAMETERS];
     enum parameter_source source[NUM_SENSOR_PARAMETERS]; /* UNSET: as for all sensors */
+    double
+        turn_rad; /* of a place on the earth: its azimuths plus this are those of the local frame */
 };
 
 struct parameters {
@@ -262,6 +271,27 @@ void parameters_load(struct parameters *parameters, const char *path);
  * min < max); exit 2.
  */
 void parameters_check(const struct parameters *parameters);
+
+/*
+ * Places of sensors on the earth become x_m, y_m and z_m. Exit 2 without an origin, where a place is half said or twice, or
+ * too far away. Once, when all is set.
+ */
+void parameters_locate(struct parameters *parameters);
+
+/* The origin of the local frame is set. Its frame, to be closed; the origin's height where none is set is 0. */
+bool parameters_has_origin(const struct parameters *parameters);
+struct local_frame;
+struct local_frame *parameters_open_origin(const struct parameters *parameters);
+
+/* What is said where it is not: "origin_lat_deg and origin_lon_deg are not set ..." */
+extern const char parameters_no_origin[];
+
+/* The sensor's place on the earth (lat_deg, lon_deg, alt_m); false where it was not said so. */
+bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sensor_id,
+                                double geodetic[3]);
+
+/* By how much its azimuths are turned in the local frame then (local_frame_turn_rad); else 0. */
+double parameters_turn_rad(const struct parameters *parameters, int32_t sensor_id);
 
 bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* parameters_convert: the library's configs from parameters. */
+#include <math.h>
+
 #include "common.h"
 #include "parameters.h"
 
@@ -79,6 +81,18 @@ double parameters_range_max_m(const struct parameters *parameters, int32_t senso
                                 parameters->value[PARAMETER_RANGE_MAX_M]);
 }
 
+/* A sector that the sensor counts from its own east. Equal ends, the whole circle, stay equal. */
+static void turn_sector(struct rho_sensor *sensor, double turn_rad)
+{
+    const double turn = 6.283185307179586;
+
+    if (turn_rad < 0 || turn_rad > 0) {
+        sensor->sector_from_rad =
+            (float)remainder((double)sensor->sector_from_rad + turn_rad, turn);
+        sensor->sector_to_rad = (float)remainder((double)sensor->sector_to_rad + turn_rad, turn);
+    }
+}
+
 void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
                               struct rho_sensor *sensor)
 {
@@ -103,6 +117,7 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
         .time_bias_s = OF_SENSOR(SENSOR_TIME_BIAS_S, 0),
     };
 #undef OF_SENSOR
+    turn_sector(sensor, parameters_turn_rad(parameters, sensor_id));
 }
 
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,

@@ -7,47 +7,109 @@
 
 #include "common.h"
 #include "frame_reader.h"
+#include "geodetic.h"
 #include "lcm_log.h"
 #include "log_scans.h"
 #include "log_table.h"
 #include "plot_row.h"
 #include "table.h"
 
-/* Places of polar plots, as the tracks have them: the same checks, the same conversion. */
-static void read_polar_place(const struct table *table, size_t row,
-                             const struct parameters *parameters, struct plot_point *point)
+/* A table that is read; columns are indices, -1 where it has none. */
+struct reading {
+    const struct table *table;
+    const struct parameters *parameters;
+    int time, id, status, x, y, vx, vy;
+    bool is_polar;
+    struct plot_columns polar;
+    struct geodetic *
+        geodetic; /* where latitude and longitude stand for x and y, which they are then; else NULL */
+};
+
+static void find_place(struct reading *reading)
 {
-    struct plot_columns columns = plot_columns_find(table);
-    char reason[PLOT_ROW_REASON_BYTES];
-    struct plot_row plot_row;
-    if (!plot_row_read(table, &columns, row, parameters, &plot_row, reason)) {
-        table_fail(table, row, "%s", reason);
+    bool on_earth =
+        table_find(reading->table, "track_id") < 0 && table_find(reading->table, "lat_deg") >= 0;
+    if (on_earth) {
+        reading->geodetic = geodetic_open(reading->table, reading->parameters);
     }
-    point->x_m = (double)plot_row.plot.x_m;
-    point->y_m = (double)plot_row.plot.y_m;
+    reading->x = table_need(reading->table, on_earth ? "lat_deg" : "x_m");
+    reading->y = table_need(reading->table, on_earth ? "lon_deg" : "y_m");
 }
 
-static struct plot_point read_point(const struct table *table, size_t row, int id_column,
+static struct reading start_reading(const struct table *table, int id_column,
                                     const struct parameters *parameters)
 {
+    struct reading reading = {.table = table,
+                              .parameters = parameters,
+                              .time = table_need(table, "t_s"),
+                              .id = id_column,
+                              .status = table_find(table, "status"),
+                              .vx = table_find(table, "vx_mps"),
+                              .vy = table_find(table, "vy_mps"),
+                              .is_polar = table_find(table, "range_m") >= 0};
+    if (reading.is_polar) {
+        reading.polar = plot_columns_find(table, parameters);
+    } else {
+        find_place(&reading);
+    }
+    return reading;
+}
+
+static void end_reading(struct reading *reading)
+{
+    plot_columns_free(&reading->polar);
+    geodetic_close(reading->geodetic);
+}
+
+/* As the tracks have them: the same checks, the same conversion. False: a scan that saw nothing. */
+static bool read_polar(const struct reading *reading, size_t row, struct plot_point *point)
+{
+    char reason[PLOT_ROW_REASON_BYTES];
+    struct plot_row plot_row;
+    if (!plot_row_read(reading->table, &reading->polar, row, reading->parameters, &plot_row,
+                       reason)) {
+        table_fail(reading->table, row, "%s", reason);
+    }
+    *point = (struct plot_point){.time_us = plot_row.time_us,
+                                 .x_m = (double)plot_row.plot.x_m,
+                                 .y_m = (double)plot_row.plot.y_m};
+    return plot_row.has_plot;
+}
+
+static void read_place(const struct reading *reading, size_t row, struct plot_point *point)
+{
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.table = reading->table, .row = row, .reason = reason};
+    double place_m[3];
+    bool has_alt;
+    if (!reading->geodetic) {
+        point->x_m = table_number_at(reading->table, row, reading->x);
+        point->y_m = table_number_at(reading->table, row, reading->y);
+        return;
+    }
+    if (!geodetic_place(reading->geodetic, &check, place_m, &has_alt)) {
+        table_fail(reading->table, row, "%s", reason);
+    }
+    point->x_m = place_m[0];
+    point->y_m = place_m[1];
+}
+
+static struct plot_point read_cartesian(const struct reading *reading, size_t row)
+{
+    const struct table *table = reading->table;
     struct plot_point point = {0};
-    int time_column = table_need(table, "t_s"), status = table_find(table, "status");
-    const char *reason = table_time_us(table_cell(table, row, time_column), &point.time_us);
-    if (!reason && id_column >= 0) {
-        reason = table_int32(table_cell(table, row, id_column), &point.id);
+    const char *reason = table_time_us(table_cell(table, row, reading->time), &point.time_us);
+    if (!reason && reading->id >= 0) {
+        reason = table_int32(table_cell(table, row, reading->id), &point.id);
     }
     if (reason) {
         table_fail(table, row, "time or identity: %s", reason);
     }
-    if (table_find(table, "range_m") >= 0) {
-        read_polar_place(table, row, parameters, &point);
-        return point;
-    }
-    point.x_m = table_number_at(table, row, table_need(table, "x_m"));
-    point.y_m = table_number_at(table, row, table_need(table, "y_m"));
-    point.vx_mps = table_number_or(table, row, table_find(table, "vx_mps"), 0.0);
-    point.vy_mps = table_number_or(table, row, table_find(table, "vy_mps"), 0.0);
-    point.is_tentative = status >= 0 && strcmp(table_cell(table, row, status), "tentative") == 0;
+    read_place(reading, row, &point);
+    point.vx_mps = table_number_or(table, row, reading->vx, 0.0);
+    point.vy_mps = table_number_or(table, row, reading->vy, 0.0);
+    point.is_tentative =
+        reading->status >= 0 && strcmp(table_cell(table, row, reading->status), "tentative") == 0;
     return point;
 }
 
@@ -57,19 +119,29 @@ static bool is_deleted(const struct table *table, size_t row)
     return status >= 0 && strcmp(table_cell(table, row, status), "deleted") == 0;
 }
 
+/* False: a scan that saw nothing, or a track that is no more. */
+static bool read_point(const struct reading *reading, size_t row, struct plot_point *point)
+{
+    if (reading->is_polar) {
+        return read_polar(reading, row, point);
+    }
+    if (*table_cell(reading->table, row, reading->x) == '\0' || is_deleted(reading->table, row)) {
+        return false;
+    }
+    *point = read_cartesian(reading, row);
+    return true;
+}
+
 static void add_points(struct plot_points *points, const struct table *table, int id_column,
                        const struct parameters *parameters)
 {
-    int range_column = table_find(table, "range_m");
-    int x_column = range_column >= 0 ? range_column : table_need(table, "x_m");
+    struct reading reading = start_reading(table, id_column, parameters);
     points->list =
         must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
     for (size_t row = 0; row < table->num_rows; row++) {
-        /* else: a scan that saw nothing, or a track that is no more */
-        if (*table_cell(table, row, x_column) != '\0' && !is_deleted(table, row)) {
-            points->list[points->count++] = read_point(table, row, id_column, parameters);
-        }
+        points->count += read_point(&reading, row, &points->list[points->count]);
     }
+    end_reading(&reading);
 }
 
 static void add_table(struct plot_data *data, struct table *table,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "plot_row.h"
 
+#include "rhotrack/angle.h"
 #include "rhotrack/measurement.h"
 #include "row_check.h"
 #include <math.h>
@@ -16,20 +17,11 @@ struct checking {
 /* Other kinds of files have other columns: say so rather than that x_m is missing. */
 static void check_kind(const struct table *table)
 {
-    static const char *const others[][2] = {
-        {"bearing_rad", "bearings, which are not read from a pipe"},
-        {"lat_deg", "geographic plots"}};
-
-    if (table_find(table, "x_m") >= 0 || table_find(table, "range_m") >= 0) {
-        return;
-    }
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        if (table_find(table, others[i][0]) >= 0) {
-            table_fail(table, TABLE_HEADER,
-                       "%s (column '%s'): Cartesian and polar plots are read here, columns "
-                       "'x_m' and 'y_m' are missing",
-                       others[i][1], others[i][0]);
-        }
+    if (table_find(table, "x_m") < 0 && table_find(table, "range_m") < 0 &&
+        table_find(table, "bearing_rad") >= 0) {
+        table_fail(table, TABLE_HEADER,
+                   "bearings, which are not read from a pipe (column 'bearing_rad'): Cartesian and "
+                   "polar plots are read here, columns 'x_m' and 'y_m' are missing");
     }
 }
 
@@ -41,18 +33,20 @@ static void check_not_both(const struct table *table, int first, int second)
     }
 }
 
-struct plot_columns plot_columns_find(const struct table *table)
+struct plot_columns plot_columns_find(const struct table *table,
+                                      const struct parameters *parameters)
 {
     struct plot_columns columns;
-    bool is_polar;
+    bool is_polar, has_no_xy;
 
     check_kind(table);
     is_polar = table_find(table, "range_m") >= 0;
+    has_no_xy = is_polar || table_find(table, "lat_deg") >= 0;
     columns = (struct plot_columns){
         .t_s = table_need(table, "t_s"),
         .sensor_id = table_need(table, "sensor_id"),
-        .x_m = is_polar ? table_find(table, "x_m") : table_need(table, "x_m"),
-        .y_m = is_polar ? -1 : table_need(table, "y_m"),
+        .x_m = has_no_xy ? table_find(table, "x_m") : table_need(table, "x_m"),
+        .y_m = has_no_xy ? -1 : table_need(table, "y_m"),
         .z_m = is_polar ? -1 : table_find(table, "z_m"),
         .vx_mps = is_polar ? -1 : table_find(table, "vx_mps"),
         .vy_mps = is_polar ? -1 : table_find(table, "vy_mps"),
@@ -87,7 +81,14 @@ struct plot_columns plot_columns_find(const struct table *table)
     row_need_both(table, "sensor_x_m", "sensor_y_m");
     row_need_both(table, "vx_mps", "vy_mps");
     row_need_both(table, "sector_from_rad", "sector_to_rad");
+    columns.geodetic = geodetic_open(table, parameters);
     return columns;
+}
+
+void plot_columns_free(struct plot_columns *columns)
+{
+    geodetic_close(columns->geodetic);
+    columns->geodetic = NULL;
 }
 
 /* ---- Cells ---- */
@@ -165,16 +166,39 @@ static bool read_sigmas(const struct checking *checking, const struct parameters
     return true;
 }
 
+static bool read_geodetic(const struct checking *checking, struct rho_plot *plot, bool *has_z)
+{
+    double place_m[3];
+
+    if (!geodetic_place(checking->columns->geodetic, &checking->cells, place_m, has_z)) {
+        return false;
+    }
+    plot->x_m = (float)place_m[0];
+    plot->y_m = (float)place_m[1];
+    plot->z_m = (float)place_m[2];
+    return true;
+}
+
+static bool read_place(const struct checking *checking, struct rho_plot *plot, bool *has_z)
+{
+    const struct plot_columns *columns = checking->columns;
+
+    if (geodetic_has_places(columns->geodetic)) {
+        return read_geodetic(checking, plot, has_z);
+    }
+    *has_z = row_has(&checking->cells, columns->z_m);
+    return row_position(&checking->cells, columns->x_m, &plot->x_m) &&
+           row_position(&checking->cells, columns->y_m, &plot->y_m) &&
+           (!*has_z || row_position(&checking->cells, columns->z_m, &plot->z_m));
+}
+
 static bool read_plot(const struct checking *checking, const struct parameters *parameters,
                       struct plot_row *row)
 {
-    const struct plot_columns *columns = checking->columns;
-    bool has_z = row_has(&checking->cells, columns->z_m);
+    bool has_z = false;
 
     row->has_plot = true;
-    if (!row_position(&checking->cells, columns->x_m, &row->plot.x_m) ||
-        !row_position(&checking->cells, columns->y_m, &row->plot.y_m) ||
-        (has_z && !row_position(&checking->cells, columns->z_m, &row->plot.z_m))) {
+    if (!read_place(checking, &row->plot, &has_z)) {
         return false;
     }
     row->measures = has_z ? RHO_MEASURES_Z : 0;
@@ -264,6 +288,29 @@ static bool read_polar_sigmas(const struct checking *checking, const struct para
                          &polar->sigma_elevation_rad);
 }
 
+/* What the radar says in its own level frame, and a height that is known otherwise, as angles of the local frame. */
+static bool to_local(const struct checking *checking, const struct plot_row *row,
+                     uint32_t *measures, struct rho_polar_plot *polar)
+{
+    struct geodetic_polar seen = {
+        .sensor_id = row->sensor_id,
+        .frame = row->frame,
+        .place_m = {(double)row->sensor.x_m, (double)row->sensor.y_m, (double)row->sensor.z_m},
+        .look = {(double)polar->range_m, (double)polar->azimuth_rad, (double)polar->elevation_rad},
+        .has_elevation = (*measures & RHO_MEASURES_Z) != 0,
+        .sigma_range_m = (double)polar->sigma_range_m,
+        .sigma_elevation_rad = (double)polar->sigma_elevation_rad};
+
+    if (!geodetic_polar(checking->columns->geodetic, &checking->cells, &seen)) {
+        return false;
+    }
+    polar->azimuth_rad = (float)seen.look.azimuth_rad;
+    polar->elevation_rad = (float)seen.look.elevation_rad;
+    polar->sigma_elevation_rad = (float)seen.sigma_elevation_rad;
+    *measures |= seen.has_elevation ? RHO_MEASURES_Z : 0;
+    return true;
+}
+
 static bool read_polar(const struct checking *checking, const struct parameters *parameters,
                        struct plot_row *row)
 {
@@ -274,6 +321,7 @@ static bool read_polar(const struct checking *checking, const struct parameters 
     if (!read_range(checking, &polar.range_m) || !read_azimuth(checking, &polar.azimuth_rad) ||
         !read_elevation(checking, &row->measures, &polar.elevation_rad) ||
         !read_polar_sigmas(checking, parameters, row->sensor_id, &polar) ||
+        !to_local(checking, row, &row->measures, &polar) ||
         !read_range_rate(checking, parameters, row->sensor_id, &row->measures,
                          &polar.range_rate_mps, &polar.sigma_range_rate_mps) ||
         !row_snr(&checking->cells, checking->columns->snr_db, &polar.snr_db)) {
@@ -290,6 +338,22 @@ static bool read_polar(const struct checking *checking, const struct parameters 
 
 /* ---- Sensors ---- */
 
+/* Sectors, too, are counted from the radar's own east; the parameters' have been turned already. */
+static void put_on_earth(struct plot_row *row)
+{
+    const double *place_m = radar_frame_place_m(row->frame);
+    float turn_rad = (float)radar_frame_turn_rad(row->frame);
+
+    row->has_sensor = true;
+    row->sensor.x_m = (float)place_m[0];
+    row->sensor.y_m = (float)place_m[1];
+    row->sensor.z_m = (float)place_m[2];
+    if (row->sector_from_rad != 0.0f || row->sector_to_rad != 0.0f) {
+        row->sector_from_rad = rho_angle_wrap(row->sector_from_rad + turn_rad);
+        row->sector_to_rad = rho_angle_wrap(row->sector_to_rad + turn_rad);
+    }
+}
+
 /*
  * The sensor as it was described, at the place that the row says. In a file with places every row describes it: an
  * empty cell means the place that was described, not that of the scan before.
@@ -305,6 +369,13 @@ static bool read_sensor(const struct checking *checking, const struct parameters
     row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
                       columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
     parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
+    if (!geodetic_radar(columns->geodetic, &checking->cells, row->sensor_id, &row->frame)) {
+        return false;
+    }
+    if (row->frame) {
+        put_on_earth(row);
+        return true;
+    }
     return (!has_place ||
             (row_position(&checking->cells, columns->sensor_x_m, &row->sensor.x_m) &&
              row_position(&checking->cells, columns->sensor_y_m, &row->sensor.y_m))) &&
@@ -321,7 +392,7 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
         columns->vx_mps,        columns->vy_mps,        columns->vz_mps,
         columns->range_m,       columns->azimuth_rad,   columns->azimuth_deg,
         columns->elevation_rad, columns->elevation_deg, columns->range_rate_mps};
-    bool has_measurement = false;
+    bool has_measurement;
 
     checking.cells.reason = reason;
     *plot_row = (struct plot_row){.has_plot = false};
@@ -333,6 +404,7 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
         !read_sensor(&checking, parameters, plot_row)) {
         return false;
     }
+    has_measurement = geodetic_is_said(columns->geodetic, &checking.cells);
     for (size_t i = 0; i < sizeof measured / sizeof *measured; i++) {
         has_measurement |= row_has(&checking.cells, measured[i]);
     }

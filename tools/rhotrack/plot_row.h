@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "geodetic.h"
 #include "parameters.h"
 #include "rhotrack/types.h"
 #include "row_check.h"
@@ -22,9 +23,14 @@ struct plot_row {
     struct rho_plot plot; /* its offset: what a time bias makes of the row's time */
     bool has_sensor;      /* the sensor below is described */
     struct rho_sensor sensor;
+    const struct radar_frame
+        *frame; /* of a sensor whose place is said on the earth; until the next row */
 };
 
-/* Columns of a plot file by index, -1 where it has none. Either x_m and y_m are there, or range_m and an azimuth. */
+/*
+ * Columns of a plot file by index, -1 where it has none. Either x_m and y_m are there, or range_m and an azimuth, or latitude
+ * and longitude.
+ */
 struct plot_columns {
     int t_s, sensor_id, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps, sigma_m, sigma_mps;
     int range_m, azimuth_rad, azimuth_deg, elevation_rad, elevation_deg;
@@ -32,10 +38,16 @@ struct plot_columns {
     int sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
     int sensor_x_m, sensor_y_m, sensor_z_m;
     int sector_from_rad, sector_to_rad, snr_db, scan, epoch;
+    struct geodetic *geodetic;
 };
 
-/* Finds the columns; exit 2 where one is missing that is needed, or the file holds bearings. */
-struct plot_columns plot_columns_find(const struct table *table);
+/*
+ * Finds the columns; exit 2 where one is missing that is needed, or the file holds bearings. To be freed before the
+ * parameters go.
+ */
+struct plot_columns plot_columns_find(const struct table *table,
+                                      const struct parameters *parameters);
+void plot_columns_free(struct plot_columns *columns);
 
 /* Reads a row. Returns false and the reason where it is bad. */
 #define PLOT_ROW_REASON_BYTES ROW_REASON_BYTES

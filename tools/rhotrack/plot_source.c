@@ -86,7 +86,7 @@ static void find_columns(struct plot_source *source, const struct table *table)
     if (source->follow && bearing_columns_are_there(table)) {
         table_fail(table, TABLE_HEADER, "--follow takes plots, and these are bearings");
     }
-    source->columns = plot_columns_find(table);
+    source->columns = plot_columns_find(table, source->parameters);
     source->has_columns = true;
 }
 
@@ -280,6 +280,7 @@ void plot_source_close(struct plot_source *source)
         log_scans_close(source->log);
     } else {
         gather_free(&source->gather);
+        plot_columns_free(&source->columns);
         table_stream_close(source->stream);
     }
     free(source);

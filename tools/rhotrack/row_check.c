@@ -32,7 +32,7 @@ bool row_has(const struct row_check *check, int column)
     return column >= 0 && *table_cell(check->table, check->row, column);
 }
 
-bool row_float(const struct row_check *check, int column, float min, float max, float *value)
+bool row_double(const struct row_check *check, int column, double min, double max, double *value)
 {
     const char *cell = table_cell(check->table, check->row, column);
     double number;
@@ -41,9 +41,20 @@ bool row_float(const struct row_check *check, int column, float min, float max, 
     if (why) {
         return row_refuse_cell(check, column, why);
     }
-    if (number < (double)min || number > (double)max) {
+    if (number < min || number > max) {
         return row_refuse(check, "%s %.40s is outside %.9g .. %.9g", check->table->names[column],
-                          cell, (double)min, (double)max);
+                          cell, min, max);
+    }
+    *value = number;
+    return true;
+}
+
+bool row_float(const struct row_check *check, int column, float min, float max, float *value)
+{
+    double number;
+
+    if (!row_double(check, column, (double)min, (double)max, &number)) {
+        return false;
     }
     *value = (float)number;
     return true;

@@ -30,8 +30,9 @@ bool row_refuse_cell(const struct row_check *check, int column, const char *why)
 /* There is such a column, and the row's cell in it is not empty. */
 bool row_has(const struct row_check *check, int column);
 
-/* A number within min .. max; one of the library's positions; a sigma of an angle. */
+/* A number within min .. max, also where float32 is too coarse; one of the library's positions; a sigma of an angle. */
 bool row_float(const struct row_check *check, int column, float min, float max, float *value);
+bool row_double(const struct row_check *check, int column, double min, double max, double *value);
 bool row_position(const struct row_check *check, int column, float *value);
 bool row_sigma_rad(const struct row_check *check, int column, double otherwise, float *value);
 

@@ -9,6 +9,7 @@
 
 #include "common.h"
 #include "row_check.h"
+#include "rows_geodetic.h"
 #include "table.h"
 
 /* A file on its way; columns are indices into the table, -1 where it has none. */
@@ -20,6 +21,7 @@ struct reading {
     int columns[ROWS_MAX_COLUMNS];
     bool is_degrees[ROWS_MAX_COLUMNS];
     int place; /* of kinds that have it: the first column of a radar's place, else -1 */
+    struct rows_geodetic geodetic;
     bool has_last;
     int64_t last_us;
 };
@@ -31,29 +33,24 @@ static const struct rows_kind *kind_of(const struct table *table)
     static const struct {
         const char *name;
         int kind;
-    } marks[] = {{"track_id", ROWS_TRACKS},
-                 {"target_id", ROWS_TRUTH},
-                 {"range_m", ROWS_POLAR},
-                 {"x_m", ROWS_PLOTS},
-                 {"bearing_rad", ROWS_BEARINGS}};
+    } marks[] = {{"track_id", ROWS_TRACKS}, {"target_id", ROWS_TRUTH},
+                 {"range_m", ROWS_POLAR},   {"x_m", ROWS_PLOTS},
+                 {"lat_deg", ROWS_PLOTS},   {"bearing_rad", ROWS_BEARINGS}};
 
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
         if (table_find(table, marks[i].name) >= 0) {
             return rows_kinds[marks[i].kind];
         }
     }
-    if (table_find(table, "lat_deg") >= 0) {
-        table_fail(table, TABLE_HEADER,
-                   "geographic plots (column 'lat_deg'): columns 'x_m' and 'y_m' are missing");
-    }
     table_fail(table, TABLE_HEADER,
                "neither plots, polar plots, bearings, truth nor tracks: no column 'x_m', "
-               "'range_m', 'bearing_rad', 'target_id' or 'track_id'");
+               "'lat_deg', 'range_m', 'bearing_rad', 'target_id' or 'track_id'");
 }
 
-static int find_column(const struct table *table, const struct rows_column *column,
+static int find_column(const struct reading *reading, const struct rows_column *column,
                        bool *is_degrees)
 {
+    const struct table *table = reading->table;
     int plain = table_find(table, column->name);
     int degrees = column->degrees ? table_find(table, column->degrees) : -1;
 
@@ -62,7 +59,8 @@ static int find_column(const struct table *table, const struct rows_column *colu
                    column->degrees);
     }
     *is_degrees = degrees >= 0;
-    if (degrees < 0 && (column->flags & COLUMN_NEEDED)) {
+    if (degrees < 0 && (column->flags & COLUMN_NEEDED) &&
+        !rows_geodetic_stands_for(&reading->geodetic, column)) {
         return table_need(table, column->name);
     }
     return degrees >= 0 ? degrees : plain;
@@ -80,8 +78,9 @@ static void find_columns(struct reading *reading)
     reading->file->has_scan = reading->scan >= 0;
     reading->file->has_epoch = reading->epoch >= 0;
     reading->place = -1;
+    reading->geodetic = rows_geodetic_open(table, kind, reading->parameters);
     for (int i = 0; i < kind->num_columns; i++) {
-        reading->columns[i] = find_column(table, &kind->columns[i], &reading->is_degrees[i]);
+        reading->columns[i] = find_column(reading, &kind->columns[i], &reading->is_degrees[i]);
         if (kind == &rows_kind_polar && strcmp(kind->columns[i].name, "sensor_x_m") == 0) {
             reading->place = i;
         }
@@ -185,7 +184,8 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
             if (!read_cell(reading, check, i, &cells[i])) {
                 return false;
             }
-        } else if (kind->columns[i].flags & COLUMN_FILLED) {
+        } else if ((kind->columns[i].flags & COLUMN_FILLED) &&
+                   !rows_geodetic_stands_for(&reading->geodetic, &kind->columns[i])) {
             return row_refuse(check, "%s is empty", kind->columns[i].name);
         }
     }
@@ -267,6 +267,9 @@ static bool check_row(const struct reading *reading, const struct row_check *che
         return false;
     }
     fill_place(reading, row->sensor_id, cells);
+    if (!rows_geodetic_fill(&reading->geodetic, check, row->sensor_id, cells)) {
+        return false;
+    }
     if (rows->kind->why_not && rows_saw_something(rows, &rows->list[rows->count - 1])) {
         why = rows->kind->why_not(cells);
     }
@@ -320,6 +323,7 @@ void rows_read(struct rows_file *file, const char *path, const struct parameters
     rows_start(&file->rows, kind_of(reading.table));
     find_columns(&reading);
     read_rows(&reading);
+    rows_geodetic_close(&reading.geodetic);
     table_free(reading.table);
 }
 
