@@ -105,6 +105,12 @@ struct asterix_plot {
 };
 void asterix_plot_read(const struct asterix_record *record, struct asterix_plot *plot);
 
+/* WGS 84; the height is above mean sea level by the standard. */
+struct asterix_place {
+    bool is_given;
+    double lat_deg, lon_deg, alt_m;
+};
+
 #define ASTERIX_NORTH 1 /* types of I034 */
 #define ASTERIX_SECTOR 2
 
@@ -119,8 +125,7 @@ struct asterix_service {
     uint8_t sector;  /* the antenna's azimuth in 1/256 turn */
     bool has_period; /* 041 */
     uint16_t period_128;
-    bool has_place; /* 120 */
-    double lat_deg, lon_deg, alt_m; /* WGS 84 */
+    struct asterix_place place; /* 120 */
 };
 void asterix_service_read(const struct asterix_record *record, struct asterix_service *service);
 
@@ -141,7 +146,7 @@ struct asterix_track {
     double vx_mps, vy_mps;
     bool has_accel; /* 210 */
     double ax_mps2, ay_mps2;
-    bool has_altitude; /* 130 */
+    bool has_altitude; /* 130, above the ellipsoid */
     double alt_m;
     bool has_climb; /* 220 */
     double climb_mps;
@@ -149,5 +154,12 @@ struct asterix_track {
     double sigma_x_m, sigma_y_m, sigma_vx_mps, sigma_vy_mps;
 };
 void asterix_track_read(const struct asterix_record *record, struct asterix_track *track);
+
+/*
+ * The record of a track: the items that it has. Values beyond what an item holds become its largest. Returns the number of
+ * bytes written.
+ */
+#define ASTERIX_TRACK_BYTES 64
+size_t asterix_track_write(const struct asterix_track *track, uint8_t record[ASTERIX_TRACK_BYTES]);
 
 #endif

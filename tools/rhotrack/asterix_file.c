@@ -217,6 +217,27 @@ uint64_t asterix_file_records(const struct asterix_file *file)
     return file->records;
 }
 
+struct asterix_place asterix_file_place(const char *path)
+{
+    struct asterix_service service = {.has_type = false};
+    struct asterix_record record;
+    struct asterix_file *file;
+    struct stat status;
+
+    if (stat(path, &status) || !S_ISREG(status.st_mode) || status.st_size == 0 ||
+        !asterix_file_is_asterix(path)) {
+        return service.place;
+    }
+    file = asterix_file_open(path, true);
+    while (!service.place.is_given && asterix_file_next(file, &record)) {
+        if (record.category == ASTERIX_SERVICE) {
+            asterix_service_read(&record, &service);
+        }
+    }
+    asterix_file_close(file);
+    return service.place;
+}
+
 /* ---- What was skipped ---- */
 
 static void report_others(const struct asterix_file *file)

@@ -22,6 +22,9 @@ bool asterix_file_is_asterix(const char *path);
 /* Whether a data block of CAT034 or CAT048 begins there of which every record can be read. */
 bool asterix_block_is_good(const uint8_t *data, size_t size);
 
+/* The first place of a radar that a recording tells; none in any other file. Nothing is said of bad ones. */
+struct asterix_place asterix_file_place(const char *path);
+
 struct asterix_file;
 
 /* A plain file. Errors: exit 2. Memory: four of the longest blocks. */

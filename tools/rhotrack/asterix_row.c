@@ -40,7 +40,8 @@ void asterix_text_header(const struct asterix_columns *columns, char line[ASTERI
 
 static void put_mark(char *line, const struct asterix_mark *mark)
 {
-    put(line, ",%.6f,%.9f", mark->range * ASTERIX_RANGE_M, azimuth_rad(mark->azimuth));
+    put(line, ",%.6f,%.9f", mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M,
+        azimuth_rad(mark->azimuth));
     if (mark->has_alt) {
         put(line, ",%.2f", mark->alt * ASTERIX_HEIGHT_M);
     } else {
@@ -127,6 +128,7 @@ void asterix_text_report(const char *path, const struct asterix_counts *counts)
         {counts->no_room, "plots of too many radars"},
         {counts->services_left, "antenna messages without source, time or sector, or late"},
         {counts->gaps, "gaps in the antenna's messages"},
+        {counts->levels_left, "heights used for the range alone, in scans that have plots without"},
         {counts->levels_bad, "flight levels not valid"},
         {counts->dopplers_bad, "Doppler speeds doubtful"},
         {counts->dopplers_raw, "Doppler speeds ambiguous"},

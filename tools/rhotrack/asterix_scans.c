@@ -9,6 +9,7 @@
 #include "common.h"
 
 #define PERIOD_MIN_128 (ASTERIX_TIME_HZ / 2) /* no radar turns faster */
+#define EARTH_RADIUS_M 6371000.0
 #define SILENT_128 (60 * ASTERIX_TIME_HZ) /* a radar that is not heard for so long is not waited for */
 
 struct asterix_scans {
@@ -111,6 +112,45 @@ static void even_dopplers(struct asterix_marks *marks, struct asterix_counts *co
     }
 }
 
+/*
+ * The ground range of a slant range and a height: in the triangle of the radar, the target and the earth's centre. False where
+ * there is none.
+ */
+static bool find_ground(double slant_m, double alt_m, double radar_alt_m, double *ground_m)
+{
+    double radar_m = EARTH_RADIUS_M + radar_alt_m, up_m = alt_m - radar_alt_m;
+    double sine = (up_m * (2 * radar_m + up_m) - slant_m * slant_m) / (2 * radar_m * slant_m);
+
+    if (!(fabs(sine) < 1)) {
+        return false;
+    }
+    *ground_m = slant_m * sqrt(1 - sine * sine);
+    return true;
+}
+
+/* A scan measures heights of all its plots, or of none: then they are good for the range. */
+static void even_heights(struct asterix_marks *marks, const struct asterix_place *place,
+                         struct asterix_counts *counts)
+{
+    size_t with = 0;
+
+    for (size_t i = 0; i < marks->count; i++) {
+        with += marks->list[i].has_alt;
+    }
+    if (with == marks->count) {
+        return;
+    }
+    counts->levels_left += with;
+    for (size_t i = 0; i < marks->count; i++) {
+        struct asterix_mark *mark = &marks->list[i];
+
+        mark->is_ground =
+            mark->has_alt && find_ground(mark->range * ASTERIX_RANGE_M, mark->alt * ASTERIX_HEIGHT_M,
+                                         place->alt_m, &mark->ground_m);
+        mark->has_alt = false;
+    }
+}
+
 /* What is complete is a scan. */
 static void make_ready(struct asterix_scans *scans, struct asterix_sensor *sensor,
                        struct asterix_open *open)
@@ -128,6 +168,7 @@ static void make_ready(struct asterix_scans *scans, struct asterix_sensor *senso
     if (scan.count > 0) {
         qsort(open->marks.list, scan.count, sizeof *open->marks.list, by_time);
     }
+    even_heights(&open->marks, &sensor->place, &scans->counts);
     even_dopplers(&open->marks, &scans->counts);
     scans->counts.placed += scan.count;
     scans->ready =
@@ -371,11 +412,8 @@ static void take_plot(struct asterix_scans *scans, const struct asterix_plot *pl
 
 static void learn(struct asterix_sensor *sensor, const struct asterix_service *service)
 {
-    if (service->has_place && !sensor->place.is_given) {
-        sensor->place = (struct asterix_place){.is_given = true,
-                                               .lat_deg = service->lat_deg,
-                                               .lon_deg = service->lon_deg,
-                                               .alt_m = service->alt_m};
+    if (!sensor->place.is_given) {
+        sensor->place = service->place;
     }
     if (service->has_period && service->period_128 >= PERIOD_MIN_128) {
         sensor->antenna.period_128 = service->period_128;

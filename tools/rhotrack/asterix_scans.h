@@ -21,12 +21,9 @@ struct asterix_mark {
     uint16_t range, azimuth;
     bool has_alt, has_doppler;
     int16_t alt;         /* in ASTERIX_HEIGHT_M: of a 3-D radar, else the flight level */
+    bool is_ground;      /* the height made a ground range of the slant range, and does not count else: */
+    double ground_m;
     int16_t doppler_mps; /* as I048/120 has it */
-};
-
-struct asterix_place {
-    bool is_given;
-    double lat_deg, lon_deg, alt_m;
 };
 
 struct asterix_scan {
@@ -37,7 +34,7 @@ struct asterix_scan {
     struct asterix_look look;
     int64_t time_128; /* its start */
     struct asterix_place place;
-    const struct asterix_mark *marks; /* by time; valid until the next call. has_doppler: all or none */
+    const struct asterix_mark *marks; /* by time; valid until the next call. has_alt, has_doppler: all or none */
     size_t count;
 };
 
@@ -59,6 +56,7 @@ struct asterix_counts {
     uint64_t dopplers_bad;    /* doubtful ones */
     uint64_t dopplers_raw;    /* ambiguous ones */
     uint64_t dopplers_left;   /* the scan has plots without */
+    uint64_t levels_left;     /* the same of heights: they count for the range alone */
 };
 
 #define ASTERIX_MAX_SENSORS 256

@@ -44,7 +44,7 @@ static bool note(struct asterix_text *text, const struct asterix_record *record)
         return plot.has_position;
     }
     asterix_service_read(record, &service);
-    text->columns.has_place |= service.has_place;
+    text->columns.has_place |= service.place.is_given;
     text->columns.has_scan |= service.has_type && (service.type == ASTERIX_NORTH ||
                                                    service.type == ASTERIX_SECTOR);
     return service.has_type && service.has_time;

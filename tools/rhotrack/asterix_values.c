@@ -120,13 +120,21 @@ void asterix_plot_read(const struct asterix_record *record, struct asterix_plot 
 
 /* ---- CAT034 ---- */
 
-/* 120: height in metres, latitude and longitude in 180/2^23 degrees. */
+#define QUARTER_TURN 4194304 /* 90 degrees */
+
+/* 120: a latitude beyond the poles is none; height in metres, latitude and longitude in 180/2^23 degrees. */
 static void read_place(const uint8_t *item, struct asterix_service *service)
 {
-    service->has_place = true;
-    service->alt_m = read_signed(item, 2);
-    service->lat_deg = read_signed(item + 2, 3) * (180.0 / 8388608);
-    service->lon_deg = read_signed(item + 5, 3) * (180.0 / 8388608);
+    int32_t lat = read_signed(item + 2, 3);
+
+    if (lat < -QUARTER_TURN || lat > QUARTER_TURN) {
+        return;
+    }
+    service->place =
+        (struct asterix_place){.is_given = true,
+                               .alt_m = read_signed(item, 2),
+                               .lat_deg = lat * (180.0 / 8388608),
+                               .lon_deg = read_signed(item + 5, 3) * (180.0 / 8388608)};
 }
 
 void asterix_service_read(const struct asterix_record *record, struct asterix_service *service)

@@ -7,6 +7,7 @@
 
 #include "asterix_file.h"
 #include "asterix_text.h"
+#include "asterix_tracks.h"
 #include "commands.h"
 #include "common.h"
 #include "lcm_log.h"
@@ -89,6 +90,41 @@ static void convert_from_asterix(const struct command_line *line)
     progress_end(&progress);
     output_close(&output);
     asterix_text_close(text);
+}
+
+/* ---- Tracks to ASTERIX ---- */
+
+/* Lists of tracks as records; other messages of a log are counted. */
+static void convert_to_asterix(const struct command_line *line)
+{
+    const char *input = line->arguments[0];
+    struct message_source *source =
+        message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
+    struct output output = output_open(line->arguments[1]);
+    struct asterix_tracks *tracks = asterix_tracks_open(output.file, &line->parameters);
+    struct message_event event;
+    struct rho_message_track_list message;
+    uint64_t lists = 0, others = 0;
+
+    while (message_source_next(source, &event)) {
+        if (strcmp(event.channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 &&
+            rho_message_track_list_decode(event.data, event.size, &message) == RHO_OK) {
+            asterix_tracks_add(tracks, &message);
+            lists++;
+        } else {
+            others++;
+        }
+    }
+    if (lists == 0) {
+        fail(EXIT_USAGE, "%s: not one list of tracks in it, and CAT062 holds tracks", input);
+    }
+    asterix_tracks_close(tracks);
+    output_close(&output);
+    if (others > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " other messages left out\n", input, others);
+    }
+    message_source_report(source);
+    message_source_close(source);
 }
 
 /* ---- Log to CSV ---- */
@@ -236,6 +272,10 @@ int command_convert(struct command_line *line)
     bool from_log = input_is_log(line->arguments[0], line->arguments[1]);
 
     parameters_check(&line->parameters);
+    if (asterix_tracks_is_asterix(line->arguments[1])) {
+        convert_to_asterix(line);
+        return 0;
+    }
     if (asterix_file_is_asterix(line->arguments[0]) &&
         !path_ends_with(line->arguments[1], ".lcm")) {
         if (line->kind) {
