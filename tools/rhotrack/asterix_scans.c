@@ -9,7 +9,6 @@
 #include "common.h"
 
 #define PERIOD_MIN_128 (ASTERIX_TIME_HZ / 2) /* no radar turns faster */
-#define EARTH_RADIUS_M 6371000.0
 #define SILENT_128 (60 * ASTERIX_TIME_HZ) /* a radar that is not heard for so long is not waited for */
 
 struct asterix_scans {
@@ -17,7 +16,8 @@ struct asterix_scans {
     bool is_by_turn;
     struct asterix_sensor *sensors; /* ASTERIX_MAX_SENSORS of them */
     size_t num_sensors;
-    bool has_clock, is_over;
+    bool has_start, has_clock, is_over;
+    int64_t start_128; /* near the first time */
     int64_t clock_128;                /* the latest of all */
     struct asterix_scan *ready;       /* with marks of their own */
     size_t num_ready, ready_capacity, next_ready;
@@ -61,6 +61,12 @@ void asterix_scans_close(struct asterix_scans *scans)
     free(scans);
 }
 
+void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128)
+{
+    scans->has_start = true;
+    scans->start_128 = time_128;
+}
+
 const struct asterix_counts *asterix_scans_counts(const struct asterix_scans *scans)
 {
     return &scans->counts;
@@ -95,62 +101,6 @@ static int by_time(const void *a, const void *b)
     return order ? order : (one->azimuth > other->azimuth) - (one->azimuth < other->azimuth);
 }
 
-/* A scan measures speeds of all its plots, or of none. */
-static void even_dopplers(struct asterix_marks *marks, struct asterix_counts *counts)
-{
-    size_t with = 0;
-
-    for (size_t i = 0; i < marks->count; i++) {
-        with += marks->list[i].has_doppler;
-    }
-    if (with == marks->count) {
-        return;
-    }
-    counts->dopplers_left += with;
-    for (size_t i = 0; i < marks->count; i++) {
-        marks->list[i].has_doppler = false;
-    }
-}
-
-/*
- * The ground range of a slant range and a height: in the triangle of the radar, the target and the earth's centre. False where
- * there is none.
- */
-static bool find_ground(double slant_m, double alt_m, double radar_alt_m, double *ground_m)
-{
-    double radar_m = EARTH_RADIUS_M + radar_alt_m, up_m = alt_m - radar_alt_m;
-    double sine = (up_m * (2 * radar_m + up_m) - slant_m * slant_m) / (2 * radar_m * slant_m);
-
-    if (!(fabs(sine) < 1)) {
-        return false;
-    }
-    *ground_m = slant_m * sqrt(1 - sine * sine);
-    return true;
-}
-
-/* A scan measures heights of all its plots, or of none: then they are good for the range. */
-static void even_heights(struct asterix_marks *marks, const struct asterix_place *place,
-                         struct asterix_counts *counts)
-{
-    size_t with = 0;
-
-    for (size_t i = 0; i < marks->count; i++) {
-        with += marks->list[i].has_alt;
-    }
-    if (with == marks->count) {
-        return;
-    }
-    counts->levels_left += with;
-    for (size_t i = 0; i < marks->count; i++) {
-        struct asterix_mark *mark = &marks->list[i];
-
-        mark->is_ground =
-            mark->has_alt && find_ground(mark->range * ASTERIX_RANGE_M, mark->alt * ASTERIX_HEIGHT_M,
-                                         place->alt_m, &mark->ground_m);
-        mark->has_alt = false;
-    }
-}
-
 /* What is complete is a scan. */
 static void make_ready(struct asterix_scans *scans, struct asterix_sensor *sensor,
                        struct asterix_open *open)
@@ -168,8 +118,7 @@ static void make_ready(struct asterix_scans *scans, struct asterix_sensor *senso
     if (scan.count > 0) {
         qsort(open->marks.list, scan.count, sizeof *open->marks.list, by_time);
     }
-    even_heights(&open->marks, &sensor->place, &scans->counts);
-    even_dopplers(&open->marks, &scans->counts);
+    asterix_marks_even(&open->marks, &sensor->place, &scans->counts);
     scans->counts.placed += scan.count;
     scans->ready =
         must_grow(scans->ready, scans->num_ready, &scans->ready_capacity, sizeof *scans->ready);
@@ -296,7 +245,9 @@ static void flush_silent(struct asterix_scans *scans)
 static bool take_time(struct asterix_scans *scans, struct asterix_sensor *sensor,
                       uint32_t time_of_day_128, int64_t *time_128)
 {
-    const int64_t *reference_128 = scans->has_clock ? &scans->clock_128 : NULL;
+    const int64_t *reference_128 = scans->has_clock   ? &scans->clock_128
+                                   : scans->has_start ? &scans->start_128
+                                                      : NULL;
 
     if (time_of_day_128 >= ASTERIX_DAY ||
         !asterix_sensor_time(sensor, time_of_day_128, reference_128, time_128)) {

@@ -78,6 +78,9 @@ void asterix_scans_close(struct asterix_scans *scans);
  */
 void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record *record);
 
+/* The first record's time is the one of its time of day that is nearest to this one; without, of the first day. */
+void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128);
+
 /* Takes a record of CAT034 or CAT048. */
 void asterix_scans_take(struct asterix_scans *scans, const struct asterix_record *record);
 

@@ -83,7 +83,7 @@ static bool place(struct asterix_sensor *sensor, const struct asterix_mark *mark
     for (size_t i = 0; i < sensor->num_open; i++) {
         struct asterix_open *open = &sensor->open[i];
 
-        if (asterix_look_has(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
+        if (open->has_look && asterix_look_has(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
             mark->time_128 >= open->look.start_128 - hold_128 && distance_128 < least_128) {
             nearest = open;
             least_128 = distance_128;

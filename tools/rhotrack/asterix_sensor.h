@@ -66,6 +66,10 @@ struct asterix_open asterix_sensor_take(struct asterix_sensor *sensor);
 /* A complete look after those of the turn: false, and nothing is changed, where it does not go on where they end. */
 bool asterix_sensor_turn(struct asterix_sensor *sensor, struct asterix_open *open);
 
+/* Heights and speeds count where all plots of a scan have them; else heights make ground ranges of slant ranges. */
+void asterix_marks_even(struct asterix_marks *marks, const struct asterix_place *place,
+                        struct asterix_counts *counts);
+
 void asterix_marks_add(struct asterix_marks *marks, const struct asterix_mark *mark);
 void asterix_sensor_free(struct asterix_sensor *sensor);
 
