@@ -75,8 +75,8 @@ static void test_plots(void **state)
         const double *v = vectors_48[i].values;
         uint8_t bytes[RECORD_MAX];
         size_t size = from_hex(vectors_48[i].hex, bytes);
-        struct asterix_record record = check_record(ASTERIX_PLOTS, bytes, size,
-                                                    vectors_48[i].sizes, VECTORS_48_PLACES);
+        struct asterix_record record =
+            check_record(ASTERIX_PLOTS, bytes, size, vectors_48[i].sizes, VECTORS_48_PLACES);
         struct asterix_plot plot;
         bool has_second = !isnan(v[6]);
 
@@ -109,8 +109,8 @@ static void test_services(void **state)
         const double *v = vectors_34[i].values;
         uint8_t bytes[RECORD_MAX];
         size_t size = from_hex(vectors_34[i].hex, bytes);
-        struct asterix_record record = check_record(ASTERIX_SERVICE, bytes, size,
-                                                    vectors_34[i].sizes, VECTORS_34_PLACES);
+        struct asterix_record record =
+            check_record(ASTERIX_SERVICE, bytes, size, vectors_34[i].sizes, VECTORS_34_PLACES);
         struct asterix_service service;
 
         asterix_service_read(&record, &service);
@@ -135,8 +135,8 @@ static void test_tracks(void **state)
         const double *v = vectors_62[i].values;
         uint8_t bytes[RECORD_MAX];
         size_t size = from_hex(vectors_62[i].hex, bytes);
-        struct asterix_record record = check_record(ASTERIX_TRACKS, bytes, size,
-                                                    vectors_62[i].sizes, VECTORS_62_PLACES);
+        struct asterix_record record =
+            check_record(ASTERIX_TRACKS, bytes, size, vectors_62[i].sizes, VECTORS_62_PLACES);
         struct asterix_track track;
 
         asterix_track_read(&record, &track);
@@ -259,14 +259,17 @@ static void check_bad_record(uint8_t category, const char *hex, size_t at, const
 static void test_bad_records(void **state)
 {
     (void)state;
-    check_bad_record(48, "", 0, "the field specification of a record of CAT048 goes beyond its data block");
+    check_bad_record(48, "", 0,
+                     "the field specification of a record of CAT048 goes beyond its data block");
     check_bad_record(48, "0101010101010101", 0,
                      "the field specification of a record of CAT048 goes beyond its data block");
-    check_bad_record(48, "010101010000", 0, "the field specification of a record of CAT048 has 5 bytes");
+    check_bad_record(48, "010101010000", 0,
+                     "the field specification of a record of CAT048 has 5 bytes");
     check_bad_record(34, "010200", 2, "I034/SP says that it has no bytes");
     check_bad_record(62, "400000", 0, "a record of CAT062 has an item at place 2, where none is");
     check_bad_record(48, "8001", 1, "I048/010 goes beyond its data block");
-    check_bad_record(48, "21ff", 0, "the field specification of a record of CAT048 goes beyond its data block");
+    check_bad_record(48, "21ff", 0,
+                     "the field specification of a record of CAT048 goes beyond its data block");
     check_bad_record(48, "20ffff", 1, "I048/020 goes beyond its data block");
     check_bad_record(48, "0120ff", 2, "I048/250 goes beyond its data block");
     check_bad_record(48, "010104a0", 3, "I048/120 has an item at place 3, where none is");
@@ -309,10 +312,10 @@ static void test_sensor_ids(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plots),       cmocka_unit_test(test_services),
-        cmocka_unit_test(test_tracks),      cmocka_unit_test(test_tracks_written),
-        cmocka_unit_test(test_limits),      cmocka_unit_test(test_bad_records),
-        cmocka_unit_test(test_blocks),      cmocka_unit_test(test_sensor_ids),
+        cmocka_unit_test(test_plots),  cmocka_unit_test(test_services),
+        cmocka_unit_test(test_tracks), cmocka_unit_test(test_tracks_written),
+        cmocka_unit_test(test_limits), cmocka_unit_test(test_bad_records),
+        cmocka_unit_test(test_blocks), cmocka_unit_test(test_sensor_ids),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

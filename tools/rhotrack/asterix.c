@@ -7,7 +7,7 @@
 
 #include "asterix_items.h"
 
-#define FX 1u /* the last bit of a byte: another one follows */
+#define FX 1u  /* the last bit of a byte: another one follows */
 #define BITS 7 /* of a field specification's byte, before FX */
 
 /* Bytes under way. */
@@ -134,8 +134,8 @@ static bool take_specification(struct cursor *cursor, const struct asterix_item 
         bool is_there = cursor->data[start + place / BITS] >> (BITS - place % BITS) & 1;
 
         if (is_there && (place >= num_items || items[place].form == ASTERIX_NONE)) {
-            return refuse(cursor, start + place / BITS, "%s has an item at place %zu, where none is",
-                          name, place + 1);
+            return refuse(cursor, start + place / BITS,
+                          "%s has an item at place %zu, where none is", name, place + 1);
         }
         *present |= (uint64_t)is_there << place;
     }

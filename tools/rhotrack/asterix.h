@@ -22,11 +22,11 @@
 #define ASTERIX_HEADER_BYTES 3u
 #define ASTERIX_BLOCK_MAX 65535u
 #define ASTERIX_MAX_ITEMS 35
-#define ASTERIX_TIME_HZ 128               /* times of day count 1/128 s */
+#define ASTERIX_TIME_HZ 128 /* times of day count 1/128 s */
 #define ASTERIX_DAY (86400 * ASTERIX_TIME_HZ)
-#define ASTERIX_TURN 65536                /* azimuths count 1/65536 turn, clockwise from north */
-#define ASTERIX_RANGE_M (1852.0 / 256)    /* ranges count this */
-#define ASTERIX_HEIGHT_M (25 * 0.3048)    /* heights and flight levels count 25 ft */
+#define ASTERIX_TURN 65536             /* azimuths count 1/65536 turn, clockwise from north */
+#define ASTERIX_RANGE_M (1852.0 / 256) /* ranges count this */
+#define ASTERIX_HEIGHT_M (25 * 0.3048) /* heights and flight levels count 25 ft */
 
 /* ---- Blocks and records ---- */
 
@@ -92,8 +92,8 @@ struct asterix_plot {
     bool has_level, is_level_bad;         /* 090; bad: not validated, or garbled */
     int16_t level;                        /* in ASTERIX_HEIGHT_M, of the standard atmosphere */
     bool has_height;                      /* 110 */
-    int16_t height;                       /* in ASTERIX_HEIGHT_M above mean sea level, by a 3-D radar */
-    bool has_doppler, is_doppler_bad;     /* 120, calculated; bad: doubtful */
+    int16_t height;                   /* in ASTERIX_HEIGHT_M above mean sea level, by a 3-D radar */
+    bool has_doppler, is_doppler_bad; /* 120, calculated; bad: doubtful */
     int16_t doppler_mps;
     bool has_raw_doppler; /* 120, raw: ambiguous speeds that are not read */
     bool has_mode_a;      /* 070 */

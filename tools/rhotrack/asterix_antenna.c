@@ -3,8 +3,9 @@
 
 #include "asterix.h"
 
-#define TURN_MAX_128 (60 * ASTERIX_TIME_HZ) /* nothing is told of slower ones: a recording that pauses */
-#define AGAIN_128 (ASTERIX_TIME_HZ / 2)     /* no radar turns once in this time */
+#define TURN_MAX_128                                                                               \
+    (60 * ASTERIX_TIME_HZ) /* nothing is told of slower ones: a recording that pauses */
+#define AGAIN_128 (ASTERIX_TIME_HZ / 2) /* no radar turns once in this time */
 
 static int64_t absolute(int64_t value)
 {

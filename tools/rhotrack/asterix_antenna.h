@@ -28,9 +28,9 @@ struct asterix_antenna {
 
 enum asterix_crossing {
     ASTERIX_LOOKED, /* *look is set */
-    ASTERIX_BEGUN,  /* the first crossing, or the first after a gap: looks are counted from here on */
-    ASTERIX_AGAIN,  /* the same crossing once more, as north marker and as sector for one */
-    ASTERIX_BACK    /* not after the one before: not taken */
+    ASTERIX_BEGUN, /* the first crossing, or the first after a gap: looks are counted from here on */
+    ASTERIX_AGAIN, /* the same crossing once more, as north marker and as sector for one */
+    ASTERIX_BACK   /* not after the one before: not taken */
 };
 
 /* The antenna crosses an azimuth. *is_gap: crossings before it are missing, a turn or more. */

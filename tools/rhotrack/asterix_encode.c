@@ -47,10 +47,10 @@ static void put_unsigned(struct writing *writing, double value, double unit, int
 /* 080: as many bytes as say something. */
 static void put_status(struct writing *writing, const struct asterix_track *track)
 {
-    uint8_t bytes[4] = {(uint8_t)(track->is_monosensor << 7 | track->has_altitude << 5 |
-                                  track->is_tentative << 1),
-                        (uint8_t)(track->is_last << 6 | track->is_first << 5), 0,
-                        (uint8_t)(track->is_coasting << 7)};
+    uint8_t bytes[4] = {
+        (uint8_t)(track->is_monosensor << 7 | track->has_altitude << 5 | track->is_tentative << 1),
+        (uint8_t)(track->is_last << 6 | track->is_first << 5), 0,
+        (uint8_t)(track->is_coasting << 7)};
     int last = track->is_coasting ? 3 : track->is_last || track->is_first ? 1 : 0;
 
     begin(writing, I062_080);

@@ -55,9 +55,9 @@ static void even_heights(struct asterix_marks *marks, const struct asterix_place
     for (size_t i = 0; i < marks->count; i++) {
         struct asterix_mark *mark = &marks->list[i];
 
-        mark->is_ground =
-            mark->has_alt && find_ground(mark->range * ASTERIX_RANGE_M, mark->alt * ASTERIX_HEIGHT_M,
-                                         place->alt_m, &mark->ground_m);
+        mark->is_ground = mark->has_alt &&
+                          find_ground(mark->range * ASTERIX_RANGE_M, mark->alt * ASTERIX_HEIGHT_M,
+                                      place->alt_m, &mark->ground_m);
         mark->has_alt = false;
     }
 }

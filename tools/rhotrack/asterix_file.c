@@ -55,8 +55,7 @@ static bool begins_good(const char *path)
 {
     uint8_t *bytes = must_alloc(ASTERIX_BLOCK_MAX);
     FILE *file = fopen(path, "rb");
-    bool is_good =
-        file && asterix_block_is_good(bytes, fread(bytes, 1, ASTERIX_BLOCK_MAX, file));
+    bool is_good = file && asterix_block_is_good(bytes, fread(bytes, 1, ASTERIX_BLOCK_MAX, file));
 
     if (file) {
         fclose(file);
@@ -105,7 +104,8 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going)
     file->path = must_copy(path);
     file->keep_going = keep_going;
     if (!stat(path, &status) && !S_ISREG(status.st_mode)) {
-        fail(EXIT_USAGE, "%s: a recording in ASTERIX is looked at twice, so that only a plain file will do",
+        fail(EXIT_USAGE,
+             "%s: a recording in ASTERIX is looked at twice, so that only a plain file will do",
              path);
     }
     file->file = fopen(path, "rb");
@@ -147,7 +147,8 @@ static void skip_bad(struct asterix_file *file, const struct asterix_error *erro
     if (!file->keep_going) {
         fail(EXIT_USAGE, "%s: byte %" PRIu64 ": %s", file->path, start + error->at, error->reason);
     }
-    if (end > file->at && (end == file->size || asterix_block_is_good(file->bytes + end, file->size - end))) {
+    if (end > file->at &&
+        (end == file->size || asterix_block_is_good(file->bytes + end, file->size - end))) {
         file->at = end;
     } else {
         file->at++;

@@ -3,20 +3,41 @@
 #include "asterix_items.h"
 
 #define COUNT(list) (uint8_t)(sizeof(list) / sizeof(*(list)))
-#define FIXED(name, bytes) {name, ASTERIX_FIXED, bytes, 0, NULL}
-#define EXTENDED(name) {name, ASTERIX_EXTENDED, 1, 0, NULL}
-#define REPEATED(name, bytes) {name, ASTERIX_REPEATED, bytes, 0, NULL}
-#define REPEATED_FX(name, bytes) {name, ASTERIX_REPEATED_FX, bytes, 0, NULL}
-#define EXPLICIT(name) {name, ASTERIX_EXPLICIT, 0, 0, NULL}
-#define COMPOUND(name, parts) {name, ASTERIX_COMPOUND, 0, COUNT(parts), parts}
-#define NONE {"", ASTERIX_NONE, 0, 0, NULL}
+#define FIXED(name, bytes)                                                                         \
+    {                                                                                              \
+        name, ASTERIX_FIXED, bytes, 0, NULL                                                        \
+    }
+#define EXTENDED(name)                                                                             \
+    {                                                                                              \
+        name, ASTERIX_EXTENDED, 1, 0, NULL                                                         \
+    }
+#define REPEATED(name, bytes)                                                                      \
+    {                                                                                              \
+        name, ASTERIX_REPEATED, bytes, 0, NULL                                                     \
+    }
+#define REPEATED_FX(name, bytes)                                                                   \
+    {                                                                                              \
+        name, ASTERIX_REPEATED_FX, bytes, 0, NULL                                                  \
+    }
+#define EXPLICIT(name)                                                                             \
+    {                                                                                              \
+        name, ASTERIX_EXPLICIT, 0, 0, NULL                                                         \
+    }
+#define COMPOUND(name, parts)                                                                      \
+    {                                                                                              \
+        name, ASTERIX_COMPOUND, 0, COUNT(parts), parts                                             \
+    }
+#define NONE                                                                                       \
+    {                                                                                              \
+        "", ASTERIX_NONE, 0, 0, NULL                                                               \
+    }
 
 /* ---- CAT034 ---- */
 
-static const struct asterix_item i034_050[] = {FIXED("COM", 1), NONE, NONE, FIXED("PSR", 1),
-                                               FIXED("SSR", 1), FIXED("MDS", 2)};
-static const struct asterix_item i034_060[] = {FIXED("COM", 1), NONE, NONE, FIXED("PSR", 1),
-                                               FIXED("SSR", 1), FIXED("MDS", 1)};
+static const struct asterix_item i034_050[] = {
+    FIXED("COM", 1), NONE, NONE, FIXED("PSR", 1), FIXED("SSR", 1), FIXED("MDS", 2)};
+static const struct asterix_item i034_060[] = {
+    FIXED("COM", 1), NONE, NONE, FIXED("PSR", 1), FIXED("SSR", 1), FIXED("MDS", 1)};
 
 static const struct asterix_item i034[I034_ITEMS] = {
     FIXED("010", 2),
@@ -76,12 +97,12 @@ static const struct asterix_item i048[I048_ITEMS] = {
 /* ---- CAT062 ---- */
 
 static const struct asterix_item i062_380[] = {
-    FIXED("ADR", 3),  FIXED("ID", 6),   FIXED("MHG", 2),     FIXED("IAS", 2),  FIXED("TAS", 2),
-    FIXED("SAL", 2),  FIXED("FSS", 2),  EXTENDED("TIS"),     REPEATED("TID", 15), FIXED("COM", 2),
-    FIXED("SAB", 2),  FIXED("ACS", 7),  FIXED("BVR", 2),     FIXED("GVR", 2),  FIXED("RAN", 2),
-    FIXED("TAR", 2),  FIXED("TAN", 2),  FIXED("GS", 2),      FIXED("VUN", 1),  FIXED("MET", 8),
-    FIXED("EMC", 1),  FIXED("POS", 6),  FIXED("GAL", 2),     FIXED("PUN", 1),  REPEATED("MB", 8),
-    FIXED("IAR", 2),  FIXED("MAC", 2),  FIXED("BPS", 2)};
+    FIXED("ADR", 3), FIXED("ID", 6),  FIXED("MHG", 2), FIXED("IAS", 2),     FIXED("TAS", 2),
+    FIXED("SAL", 2), FIXED("FSS", 2), EXTENDED("TIS"), REPEATED("TID", 15), FIXED("COM", 2),
+    FIXED("SAB", 2), FIXED("ACS", 7), FIXED("BVR", 2), FIXED("GVR", 2),     FIXED("RAN", 2),
+    FIXED("TAR", 2), FIXED("TAN", 2), FIXED("GS", 2),  FIXED("VUN", 1),     FIXED("MET", 8),
+    FIXED("EMC", 1), FIXED("POS", 6), FIXED("GAL", 2), FIXED("PUN", 1),     REPEATED("MB", 8),
+    FIXED("IAR", 2), FIXED("MAC", 2), FIXED("BPS", 2)};
 static const struct asterix_item i062_290[] = {
     FIXED("TRK", 1), FIXED("PSR", 1), FIXED("SSR", 1), FIXED("MDS", 1), FIXED("ADS", 2),
     FIXED("ES", 1),  FIXED("VDL", 1), FIXED("UAT", 1), FIXED("LOP", 1), FIXED("MLT", 1)};
@@ -94,10 +115,10 @@ static const struct asterix_item i062_295[] = {
     FIXED("GAL", 1), FIXED("PUN", 1), FIXED("MB", 1),  FIXED("IAR", 1), FIXED("MAC", 1),
     FIXED("BPS", 1)};
 static const struct asterix_item i062_390[] = {
-    FIXED("TAG", 2), FIXED("CS", 7),  FIXED("IFI", 4),    FIXED("FCT", 1), FIXED("TAC", 4),
-    FIXED("WTC", 1), FIXED("DEP", 4), FIXED("DST", 4),    FIXED("RDS", 3), FIXED("CFL", 2),
+    FIXED("TAG", 2), FIXED("CS", 7),     FIXED("IFI", 4), FIXED("FCT", 1), FIXED("TAC", 4),
+    FIXED("WTC", 1), FIXED("DEP", 4),    FIXED("DST", 4), FIXED("RDS", 3), FIXED("CFL", 2),
     FIXED("CTL", 2), REPEATED("TOD", 4), FIXED("AST", 6), FIXED("STS", 1), FIXED("STD", 7),
-    FIXED("STA", 7), FIXED("PEM", 2), FIXED("PEC", 7)};
+    FIXED("STA", 7), FIXED("PEM", 2),    FIXED("PEC", 7)};
 static const struct asterix_item i062_110[] = {FIXED("SUM", 1), FIXED("PMN", 4), FIXED("POS", 6),
                                                FIXED("GA", 2),  FIXED("EM1", 2), FIXED("TOS", 1),
                                                FIXED("XP", 1)};

@@ -34,15 +34,7 @@ struct asterix_category {
 const struct asterix_category *asterix_category_find(uint8_t category);
 
 /* Places in the profiles. */
-enum {
-    I034_010 = 0,
-    I034_000,
-    I034_030,
-    I034_020,
-    I034_041,
-    I034_120 = 10,
-    I034_ITEMS = 14
-};
+enum { I034_010 = 0, I034_000, I034_030, I034_020, I034_041, I034_120 = 10, I034_ITEMS = 14 };
 enum {
     I048_010 = 0,
     I048_140,

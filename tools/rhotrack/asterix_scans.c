@@ -9,7 +9,8 @@
 #include "common.h"
 
 #define PERIOD_MIN_128 (ASTERIX_TIME_HZ / 2) /* no radar turns faster */
-#define SILENT_128 (60 * ASTERIX_TIME_HZ) /* a radar that is not heard for so long is not waited for */
+#define SILENT_128                                                                                 \
+    (60 * ASTERIX_TIME_HZ) /* a radar that is not heard for so long is not waited for */
 
 struct asterix_scans {
     int64_t hold_128, interval_128, wait_128;
@@ -17,9 +18,9 @@ struct asterix_scans {
     struct asterix_sensor *sensors; /* ASTERIX_MAX_SENSORS of them */
     size_t num_sensors;
     bool has_start, has_clock, is_over;
-    int64_t start_128; /* near the first time */
-    int64_t clock_128;                /* the latest of all */
-    struct asterix_scan *ready;       /* with marks of their own */
+    int64_t start_128;          /* near the first time */
+    int64_t clock_128;          /* the latest of all */
+    struct asterix_scan *ready; /* with marks of their own */
     size_t num_ready, ready_capacity, next_ready;
     struct asterix_mark *given; /* of the scan that was handed out */
     struct asterix_counts counts;
@@ -186,41 +187,15 @@ bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
 
 /* ---- What is known when ---- */
 
-/* Nothing of the sensor comes before this time: the start of what is open, less what plots may be early. */
-static int64_t sensor_settled(const struct asterix_scans *scans,
-                              const struct asterix_sensor *sensor)
-{
-    int64_t time_128 = sensor->clock_128;
-
-    if (sensor->has_crossings && sensor->antenna.has_last &&
-        sensor->antenna.last_128 < time_128) {
-        time_128 = sensor->antenna.last_128;
-    }
-    if (sensor->has_crossings && sensor->scan == 0 && sensor->num_open == 0 && !sensor->has_turn) {
-        time_128 = sensor->first_128; /* what came before the first crossing may become a scan */
-    }
-    if (sensor->num_open > 0 && sensor->open[0].look.start_128 < time_128) {
-        time_128 = sensor->open[0].look.start_128;
-    }
-    if (sensor->has_turn && sensor->turn.look.start_128 < time_128) {
-        time_128 = sensor->turn.look.start_128;
-    }
-    for (size_t i = 0; !sensor->has_crossings && i < sensor->waiting.count; i++) {
-        time_128 = sensor->waiting.list[i].time_128 < time_128 ? sensor->waiting.list[i].time_128
-                                                               : time_128;
-    }
-    return time_128 - scans->hold_128;
-}
-
 int64_t asterix_scans_settled_128(const struct asterix_scans *scans)
 {
     int64_t settled_128 = INT64_MAX;
 
     for (size_t i = 0; i < scans->num_sensors && !scans->is_over; i++) {
-        const struct asterix_sensor *sensor = &scans->sensors[i];
+        struct asterix_sensor *sensor = &scans->sensors[i];
 
         if (sensor->has_clock && scans->clock_128 - sensor->seen_128 <= SILENT_128) {
-            int64_t time_128 = sensor_settled(scans, sensor);
+            int64_t time_128 = asterix_sensor_settled(sensor, scans->hold_128);
 
             settled_128 = time_128 < settled_128 ? time_128 : settled_128;
         }
@@ -326,10 +301,10 @@ static struct asterix_mark mark_of(const struct asterix_plot *plot, int64_t time
 static void add_mark(struct asterix_scans *scans, struct asterix_sensor *sensor,
                      const struct asterix_mark *mark)
 {
-    if (!sensor->is_known || sensor->has_crossings) {
-        asterix_sensor_add(sensor, mark, scans->hold_128);
-    } else if (mark->time_128 < sensor->clock_128 - scans->hold_128) {
+    if (mark->time_128 < asterix_sensor_settled(sensor, scans->hold_128)) {
         scans->counts.late++;
+    } else if (!sensor->is_known || sensor->has_crossings) {
+        asterix_sensor_add(sensor, mark, scans->hold_128);
     } else {
         asterix_sensor_add_free(sensor, mark, scans->interval_128);
     }

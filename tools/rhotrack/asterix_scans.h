@@ -20,8 +20,9 @@ struct asterix_mark {
     int64_t time_128; /* since the midnight before the first record */
     uint16_t range, azimuth;
     bool has_alt, has_doppler;
-    int16_t alt;         /* in ASTERIX_HEIGHT_M: of a 3-D radar, else the flight level */
-    bool is_ground;      /* the height made a ground range of the slant range, and does not count else: */
+    int16_t alt; /* in ASTERIX_HEIGHT_M: of a 3-D radar, else the flight level */
+    bool
+        is_ground; /* the height made a ground range of the slant range, and does not count else: */
     double ground_m;
     int16_t doppler_mps; /* as I048/120 has it */
 };
@@ -34,7 +35,8 @@ struct asterix_scan {
     struct asterix_look look;
     int64_t time_128; /* its start */
     struct asterix_place place;
-    const struct asterix_mark *marks; /* by time; valid until the next call. has_alt, has_doppler: all or none */
+    const struct asterix_mark
+        *marks; /* by time; valid until the next call. has_alt, has_doppler: all or none */
     size_t count;
 };
 
@@ -44,19 +46,20 @@ struct asterix_counts {
     uint64_t placed;          /* plots: in a scan */
     uint64_t not_real;        /* simulated, test targets, field monitors */
     uint64_t no_detection;    /* a radar's own track, predicted */
-    uint64_t incomplete;      /* without source, time or position; or a range of 0, or beyond what 040 can say */
-    uint64_t bad_times;       /* of day beyond 24 h, or a jump that nothing confirms */
-    uint64_t late;            /* their scan was complete */
-    uint64_t unplaced;        /* no look of the antenna is known that saw them */
-    uint64_t no_room;         /* more than ASTERIX_MAX_SENSORS radars */
-    uint64_t services_left;   /* without source, type or time; a time or place that goes back */
-    uint64_t services_other;  /* of other types than north marker and sector crossing */
-    uint64_t gaps;            /* looks that are not known: crossings are missing */
-    uint64_t levels_bad;      /* of plots that stay: flight levels not validated, or garbled */
-    uint64_t dopplers_bad;    /* doubtful ones */
-    uint64_t dopplers_raw;    /* ambiguous ones */
-    uint64_t dopplers_left;   /* the scan has plots without */
-    uint64_t levels_left;     /* the same of heights: they count for the range alone */
+    uint64_t
+        incomplete; /* without source, time or position; or a range of 0, or beyond what 040 can say */
+    uint64_t bad_times;      /* of day beyond 24 h, or a jump that nothing confirms */
+    uint64_t late;           /* their scan was complete */
+    uint64_t unplaced;       /* no look of the antenna is known that saw them */
+    uint64_t no_room;        /* more than ASTERIX_MAX_SENSORS radars */
+    uint64_t services_left;  /* without source, type or time; a time or place that goes back */
+    uint64_t services_other; /* of other types than north marker and sector crossing */
+    uint64_t gaps;           /* looks that are not known: crossings are missing */
+    uint64_t levels_bad;     /* of plots that stay: flight levels not validated, or garbled */
+    uint64_t dopplers_bad;   /* doubtful ones */
+    uint64_t dopplers_raw;   /* ambiguous ones */
+    uint64_t dopplers_left;  /* the scan has plots without */
+    uint64_t levels_left;    /* the same of heights: they count for the range alone */
 };
 
 #define ASTERIX_MAX_SENSORS 256
@@ -64,10 +67,11 @@ struct asterix_counts {
 struct asterix_scans;
 
 struct asterix_rules {
-    double hold_s;     /* how long the plots of a look may come after its end */
-    bool is_by_turn;   /* a scan is a turn, else a look */
-    double interval_s; /* plots of a radar without crossings are one scan; 0: each is one without a number */
-    double wait_s;     /* a radar that told no crossings for so long has none */
+    double hold_s;   /* how long the plots of a look may come after its end */
+    bool is_by_turn; /* a scan is a turn, else a look */
+    double
+        interval_s; /* plots of a radar without crossings are one scan; 0: each is one without a number */
+    double wait_s; /* a radar that told no crossings for so long has none */
 };
 struct asterix_scans *asterix_scans_open(const struct asterix_rules *rules);
 void asterix_scans_close(struct asterix_scans *scans);

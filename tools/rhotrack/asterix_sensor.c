@@ -83,7 +83,8 @@ static bool place(struct asterix_sensor *sensor, const struct asterix_mark *mark
     for (size_t i = 0; i < sensor->num_open; i++) {
         struct asterix_open *open = &sensor->open[i];
 
-        if (open->has_look && asterix_look_has(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
+        if (open->has_look &&
+            asterix_look_has(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
             mark->time_128 >= open->look.start_128 - hold_128 && distance_128 < least_128) {
             nearest = open;
             least_128 = distance_128;
@@ -107,13 +108,33 @@ static void place_waiting(struct asterix_sensor *sensor, int64_t hold_128)
     sensor->waiting.count = kept;
 }
 
-/* Before the first whole turn: the part of a turn that is there, as the antenna then turned. */
+/* Of the plots that wait; otherwise where there are none. */
+static int64_t first_waiting(const struct asterix_sensor *sensor, int64_t otherwise_128)
+{
+    int64_t first_128 = otherwise_128;
+
+    for (size_t i = 0; i < sensor->waiting.count; i++) {
+        int64_t time_128 = sensor->waiting.list[i].time_128;
+
+        first_128 = time_128 < first_128 ? time_128 : first_128;
+    }
+    return first_128;
+}
+
+/* It had no look yet: plots that wait may make one before the first crossing, or be without. */
+static bool is_at_start(const struct asterix_sensor *sensor)
+{
+    return !sensor->has_closed && sensor->num_open == 0;
+}
+
+/* Before the first whole turn: the part of a turn since the first plot, as the antenna then turned. */
 static void begin_before(struct asterix_sensor *sensor, const struct asterix_look *turn)
 {
-    int64_t took_128 = turn->start_128 - sensor->first_128, turn_128 = asterix_look_turn_128(turn);
+    int64_t took_128 = turn->start_128 - first_waiting(sensor, turn->start_128);
+    int64_t turn_128 = asterix_look_turn_128(turn);
     struct asterix_look look = {.end_128 = turn->start_128};
 
-    if (sensor->scan > 0 || sensor->num_open > 0 || sensor->has_turn || turn->advance != ASTERIX_TURN || took_128 <= 0) {
+    if (!is_at_start(sensor) || turn->advance != ASTERIX_TURN || took_128 == 0) {
         return;
     }
     took_128 = took_128 < turn_128 ? took_128 : turn_128;
@@ -125,14 +146,53 @@ static void begin_before(struct asterix_sensor *sensor, const struct asterix_loo
     }
 }
 
+static int64_t find_settled(const struct asterix_sensor *sensor, int64_t hold_128)
+{
+    int64_t settled_128 = sensor->clock_128 - hold_128;
+    int64_t looks_128 = sensor->clock_128; /* the start of those that are not complete */
+
+    if (sensor->has_crossings && sensor->antenna.has_last && sensor->antenna.last_128 < looks_128) {
+        looks_128 = sensor->antenna.last_128;
+    }
+    if (sensor->has_turn && sensor->turn.look.start_128 < looks_128) {
+        looks_128 = sensor->turn.look.start_128;
+    }
+    for (size_t i = 0; i < sensor->num_open; i++) {
+        int64_t start_128 = sensor->open[i].look.start_128;
+
+        if (!sensor->open[i].has_look) {
+            settled_128 = start_128 < settled_128 ? start_128 : settled_128;
+        } else if (start_128 < looks_128) {
+            looks_128 = start_128;
+        }
+    }
+    looks_128 -= hold_128; /* plots may be so much earlier than their look */
+    settled_128 = looks_128 < settled_128 ? looks_128 : settled_128;
+    return is_at_start(sensor) ? first_waiting(sensor, settled_128) : settled_128;
+}
+
+int64_t asterix_sensor_settled(struct asterix_sensor *sensor, int64_t hold_128)
+{
+    int64_t settled_128 = find_settled(sensor, hold_128);
+
+    if (!sensor->has_settled || settled_128 > sensor->settled_128) {
+        sensor->has_settled = true;
+        sensor->settled_128 = settled_128;
+    }
+    return sensor->settled_128;
+}
+
 bool asterix_sensor_cross(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,
                           int64_t hold_128, struct asterix_counts *counts)
 {
     struct asterix_look look;
     bool is_gap;
-    enum asterix_crossing crossing =
-        asterix_antenna_cross(&sensor->antenna, time_128, azimuth, &look, &is_gap);
+    enum asterix_crossing crossing;
 
+    if (!sensor->antenna.has_last && time_128 < asterix_sensor_settled(sensor, hold_128)) {
+        return false;
+    }
+    crossing = asterix_antenna_cross(&sensor->antenna, time_128, azimuth, &look, &is_gap);
     sensor->has_crossings = true;
     counts->gaps += is_gap;
     if (crossing == ASTERIX_LOOKED) {
@@ -180,8 +240,6 @@ void asterix_sensor_drop(struct asterix_sensor *sensor, bool all, struct asterix
 
         if (!all && mark->time_128 >= sensor->clock_128 - WAIT_128) {
             sensor->waiting.list[kept++] = *mark;
-        } else if (sensor->closed_128 > mark->time_128) {
-            counts->late++;
         } else {
             counts->unplaced++;
         }
@@ -207,7 +265,7 @@ struct asterix_open asterix_sensor_take(struct asterix_sensor *sensor)
 
     sensor->num_open--;
     memmove(sensor->open, sensor->open + 1, sensor->num_open * sizeof *sensor->open);
-    sensor->closed_128 = open.look.end_128;
+    sensor->has_closed = true;
     return open;
 }
 

@@ -31,7 +31,8 @@ struct asterix_sensor {
     struct asterix_antenna antenna;
     struct asterix_open *open; /* by their starts */
     size_t num_open, open_capacity;
-    int64_t closed_128;           /* end of the newest complete look */
+    bool has_settled, has_closed; /* closed: a look was complete */
+    int64_t settled_128;          /* nothing comes before it */
     bool has_turn;
     struct asterix_open turn;     /* complete looks that are no whole turn yet */
     struct asterix_marks waiting; /* no look is known yet that saw them */
@@ -41,6 +42,9 @@ struct asterix_sensor {
 /* Time of day as a time that goes on at midnight, or false: a jump. reference: where the radar has no time yet. */
 bool asterix_sensor_time(struct asterix_sensor *sensor, uint32_t time_of_day_128,
                          const int64_t *reference_128, int64_t *time_128);
+
+/* Nothing of the sensor that comes is before this time, but what is late. It never goes back. */
+int64_t asterix_sensor_settled(struct asterix_sensor *sensor, int64_t hold_128);
 
 /* The antenna crosses an azimuth. Returns false where that is before the newest crossing. */
 bool asterix_sensor_cross(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,

@@ -45,8 +45,8 @@ static bool note(struct asterix_text *text, const struct asterix_record *record)
     }
     asterix_service_read(record, &service);
     text->columns.has_place |= service.place.is_given;
-    text->columns.has_scan |= service.has_type && (service.type == ASTERIX_NORTH ||
-                                                   service.type == ASTERIX_SECTOR);
+    text->columns.has_scan |=
+        service.has_type && (service.type == ASTERIX_NORTH || service.type == ASTERIX_SECTOR);
     return service.has_type && service.has_time;
 }
 
@@ -61,7 +61,8 @@ static void look_through(struct asterix_text *text, bool keep_going)
     }
     if (!has_any) {
         asterix_file_report(file);
-        fail(EXIT_USAGE, "%s: not one plot (CAT048), north marker or sector crossing (CAT034) in it",
+        fail(EXIT_USAGE,
+             "%s: not one plot (CAT048), north marker or sector crossing (CAT034) in it",
              text->path);
     }
     asterix_file_close(file);
@@ -148,7 +149,8 @@ static void report(const struct asterix_text *text)
     asterix_file_report(text->file);
     asterix_text_report(text->path, counts);
     if (text->late > 0) {
-        fprintf(stderr, "rhotrack: %s: %" PRIu64 " rows of a radar whose clock is behind left out\n",
+        fprintf(stderr,
+                "rhotrack: %s: %" PRIu64 " rows of a radar whose clock is behind left out\n",
                 text->path, text->late);
     }
     if (!text->columns.has_scan) {

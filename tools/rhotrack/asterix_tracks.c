@@ -221,8 +221,7 @@ static void end_list(struct asterix_tracks *tracks, int64_t utime)
     tracks->now.count = 0;
 }
 
-void asterix_tracks_add(struct asterix_tracks *tracks,
-                        const struct rho_message_track_list *message)
+void asterix_tracks_add(struct asterix_tracks *tracks, const struct rho_message_track_list *message)
 {
     for (int i = 0; i < message->num_tracks; i++) {
         const struct rho_message_track *track = &message->tracks[i];
@@ -231,8 +230,8 @@ void asterix_tracks_add(struct asterix_tracks *tracks,
         if (track->status != RHO_MESSAGE_TRACK_DELETED) {
             now->entries =
                 must_grow(now->entries, now->count, &now->capacity, sizeof *now->entries);
-            now->entries[now->count++] = (struct entry){
-                track->track_id, track_of(tracks, message->utime, track)};
+            now->entries[now->count++] =
+                (struct entry){track->track_id, track_of(tracks, message->utime, track)};
             note_sensor(tracks, track->sensor_id);
         }
     }

@@ -67,7 +67,8 @@ static struct sockaddr_in read_url(const char *url)
     char *text = must_copy(url + strlen(SCHEME)), *port = strrchr(text, ':'), *end = NULL;
     long number = port ? strtol(port + 1, &end, 10) : 0;
 
-    if (!port || end == port + 1 || *end || port[1] < '0' || port[1] > '9' || number < 1 || number > 65535) {
+    if (!port || end == port + 1 || *end || port[1] < '0' || port[1] > '9' || number < 1 ||
+        number > 65535) {
         fail(EXIT_USAGE, "%s: udp://ADDRESS:PORT is needed, with a port from 1 to 65535", url);
     }
     *port = '\0';

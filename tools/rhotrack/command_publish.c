@@ -218,8 +218,8 @@ bool publish_send(struct transport *transport, const char *channel, const uint8_
 
 static void send_event(struct player *player, const struct message_event *event)
 {
-    player->skipped += !publish_send(player->transport, event->channel, change(player, event),
-                                     event->size);
+    player->skipped +=
+        !publish_send(player->transport, event->channel, change(player, event), event->size);
 }
 
 static void play(struct player *player, const struct command_line *line)

@@ -71,7 +71,9 @@ static void suggest_origin(struct forwarding *forwarding, const struct asterix_p
         parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place->lat_deg);
         parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place->lon_deg);
         parameters_suggest(parameters, PARAMETER_ORIGIN_ALT_M, place->alt_m);
-        fprintf(stderr, "rhotrack: %s: the origin is origin_lat_deg=%.7f, origin_lon_deg=%.7f, origin_alt_m=%.0f\n",
+        fprintf(stderr,
+                "rhotrack: %s: the origin is origin_lat_deg=%.7f, origin_lon_deg=%.7f, "
+                "origin_alt_m=%.0f\n",
                 forwarding->url, place->lat_deg, place->lon_deg, place->alt_m);
     }
 }
