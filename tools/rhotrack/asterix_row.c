@@ -57,7 +57,7 @@ static void put_mark(char *line, const struct asterix_mark *mark)
 static void put_place(char *line, const struct asterix_place *place)
 {
     if (place->is_given) {
-        put(line, ",%.7f,%.7f,%.0f", place->lat_deg, place->lon_deg, place->alt_m);
+        put(line, ",%.9f,%.9f,%.0f", place->lat_deg, place->lon_deg, place->alt_m);
     } else {
         put(line, ",,,");
     }

@@ -211,24 +211,33 @@ void asterix_sensor_add(struct asterix_sensor *sensor, const struct asterix_mark
     }
 }
 
+/* The newest scan that began before a time, else the oldest; NULL where none is open. */
+static struct asterix_open *find_begun(struct asterix_sensor *sensor, int64_t time_128)
+{
+    size_t at = sensor->num_open;
+
+    while (at > 1 && time_128 < sensor->open[at - 1].look.start_128) {
+        at--;
+    }
+    return at > 0 ? &sensor->open[at - 1] : NULL;
+}
+
 void asterix_sensor_add_free(struct asterix_sensor *sensor, const struct asterix_mark *mark,
                              int64_t interval_128)
 {
     struct asterix_look look = {.start_128 = mark->time_128,
                                 .end_128 = mark->time_128 + interval_128,
                                 .advance = ASTERIX_TURN};
-    size_t at = sensor->num_open;
+    struct asterix_open *open = interval_128 > 0 ? find_begun(sensor, mark->time_128) : NULL;
 
-    if (interval_128 > 0) {
-        while (at > 1 && mark->time_128 < sensor->open[at - 1].look.start_128) {
-            at--;
-        }
-    }
-    if (interval_128 > 0 && at > 0 && mark->time_128 < sensor->open[at - 1].look.end_128) {
-        asterix_marks_add(&sensor->open[at - 1].marks, mark);
-    } else {
+    if (!open || mark->time_128 >= open->look.end_128) {
         asterix_marks_add(&begin(sensor, &look, false)->marks, mark);
+        return;
     }
+    if (mark->time_128 < open->look.start_128) {
+        open->look.start_128 = mark->time_128;
+    }
+    asterix_marks_add(&open->marks, mark);
 }
 
 void asterix_sensor_drop(struct asterix_sensor *sensor, bool all, struct asterix_counts *counts)

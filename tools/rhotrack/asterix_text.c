@@ -60,7 +60,6 @@ static void look_through(struct asterix_text *text, bool keep_going)
         has_any |= note(text, &record);
     }
     if (!has_any) {
-        asterix_file_report(file);
         fail(EXIT_USAGE,
              "%s: not one plot (CAT048), north marker or sector crossing (CAT034) in it",
              text->path);
