@@ -137,7 +137,9 @@ static bool take_specification(struct cursor *cursor, const struct asterix_item 
             return refuse(cursor, start + place / BITS,
                           "%s has an item at place %zu, where none is", name, place + 1);
         }
-        *present |= (uint64_t)is_there << place;
+        if (is_there) {
+            *present |= UINT64_C(1) << place;
+        }
     }
     cursor->at += bytes;
     return true;
@@ -146,7 +148,7 @@ static bool take_specification(struct cursor *cursor, const struct asterix_item 
 static bool take_compound(struct cursor *cursor, const struct asterix_item *item)
 {
     char name[16];
-    uint64_t present;
+    uint64_t present = 0;
 
     snprintf(name, sizeof name, "I%03u/%s", cursor->category, item->name);
     if (!take_specification(cursor, item->parts, item->num_parts, name, &present)) {
@@ -166,7 +168,7 @@ bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
     struct cursor cursor = {.data = data, .size = size, .category = category, .error = error};
     const struct asterix_category *profile = asterix_category_find(category);
     char name[24];
-    uint64_t present;
+    uint64_t present = 0;
 
     if (!profile) {
         return refuse(&cursor, 0, "category %u is not known", category);
