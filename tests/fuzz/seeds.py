@@ -18,6 +18,37 @@ def main():
         (folder / f"{name}-{golden.lower()}").write_bytes(data)
     write_logs(pathlib.Path(sys.argv[1]) / "fuzz_log")
     write_frames(pathlib.Path(sys.argv[1]) / "fuzz_frame")
+    write_asterix(pathlib.Path(sys.argv[1]))
+
+
+def write_asterix(folder):
+    """Records of libasterix, one a block; and two turns of a radar, as datagrams and as recordings for the tables' readers."""
+    def block(category, body):
+        return struct.pack(">BH", category, len(body) + 3) + body
+
+    def plot(turn, azimuth):
+        time = int(128 * (100 + 4 * (turn + azimuth / 65536))).to_bytes(3, "big")
+        return block(48, b"\xfd\x02" + b"\x00\x01" + time + b"\x20" + struct.pack(">HH", 9000, azimuth) +
+                     b"\x00\x50" + b"\x80\x00\x64" if azimuth % 2 else
+                     b"\xf0\x00\x01" + time + b"\x20" + struct.pack(">HH", 9000, azimuth))
+
+    def crossing(turn, sector):
+        time = int(128 * (100 + 4 * (turn + sector / 256))).to_bytes(3, "big")
+        return block(34, b"\xf0\x00\x01" + (b"\x02" if sector else b"\x01") + time + bytes((sector,)))
+
+    (folder / "fuzz_asterix").mkdir(parents=True, exist_ok=True)
+    (folder / "fuzz_tables").mkdir(parents=True, exist_ok=True)
+    text = (HERE.parent / "vectors" / "asterix_vectors.h").read_text(encoding="utf-8")
+    for category, vectors in re.findall(r" vectors_(\d+)\[\] = \{(.*?)\n\};", text, re.S):
+        for i, record in enumerate(re.findall(r'"([0-9a-f]+)"', vectors)):
+            data = block(int(category), bytes.fromhex(record))
+            (folder / "fuzz_asterix" / f"{category}-{i}").write_bytes(bytes((i % 8,)) + data)
+    for sectors in (0, 1, 8):
+        radar = b"".join(crossing(turn, 256 // sectors * i) + plot(turn, 8192 * i + 77) + plot(turn, 8192 * i + 900)
+                         if i < sectors else plot(turn, 8192 * i + 77) for turn in range(4) for i in range(8))
+        for rules in range(8):
+            (folder / "fuzz_asterix" / f"radar-{sectors}-{rules}").write_bytes(bytes((rules,)) + radar)
+            (folder / "fuzz_tables" / f"asterix-{sectors}-{rules}").write_bytes(bytes((rules,)) + radar)
 
 
 def write_logs(folder):

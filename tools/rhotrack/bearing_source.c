@@ -281,7 +281,7 @@ bool bearing_source_next(struct bearing_source *source, struct bearing_scan *sca
 
 static void open_table(struct bearing_source *source)
 {
-    source->stream = table_stream_open(source->path, source->keep_going, false);
+    source->stream = table_stream_open(source->path, NULL, source->keep_going, false);
     source->columns = bearing_columns_find(table_stream_table(source->stream));
     gather_start(&source->gather, sizeof(struct rho_bearing),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));

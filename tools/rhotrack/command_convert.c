@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* convert: a CSV file as an LCM log, the messages of one kind of a log as a CSV file, or tracks of either as GeoJSON. */
+/* convert: a CSV file as an LCM log, the messages of one kind of a log as a CSV file, tracks of either as GeoJSON, or a recording in
+ * ASTERIX as either. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "asterix_file.h"
+#include "asterix_text.h"
+#include "asterix_tracks.h"
 #include "commands.h"
 #include "common.h"
 #include "geojson.h"
@@ -67,6 +71,62 @@ static void convert_to_log(const struct command_line *line)
              line->arguments[0]);
     }
     write_log(source, line->arguments[1]);
+    message_source_report(source);
+    message_source_close(source);
+}
+
+/* ---- ASTERIX to CSV ---- */
+
+static void convert_from_asterix(const struct command_line *line)
+{
+    const char *path = line->arguments[0];
+    struct asterix_text *text = asterix_text_open(path, &line->parameters, line->keep_going);
+    struct output output = output_open(line->arguments[1]);
+    struct progress progress = progress_start("rows", 0);
+    char row[ASTERIX_LINE_BYTES];
+    uint64_t bytes = file_bytes(path), rows = 0;
+    size_t length;
+
+    while (asterix_text_next(text, row, &length)) {
+        fwrite(row, 1, length, output.file);
+        progress_show_bytes(&progress, ++rows, asterix_text_position(text), bytes);
+    }
+    progress_end(&progress);
+    output_close(&output);
+    asterix_text_close(text);
+}
+
+/* ---- Tracks to ASTERIX ---- */
+
+/* Lists of tracks as records; other messages of a log are counted. */
+static void convert_to_asterix(const struct command_line *line)
+{
+    const char *input = line->arguments[0];
+    struct message_source *source =
+        message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
+    struct output output = output_open(line->arguments[1]);
+    struct asterix_tracks *tracks = asterix_tracks_open(output.file, &line->parameters);
+    struct message_event event;
+    struct rho_message_track_list message;
+    uint64_t lists = 0, others = 0;
+
+    while (message_source_next(source, &event)) {
+        if (strcmp(event.channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 &&
+            rho_message_track_list_decode(event.data, event.size, &message) == RHO_OK) {
+            asterix_tracks_add(tracks, &message);
+            lists++;
+        } else {
+            others++;
+        }
+    }
+    if (lists == 0) {
+        fail(EXIT_USAGE, "%s: not one list of tracks in it, and CAT062 holds tracks", input);
+    }
+    asterix_tracks_close(tracks);
+    output_close(&output);
+    if (others > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " other messages left out\n", input, others);
+    }
     message_source_report(source);
     message_source_close(source);
 }
@@ -252,6 +312,19 @@ int command_convert(struct command_line *line)
     bool to_map = geojson_is_wanted(line->arguments[1]);
 
     parameters_check(&line->parameters);
+    if (asterix_tracks_is_asterix(line->arguments[1])) {
+        convert_to_asterix(line);
+        return 0;
+    }
+    if (asterix_file_is_asterix(line->arguments[0]) &&
+        !path_ends_with(line->arguments[1], ".lcm")) {
+        if (line->kind) {
+            fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is in ASTERIX",
+                 line->arguments[0]);
+        }
+        convert_from_asterix(line);
+        return 0;
+    }
     check_output(line->arguments[1], from_log);
     if (to_map) {
         check_map(line);

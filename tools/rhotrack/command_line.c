@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asterix_file.h"
 #include "common.h"
 #include "hint.h"
 #include "method.h"
@@ -269,6 +270,25 @@ static void read_options(struct command_line *line, const struct command *comman
     }
 }
 
+/* Where nobody set the origin of the local frame it is where the first radar of a recording says that it stands. */
+static void suggest_origin(struct command_line *line)
+{
+    struct parameters *parameters = &line->parameters;
+    struct asterix_place place = {.is_given = false};
+
+    for (int i = 0; i < line->num_arguments && !place.is_given &&
+                    !parameters_is_set(parameters, PARAMETER_ORIGIN_LAT_DEG) &&
+                    !parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
+         i++) {
+        place = asterix_file_place(line->arguments[i]);
+    }
+    if (place.is_given) {
+        parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place.lat_deg);
+        parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place.lon_deg);
+        parameters_suggest(parameters, PARAMETER_ORIGIN_ALT_M, place.alt_m);
+    }
+}
+
 void command_line_read(struct command_line *line, const struct command *command, int argc,
                        char **argv)
 {
@@ -278,6 +298,8 @@ void command_line_read(struct command_line *line, const struct command *command,
     parameters_locate(&line->parameters);
     line->arguments = argv + optind;
     line->num_arguments = argc - optind;
+    suggest_origin(line);
+    parameters_locate(&line->parameters);
     if (line->num_arguments < command->min_arguments) {
         fail(EXIT_USAGE, "%s: too few arguments; usage: rhotrack %s %s", command->name,
              command->name, command->usage);

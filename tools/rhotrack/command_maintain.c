@@ -280,7 +280,7 @@ int command_maintain(struct command_line *line)
         maintainer_new(maintaining.gate, !line->no_input_estimation, &line->parameters);
     reader = open_reader(line);
     tracks =
-        has_file ? tracks_output_open(line->output, line->covariance, &line->parameters) : NULL;
+        has_file ? tracks_output_open(line->output, &line->parameters, line->covariance) : NULL;
     step_all(&maintaining, reader, line, tracks);
     counts = scan_reader_counts(reader);
     if (counts.plots == 0) {

@@ -9,11 +9,13 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "asterix_udp.h"
 #include "commands.h"
 #include "common.h"
 #include "lcm_log.h"
 #include "message_shift.h"
 #include "message_source.h"
+#include "publish.h"
 #include "rhotrack/udpm.h"
 #include "transport.h"
 
@@ -21,7 +23,6 @@
 #define PIECE_NS 100000000 /* a signal between a look and a sleep is noticed after this long */
 #define LATEST_S 1e9       /* nobody waits as long */
 #define TRIES 100          /* 1 ms apart, where the network has no room for a moment */
-#define EPOCH_OF_CSV 1     /* where the file does not say one */
 
 static volatile sig_atomic_t is_stopped;
 
@@ -54,7 +55,7 @@ static void on_signal(int number)
     is_stopped = 1;
 }
 
-static void watch_signals(void)
+void publish_watch_signals(void)
 {
     struct sigaction action = {.sa_handler = on_signal}; /* sleeps end, they are not restarted */
 
@@ -63,6 +64,11 @@ static void watch_signals(void)
     if (!is_ignored(SIGHUP)) {
         sigaction(SIGHUP, &action, NULL);
     }
+}
+
+bool publish_is_stopped(void)
+{
+    return is_stopped;
 }
 
 /* ---- Time ---- */
@@ -178,7 +184,7 @@ static const uint8_t *change(struct player *player, const struct message_event *
     }
     memcpy(player->buffer, event->data, event->size);
     if (player->epoch) {
-        message_set_epoch(player->buffer, event->size, EPOCH_OF_CSV, player->epoch);
+        message_set_epoch(player->buffer, event->size, PUBLISH_EPOCH_OF_CSV, player->epoch);
     }
     if (player->passes > 0) {
         message_shift(player->buffer, event->size, (int64_t)player->shift_us,
@@ -189,26 +195,31 @@ static const uint8_t *change(struct player *player, const struct message_event *
 
 /* ---- Sending ---- */
 
-static void send_event(struct player *player, const struct message_event *event)
+bool publish_send(struct transport *transport, const char *channel, const uint8_t *data,
+                  size_t size)
 {
     const struct timespec moment = {.tv_nsec = 1000000};
-    const uint8_t *data = change(player, event);
     int tries = 1;
 
-    while (!transport_send(player->transport, event->channel, data, event->size)) {
+    while (!transport_send(transport, channel, data, size)) {
         if (errno == EMSGSIZE) {
-            player->skipped++;
-            return;
+            return false;
         }
         if (errno == EINTR) {
             continue;
         }
         if ((errno != ENOBUFS && errno != EAGAIN) || tries++ == TRIES) {
-            fail(EXIT_RUNTIME, "%s: %s: %s", transport_url(player->transport), event->channel,
-                 strerror(errno));
+            fail(EXIT_RUNTIME, "%s: %s: %s", transport_url(transport), channel, strerror(errno));
         }
         nanosleep(&moment, NULL);
     }
+    return true;
+}
+
+static void send_event(struct player *player, const struct message_event *event)
+{
+    player->skipped +=
+        !publish_send(player->transport, event->channel, change(player, event), event->size);
 }
 
 static void play(struct player *player, const struct command_line *line)
@@ -258,21 +269,23 @@ static bool names_epoch(const char *path)
     return false;
 }
 
-/*
- * A sensor that begins anew says so by its epoch; logs and files that say one keep it. It is the time in units of 2 ms:
- * two runs may begin within a second. 0 stands for none.
- */
-static int32_t own_epoch(const struct command_line *line)
+int32_t publish_epoch(void)
 {
     struct timespec now;
 
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (int32_t)(((int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000) & INT32_MAX) | 1;
+}
+
+/* A sensor that begins anew says so by its epoch; logs and files that say one keep it. 0 stands for none. */
+static int32_t own_epoch(const struct command_line *line)
+{
     for (int i = 0; i < line->num_arguments; i++) {
         if (lcm_log_is_log(line->arguments[i]) || names_epoch(line->arguments[i])) {
             return 0;
         }
     }
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (int32_t)(((int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000) & INT32_MAX) | 1;
+    return publish_epoch();
 }
 
 static void print_summary(const struct player *player)
@@ -294,12 +307,15 @@ int command_publish(struct command_line *line)
 {
     struct player player = {.line = line, .epoch = own_epoch(line)};
 
+    if (asterix_udp_is_url(line->arguments[0])) {
+        return publish_asterix(line);
+    }
     for (int i = 0; i < line->num_arguments; i++) {
         if (transport_is_file(line->lcm, line->arguments[i])) {
             fail(EXIT_USAGE, "publish: %s would be written over what is read", line->arguments[i]);
         }
     }
-    watch_signals();
+    publish_watch_signals();
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
     do {
         play(&player, line);

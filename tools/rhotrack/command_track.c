@@ -338,8 +338,9 @@ static struct tracks_output *open_tracks(const struct command_line *line)
     if (!line->output && line->json) {
         return NULL;
     }
-    return line->follow ? tracks_output_open_in_place(line->output, line->covariance)
-                        : tracks_output_open(line->output, line->covariance, &line->parameters);
+    return line->follow
+               ? tracks_output_open_in_place(line->output, &line->parameters, line->covariance)
+               : tracks_output_open(line->output, &line->parameters, line->covariance);
 }
 
 static void print_results(const struct tracking *tracking, const struct inputs *inputs, bool json)

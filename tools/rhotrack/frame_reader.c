@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include "asterix_file.h"
 #include "bearing_row.h"
 #include "bearing_source.h"
 #include "common.h"
@@ -58,6 +59,9 @@ bool frame_reader_is_bearings(const char *path)
 
     if (lcm_log_is_log(path)) {
         return log_scans_kinds(path) == LOG_HAS_BEARINGS;
+    }
+    if (asterix_file_is_asterix(path)) {
+        return false;
     }
     if (stat(path, &status) || !S_ISREG(status.st_mode)) {
         return false; /* a pipe could not be read again */

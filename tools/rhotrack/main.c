@@ -93,7 +93,7 @@ static const struct command commands[] = {
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
     {"convert", command_convert, "IN OUT [--kind plots|polar|bearings|truth|tracks]", 2, 2, "KcksC",
-     "CSV files to LCM logs and back",
+     "CSV files, LCM logs and ASTERIX to one another",
      "Writes a CSV file (plots, polar plots, bearings, truth or tracks) as an LCM log, or the\n"
      "messages of one kind of a log as a CSV file. CSV files end with .csv, LCM logs with .lcm.\n"
      "Tracks of either become a map where OUT is NAME.geojson; that needs the parameters\n"
@@ -102,7 +102,8 @@ static const struct command commands[] = {
      "the same scan and epoch (columns), else the same t_s, or are within scan_interval_s. "
      "Damaged\n"
      "places of a log are skipped and reported; bad messages are refused, or with --keep-going\n"
-     "skipped and counted.\n"},
+     "skipped and counted. Recordings in ASTERIX (.ast: CAT048 and CAT034) become either; tracks\n"
+     "become CAT062 where OUT ends with .ast.\n"},
     {"node", command_node, "[--lcm URL] [--print] [--log FILE] [--gate best|hough|nearest]", 0, 0,
      "lpLTgsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
@@ -121,7 +122,10 @@ static const struct command commands[] = {
      "program's\n"
      "own, so that a second run is a restart of its sensors: a node follows after follow_scans "
      "(3)\n"
-     "scans that agree, and does not use those before. To a file: --lcm file://NAME.lcm?mode=w.\n"},
+     "scans that agree, and does not use those before. To a file: --lcm file://NAME.lcm?mode=w.\n"
+     "\n"
+     "INPUT udp://ADDRESS:PORT: what radars send there in ASTERIX (CAT048, CAT034) goes on as\n"
+     "messages, scan by scan.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",
      "every parameter with unit, default and range",
      "Prints each parameter's unit, default, range, and its value now with where it came from; "

@@ -40,6 +40,8 @@ static const char *choices_of(enum parameter_id id)
     case PARAMETER_INPUT_MODEL:
     case PARAMETER_TRUE_MODEL:
         return "literal|physical";
+    case PARAMETER_ASTERIX_SCANS:
+        return "turn|sector";
     case PARAMETER_PLANES:
         return "xy|xz|yz";
     default:

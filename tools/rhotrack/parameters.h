@@ -80,6 +80,13 @@
       "messages: of one sensor that are looked at")                                                \
     X(FOLLOW_QUIET_S, "follow_quiet_s", "s", 2, 0.1, 3600, 0, 1,                                   \
       "track --follow: the last scan is complete when the file has not grown for so long")         \
+    X(ASTERIX_SCANS, "asterix_scans", "-", 0, 0, 1, 1, 1,                                          \
+      "recordings in ASTERIX: a scan is a turn of the antenna, or each sector of it")              \
+    X(ASTERIX_HOLD_S, "asterix_hold_s", "s", 1, 0.1, 60, 0, 1,                                     \
+      "publish udp://: wait for the plots of a sector so long after its end")                      \
+    X(ASTERIX_SAC, "asterix_sac", "-", 0, 0, 255, 1, 1,                                            \
+      "system area and identification code of tracks written in ASTERIX")                          \
+    X(ASTERIX_SIC, "asterix_sic", "-", 0, 0, 255, 1, 1, "")                                        \
     X(ORIGIN_LAT_DEG, "origin_lat_deg", "deg", 0, -90, 90, 0, 0,                                   \
       "of the local frame, where latitudes and longitudes are used; passed on in RHO_STATUS")      \
     X(ORIGIN_LON_DEG, "origin_lon_deg", "deg", 0, -180, 180, 0, 0, "")                             \

@@ -165,7 +165,7 @@ static void add_file(struct plot_data *data, const char *path, const struct para
     size_t found = 0;
     unsigned scans;
     if (!lcm_log_is_log(path)) {
-        add_table(data, table_read(path, false), parameters);
+        add_table(data, table_read_as(path, parameters, false), parameters);
         return;
     }
     scans = log_scans_kinds(path);

@@ -243,7 +243,8 @@ bool plot_source_next(struct plot_source *source, struct plot_scan *scan)
 
 static void open_table(struct plot_source *source, const char *path)
 {
-    source->stream = table_stream_open(path, source->keep_going, source->follow);
+    source->stream =
+        table_stream_open(path, source->parameters, source->keep_going, source->follow);
     gather_start(&source->gather, sizeof(struct rho_plot),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     source->gather.begun_max = source->follow ? FOLLOW_BEGUN_MAX : 0;

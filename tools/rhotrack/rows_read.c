@@ -15,7 +15,7 @@
 /* A file on its way; columns are indices into the table, -1 where it has none. */
 struct reading {
     struct rows_file *file;
-    struct table *table;
+    const struct table *table;
     const struct parameters *parameters;
     int t_s, sensor_id, scan, epoch;
     int columns[ROWS_MAX_COLUMNS];
@@ -305,26 +305,32 @@ static void read_rows(struct reading *reading)
                         reason);
         }
     }
-    if (!reading->has_last) {
-        table_fail(reading->table, TABLE_HEADER, "not one good row after the header");
-    }
+}
+
+bool rows_read_table(struct rows_file *file, const char *path, const struct table *table,
+                     const struct parameters *parameters, bool keep_going)
+{
+    struct reading reading = {.file = file, .table = table, .parameters = parameters};
+
+    *file = (struct rows_file){
+        .path = must_copy(path), .keep_going = keep_going, .rows_skipped = table->rows_skipped};
+    rows_start(&file->rows, kind_of(table));
+    find_columns(&reading);
+    read_rows(&reading);
+    rows_geodetic_close(&reading.geodetic);
+    return reading.has_last;
 }
 
 void rows_read(struct rows_file *file, const char *path, const struct parameters *parameters,
                bool keep_going)
 {
-    struct reading reading = {
-        .file = file, .table = table_read(path, keep_going), .parameters = parameters};
+    struct table *table = table_read_as(path, parameters, keep_going);
 
-    table_need_rows(reading.table);
-    *file = (struct rows_file){.path = must_copy(path),
-                               .keep_going = keep_going,
-                               .rows_skipped = reading.table->rows_skipped};
-    rows_start(&file->rows, kind_of(reading.table));
-    find_columns(&reading);
-    read_rows(&reading);
-    rows_geodetic_close(&reading.geodetic);
-    table_free(reading.table);
+    table_need_rows(table);
+    if (!rows_read_table(file, path, table, parameters, keep_going)) {
+        table_fail(table, TABLE_HEADER, "not one good row after the header");
+    }
+    table_free(table);
 }
 
 void rows_refuse(struct rows_file *file, const struct row *row, const char *format, ...)

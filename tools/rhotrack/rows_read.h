@@ -28,6 +28,13 @@ struct rows_file {
 void rows_read(struct rows_file *file, const char *path, const struct parameters *parameters,
                bool keep_going);
 
+/*
+ * The same from a table, which stays the caller's; path is for messages. False: there is not one good row.
+ */
+struct table;
+bool rows_read_table(struct rows_file *file, const char *path, const struct table *table,
+                     const struct parameters *parameters, bool keep_going);
+
 /* A row that turned out bad: exit 2 with its line, or counted. */
 void rows_refuse(struct rows_file *file, const struct row *row, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -3,6 +3,8 @@
  * table: a CSV file with a header row, read by libcsv, columns found by name, the file's own line
  * numbers kept.
  *
+ * A recording in ASTERIX is read as the CSV file that says the same (asterix_text.h).
+ *
  * `#` lines and blank lines are skipped and counted as lines. Every error is `rhotrack: FILE:LINE:
  * what is wrong`, exit 2.
  */
@@ -32,6 +34,10 @@ struct table {
  * cells than the header, bad quotes (bad rows are skipped and counted with keep_going).
  */
 struct table *table_read(const char *path, bool keep_going);
+
+/* The same; of the parameters counts what asterix_text.h has of recordings. */
+struct parameters;
+struct table *table_read_as(const char *path, const struct parameters *parameters, bool keep_going);
 
 /* The same from text in memory; the path is for messages. */
 struct table *table_from_text(const char *path, const char *text, size_t bytes, bool keep_going);

@@ -5,6 +5,7 @@
 
 #include <csv.h>
 
+#include "asterix_text.h"
 #include "table_stream.h"
 
 /*
@@ -15,8 +16,9 @@
 struct table_stream {
     struct table *table;
     bool keep_going, is_whole, follow, is_plain;
-    int file;        /* -1: all is in memory */
-    const char *own; /* the path to look at again; NULL: standard input */
+    int file;                     /* -1: all is in memory, or comes from */
+    struct asterix_text *asterix; /* a recording; or NULL */
+    const char *own;              /* the path to look at again; NULL: standard input */
     struct csv_parser parser;
     char *content;
     size_t bytes, capacity, position;

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "asterix_file.h"
 #include "common.h"
 #include "table_parse.h"
 
@@ -39,6 +40,28 @@ static bool is_silent(const struct table_stream *stream)
     return stream->follow && !stream->is_plain && poll(&ready, 1, 0) <= 0;
 }
 
+/* Room for some bytes more than there are. */
+static void need_room(struct table_stream *stream, size_t bytes)
+{
+    while (stream->capacity - stream->bytes < bytes) {
+        stream->capacity *= 2;
+        stream->content = must_realloc(stream->content, stream->capacity);
+    }
+}
+
+/* The next line of a recording. */
+static void fill_from_asterix(struct table_stream *stream)
+{
+    size_t length;
+
+    need_room(stream, ASTERIX_LINE_BYTES);
+    if (asterix_text_next(stream->asterix, stream->content + stream->bytes, &length)) {
+        stream->bytes += length;
+    } else {
+        stream->is_end = true;
+    }
+}
+
 bool table_stream_fill(struct table_stream *stream)
 {
     ssize_t got;
@@ -47,10 +70,11 @@ bool table_stream_fill(struct table_stream *stream)
         return false;
     }
     drop_parsed(stream);
-    if (stream->bytes == stream->capacity) {
-        stream->capacity *= 2;
-        stream->content = must_realloc(stream->content, stream->capacity);
+    if (stream->asterix) {
+        fill_from_asterix(stream);
+        return true;
     }
+    need_room(stream, 1);
     do {
         got = read(stream->file, stream->content + stream->bytes, stream->capacity - stream->bytes);
     } while (got < 0 && errno == EINTR);
@@ -85,7 +109,17 @@ static void check_content(const struct table_stream *stream)
 
 /* ---- Whole files ---- */
 
-static struct table_stream *open_stream(const char *path, bool keep_going, bool follow)
+static void open_asterix(struct table_stream *stream, const char *path,
+                         const struct parameters *parameters)
+{
+    if (stream->follow) {
+        fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is a recording in ASTERIX", path);
+    }
+    stream->asterix = asterix_text_open(path, parameters, stream->keep_going);
+}
+
+static struct table_stream *open_stream(const char *path, const struct parameters *parameters,
+                                        bool keep_going, bool follow)
 {
     bool is_standard = !strcmp(path, "-");
     struct table_stream *stream = must_calloc(1, sizeof *stream);
@@ -96,15 +130,20 @@ static struct table_stream *open_stream(const char *path, bool keep_going, bool 
     stream->own = is_standard ? NULL : stream->table->path;
     stream->keep_going = keep_going;
     stream->line = 1;
+    stream->follow = follow;
+    stream->capacity = FIRST_CAPACITY;
+    stream->content = must_alloc(stream->capacity);
+    table_parse_start(stream);
+    stream->file = -1;
+    if (!is_standard && asterix_file_is_asterix(path)) {
+        open_asterix(stream, path, parameters);
+        return stream;
+    }
     stream->file = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
     if (stream->file < 0) {
         fail(EXIT_USAGE, "%s: %s", stream->table->path, strerror(errno));
     }
-    stream->capacity = FIRST_CAPACITY;
-    stream->content = must_alloc(stream->capacity);
     stream->is_plain = fstat(stream->file, &status) == 0 && S_ISREG(status.st_mode);
-    stream->follow = follow;
-    table_parse_start(stream);
     return stream;
 }
 
@@ -114,6 +153,7 @@ static void free_stream(struct table_stream *stream)
     if (stream->file >= 0) {
         close(stream->file);
     }
+    asterix_text_close(stream->asterix);
     csv_free(&stream->parser);
     free(stream->row);
     free(stream->content);
@@ -154,7 +194,12 @@ struct table *table_from_text(const char *path, const char *text, size_t bytes, 
 
 struct table *table_read(const char *path, bool keep_going)
 {
-    struct table_stream *stream = open_stream(path, keep_going, false);
+    return table_read_as(path, NULL, keep_going);
+}
+
+struct table *table_read_as(const char *path, const struct parameters *parameters, bool keep_going)
+{
+    struct table_stream *stream = open_stream(path, parameters, keep_going, false);
 
     stream->is_whole = true;
     while (!stream->is_end) {
@@ -165,9 +210,10 @@ struct table *table_read(const char *path, bool keep_going)
 
 /* ---- Row by row ---- */
 
-struct table_stream *table_stream_open(const char *path, bool keep_going, bool follow)
+struct table_stream *table_stream_open(const char *path, const struct parameters *parameters,
+                                       bool keep_going, bool follow)
 {
-    struct table_stream *stream = open_stream(path, keep_going, follow);
+    struct table_stream *stream = open_stream(path, parameters, keep_going, follow);
 
     stream->text_capacity = FIRST_TEXT;
     stream->table->text = must_alloc(stream->text_capacity);
@@ -217,7 +263,8 @@ bool table_stream_is_mid_row(const struct table_stream *stream)
 
 uint64_t table_stream_position(const struct table_stream *stream)
 {
-    return stream->offset + stream->position;
+    return stream->asterix ? asterix_text_position(stream->asterix)
+                           : stream->offset + stream->position;
 }
 
 uint64_t table_stream_size(const struct table_stream *stream)
@@ -235,7 +282,7 @@ void table_stream_close(struct table_stream *stream)
 
 struct table *table_read_header(const char *path)
 {
-    struct table_stream *stream = table_stream_open(path, false, false);
+    struct table_stream *stream = table_stream_open(path, NULL, false, false);
     struct table *table = stream->table;
 
     free_stream(stream);

@@ -21,9 +21,10 @@ enum table_stream_found {
 
 /*
  * Opens a file or a pipe; path "-" is standard input. Its header is there then. With follow the end of a plain file is
- * none: rows may still be added, and a last line without an end waits for its rest; so may the header.
+ * none (not of a recording in ASTERIX: exit 2): rows may still be added, and a last line without an end waits for its rest; so may the header.
  */
-struct table_stream *table_stream_open(const char *path, bool keep_going, bool follow);
+struct table_stream *table_stream_open(const char *path, const struct parameters *parameters,
+                                       bool keep_going, bool follow);
 
 /* The next row, which is then row 0 of the table. A pipe is waited for without follow, never with it. */
 enum table_stream_found table_stream_next(struct table_stream *stream);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "asterix_tracks.h"
 #include "chain.h"
 #include "common.h"
 #include "geojson.h"
@@ -18,6 +19,7 @@ struct tracks_output {
     const char *path;
     bool is_log, with_covariance, has_header;
     struct lcm_log_writer log;
+    struct asterix_tracks *asterix; /* NULL: no such recording */
     int32_t step;
     struct rho_report *single; /* of a step that has one track */
     struct geojson *map;       /* or NULL */
@@ -29,7 +31,7 @@ bool tracks_output_is_log(const char *path)
 }
 
 static struct tracks_output *open_output(const char *path, struct output output,
-                                         bool with_covariance)
+                                         const struct parameters *parameters, bool with_covariance)
 {
     struct tracks_output *tracks = must_calloc(1, sizeof *tracks);
 
@@ -38,23 +40,28 @@ static struct tracks_output *open_output(const char *path, struct output output,
     tracks->with_covariance = with_covariance;
     tracks->output = output;
     tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
+    if (asterix_tracks_is_asterix(path)) {
+        tracks->asterix = asterix_tracks_open(output.file, parameters);
+    }
     return tracks;
 }
 
-struct tracks_output *tracks_output_open(const char *path, bool with_covariance,
-                                         const struct parameters *parameters)
+struct tracks_output *tracks_output_open(const char *path, const struct parameters *parameters,
+                                         bool with_covariance)
 {
     struct tracks_output *tracks;
 
     if (geojson_is_wanted(path) && with_covariance) {
         fail(EXIT_USAGE, "%s: --covariance has no place in GeoJSON", path);
     }
-    tracks = open_output(path, output_open(path), with_covariance);
+    tracks = open_output(path, output_open(path), parameters, with_covariance);
     tracks->map = geojson_is_wanted(path) ? geojson_open(tracks->output.file, parameters) : NULL;
     return tracks;
 }
 
-struct tracks_output *tracks_output_open_in_place(const char *path, bool with_covariance)
+struct tracks_output *tracks_output_open_in_place(const char *path,
+                                                  const struct parameters *parameters,
+                                                  bool with_covariance)
 {
     if (geojson_is_wanted(path)) {
         fail(EXIT_USAGE,
@@ -62,13 +69,13 @@ struct tracks_output *tracks_output_open_in_place(const char *path, bool with_co
              "makes it of a CSV file",
              path);
     }
-    return open_output(path, output_open_in_place(path), with_covariance);
+    return open_output(path, output_open_in_place(path), parameters, with_covariance);
 }
 
 /* Not before there is something to write: what is refused on the way leaves no header on standard output. */
 static void need_header(struct tracks_output *tracks)
 {
-    if (!tracks->is_log && !tracks->map && !tracks->has_header) {
+    if (!tracks->is_log && !tracks->map && !tracks->asterix && !tracks->has_header) {
         tracks->has_header = true;
         tracks_write_header(tracks->output.file, tracks->with_covariance);
     }
@@ -78,6 +85,20 @@ void tracks_output_flush(struct tracks_output *tracks)
 {
     need_header(tracks);
     output_flush(&tracks->output);
+}
+
+static void write_message(struct tracks_output *tracks, int64_t time_us, const uint8_t *data,
+                          size_t size)
+{
+    struct rho_message_track_list message;
+
+    if (tracks->is_log) {
+        lcm_log_must_write(&tracks->log, tracks->path, time_us, RHO_MESSAGE_TRACK_LIST_CHANNEL,
+                           data, size);
+    } else {
+        must_succeed(rho_message_track_list_decode(data, size, &message), "track_list");
+        asterix_tracks_add(tracks->asterix, &message);
+    }
 }
 
 static void write_list(struct tracks_output *tracks, const struct rho_report *report)
@@ -90,8 +111,7 @@ static void write_list(struct tracks_output *tracks, const struct rho_report *re
         must_succeed(
             rho_publish_tracks(report, tracks->step, EPOCH, part, buffer, sizeof buffer, &size),
             "publish");
-        lcm_log_must_write(&tracks->log, tracks->path, report->time_us,
-                           RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer, size);
+        write_message(tracks, report->time_us, buffer, size);
     }
 }
 
@@ -121,7 +141,7 @@ void tracks_output_report(struct tracks_output *tracks, const struct rho_report 
 {
     if (tracks->map) {
         add_report_to_map(tracks->map, report);
-    } else if (tracks->is_log) {
+    } else if (tracks->is_log || tracks->asterix) {
         write_list(tracks, report);
     } else {
         need_header(tracks);
@@ -136,7 +156,7 @@ void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
         add_to_map(tracks->map, time_us, track);
         return;
     }
-    if (!tracks->is_log) {
+    if (!tracks->is_log && !tracks->asterix) {
         need_header(tracks);
         tracks_write_row(tracks->output.file, time_us, track, tracks->with_covariance);
         return;
@@ -158,6 +178,7 @@ void tracks_output_close(struct tracks_output *tracks)
             geojson_close(tracks->map);
         }
         output_close(&tracks->output);
+        asterix_tracks_close(tracks->asterix);
         free(tracks->single);
         free(tracks);
     }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * tracks_output: tracks to a file: CSV, or where its name ends with .lcm an LCM log of RHO_TRACKS messages, one list a step,
- * at the scans' times, or where it ends with .geojson a map (geojson.h).
+ * at the scans' times, or where it ends with .geojson a map (geojson.h), or with .ast or .asterix the same lists as a recording in
+ * ASTERIX (asterix_tracks.h).
  */
 #ifndef RHOTRACK_TOOL_TRACKS_OUTPUT_H
 #define RHOTRACK_TOOL_TRACKS_OUTPUT_H
@@ -18,11 +19,13 @@ struct tracks_output;
  * path NULL: CSV to standard output. A log's tracks always have their covariance, a map's never. Errors: exit 1; 2 where a
  * map has no origin, or is asked for with covariances.
  */
-struct tracks_output *tracks_output_open(const char *path, bool with_covariance,
-                                         const struct parameters *parameters);
+struct tracks_output *tracks_output_open(const char *path, const struct parameters *parameters,
+                                         bool with_covariance);
 
 /* The same, but the file is there from the start, and each step's rows once they are flushed. A map is refused: exit 2. */
-struct tracks_output *tracks_output_open_in_place(const char *path, bool with_covariance);
+struct tracks_output *tracks_output_open_in_place(const char *path,
+                                                  const struct parameters *parameters,
+                                                  bool with_covariance);
 void tracks_output_flush(struct tracks_output *tracks);
 
 /* All tracks of a step. */

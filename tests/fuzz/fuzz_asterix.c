@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * ASTERIX from the network: any bytes as one datagram, put together to scans. The first byte says the rules: scans by turn,
+ * of an interval, whether what radars tell is known before. Recordings are read by fuzz_tables.
+ *
+ * Every plot has one fate; scans of a radar come in the order of time, after what was said to be settled; their plots are
+ * within them, and measure the same; rows of them are whole lines.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "asterix_text.h"
+#include "asterix_udp.h"
+
+static void must(bool holds)
+{
+    if (!holds) {
+        abort();
+    }
+}
+
+static void check_row(const struct asterix_scan *scan, const struct asterix_mark *mark)
+{
+    const struct asterix_columns columns = {.has_place = true, .has_scan = true};
+    char line[ASTERIX_LINE_BYTES];
+    size_t commas = 0;
+
+    asterix_text_row(&columns, scan, mark, line);
+    must(strchr(line, '\n') == line + strlen(line) - 1);
+    for (const char *c = line; *c; c++) {
+        commas += *c == ',';
+    }
+    must(commas == 11);
+}
+
+static void check_scan(const struct asterix_scan *scan, int64_t settled_128)
+{
+    must(scan->time_128 >= settled_128 && scan->number > 0);
+    must(scan->look.advance > 0 && scan->look.advance <= ASTERIX_TURN);
+    must(scan->look.end_128 >= scan->look.start_128 && (scan->is_numbered || scan->count == 1));
+    check_row(scan, NULL);
+    for (size_t i = 0; i < scan->count; i++) {
+        const struct asterix_mark *mark = &scan->marks[i];
+
+        must(mark->time_128 >= settled_128 && mark->range > 0);
+        must(i == 0 || mark->time_128 >= mark[-1].time_128);
+        must(mark->has_alt == scan->marks[0].has_alt);
+        must(mark->has_doppler == scan->marks[0].has_doppler);
+        check_row(scan, mark);
+    }
+}
+
+/* The scans that are complete; settled_128: as it was said before they were. */
+static size_t check_scans(struct asterix_scans *scans, int64_t settled_128)
+{
+    struct asterix_scan scan;
+    size_t count = 0;
+
+    while (asterix_scans_next(scans, &scan)) {
+        check_scan(&scan, settled_128);
+        count += scan.count;
+    }
+    return count;
+}
+
+static void look(struct asterix_scans *scans, const uint8_t *data, size_t size)
+{
+    struct asterix_block block;
+    struct asterix_record record;
+    struct asterix_error error;
+
+    for (size_t at = 0; at < size && asterix_block_read(data + at, size - at, &block, &error);
+         at += ASTERIX_HEADER_BYTES + block.size) {
+        for (size_t i = 0; i < block.size && asterix_record_read(block.category, block.records + i,
+                                                                 block.size - i, &record, &error);
+             i += record.size) {
+            struct asterix_track track;
+
+            asterix_scans_look(scans, &record);
+            if (record.category == ASTERIX_TRACKS) {
+                asterix_track_read(&record, &track);
+            }
+        }
+    }
+}
+
+/* Two at most are told apart. */
+static int count_radars(const uint8_t *data, size_t size)
+{
+    struct asterix_block block;
+    struct asterix_record record;
+    struct asterix_error error;
+    const uint8_t *source = NULL;
+
+    for (size_t at = 0; at < size && asterix_block_read(data + at, size - at, &block, &error);
+         at += ASTERIX_HEADER_BYTES + block.size) {
+        for (size_t i = 0; i < block.size && asterix_record_read(block.category, block.records + i,
+                                                                 block.size - i, &record, &error);
+             i += record.size) {
+            if (record.items[0] && source && memcmp(source, record.items[0], 2) != 0) {
+                return 2;
+            }
+            source = record.items[0] ? record.items[0] : source;
+        }
+    }
+    return source ? 1 : 0;
+}
+
+/* As datagrams of one block each, as far as they go. */
+static size_t take(struct asterix_scans *scans, const uint8_t *data, size_t size,
+                   struct asterix_heard *heard)
+{
+    bool has_one_radar = count_radars(data, size) <= 1; /* another one's clock may be behind */
+    struct asterix_block block;
+    struct asterix_error error;
+    size_t count = 0, bytes;
+
+    for (size_t at = 0; at < size; at += bytes) {
+        int64_t settled_128 = has_one_radar ? asterix_scans_settled_128(scans) : INT64_MIN;
+
+        settled_128 =
+            settled_128 == INT64_MAX ? INT64_MIN : settled_128; /* nothing was heard yet */
+        bytes = asterix_block_read(data + at, size - at, &block, &error)
+                    ? ASTERIX_HEADER_BYTES + block.size
+                    : size - at;
+        asterix_datagram_take(scans, data + at, bytes, heard);
+        count += check_scans(scans, settled_128);
+    }
+    return count;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct asterix_rules rules = {.hold_s = 1, .wait_s = 30};
+    struct asterix_heard heard = {.datagrams = 0};
+    const struct asterix_counts *counts;
+    struct asterix_scans *scans;
+    size_t placed;
+
+    if (size == 0) {
+        return 0;
+    }
+    rules.is_by_turn = (data[0] & 1) != 0;
+    rules.interval_s = (data[0] & 2) != 0 ? 4 : 0;
+    scans = asterix_scans_open(&rules);
+    if (data[0] & 4) {
+        look(scans, data + 1, size - 1);
+    }
+    placed = take(scans, data + 1, size - 1, &heard);
+    asterix_scans_finish(scans);
+    placed += check_scans(scans, INT64_MIN);
+    counts = asterix_scans_counts(scans);
+    must(placed == counts->placed);
+    must(counts->plots == counts->placed + counts->not_real + counts->no_detection +
+                              counts->incomplete + counts->bad_times + counts->late +
+                              counts->unplaced + counts->no_room);
+    must(asterix_scans_settled_128(scans) == INT64_MAX);
+    asterix_scans_close(scans);
+    return 0;
+}

@@ -1,0 +1,267 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# ASTERIX: a simulated radar's plots as a recording come back as they were, are tracked as the CSV file is, by turns and by
+# sectors; bad recordings; tracks as CAT062; live over UDP on the loopback.
+tests=$(dirname "$(realpath "$0")")
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+write="$tests/write_asterix.py"
+
+run simulate polar -o sim --seed 1 --set targets=20 --set range_rate=1
+python3 "$write" sim/polar.csv turns.ast
+python3 "$write" sim/polar.csv norths.ast --sectors 1
+python3 "$write" sim/polar.csv bare.ast --sectors 0
+
+# ---- The same plots ----
+# Ranges to 1/512 NM, azimuths to half of 1/65536 turn, speeds to half a metre a second, times to 1/256 s and half a microsecond.
+cat >same.py <<'PYTHON'
+import csv, math, sys
+def plots(path):
+    return [row for row in csv.DictReader(open(path)) if row["range_m"]]
+want, got = plots(sys.argv[1]), plots(sys.argv[2])
+assert len(want) == len(got), (len(want), len(got))
+def time(row):
+    turn = (0.25 - float(row["azimuth_rad"]) / 2 / math.pi) % 1
+    return 43200 + (math.floor(float(row["t_s"]) / 4 + 1e-9) + turn) * 4
+want.sort(key=lambda row: (time(row), float(row["range_m"])))
+for one, other in zip(want, sorted(got, key=lambda row: float(row["t_s"]))):
+    close = [row for row in got if abs(float(row["t_s"]) - time(one)) <= 1 / 256 + 1e-6
+             and abs(float(row["range_m"]) - float(one["range_m"])) <= 1852 / 512 + 0.01
+             and abs(math.remainder(float(row["azimuth_rad"]) - float(one["azimuth_rad"]), 2 * math.pi)) <= math.pi / 65536 + 1e-6
+             and abs(float(row["range_rate_mps"]) - float(one["range_rate_mps"])) <= 0.5 + 1e-3]
+    assert close, one
+PYTHON
+for name in turns norths bare; do
+    run convert "$name.ast" "$name.csv"
+    check "$name: convert ends well" exits 0
+    check "$name: every plot is as it was sent, to the format's steps" python3 same.py sim/polar.csv "$name.csv"
+done
+check 'a turn is a scan, and begins with a row that saw nothing' \
+    test "$(awk -F, 'NR > 1 && $3 == ""' turns.csv | wc -l)" -eq 15
+run convert turns.ast sectors.csv --set asterix_scans=sector
+check 'by sectors there are 32 a turn' test "$(awk -F, 'NR > 1 && $3 == ""' sectors.csv | wc -l)" -eq 480
+check 'each plot is in its sector, counter-clockwise from .. to' python3 -c '
+import csv, math
+for row in csv.DictReader(open("sectors.csv")):
+    first, last = float(row["sector_from_rad"]), float(row["sector_to_rad"])
+    assert abs((last - first) % (2 * math.pi) - math.pi / 16) < 1e-6
+    if row["range_m"]:
+        assert (float(row["azimuth_rad"]) - first) % (2 * math.pi) <= math.pi / 16 + 1e-6, row'
+cp turns.ast no_ending
+run convert no_ending no_ending.csv
+check 'a recording is known by what is in it' cmp turns.csv no_ending.csv
+
+# ---- The same tracks ----
+for name in turns norths bare; do
+    run track "$name.ast" --config sim/scenario.ini -o "$name.tracks.csv"
+    check "$name: 20 targets, 20 tracks" grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
+done
+run track turns.csv --config sim/scenario.ini
+check 'a recording is tracked as the CSV file that it converts to' writes_same_as turns.tracks.csv
+run convert turns.ast turns.lcm
+run track turns.lcm --config sim/scenario.ini
+check 'and as the log' grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
+run track sectors.csv --config sim/scenario.ini
+check 'sectors are scans' grep -q '480 scans, 1791 plots' stderr
+run initiate turns.ast --config sim/scenario.ini
+check 'initiate reads recordings' exits 0
+run plot scans turns.ast -o turns.svg
+check 'plot scans reads them' exits 0
+run track turns.ast --follow
+check 'follow does not' says 2 'rhotrack: turns.ast: --follow takes CSV files, and this is a recording in ASTERIX'
+
+# ---- Places ----
+python3 "$write" sim/polar.csv placed.ast --place 47.5,8.5,430 --sac 200 --sic 7
+run convert placed.ast placed.csv
+check 'the radar is at its place, and has its number' grep -q '^43200.000000,-14329,,,,,47.49999[0-9]*,8.50000[0-9]*,430,' placed.csv
+run track placed.ast --config sim/scenario.ini -o placed.tracks.csv
+check 'which is the origin where nobody sets one' grep -q '20 tracks confirmed' stderr
+check 'so that tracks are where they were' python3 -c '
+import csv
+pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("turns.tracks.csv")), strict=True)
+assert all(a["track_id"] == b["track_id"] and abs(float(a[name]) - float(b[name])) < 0.5 for a, b in pairs for name in ("x_m", "y_m"))'
+run track placed.ast --config sim/scenario.ini --set origin_lat_deg=47 --set origin_lon_deg=8.5 -o south.tracks.csv
+check 'another origin moves them by 55.6 km' python3 -c '
+import csv
+pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("south.tracks.csv")))
+assert all(abs(float(b["y_m"]) - float(a["y_m"]) - 55588) < 300 for a, b in pairs)'
+
+# ---- Tracks as CAT062 ----
+run track turns.ast --config sim/scenario.ini -o tracks.ast --set asterix_sac=25 --set asterix_sic=9
+check 'tracks are written' exits 0
+cat >cat062.py <<'PYTHON'
+import csv, sys
+rows = list(csv.DictReader(open(sys.argv[2])))
+data, at, records = open(sys.argv[1], "rb").read(), 0, []
+def signed(data):
+    return int.from_bytes(data, "big", signed=True)
+while at < len(data):
+    size = int.from_bytes(data[at + 1:at + 3], "big")
+    assert data[at] == 62 and 3 < size <= 1400
+    end, at = at + size, at + 3
+    while at < end:
+        spec = []
+        while True:
+            byte = data[at]; at += 1
+            spec += [byte >> (7 - i) & 1 for i in range(7)]
+            if not byte & 1:
+                break
+        have = {i + 1 for i, there in enumerate(spec) if there}
+        sizes = {1: 2, 4: 3, 5: 8, 6: 6, 7: 4, 8: 2, 12: 2, 18: 2, 20: 2, 27: 7}
+        item = {}
+        for place in sorted(have):
+            n = sizes.get(place)
+            if place == 13:
+                n = 1
+                while data[at + n - 1] & 1:
+                    n += 1
+            item[place] = data[at:at + n]; at += n
+        records.append(item)
+live = [item for item in records if not (len(item[13]) > 1 and item[13][1] & 0x40)]
+assert len(live) == len(rows), (len(live), len(rows))
+for item, row in zip(live, rows):
+    assert tuple(item[1]) == (25, 9)
+    assert abs(int.from_bytes(item[4], "big") / 128 - float(row["t_s"])) <= 1 / 256 + 1e-6
+    assert int.from_bytes(item[12], "big") == int(row["track_id"]) % 65536
+    assert bool(item[13][0] & 2) == (row["status"] == "tentative")
+    assert (len(item[13]) > 3 and item[13][3] >> 7) == (row["status"] == "coasting")
+    for name, data_of, unit in (("x_m", item[6][:3], 0.5), ("y_m", item[6][3:], 0.5), ("vx_mps", item[7][:2], 0.25),
+                                ("vy_mps", item[7][2:], 0.25)):
+        assert abs(signed(data_of) * unit - float(row[name])) <= unit / 2 + 1e-4, (name, row)
+firsts = sum(len(item[13]) > 1 and item[13][1] >> 5 & 1 for item in records)
+assert firsts == len({row["track_id"] for row in rows}), firsts
+print(len(records) - len(live), "ends")
+PYTHON
+check 'each row of the tracks is a record of the same' python3 cat062.py tracks.ast turns.tracks.csv
+run track turns.ast --config sim/scenario.ini --covariance -o covariance.csv
+run convert covariance.csv converted.ast --set asterix_sac=25 --set asterix_sic=9
+check 'convert writes the same' cmp tracks.ast converted.ast
+run track placed.ast --config sim/scenario.ini -o placed.tracks.ast
+check 'with an origin there are latitudes as well' test "$(wc -c <placed.tracks.ast)" -gt "$(wc -c <tracks.ast)"
+if python3 -c 'import asterix.generated' 2>/dev/null; then
+    for name in tracks placed.tracks turns norths; do
+        check "libasterix reads $name.ast" python3 "$tests/../vectors/make_asterix_vectors.py" --check "$name.ast"
+    done
+else
+    echo 'skipped: libasterix is not installed (its records are in tests/vectors/asterix_vectors.h)'
+fi
+run convert sim/polar.csv polar.ast
+check 'plots are no tracks' says 2 'rhotrack: sim/polar.csv: not one list of tracks in it*'
+check 'and leave no file' test ! -e polar.ast
+
+# ---- Bad recordings ----
+refused() { # name, bytes as printf has them, message
+    printf "$2" >"$1.ast"
+    run convert "$1.ast" "$1.out.csv"
+    check "$1: refused with its byte" says 2 "rhotrack: $1.ast: $3"
+    check "$1: no output" test ! -e "$1.out.csv"
+    run track "$1.ast"
+    check "$1: track says the same" says 2 "rhotrack: $1.ast: $3"
+}
+good='\x30\x00\x0e\xf0\x00\x01\x00\x10\x00\x20\x10\x00\x20\x00'
+refused empty '' 'byte 0: the file is empty'
+refused short "$good\\x30" 'byte 14: a data block has 3 bytes at least, and here are 1'
+refused cut "$good\\x30\\x00\\x0e\\xf0" 'byte 14: a data block of category 48 has 14 bytes, and here are 4'
+refused length "$good\\x30\\x00\\x02" 'byte 15: a data block of category 48 says that it has 2 bytes'
+refused overrun "$good\\x30\\x00\\x06\\xf0\\x00\\x01" 'byte 20: I048/140 goes beyond its data block'
+refused beyond "$good\\x22\\x00\\x06\\x01\\x01\\x80" 'byte 17: the field specification of a record of CAT034 has 3 bytes'
+refused other '\x3e\x00\x04\x00' 'not one plot (CAT048), north marker or sector crossing (CAT034) in it'
+run track nowhere.ast
+check 'a file that is not there' says 2 'rhotrack: nowhere.ast: No such file or directory'
+
+# Each byte of a recording, one after the other, as another one: never anything but an error with a place, or plots.
+head -c 600 turns.ast >start.ast
+python3 - <<'PYTHON'
+data = open("start.ast", "rb").read()
+at = 0
+while at + 3 <= len(data) and at + int.from_bytes(data[at + 1:at + 3], "big") <= len(data):
+    at += int.from_bytes(data[at + 1:at + 3], "big")
+open("start.ast", "wb").write(data[:at])
+PYTHON
+bad=0
+for at in $(seq 0 19 580); do
+    python3 -c 'import sys
+data = bytearray(open("start.ast", "rb").read()); data[int(sys.argv[1]) % len(data)] ^= 0xff
+open("changed.ast", "wb").write(data)' "$at"
+    run convert changed.ast changed.csv
+    [ "$status" -eq 0 ] || { [ "$status" -eq 2 ] && grep -qE '^rhotrack: changed.ast: byte [0-9]+: ' stderr; } || bad=$((bad + 1))
+    run convert changed.ast changed.csv --keep-going
+    [ "$status" -eq 0 ] || bad=$((bad + 1))
+done
+check 'changed bytes: an error with its byte or plots; with --keep-going always plots' test "$bad" -eq 0
+
+# A bad record in the middle, and a block whose length is wrong: the rest comes, and is counted.
+python3 - <<'PYTHON'
+data = open("turns.ast", "rb").read()
+blocks, at = [], 0
+while at < len(data):
+    size = int.from_bytes(data[at + 1:at + 3], "big")
+    blocks.append(data[at:at + size]); at += size
+middle = next(i for i in range(1000, 2000) if blocks[i][0] == 48)
+bad = list(blocks); bad[middle] = bad[middle][:4] + b"\xff" * (len(bad[middle]) - 4)
+open("bad_record.ast", "wb").write(b"".join(bad))
+bad[middle] = b"\x30\x00\x01garbage"
+open("bad_length.ast", "wb").write(b"".join(bad))
+open("with_others.ast", "wb").write(b"".join(blocks[:middle] + [b"\x01\x00\x05ab", b"\x15\x00\x03"] + blocks[middle:]))
+PYTHON
+for name in bad_record bad_length; do
+    run convert "$name.ast" "$name.csv"
+    check "$name: refused" bash -c '[ '"$status"' -eq 2 ] && grep -qE "^rhotrack: '"$name"'.ast: byte [0-9]+: " stderr'
+    run convert "$name.ast" "$name.csv" --keep-going
+    check "$name: with --keep-going one plot less" test "$(awk -F, '$3 != ""' "$name.csv" | wc -l)" -eq 1791
+    check "$name: which is said" grep -qE "^rhotrack: $name.ast: [0-9]+ bytes skipped at 1 bad places" stderr
+done
+run convert with_others.ast with_others.csv
+check 'other categories are left out and counted' \
+    grep -qx 'rhotrack: with_others.ast: blocks of other categories left out: 1 of CAT001, 1 of CAT021' stderr
+check 'and change nothing' cmp with_others.csv turns.csv
+
+# ---- Live ----
+cat >play.py <<'PYTHON'
+import socket, sys, time
+data, at = open(sys.argv[1], "rb").read(), 0
+out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+out.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+out.sendto(b"\x30\x00\x02", (sys.argv[2], int(sys.argv[3])))
+for count in range(10 ** 6):
+    if at >= len(data):
+        break
+    size = int.from_bytes(data[at + 1:at + 3], "big")
+    out.sendto(data[at:at + size], (sys.argv[2], int(sys.argv[3])))
+    at += size
+    if count % 20 == 0:
+        time.sleep(0.002)
+PYTHON
+port=$((20000 + $$ % 20000))
+"$program" publish "udp://127.0.0.1:$port" --lcm 'file://live.lcm?mode=w' --set sensor.1.x_m=0 --for 60 >live.out 2>live.err &
+live=$!
+for _ in $(seq 100); do
+    ss -lun 2>/dev/null | grep -q ":$port " && break
+    grep -q "$(printf '%04X' "$port")" /proc/net/udp && break
+    sleep 0.1
+done
+python3 play.py turns.ast 127.0.0.1 "$port"
+sleep 1
+kill -INT "$live"
+wait "$live"
+check 'publish udp:// ends well' test $? -eq 0
+check 'it counted all plots, one bad datagram' grep -q '1 datagrams bad' live.err
+check 'and sent all turns' grep -q '2288 datagrams, 1791 plots of 1 radars, 15 scans sent' live.err
+run convert live.lcm live.csv
+check 'the messages have the plots of the recording, at times of today' python3 -c '
+import csv
+def plots(path):
+    return [row for row in csv.DictReader(open(path)) if row["range_m"]]
+one, other = plots("turns.csv"), plots("live.csv")
+assert len(one) == len(other)
+for a, b in zip(one, other):
+    assert (float(a["t_s"]) - float(b["t_s"])) % 86400 < 1e-3 or (float(b["t_s"]) - float(a["t_s"])) % 86400 < 1e-3
+    assert abs(float(a["range_m"]) - float(b["range_m"])) < 0.01'
+run track live.lcm --config sim/scenario.ini
+check 'and are tracked' grep -q '20 tracks confirmed' stderr
+run publish udp://127.0.0.1
+check 'a URL without a port' says 2 'rhotrack: udp://127.0.0.1: udp://ADDRESS:PORT is needed, with a port from 1 to 65535'
+run publish udp://radar:8600
+check 'a name' says 2 "rhotrack: udp://radar:8600: 'radar' is no IPv4 address"
+
+finish
