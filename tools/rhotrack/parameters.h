@@ -182,6 +182,8 @@
     X(TRUE_NOISE_M, "true_noise_m", "m", 1, 0, 1e5, 0, 0,                                          \
       "simulate popup, ..., literal: random change of place a scan, each axis; root of Q")         \
     X(TRUE_NOISE_MPS, "true_noise_mps", "m/s", 1, 0, 1e4, 0, 0, "the same of velocities")          \
+    X(REFERENCE_SENSOR, "reference_sensor", "-", 0, -2147483648.0, 2147483647, 1, 0,               \
+      "register: the radar whose time counts as right; unset: the lowest number")                  \
     X(SECTORS_PER_TURN, "sectors_per_turn", "-", 32, 1, 360, 1, 0,                                 \
       "simulate two-radars: scans of a turn; 1: a turn is a scan")                                 \
     X(SECOND_INTERVAL_S, "second_interval_s", "s", 4, 0.001, 3600, 0, 0,                           \
