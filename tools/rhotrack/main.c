@@ -127,7 +127,16 @@ static const struct command commands[] = {
      "Prints each parameter's unit, default, range, and its value now with where it came from; "
      "with\n"
      "--method, that method's customary values.\n"},
-    {"register", NULL, "", 0, 0, "", "", ""},
+    {"register", command_register, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjksC",
+     "biases of radars from common targets",
+     "Reads polar plots of two or more radars, tracks each radar alone, finds the targets that "
+     "several\n"
+     "of them see, and estimates each radar's bias of range, azimuth and time, each with its "
+     "sigma, in\n"
+     "all with what --set and --config say already. Time: one radar's counts as right (parameter\n"
+     "reference_sensor). What the plots do not tell is said to be not known. -o writes the biases "
+     "as an\n"
+     "INI file for --config.\n"},
 };
 
 enum { NUM_COMMANDS = sizeof commands / sizeof *commands };

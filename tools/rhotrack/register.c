@@ -80,7 +80,7 @@ const char *register_add(struct register_data *data, const struct rho_scan *scan
     if (wrong) {
         return wrong;
     }
-    if (data->start_us == 0) {
+    if (data->num_radars == 1 && radar->num_scans == 0) {
         data->start_us = scan->time_us;
     }
     radar->scans =

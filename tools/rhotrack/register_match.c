@@ -13,8 +13,9 @@
 
 #define GAP_MAX_S 35.0 /* between plots of a track; beyond, nobody knows where it was */
 #define COMPARISONS_MIN 5
-#define CLOSE_MEAN_D2                                                                              \
-    6.0 /* mean squared distance in sigmas; 2 where the pair is right and flies straight */
+/* mean squared distance in sigmas, 2 where the pair is right and flies straight, and what one comparison counts at most */
+#define CLOSE_MEAN_D2 6.0
+#define FAR_D2 25.0
 #define DOUBT_M 20000.0 /* one comparison farther off: another target, the rest is not looked at */
 
 struct comparison {
@@ -97,7 +98,7 @@ static void compare_at(const struct course *of, size_t i, const struct course *b
     add_covariance(between, k + 1, share * share, covariance);
     sum->count++;
     sum->sum_m2 += dx_m * dx_m + dy_m * dy_m;
-    sum->sum_d2 += distance2(covariance, dx_m, dy_m);
+    sum->sum_d2 += fmin(distance2(covariance, dx_m, dy_m), FAR_D2);
 }
 
 static struct comparison compare(const struct course *of, const struct course *between)

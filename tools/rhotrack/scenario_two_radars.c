@@ -34,7 +34,7 @@ static const struct radar_kind {
 #define TURN_MIN_RAD (20.0 * DEG_RAD)
 #define TURN_MAX_RAD (120.0 * DEG_RAD)
 #define TURN_MPS2 5.0
-#define INSIDE_SHARE 0.6 /* of its time an aircraft is where both radars see it, at least */
+#define INSIDE_SHARE 0.8 /* of its time an aircraft is where both radars see it, at least */
 #define MARGIN_M 2000.0  /* for turns that begin before and end after */
 
 /* ---- parameters ------------------------------------------------------------------------------- */
