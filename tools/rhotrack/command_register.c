@@ -107,8 +107,7 @@ int command_register(struct command_line *line)
     print(line, &result, rows_skipped);
     if (!register_knows_any(&result)) {
         fail(EXIT_RUNTIME,
-             "register: %zu targets in common tell none of the biases better than one "
-             "plot would",
+             "register: %zu targets in common tell none of the biases to half of a plot's noise",
              result.targets);
     }
     if (line->output) {

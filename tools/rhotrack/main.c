@@ -143,7 +143,7 @@ enum { NUM_COMMANDS = sizeof commands / sizeof *commands };
 
 static const char *command_name(size_t index)
 {
-    return index < NUM_COMMANDS && commands[index].run ? commands[index].name : NULL;
+    return index < NUM_COMMANDS ? commands[index].name : NULL;
 }
 
 static void print_help(void)
@@ -177,13 +177,9 @@ static const struct command *find_command(const char *name)
         fail(EXIT_USAGE, "unknown option '%s'; see rhotrack --help", name);
     }
     for (size_t i = 0; i < NUM_COMMANDS; i++) {
-        if (strcmp(commands[i].name, name) != 0) {
-            continue;
+        if (strcmp(commands[i].name, name) == 0) {
+            return &commands[i];
         }
-        if (!commands[i].run) {
-            fail(EXIT_USAGE, "command '%s' is not in this version; see rhotrack --help", name);
-        }
-        return &commands[i];
     }
     hint = hint_nearest(name, command_name);
     if (hint) {

@@ -10,6 +10,7 @@
 #define FIRST_GATE_M                                                                               \
     3000.0 /* two tracks of a target may be so far apart before anything is known */
 #define ROUNDS_MAX 10
+#define KNOWN_SHARE 0.5 /* of a plot's noise: a bias that is not known to so much is not known */
 
 /* ---- data ------------------------------------------------------------------------------------- */
 
@@ -151,7 +152,7 @@ static size_t reference_of(const struct register_data *data)
     return 0;
 }
 
-/* The noise of one plot of the radar, of each kind: a bias that is not known to it is not known. */
+/* The noise of one plot of the radar, of each kind. */
 static void typical_noise(const struct radar_data *radar, double speed_mps,
                           double noise[NUM_REGISTER_KINDS])
 {
@@ -185,7 +186,7 @@ static void fill_radar(const struct register_data *data, size_t number,
     typical_noise(radar, solution->speed_mps, noise);
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         double sigma = solution->sigma[number * NUM_REGISTER_KINDS + kind];
-        bool is_known = out->common_plots > 0 && sigma <= noise[kind];
+        bool is_known = out->common_plots > 0 && sigma <= KNOWN_SHARE * noise[kind];
 
         out->biases[kind] =
             (struct register_bias){.value = configured[kind] + (is_known ? radar->bias[kind] : 0.0),
@@ -220,9 +221,9 @@ struct register_result register_estimate(struct register_data *data, struct chai
     struct register_result result;
 
     register_track_all(data, chain);
-    register_match(data, FIRST_GATE_M, false);
+    register_match(data, FIRST_GATE_M, 0.0);
     solution = register_solve(data, reference);
-    while (rounds < ROUNDS_MAX && register_match(data, FIRST_GATE_M, true)) {
+    while (rounds < ROUNDS_MAX && register_match(data, FIRST_GATE_M, solution.misfit)) {
         solution_free(&solution);
         solution = register_solve(data, reference);
         rounds++;

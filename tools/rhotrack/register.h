@@ -25,10 +25,9 @@ enum register_kind { REGISTER_RANGE = 0, REGISTER_AZIMUTH, REGISTER_TIME, NUM_RE
 
 /* One bias of one radar, in metres, radians or seconds. */
 struct register_bias {
-    double value; /* in all, with what was configured; not known: what was configured */
-    double sigma; /* of the estimate; the reference's time: 0 */
-    bool
-        is_known; /* else sigma is more than one plot's noise, or nothing is in common: value says nothing */
+    double value;  /* in all, with what was configured; not known: what was configured */
+    double sigma;  /* of the estimate; the reference's time: 0 */
+    bool is_known; /* else sigma is more than half of a plot's noise, or nothing is in common */
 };
 
 struct register_radar {

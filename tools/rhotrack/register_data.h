@@ -56,9 +56,10 @@ struct corrected register_correct(const struct register_data *data, const struct
 /* Scans by time, sectors put together to turns; then every radar's tracks. register_tracks.c */
 void register_track_all(struct register_data *data, struct chain *chain);
 
-/* Which tracks are one target, by the biases as estimated so far: their number `target`. gate_m: rms distance of two tracks;
- * is_close: they are to be together by their noise, too. True where anything changed. register_match.c */
-bool register_match(struct register_data *data, double gate_m, bool is_close);
+/* Which tracks are one target, by the biases as estimated so far: their number `target`. gate_m: rms distance of two tracks.
+ * misfit: they are to be together by their noise, too, which is so much of what their sigmas say; 0: they need not be. True
+ * where anything changed. register_match.c */
+bool register_match(struct register_data *data, double gate_m, double misfit);
 
 /* Targets that several radars have tracks of. */
 size_t register_num_common(const struct register_data *data);

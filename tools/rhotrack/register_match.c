@@ -16,7 +16,7 @@
 /* mean squared distance in sigmas, 2 where the pair is right and flies straight, and what one comparison counts at most */
 #define CLOSE_MEAN_D2 6.0
 #define FAR_D2 25.0
-#define DOUBT_M 20000.0 /* one comparison farther off: another target, the rest is not looked at */
+#define DOUBT_M 20000.0 /* root of the sum: the rest of the way is not looked at */
 
 struct comparison {
     size_t count;
@@ -38,8 +38,9 @@ struct pair {
 
 /* ---- one pair --------------------------------------------------------------------------------- */
 
+/* noise: of the plots over what their sigmas say */
 static void load_course(const struct register_data *data, const struct radar_track *track,
-                        struct course *course)
+                        double noise, struct course *course)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
@@ -51,8 +52,8 @@ static void load_course(const struct register_data *data, const struct radar_tra
         const struct radar_plot *plot = &radar->plots[track->plots[i]];
 
         course->at[i] = register_correct(data, radar, plot);
-        course->along_m2[i] = plot->sigma_range_m * plot->sigma_range_m;
-        course->cross_m2[i] = plot->sigma_cross_m * plot->sigma_cross_m;
+        course->along_m2[i] = pow(noise * plot->sigma_range_m, 2.0);
+        course->cross_m2[i] = pow(noise * plot->sigma_cross_m, 2.0);
     }
 }
 
@@ -132,7 +133,7 @@ static bool overlap(const struct course *one, const struct course *other)
 
 /* The track with more plots in the time is compared with the other's: fewer gaps, more comparisons. */
 static bool is_pair(const struct course *one, const struct course *other, double gate_m,
-                    bool is_close, double *distance)
+                    double misfit, double *distance)
 {
     struct comparison sum = compare(one, other), back = compare(other, one);
 
@@ -144,7 +145,7 @@ static bool is_pair(const struct course *one, const struct course *other, double
     if (*distance > gate_m * gate_m) {
         return false;
     }
-    if (is_close) {
+    if (misfit > 0.0) {
         *distance = sum.sum_d2 / (double)sum.count;
         return *distance <= CLOSE_MEAN_D2;
     }
@@ -172,7 +173,7 @@ static int by_distance(const void *a, const void *b)
 }
 
 static struct pairs find_pairs(const struct register_data *data, const struct course *courses,
-                               double gate_m, bool is_close)
+                               double gate_m, double misfit)
 {
     struct pairs pairs = {0};
 
@@ -181,7 +182,7 @@ static struct pairs find_pairs(const struct register_data *data, const struct co
             struct pair pair = {i, j, 0.0};
 
             if (courses[i].radar != courses[j].radar && overlap(&courses[i], &courses[j]) &&
-                is_pair(&courses[i], &courses[j], gate_m, is_close, &pair.distance)) {
+                is_pair(&courses[i], &courses[j], gate_m, misfit, &pair.distance)) {
                 pairs.list = must_grow(pairs.list, pairs.count, &pairs.room, sizeof *pairs.list);
                 pairs.list[pairs.count++] = pair;
             }
@@ -228,7 +229,7 @@ static bool take_targets(struct register_data *data, const size_t *targets)
     return is_changed;
 }
 
-bool register_match(struct register_data *data, double gate_m, bool is_close)
+bool register_match(struct register_data *data, double gate_m, double misfit)
 {
     struct course *courses = must_calloc(data->num_tracks + 1, sizeof *courses);
     size_t *targets = must_calloc(data->num_tracks + 1, sizeof *targets);
@@ -237,9 +238,9 @@ bool register_match(struct register_data *data, double gate_m, bool is_close)
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         targets[i] = i;
-        load_course(data, &data->tracks[i], &courses[i]);
+        load_course(data, &data->tracks[i], fmax(1.0, misfit), &courses[i]);
     }
-    pairs = find_pairs(data, courses, gate_m, is_close);
+    pairs = find_pairs(data, courses, gate_m, misfit);
     for (size_t i = 0; i < pairs.count; i++) {
         size_t one = targets[pairs.list[i].first], other = targets[pairs.list[i].second];
 

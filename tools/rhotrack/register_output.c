@@ -40,20 +40,21 @@ static void put_row(struct grid *grid, const struct register_result *result, siz
 {
     const struct register_radar *of = &result->radars[radar];
     static const int digits[NUM_REGISTER_KINDS] = {1, 4, 4};
-    char values[NUM_REGISTER_KINDS][GRID_NUMBER], sigmas[NUM_REGISTER_KINDS][GRID_NUMBER];
+    char texts[2 * NUM_REGISTER_KINDS][GRID_NUMBER];
+    const char *cells[2 * NUM_REGISTER_KINDS];
 
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         const struct register_bias *bias = &of->biases[kind];
         double factor = kind == REGISTER_AZIMUTH ? 1.0 / DEG_RAD : 1.0;
-        bool is_shown = bias->is_known || is_reference(result, radar, kind);
+        bool is_taken = is_reference(result, radar, kind);
+        double value = bias->is_known || is_taken ? factor * bias->value : NAN;
+        double sigma = bias->is_known && !is_taken ? factor * bias->sigma : NAN;
 
-        grid_number(values[kind], digits[kind], is_shown ? factor * bias->value : NAN);
-        grid_number(sigmas[kind], digits[kind], bias->is_known ? factor * bias->sigma : NAN);
+        cells[2 * kind] = grid_number(texts[2 * kind], digits[kind], value);
+        cells[2 * kind + 1] = grid_number(texts[2 * kind + 1], digits[kind], sigma);
     }
     grid_row(grid, "%d|%zu|%zu|%zu|%s|%s|%s|%s|%s|%s", (int)of->sensor_id, of->plots, of->tracks,
-             of->common_plots, values[REGISTER_RANGE], sigmas[REGISTER_RANGE],
-             values[REGISTER_AZIMUTH], sigmas[REGISTER_AZIMUTH], values[REGISTER_TIME],
-             sigmas[REGISTER_TIME]);
+             of->common_plots, cells[0], cells[1], cells[2], cells[3], cells[4], cells[5]);
 }
 
 /* Each bias that is not known, and why. */
@@ -69,11 +70,12 @@ static void print_unknown(const struct register_result *result, FILE *out)
         }
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
             if (!of->biases[kind].is_known && !is_reference(result, i, kind)) {
-                fprintf(
-                    out,
-                    "radar %d, %s: not known; its sigma of %.3g %s is beyond one plot's noise: too "
-                    "few targets, or all in one place or direction\n",
-                    (int)of->sensor_id, kinds[kind].what, of->biases[kind].sigma, kinds[kind].unit);
+                fprintf(out,
+                        "radar %d, %s: not known; its sigma of %.3g %s is beyond half of a plot's "
+                        "noise: too "
+                        "few targets, or all in one place or direction\n",
+                        (int)of->sensor_id, kinds[kind].what, of->biases[kind].sigma,
+                        kinds[kind].unit);
             }
         }
     }
