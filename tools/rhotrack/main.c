@@ -59,11 +59,10 @@ static const struct command commands[] = {
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
      "same-line, clutter, slow-turn, traffic, air-traffic, polar (polar.csv: a turning radar's\n"
-     "plots), "
-     "formation, passive-two, passive-three, passive-clutter (bearings.csv), popup, weave, "
-     "hard-turn (one "
-     "target\n"
-     "that pulls, in a beam, with heights); their parameters are set by --set.\n"},
+     "plots), two-radars (of two, with biases), formation, passive-two, passive-three,\n"
+     "passive-clutter (bearings.csv), popup, weave, hard-turn (one target that pulls, in a beam, "
+     "with\n"
+     "heights); their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
      "oBjsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "
@@ -82,7 +81,8 @@ static const struct command commands[] = {
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
      "build/experiment/NAME). Experiments: initiation, polar, false-alarms, passive, maneuver,\n"
-     "air-traffic; initiation takes --method kernel, ht, mht, iht or nht, passive takes passive "
+     "air-traffic, two-radars; initiation takes --method kernel, ht, mht, iht or nht, passive "
+     "takes passive "
      "or\n"
      "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "
      "rivals;\n"
