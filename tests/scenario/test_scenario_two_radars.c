@@ -86,7 +86,7 @@ static void test_radars_are_off_by_their_biases(void **state)
     simulation_free(simulation);
 }
 
-/* Each aircraft is always in one radar's reach, and in both for most of its time; detections are the radars' P_D. */
+/* Aircraft keep 5 nautical miles apart. Each is always in one radar's reach, and in both for most of its time; detections are the radars' P_D. */
 static void test_aircraft_are_common(void **state)
 {
     struct parameters parameters = parameters_of_scenario();
@@ -104,6 +104,10 @@ static void test_aircraft_are_common(void **state)
         assert_true(first || second);
         assert_int_equal(at->target_id, (int)(i % 20));
         assert_true(i < 20 || at->t_s > simulation->truth[i - 20].t_s);
+        for (size_t j = i - i % 20; j < i; j++) { /* looked at each 5 s, at 500 m/s at most */
+            assert_true(hypot(at->x_m - simulation->truth[j].x_m,
+                              at->y_m - simulation->truth[j].y_m) > 9260.0 - 1250.0);
+        }
         common += first && second;
         reach[0] += first_m > 2000.0 && first;
         reach[1] += second;

@@ -179,10 +179,10 @@ static struct verdicts judge(const struct radars_summary *summary)
     double alone_m = fmin(radars_rmse_m(&summary->figures[CASE_FIRST]),
                           radars_rmse_m(&summary->figures[CASE_SECOND]));
 
-    verdicts_at_most(&verdicts, errors[REGISTER_RANGE].p95, 10.0,
-                     "register: range bias, 95 %% of the errors within, m");
-    verdicts_at_most(&verdicts, errors[REGISTER_AZIMUTH].p95 / DEG_RAD, 0.02,
-                     "register: azimuth bias, 95 %% of the errors within, degrees");
+    verdicts_at_most(&verdicts, errors[REGISTER_RANGE].worst, 10.0,
+                     "register: range bias, worst error, m");
+    verdicts_at_most(&verdicts, errors[REGISTER_AZIMUTH].worst / DEG_RAD, 0.02,
+                     "register: azimuth bias, worst error, degrees");
     verdicts_at_most(&verdicts,
                      (double)(errors[REGISTER_RANGE].unknown + errors[REGISTER_AZIMUTH].unknown +
                               errors[REGISTER_TIME].unknown),

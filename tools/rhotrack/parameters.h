@@ -158,7 +158,7 @@
     X(FALSE_ALARMS, "false_alarms", "-", 0, 0, 1e4, 0, 0,                                          \
       "simulate passive-...: mean false bearings a sensor and scan")                               \
     X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
-      "simulate parallel, formation, same-line: distance of the two targets")                      \
+      "simulate parallel, formation, same-line: distance of the two targets; two-radars: least")   \
     X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0,                                       \
       "simulate crossing-angle, formation: angle between the tracks")                              \
     X(TURN_DEG, "turn_deg", "deg", 2, -90, 90, 0, 0,                                               \

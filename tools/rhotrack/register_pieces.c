@@ -285,7 +285,7 @@ bool piece_fit(const struct register_data *data, struct pieces *pieces, struct p
     struct piece_plot *plots = &pieces->plots[piece->first];
     struct opened *opened = must_calloc(piece->count, sizeof *opened);
     struct corrected from;
-    double factor[PIECE_COEFFICIENTS * PIECE_COEFFICIENTS], v_mps[2];
+    double factor[PIECE_COEFFICIENTS * PIECE_COEFFICIENTS];
     bool is_fitted;
 
     for (size_t i = 0; i < piece->count; i++) {
@@ -303,6 +303,8 @@ bool piece_fit(const struct register_data *data, struct pieces *pieces, struct p
             add_projected(plots, opened, piece, factor, mixed, normal);
             free(mixed);
         }
+        double v_mps[2];
+
         velocity_of(piece, &opened[piece->count / 2], v_mps);
         piece->speed_mps = hypot(v_mps[0], v_mps[1]);
         weigh(plots, opened, piece);

@@ -36,6 +36,7 @@ static const struct radar_kind {
 #define TURN_MPS2 5.0
 #define INSIDE_SHARE 0.8 /* of its time an aircraft is where both radars see it, at least */
 #define MARGIN_M 2000.0  /* for turns that begin before and end after */
+#define CHECK_S 5.0      /* so often it is looked at where it is */
 
 /* ---- parameters ------------------------------------------------------------------------------- */
 
@@ -44,12 +45,17 @@ void suggest_two_radars(struct parameters *parameters)
     static const struct {
         enum parameter_id id;
         double value;
-    } values[] = {
-        {PARAMETER_TARGETS, 20},           {PARAMETER_STEADY_S, 120},
-        {PARAMETER_SECOND_INTERVAL_S, 4},  {PARAMETER_SECTORS_PER_TURN, 32},
-        {PARAMETER_TRUE_RANGE_BIAS_M, 50}, {PARAMETER_TRUE_AZIMUTH_BIAS_RAD, 0.1 * DEG_RAD},
-        {PARAMETER_TRUE_TIME_BIAS_S, 0},   {PARAMETER_LATE_SHARE, 0.2},
-        {PARAMETER_LATE_MS, 300}};
+    } values[] = {{PARAMETER_TARGETS, 20},
+                  {PARAMETER_SPACING_M, 9260}, /* 5 nautical miles, as on one level */
+                  {PARAMETER_STEADY_S, 120},
+                  {PARAMETER_COAST_SCANS_MAX, 12}, /* of both radars: half a minute */
+                  {PARAMETER_SECOND_INTERVAL_S, 4},
+                  {PARAMETER_SECTORS_PER_TURN, 32},
+                  {PARAMETER_TRUE_RANGE_BIAS_M, 50},
+                  {PARAMETER_TRUE_AZIMUTH_BIAS_RAD, 0.1 * DEG_RAD},
+                  {PARAMETER_TRUE_TIME_BIAS_S, 0},
+                  {PARAMETER_LATE_SHARE, 0.2},
+                  {PARAMETER_LATE_MS, 300}};
 
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
         parameters_suggest(parameters, values[i].id, values[i].value);
@@ -181,10 +187,10 @@ static bool sees(const struct scenario_antenna *radar, const struct truth_point 
 static bool is_common(const struct aircraft *aircraft,
                       const struct scenario_antenna radars[NUM_RADARS], double duration_s)
 {
-    size_t both = 0, count = 0;
+    size_t both = 0, count = (size_t)(duration_s / CHECK_S) + 1;
 
-    for (double t_s = 0.0; t_s <= duration_s; t_s += 5.0, count++) {
-        const struct truth_point at = aircraft_at(aircraft, t_s);
+    for (size_t i = 0; i < count; i++) {
+        const struct truth_point at = aircraft_at(aircraft, CHECK_S * (double)i);
         bool first = sees(&radars[0], &at), second = sees(&radars[1], &at);
 
         both += first && second;
@@ -195,19 +201,43 @@ static bool is_common(const struct aircraft *aircraft,
     return (double)both >= INSIDE_SHARE * (double)count;
 }
 
-static struct aircraft draw_aircraft(const struct scenario_antenna radars[NUM_RADARS],
-                                     double duration_s, struct random *random)
+/* Never nearer than that to one of those before. */
+static bool is_apart(const struct aircraft *aircraft, const struct aircraft *others,
+                     size_t num_others, double spacing_m, double duration_s)
 {
-    for (int i = 0; i < DRAFTS_MAX; i++) {
-        struct aircraft aircraft = draft_aircraft(radars, duration_s, random);
+    for (size_t i = 0; CHECK_S * (double)i <= duration_s; i++) {
+        const struct truth_point at = aircraft_at(aircraft, CHECK_S * (double)i);
 
-        if (is_common(&aircraft, radars, duration_s)) {
-            return aircraft;
+        for (size_t j = 0; j < num_others; j++) {
+            const struct truth_point other = aircraft_at(&others[j], CHECK_S * (double)i);
+
+            if (hypot(at.x_m - other.x_m, at.y_m - other.y_m) < spacing_m) {
+                return false;
+            }
         }
     }
-    fail(EXIT_USAGE,
-         "scenario two-radars: no aircraft stays where both radars see it for the whole "
-         "run; take fewer scans or radars that see farther");
+    return true;
+}
+
+static void draw_aircraft(struct aircraft *aircraft, size_t count,
+                          const struct scenario_antenna radars[NUM_RADARS], double spacing_m,
+                          double duration_s, struct random *random)
+{
+    int drafts = 0;
+
+    for (size_t i = 0; i < count; drafts++) {
+        if (drafts == DRAFTS_MAX) {
+            fail(EXIT_USAGE,
+                 "scenario two-radars: no aircraft stays where both radars see it, "
+                 "spacing_m from others, for the whole run; take fewer scans or targets");
+        }
+        aircraft[i] = draft_aircraft(radars, duration_s, random);
+        if (is_common(&aircraft[i], radars, duration_s) &&
+            is_apart(&aircraft[i], aircraft, i, spacing_m, duration_s)) {
+            i++;
+            drafts = 0;
+        }
+    }
 }
 
 /* ---- the simulation --------------------------------------------------------------------------- */
@@ -256,9 +286,8 @@ struct simulation *simulate_two_radars(const struct parameters *parameters, stru
     for (int i = 0; i < NUM_RADARS; i++) {
         radars[i] = radar_of(parameters, i + 1, random);
     }
-    for (size_t i = 0; i < num_targets; i++) {
-        aircraft[i] = draw_aircraft(radars, duration_s, random);
-    }
+    draw_aircraft(aircraft, num_targets, radars, parameters->value[PARAMETER_SPACING_M], duration_s,
+                  random);
     simulation->num_targets = simulation->targets_a_scan = num_targets;
     simulation->interval_s = interval_s;
     simulation->area = area_of(radars);

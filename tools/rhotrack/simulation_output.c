@@ -149,9 +149,10 @@ static void write_radar(const struct scenario_radar *radar, double interval_s, F
     }
 }
 
-/* How long scans have to be waited for. */
-static void write_late(const struct parameters *parameters, FILE *file)
+/* How many misses in a row are none too many, and how long scans have to be waited for. */
+static void write_patience(const struct parameters *parameters, FILE *file)
 {
+    fprintf(file, "coast_scans_max = %g\n", parameters->value[PARAMETER_COAST_SCANS_MAX]);
     if (parameters->value[PARAMETER_LATE_SHARE] > 0.0) {
         fprintf(file, "hold_ms = %g\n", parameters->value[PARAMETER_LATE_MS]);
     }
@@ -175,7 +176,7 @@ static void write_settings(const char *name, const struct simulation *simulation
     struct output output = output_open(path);
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
     if (simulation->record != NULL) {
-        write_late(parameters, output.file);
+        write_patience(parameters, output.file);
     } else if (simulation->passive.is_used) {
         fprintf(output.file, "sigma_rad = %.9g\n", simulation->passive.sigma_rad);
     } else if (simulation->radar.is_used) {
