@@ -36,7 +36,6 @@ refuse() { # name, pattern of the line, arguments...
 refuse 'no command' 'no command*--help'
 refuse 'unknown command' "unknown command 'xyzzy'*" xyzzy plots.csv
 refuse 'misspelt command' "unknown command 'trakc', did you mean 'track'?" trakc plots.csv
-refuse 'command of a later version' "command 'register' is not in this version*" register
 refuse 'unknown option before the command' "unknown option '--frob'*" --frob
 refuse 'unknown option' "track: unknown option '--frobnicate'*" track --frobnicate plots.csv
 refuse 'misspelt option' "track: unknown option '--jsn', did you mean '--json'?" track --jsn plots.csv

@@ -47,9 +47,10 @@ static const struct {
     {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
     {"air-traffic", experiment_air_traffic, is_air_part,
      "parts grid, stress, operation, pairs, clutter, rivals"},
+    {"two-radars", experiment_two_radars, knows_no_method, "default alone, no methods"},
 };
 
-#define NAMES "initiation, polar, false-alarms, passive, maneuver, air-traffic"
+#define NAMES "initiation, polar, false-alarms, passive, maneuver, air-traffic, two-radars"
 
 int command_experiment(struct command_line *line)
 {

@@ -10,8 +10,8 @@
 /* One command of the program, a row of main's table. */
 struct command {
     const char *name;
-    int (*run)(struct command_line *line); /* NULL: planned, not in this version */
-    const char *usage;                     /* arguments and the most important options */
+    int (*run)(struct command_line *line);
+    const char *usage; /* arguments and the most important options */
     int min_arguments, max_arguments;
     const char *options; /* the options' letters that it takes, as in command_line.c's table */
     const char *summary; /* one line */

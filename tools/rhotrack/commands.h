@@ -42,6 +42,7 @@ int command_bench(struct command_line *line);
 int command_convert(struct command_line *line);
 int command_node(struct command_line *line);
 int command_publish(struct command_line *line);
+int command_register(struct command_line *line);
 int command_config(struct command_line *line);
 
 #endif

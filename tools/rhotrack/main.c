@@ -59,11 +59,10 @@ static const struct command commands[] = {
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
      "same-line, clutter, slow-turn, traffic, air-traffic, polar (polar.csv: a turning radar's\n"
-     "plots), "
-     "formation, passive-two, passive-three, passive-clutter (bearings.csv), popup, weave, "
-     "hard-turn (one "
-     "target\n"
-     "that pulls, in a beam, with heights); their parameters are set by --set.\n"},
+     "plots), two-radars (of two, with biases), formation, passive-two, passive-three,\n"
+     "passive-clutter (bearings.csv), popup, weave, hard-turn (one target that pulls, in a beam, "
+     "with\n"
+     "heights); their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
      "oBjsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "
@@ -82,7 +81,8 @@ static const struct command commands[] = {
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
      "build/experiment/NAME). Experiments: initiation, polar, false-alarms, passive, maneuver,\n"
-     "air-traffic; initiation takes --method kernel, ht, mht, iht or nht, passive takes passive "
+     "air-traffic, two-radars; initiation takes --method kernel, ht, mht, iht or nht, passive "
+     "takes passive "
      "or\n"
      "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "
      "rivals;\n"
@@ -131,14 +131,23 @@ static const struct command commands[] = {
      "Prints each parameter's unit, default, range, and its value now with where it came from; "
      "with\n"
      "--method, that method's customary values.\n"},
-    {"register", NULL, "", 0, 0, "", "", ""},
+    {"register", command_register, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjksC",
+     "biases of radars from common targets",
+     "Reads polar plots of two or more radars, tracks each radar alone, finds the targets that "
+     "several\n"
+     "of them see, and estimates each radar's bias of range, azimuth and time, each with its "
+     "sigma, in\n"
+     "all with what --set and --config say already. Time: one radar's counts as right (parameter\n"
+     "reference_sensor). What the plots do not tell is said to be not known. -o writes the biases "
+     "as an\n"
+     "INI file for --config.\n"},
 };
 
 enum { NUM_COMMANDS = sizeof commands / sizeof *commands };
 
 static const char *command_name(size_t index)
 {
-    return index < NUM_COMMANDS && commands[index].run ? commands[index].name : NULL;
+    return index < NUM_COMMANDS ? commands[index].name : NULL;
 }
 
 static void print_help(void)
@@ -172,13 +181,9 @@ static const struct command *find_command(const char *name)
         fail(EXIT_USAGE, "unknown option '%s'; see rhotrack --help", name);
     }
     for (size_t i = 0; i < NUM_COMMANDS; i++) {
-        if (strcmp(commands[i].name, name) != 0) {
-            continue;
+        if (strcmp(commands[i].name, name) == 0) {
+            return &commands[i];
         }
-        if (!commands[i].run) {
-            fail(EXIT_USAGE, "command '%s' is not in this version; see rhotrack --help", name);
-        }
-        return &commands[i];
     }
     hint = hint_nearest(name, command_name);
     if (hint) {

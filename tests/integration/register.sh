@@ -1,0 +1,89 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Two radars with biases: simulate two-radars, register, and tracks with what it found; what it refuses.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+
+# ---- simulate two-radars ----
+run simulate two-radars -o late
+check 'a fifth of the scans arrives 300 ms late, and none before it ends' awk -F, '
+    NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+    $(at["received_s"]) + 0 < last { exit 1 } { last = $(at["received_s"]) }
+    $(at["range_m"]) == "" { scans++; after = $(at["received_s"]) - $1; late += after > 0.299
+        if (after < -1e-6 || (after > 1e-6 && after < 0.299) || after > 0.301) exit 1 }
+    END { exit !(scans == 6688 && late / scans > 0.17 && late / scans < 0.23) }' late/polar.csv
+check 'scenario.ini says how long to wait' grep -qx 'hold_ms = 300' late/scenario.ini
+check 'and nothing of the biases' bash -c '! grep -q bias late/scenario.ini'
+check 'the sectors of each radar are numbered from 1, each once' awk -F, '
+    NR > 1 && $3 == "" { if (seen[$2 "," $9]++) exit 1; count[$2]++; if ($9 + 0 > most[$2]) most[$2] = $9 + 0 }
+    END { for (s in count) if (count[s] != most[s] || count[s] < 1900) exit 1 }' late/polar.csv
+run simulate two-radars --set late_share=0 -o sectors
+check 'without late data there is no column received_s' bash -c '! head -n 1 sectors/polar.csv | grep -q received_s'
+run simulate two-radars --set late_share=0 --set sectors_per_turn=1 -o turns
+run track turns/polar.csv --config turns/scenario.ini
+check 'whole turns are scans' grep -q 'rhotrack: 20[89] scans' stderr
+
+# ---- register ----
+good='len(o["radars"]) == 2 and all(abs(r["range_bias_m"] - s * 50) < 4 * r["range_bias_sigma_m"] < 20
+and abs(r["azimuth_bias_rad"] - s * 0.00174533) < 4 * r["azimuth_bias_sigma_rad"] < 0.0006
+for r, s in zip(o["radars"], (1, -1))) and abs(o["radars"][1]["time_bias_s"]) < 4 * o["radars"][1]["time_bias_sigma_s"]
+and o["radars"][0]["time_bias_s"] == 0 and o["reference_sensor"] == 1 and o["targets"] >= 19'
+good=${good//$'\n'/ }
+for kind in sectors turns; do
+    run register "$kind/polar.csv" --config "$kind/scenario.ini" --json -o "$kind.ini"
+    cp stdout "$kind.json"
+    check "$kind: biases within their sigmas" json "$kind.json" "$good"
+done
+awk -F, 'NR == 1 || $2 == 1' sectors/polar.csv >first.csv
+awk -F, 'NR == 1 || $2 == 2' sectors/polar.csv >second.csv
+run register second.csv first.csv --config sectors/scenario.ini --json
+check 'two files are as one' cmp stdout sectors.json
+run register sectors/polar.csv --config sectors/scenario.ini --config sectors.ini --json
+check 'with the biases configured they come out again, in all' json stdout "$good"
+run register sectors/polar.csv --config sectors/scenario.ini --set reference_sensor=2
+check 'another reference' grep -q '^the time of radar 2 counts as right' stdout
+run register sectors/polar.csv --config sectors/scenario.ini
+check 'a table' bash -c 'grep -Eq "^ +1 .* 0\.0000 +-$" stdout && grep -q "^20 targets in common" stdout'
+
+# ---- what it is for ----
+run track turns/polar.csv --config turns/scenario.ini -o raw.csv
+run evaluate turns/truth.csv raw.csv --json
+cp stdout raw.json
+run track turns/polar.csv --config turns/scenario.ini --config turns.ini -o right.csv
+run evaluate turns/truth.csv right.csv --json
+check 'tracks are nearer to the truth with them' json stdout \
+    "o[\"rmse_m\"] < 0.9 * $(python3 -c 'import json; print(json.load(open("raw.json"))["rmse_m"])')"
+
+# ---- experiment two-radars ----
+run experiment two-radars --runs 2 -o page --json
+check 'experiment: tracks with the biases of register are nearly as good as with the true ones' json stdout \
+    'len(o["cases"]) == 6 and (lambda c: c[3]["rmse_m"] < 1.1 * c[4]["rmse_m"] and c[3]["rmse_m"] < 0.95 * c[2]["rmse_m"] and c[3]["rmse_m"] < min(c[0]["rmse_m"], c[1]["rmse_m"]) and c[3]["duplicates_per_target"] < 0.02 and all(0.9 < x["completeness"] <= 1 for x in c[:5]))(o["cases"])'
+check 'experiment: biases of both radars' json stdout \
+    'o["range_bias_m"]["estimates"] == 4 and o["time_bias_s"]["estimates"] == 2 and 0 < o["range_bias_m"]["rms"] < 10'
+check 'experiment: a page and its pictures' test -s page/index.html -a -s page/map.svg -a -s page/raw.svg \
+    -a -s page/right.svg -a -s page/range.svg -a -s page/azimuth.svg
+
+# ---- what it refuses ----
+run register first.csv --config sectors/scenario.ini
+check 'one radar' says 2 'rhotrack: register: only one radar is in the input; *'
+run simulate parallel -o cartesian
+run register cartesian/plots.csv
+check 'Cartesian plots' says 2 'rhotrack: register: sensor 0: its plots are not in range and azimuth'
+run simulate passive-two -o passive
+run register passive/bearings.csv
+check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, and no bearings'
+run register sectors/polar.csv --config sectors/scenario.ini --set reference_sensor=7
+check 'a reference that is not there' says 2 'rhotrack: reference_sensor 7 is none of *'
+cut -d, -f1-4,7-9 sectors/polar.csv >placeless.csv
+run register placeless.csv
+check 'radars without places' says 2 'rhotrack: register: where do radars * and * stand? *'
+run simulate two-radars --set late_share=0 --set targets=0 -o empty
+run register empty/polar.csv --config empty/scenario.ini -o none.ini
+check 'no common target' says 1 'rhotrack: register: no target was tracked by two radars *'
+check 'no file then' test ! -e none.ini
+run simulate two-radars --set late_share=0 --set targets=1 --set num_scans=12 -o one
+run register one/polar.csv --config one/scenario.ini -o none.ini
+check 'one target for two minutes tells nothing' exits 1
+check 'each bias is said to be not known' test "$(grep -c 'not known' stdout)" -eq 5
+check 'no file then either' test ! -e none.ini
+finish

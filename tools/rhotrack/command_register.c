@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT */
+/* register: the biases of radars from the targets that several of them see. */
+#include <stdlib.h>
+
+#include "chain.h"
+#include "command_line.h"
+#include "commands.h"
+#include "common.h"
+#include "inputs.h"
+#include "register.h"
+#include "register_output.h"
+
+/* What nobody described stands in the origin; that can be true of one radar alone. */
+struct unplaced {
+    bool is_any;
+    int32_t sensor_id;
+};
+
+static void add_scan(struct register_data *data, const struct input *input,
+                     const struct parameters *parameters, struct unplaced *unplaced)
+{
+    struct rho_sensor sensor;
+    const char *wrong;
+
+    if (input->sensor) {
+        sensor = *input->sensor;
+    } else {
+        parameters_to_any_sensor(parameters, input->scan->sensor_id, &sensor);
+        if (unplaced->is_any && unplaced->sensor_id != sensor.sensor_id) {
+            fail(
+                EXIT_USAGE,
+                "register: where do radars %d and %d stand? (columns sensor_x_m and sensor_y_m, or "
+                "sensor.N.x_m and sensor.N.y_m)",
+                (int)unplaced->sensor_id, (int)sensor.sensor_id);
+        }
+        *unplaced = (struct unplaced){.is_any = true, .sensor_id = sensor.sensor_id};
+    }
+    wrong = register_add(data, input->scan, &sensor);
+    if (wrong) {
+        fail(EXIT_USAGE, "register: sensor %d: %s", (int)sensor.sensor_id, wrong);
+    }
+}
+
+static uint64_t read_all(const struct command_line *line, struct register_data *data)
+{
+    struct inputs *inputs =
+        inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct progress progress = progress_start("scans", 0);
+    struct unplaced unplaced = {.is_any = false};
+    uint64_t done = 0, skipped;
+
+    if (inputs_have_bearings(inputs)) {
+        fail(EXIT_USAGE, "register takes plots in range and azimuth, and no bearings");
+    }
+    for (struct input input = inputs_next(inputs); input.scan; input = inputs_next(inputs)) {
+        add_scan(data, &input, &line->parameters, &unplaced);
+        progress_show_bytes(&progress, ++done, inputs_position(inputs), inputs_size(inputs));
+    }
+    progress_end(&progress);
+    skipped = inputs_counts(inputs).rows_skipped;
+    inputs_close(inputs);
+    return skipped;
+}
+
+static void check_enough(const struct register_data *data)
+{
+    if (register_num_radars(data) == 0) {
+        fail(EXIT_USAGE, "register: the input has no plots");
+    }
+    if (register_num_radars(data) == 1) {
+        fail(EXIT_USAGE,
+             "register: only one radar is in the input; biases show in what two or more see");
+    }
+}
+
+static void print(const struct command_line *line, const struct register_result *result,
+                  uint64_t rows_skipped)
+{
+    struct output output;
+
+    if (line->json) {
+        register_print_json(result, rows_skipped);
+    } else {
+        output = output_open(NULL);
+        register_print(result, output.file);
+        output_close(&output);
+    }
+    say_rows_skipped(rows_skipped);
+}
+
+int command_register(struct command_line *line)
+{
+    struct register_data *data = register_start(&line->parameters);
+    struct chain chain = chain_start();
+    struct register_result result;
+    uint64_t rows_skipped;
+
+    refuse_own_input(line);
+    chain_set_gate(&line->parameters, line->gate);
+    rows_skipped = read_all(line, data);
+    check_enough(data);
+    result = register_estimate(data, &chain);
+    if (result.targets == 0) {
+        fail(EXIT_RUNTIME, "register: no target was tracked by two radars at the same time, within "
+                           "3 km; nothing can be said of biases");
+    }
+    print(line, &result, rows_skipped);
+    if (!register_knows_any(&result)) {
+        fail(EXIT_RUNTIME,
+             "register: %zu targets in common tell none of the biases to half of a plot's noise",
+             result.targets);
+    }
+    if (line->output) {
+        register_write_ini(&result, line->output);
+    }
+    register_result_free(&result);
+    register_free(data);
+    chain_free(&chain);
+    return 0;
+}
