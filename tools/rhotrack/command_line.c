@@ -295,7 +295,6 @@ void command_line_read(struct command_line *line, const struct command *command,
     *line = (struct command_line){.seed = 1, .speed = 1};
     parameters_default(&line->parameters);
     read_options(line, command, argc, argv);
-    parameters_locate(&line->parameters);
     line->arguments = argv + optind;
     line->num_arguments = argc - optind;
     suggest_origin(line);
