@@ -122,6 +122,7 @@ struct regression {
     float middle_s, unit_s;
     float origin_m[3];
     int has_point; /* the unknowns below were found: range rates can be linearised there */
+    unsigned unclear_mask; /* scans whose range rates the places do not tell from others: they do not count */
     float unknown[UNKNOWNS_MAX];              /* place, then velocity times unit_s, `axes` each */
     float factor[RHO_TRIANGLE(UNKNOWNS_MAX)]; /* Cholesky factor of the normal equations */
 };
@@ -186,7 +187,8 @@ static int range_rate_equation(const struct regression *of, unsigned m, struct e
     if (!rho_measurement_range_rate(state, &scan->sensor, of->axes == 3, derivative, &rate_mps)) {
         return 0;
     }
-    equation->value = plot->range_rate_mps - rate_mps;
+    equation->value =
+        rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     for (int i = 0; i < of->axes; i++) {
         equation->row[i] = derivative[i];
         equation->row[of->axes + i] = time * derivative[i] + derivative[i + 3] / of->unit_s;
@@ -201,7 +203,33 @@ static int range_rate_equation(const struct regression *of, unsigned m, struct e
 static int equations_of(const struct regression *of, unsigned m, struct equation *equations)
 {
     int count = place_equations(of, m, equations);
-    return count + range_rate_equation(of, m, &equations[count]);
+    return of->unclear_mask >> m & 1u ? count
+                                      : count + range_rate_equation(of, m, &equations[count]);
+}
+
+/* By the fit of the places: how sure it is of the range rate of scan m. */
+static int is_clear(const struct regression *of, unsigned m)
+{
+    struct equation equation;
+    if (!range_rate_equation(of, m, &equation)) {
+        return 1;
+    }
+    float variance = equation.variance;
+    rho_linalg_forward(2 * of->axes, of->factor, equation.row);
+    for (int i = 0; i < 2 * of->axes; i++) {
+        variance += equation.row[i] * equation.row[i];
+    }
+    return rho_measurement_is_range_rate_clear(&scan_of(of, m)->sensor, variance);
+}
+
+static void leave_out_unclear(struct regression *of)
+{
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        if ((of->set->mask >> m & 1u) && rho_measurement_has_span(&scan_of(of, m)->sensor) &&
+            !is_clear(of, m)) {
+            of->unclear_mask |= 1u << m;
+        }
+    }
 }
 
 static void add_equation(const struct equation *equation, int unknowns, float *normal, float *right)
@@ -278,7 +306,10 @@ static int regress(struct regression *of)
         if (!solve(of)) {
             return 0;
         }
-        of->has_point = 1;
+        if (!of->has_point) {
+            of->has_point = 1;
+            leave_out_unclear(of);
+        }
     }
     return rounds > 0;
 }
@@ -340,7 +371,7 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
 {
     struct regression of = {.search = search, .set = set};
     unsigned rows = 0, heights = 0, range_rates = 0;
-    float log_noise = 0.0f;
+    float log_noise = 0.0f, log_aliases = 0.0f;
     if (!regress(&of)) {
         return 0;
     }
@@ -359,12 +390,17 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
         unsigned has_z = of.axes == 3 && (scan_of(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
         heights += has_z;
         range_rates += count - 2u - has_z;
+        if (rho_measurement_has_span(&scan_of(&of, m)->sensor)) {
+            log_aliases += (float)(count - 2u - has_z) *
+                           rho_measurement_log_aliases(&scan_of(&of, m)->sensor,
+                                                       search->initiator->config.v_max_mps);
+        }
     }
     unsigned unknowns = 2u * (unsigned)of.axes;
     float log_fisher =
         rho_linalg_log_determinant((int)unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     *dimensions = rows - unknowns;
     *log_likelihood = -0.5f * ((float)*dimensions * LOG_TWO_PI + log_noise + log_fisher + *chi2) +
-                      rho_initiator_log_room(search, of.axes == 3, heights, range_rates);
+                      rho_initiator_log_room(search, of.axes == 3, heights, range_rates) - log_aliases;
     return 1;
 }

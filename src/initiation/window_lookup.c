@@ -160,7 +160,8 @@ float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
         return 0.0f;
     }
     const float *turn = row, *u = row + 3; /* by the position, by the velocity */
-    float error_mps = plot->range_rate_mps - rate_mps;
+    float error_mps =
+        rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     float turned2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
     float variance = place->factor * (squared_sigma(plot->sigma_range_rate) +
                                       turned2 * squared_sigma(larger_sigma(plot))) +

@@ -101,6 +101,14 @@ void rho_tracker_judge_plots(struct step *step)
     }
 }
 
+/* What clutter's range rates are spread over: as many as a target may have, or as the sensor tells apart. */
+static void set_range_rates(struct step *step)
+{
+    step->log_range_rates =
+        step->log_rates -
+        rho_measurement_log_aliases(step->sensor, step->tracker->config.v_max_mps);
+}
+
 void rho_tracker_set_pd(struct step *step)
 {
     float pd = step->sensor ? step->sensor->pd : step->tracker->config.pd;
@@ -403,6 +411,7 @@ static void take_in(struct step *step)
 {
     step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
     rho_tracker_set_pd(step);
+    set_range_rates(step);
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_age(step);

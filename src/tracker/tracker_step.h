@@ -37,8 +37,9 @@ struct step {
     struct rho_track_model model;
     float log_pd;
     float log_miss; /* ln(1 - pd) */
-    /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; the range rates that a target may have, m/s */
-    float log_height, log_rates;
+    /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; the speeds that a target may have, either way, m/s; those of them
+     * that the sensor's range rates tell apart */
+    float log_height, log_rates, log_range_rates;
 };
 
 /* tracker.c: what a step may be asked */
