@@ -39,6 +39,8 @@
       "elevation noise of a polar plot")                                                           \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 1, 0.001, 1e5, 0, 1,                    \
       "range-rate noise of a plot")                                                                \
+    X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 0, 4e4, 0, 1,                          \
+      "range rates are known up to multiples of it; 0: not ambiguous")                             \
     X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
       "bearing noise of a passive sensor")                                                         \
     X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
@@ -199,6 +201,8 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
       "elevation noise of a polar plot")                                                           \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 0.001, 1e5,                             \
       "range-rate noise of a plot")                                                                \
+    X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 4e4,                                   \
+      "its range rates are known up to multiples of it")                                           \
     X(SIGMA_RAD, "sigma_rad", "rad", 1e-6, 0.5, "bearing noise of a passive sensor")               \
     X(RANGE_BIAS_M, "range_bias_m", "m", -1e4, 1e4, "it measures ranges so much too long")         \
     X(AZIMUTH_BIAS_RAD, "azimuth_bias_rad", "rad", -0.5, 0.5,                                      \
