@@ -176,7 +176,20 @@
       "simulate popup, ..., physical: random acceleration a scan, each axis")                      \
     X(TRUE_NOISE_M, "true_noise_m", "m", 1, 0, 1e5, 0, 0,                                          \
       "simulate popup, ..., literal: random change of place a scan, each axis; root of Q")         \
-    X(TRUE_NOISE_MPS, "true_noise_mps", "m/s", 1, 0, 1e4, 0, 0, "the same of velocities")
+    X(TRUE_NOISE_MPS, "true_noise_mps", "m/s", 1, 0, 1e4, 0, 0, "the same of velocities")          \
+    X(SECTORS_PER_TURN, "sectors_per_turn", "-", 32, 1, 360, 1, 0,                                 \
+      "simulate two-radars: scans of a turn; 1: a turn is a scan")                                 \
+    X(SECOND_INTERVAL_S, "second_interval_s", "s", 4, 0.001, 3600, 0, 0,                           \
+      "simulate two-radars: a turn of the second radar")                                           \
+    X(TRUE_RANGE_BIAS_M, "true_range_bias_m", "m", 50, -1e4, 1e4, 0, 0,                            \
+      "simulate two-radars: the first radar's, the second's is its negative")                      \
+    X(TRUE_AZIMUTH_BIAS_RAD, "true_azimuth_bias_rad", "rad", 0.001745, -0.5, 0.5, 0, 0,            \
+      "simulate two-radars: the same in azimuth")                                                  \
+    X(TRUE_TIME_BIAS_S, "true_time_bias_s", "s", 0, -10, 10, 0, 0,                                 \
+      "simulate two-radars: the second radar's clock is so much ahead")                            \
+    X(LATE_SHARE, "late_share", "-", 0.2, 0, 1, 0, 0,                                              \
+      "simulate two-radars: share of scans that arrive late_ms late; 0: no column received_s")     \
+    X(LATE_MS, "late_ms", "ms", 300, 0, 60000, 0, 0, "simulate two-radars: how late")
 
 enum parameter_id {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,

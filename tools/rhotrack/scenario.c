@@ -15,6 +15,8 @@
 static const struct scenario {
     const char *name, *text;
     struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
+    /* or, where that is NULL, what turning radars saw */
+    struct simulation *(*simulate)(const struct parameters *parameters, struct random *random);
     /* true_pd 0: what is assumed */
     double num_scans, interval_s, sigma_m, true_pd, v_min_mps, v_max_mps, accel_max_mps2;
     struct scenario_box box;
@@ -24,6 +26,7 @@ static const struct scenario {
     {"crossing",
      "three targets, two of which cross (the paper's Table 1)",
      plan_crossing,
+     NULL,
      7,
      2,
      10,
@@ -37,6 +40,7 @@ static const struct scenario {
     {"radar",
      "the real plots of three aircraft (the paper's Table 3) in clutter",
      plan_radar,
+     NULL,
      RADAR_TABLE_SCANS,
      RADAR_TABLE_INTERVAL_S,
      RADAR_TABLE_SIGMA_M,
@@ -50,6 +54,7 @@ static const struct scenario {
     {"parallel",
      "two targets side by side, spacing_m apart",
      plan_parallel,
+     NULL,
      7,
      2,
      10,
@@ -63,6 +68,7 @@ static const struct scenario {
     {"crossing-angle",
      "two targets that meet at crossing_deg",
      plan_crossing_angle,
+     NULL,
      7,
      2,
      10,
@@ -76,6 +82,7 @@ static const struct scenario {
     {"same-line",
      "two targets on one line, spacing_m apart, with speeds of their own",
      plan_same_line,
+     NULL,
      7,
      2,
      10,
@@ -89,6 +96,7 @@ static const struct scenario {
     {"clutter",
      "no target at all",
      plan_clutter_alone,
+     NULL,
      7,
      2,
      10,
@@ -102,6 +110,7 @@ static const struct scenario {
     {"slow-turn",
      "one target that turns by turn_deg a scan",
      plan_slow_turn,
+     NULL,
      20,
      2,
      10,
@@ -115,6 +124,7 @@ static const struct scenario {
     {"traffic",
      "many straight targets in a large area",
      plan_traffic,
+     NULL,
      120,
      10,
      50,
@@ -129,6 +139,7 @@ static const struct scenario {
      "a turning radar: straight targets at 20 to 60 km, plots in range and azimuth, each at its "
      "own time",
      plan_polar,
+     NULL,
      15,
      4,
      100,
@@ -142,6 +153,7 @@ static const struct scenario {
     {"passive-two",
      "two passive sensors: bearings of two targets that come towards them",
      plan_passive,
+     NULL,
      8,
      10,
      10,
@@ -155,6 +167,7 @@ static const struct scenario {
     {"passive-three",
      "the same with a third sensor",
      plan_passive,
+     NULL,
      8,
      10,
      10,
@@ -168,6 +181,7 @@ static const struct scenario {
     {"passive-clutter",
      "two passive sensors, four targets, misses and false bearings",
      plan_passive,
+     NULL,
      8,
      10,
      10,
@@ -181,6 +195,7 @@ static const struct scenario {
     {"popup",
      "one target in a beam that pulls accel_g upwards, over, and level again",
      plan_popup,
+     NULL,
      161,
      0.25,
      10,
@@ -194,6 +209,7 @@ static const struct scenario {
     {"weave",
      "the same to the sides",
      plan_weave,
+     NULL,
      161,
      0.25,
      10,
@@ -207,6 +223,7 @@ static const struct scenario {
     {"hard-turn",
      "the same in level turns",
      plan_hard_turn,
+     NULL,
      161,
      0.25,
      10,
@@ -220,6 +237,7 @@ static const struct scenario {
     {"air-traffic",
      "aircraft that take off, turn, hold, cross, land, come and go: always so many in the air",
      plan_air_traffic,
+     NULL,
      120,
      10,
      50,
@@ -233,6 +251,7 @@ static const struct scenario {
     {"formation",
      "two aircraft that come together, fly side by side for half the time, and part",
      plan_formation,
+     NULL,
      61,
      10,
      50,
@@ -243,6 +262,20 @@ static const struct scenario {
      {-50000, 120000, -50000, 50000},
      0,
      40},
+    {"two-radars",
+     "two turning radars with biases, and the aircraft that both see; a share of it arrives late",
+     NULL,
+     simulate_two_radars,
+     60,
+     10,
+     50,
+     0,
+     50,
+     300,
+     6,
+     {-150000, 180000, -150000, 150000},
+     0,
+     20},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -259,7 +292,7 @@ const char *scenario_text(size_t index)
 
 static const struct scenario *find_scenario(const char *name)
 {
-    char list[256] = "";
+    char list[512] = "";
     size_t length = 0;
     for (size_t i = 0; i < NUM_SCENARIOS && length < sizeof list; i++) {
         if (strcmp(scenarios[i].name, name) == 0) {
@@ -355,6 +388,9 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     if (!(scenario->true_pd > 0.0)) {
         parameters_suggest(parameters, PARAMETER_PD, 0.95);
     }
+    if (scenario->simulate == simulate_two_radars) {
+        suggest_two_radars(parameters);
+    }
     if (scenario->plan == plan_air_traffic) {
         parameters_suggest(parameters, PARAMETER_CROSSING_SHARE, 0.2);
         suggest_motion(parameters);
@@ -434,6 +470,9 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
 {
     const struct scenario *scenario = find_scenario(name);
     struct random random = random_start(seed, (uint64_t)(scenario - scenarios), run);
+    if (scenario->simulate != NULL) {
+        return scenario->simulate(parameters, &random);
+    }
     struct scenario_plan plan = scenario->plan(parameters, &random);
     plan.pd = value_or(parameters, PARAMETER_TRUE_PD, PARAMETER_PD);
     plan.sigma_m = parameters->value[PARAMETER_SIGMA_M];

@@ -3,7 +3,7 @@
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
  * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, air-traffic, polar,
- * passive-two, passive-three, passive-clutter, popup, weave, hard-turn, formation. The same seed gives the same data
+ * passive-two, passive-three, passive-clutter, popup, weave, hard-turn, formation, two-radars. The same seed gives the same data
  * on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
@@ -86,6 +86,8 @@ struct scenario_box {
     double x_min_m, x_max_m, y_min_m, y_max_m;
 };
 
+struct scenario_record; /* scenario_record.h */
+
 struct simulation {
     size_t num_scans, num_targets, num_truth, num_looks;
     size_t
@@ -100,6 +102,8 @@ struct simulation {
     struct simulated_scan *scans; /* without plots where passive is used */
     struct simulated_look *looks; /* num_looks = num_scans x passive.num_sensors: by time, sensor */
     struct truth_point *truth;    /* by time, then target */
+    struct scenario_record *record; /* of turning radars, in place of scans and looks, or NULL */
+    size_t num_times;               /* of the truth, with a record */
 };
 
 /* Names and one-line texts of all scenarios, for help and errors; NULL past the last. */

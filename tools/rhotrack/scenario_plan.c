@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common.h"
+#include "scenario_record.h"
 
 const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2] = {
     {{-23793, 24841}, {-2548, 21411}, {-7021, 14156}},
@@ -255,5 +256,6 @@ void simulation_free(struct simulation *simulation)
     free(simulation->looks);
     free(simulation->scans);
     free(simulation->truth);
+    record_free(simulation->record);
     free(simulation);
 }

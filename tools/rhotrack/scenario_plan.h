@@ -176,6 +176,12 @@ struct scenario_plan plan_weave(const struct parameters *parameters, struct rand
 struct scenario_plan plan_hard_turn(const struct parameters *parameters, struct random *random);
 void suggest_beam(struct parameters *parameters);
 
+/* ---- Turning radars, sector by sector ---------------------------------------------------------- */
+
+/* Scenario two-radars. scenario_two_radars.c */
+struct simulation *simulate_two_radars(const struct parameters *parameters, struct random *random);
+void suggest_two_radars(struct parameters *parameters);
+
 /* ---- Many targets: scenario_air_traffic.c, scenario_sky.c ----------------------------------------- */
 
 /* Flights of the scenario air-traffic, always `targets` in the air. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "common.h"
+#include "scenario_record.h"
 
 /* Plots of a beam have heights, and velocities where these are measured. */
 static void write_beam_plot(const struct simulation *simulation, const struct simulated_scan *scan,
@@ -148,6 +149,14 @@ static void write_radar(const struct scenario_radar *radar, double interval_s, F
     }
 }
 
+/* How long scans have to be waited for. */
+static void write_late(const struct parameters *parameters, FILE *file)
+{
+    if (parameters->value[PARAMETER_LATE_SHARE] > 0.0) {
+        fprintf(file, "hold_ms = %g\n", parameters->value[PARAMETER_LATE_MS]);
+    }
+}
+
 static void write_area(const struct scenario_box *area, FILE *file)
 {
     fprintf(file, "area_x_min_m = %.3f\narea_x_max_m = %.3f\n", area->x_min_m, area->x_max_m);
@@ -165,7 +174,9 @@ static void write_settings(const char *name, const struct simulation *simulation
     char *path = path_join(folder, "scenario.ini");
     struct output output = output_open(path);
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
-    if (simulation->passive.is_used) {
+    if (simulation->record != NULL) {
+        write_late(parameters, output.file);
+    } else if (simulation->passive.is_used) {
         fprintf(output.file, "sigma_rad = %.9g\n", simulation->passive.sigma_rad);
     } else if (simulation->radar.is_used) {
         write_radar(&simulation->radar, simulation->interval_s, output.file);
@@ -190,6 +201,9 @@ static void write_settings(const char *name, const struct simulation *simulation
     if (!simulation->beam.is_used) { /* whose clutter moves with it */
         write_area(&simulation->area, output.file);
     }
+    if (simulation->record != NULL) {
+        record_write_sensors(simulation->record, output.file);
+    }
     output_close(&output);
     free(path);
 }
@@ -198,7 +212,9 @@ void simulation_write(const char *name, const struct simulation *simulation,
                       const struct parameters *parameters, const char *folder)
 {
     make_folder(folder);
-    if (simulation->passive.is_used) {
+    if (simulation->record != NULL) {
+        record_write(simulation->record, folder);
+    } else if (simulation->passive.is_used) {
         write_bearings(simulation, folder);
     } else if (simulation->radar.is_used) {
         write_polar(simulation, folder);
