@@ -93,6 +93,9 @@ struct rho_window_place {
     float vx_mps, vy_mps, vz_mps;
     struct rho_window_noise noise;          /* of the place */
     struct rho_window_noise velocity_noise; /* of the velocity, (m/s)^2 */
+#if RHO_AMBIGUOUS_RANGE_RATES
+    float more_mps[3]; /* what range rates say of the velocity beside: for range rates alone */
+#endif
     float factor;                           /* of the plots' covariances, and of the sum's gate */
     int has_z;                              /* z_m and vz_mps are known */
     float reach_m;
@@ -162,6 +165,19 @@ int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_w
 /* A held plot's covariance, from its line of sight. Cost: a division, with z two more. */
 struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
                                          const struct rho_window_plot *plot);
+
+/* A held plot's range rate, as a place's velocity would have it. */
+struct rho_window_range_rate {
+    float error_mps; /* measured minus expected, an ambiguous one the nearest */
+    float variance;  /* of that */
+    float along[3];  /* the line of sight: derivative by the velocity */
+};
+
+/* Fills *seen; 0, and nothing is filled, for a plot in the sensor's place. Cost: 100 instructions. Stack: 140 bytes. */
+int rho_window_see_range_rate(const struct rho_window_scan *scan,
+                              const struct rho_window_plot *plot,
+                              const struct rho_window_place *place,
+                              struct rho_window_range_rate *seen);
 
 /*
  * Squared distance of a held plot's range rate from what the place's velocity would show there, in units of its

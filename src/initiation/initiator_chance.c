@@ -175,16 +175,10 @@ static float share_inside(const struct search *search, float span_s)
     return share > SHARE_MIN ? share : SHARE_MIN;
 }
 
-/* Do the range rates of sets like this count? Ambiguous ones where the places tell their speeds well enough. */
-static int has_rates(const struct chance *chance, float hits, float spread_s2)
+/* What ambiguity takes off the room of so many range rates. */
+static float aliases_of(const struct chance *chance, float hits)
 {
-    return chance->has_range_rate &&
-           (!RHO_AMBIGUOUS_RANGE_RATES || spread_s2 >= hits * chance->clear_s2);
-}
-
-static float log_aliases(const struct chance *chance, float hits, int rates)
-{
-    return RHO_AMBIGUOUS_RANGE_RATES && rates ? hits * chance->log_aliases : 0.0f;
+    return RHO_AMBIGUOUS_RANGE_RATES ? hits * chance->log_aliases : 0.0f;
 }
 
 /* ln det of the normal equations, all axes. */
@@ -193,7 +187,7 @@ static float log_fisher(const struct chance *chance, const struct place_class *p
 {
     float cross = rho_log(spread_s2) - 4.0f * place->log_cross;
     float along = rho_log(spread_s2) - 4.0f * place->log_range;
-    if (has_rates(chance, hits, spread_s2)) {
+    if (chance->has_range_rate) {
         /* hits / range^2 (S / range^2 + hits / rate^2), S = spread / hits */
         float slope = rho_log(spread_s2 / hits) - 2.0f * place->log_range;
         float rate = rho_log(hits) - 2.0f * place->log_range_rate;
@@ -205,15 +199,15 @@ static float log_fisher(const struct chance *chance, const struct place_class *p
 }
 
 /* Half the log of the noise's determinant of one hit, and of what the clutter's other dimensions are spread over. */
-static float log_noise(const struct chance *chance, const struct place_class *place, int rates)
+static float log_noise(const struct chance *chance, const struct place_class *place)
 {
     return place->log_range + place->log_cross + (chance->has_z ? place->log_up : 0.0f) +
-           (rates ? place->log_range_rate : 0.0f);
+           (chance->has_range_rate ? place->log_range_rate : 0.0f);
 }
 
-static float dimensions_of_hit(const struct chance *chance, int rates)
+static float dimensions_of_hit(const struct chance *chance)
 {
-    return 2.0f + (chance->has_z ? 1.0f : 0.0f) + (rates ? 1.0f : 0.0f);
+    return 2.0f + (chance->has_z ? 1.0f : 0.0f) + (chance->has_range_rate ? 1.0f : 0.0f);
 }
 
 static float log_hits_and_misses(const struct search *search, unsigned first, unsigned hits)
@@ -223,11 +217,9 @@ static float log_hits_and_misses(const struct search *search, unsigned first, un
            (float)(newest - first + 1u - hits) * search->log_miss[newest];
 }
 
-static float half_dimensions(const struct chance *chance, unsigned hits, float spread_s2)
+static float half_dimensions(const struct chance *chance, unsigned hits)
 {
-    float h = (float)hits;
-    return 0.5f * (h * dimensions_of_hit(chance, has_rates(chance, h, spread_s2)) -
-                   (chance->has_z ? 6.0f : 4.0f));
+    return 0.5f * ((float)hits * dimensions_of_hit(chance) - (chance->has_z ? 6.0f : 4.0f));
 }
 
 /* The score of a perfect fit: rho_initiator_score with chi2 = 0. */
@@ -237,13 +229,12 @@ static float best_score(const struct chance *chance, const struct place_class *p
     const struct search *search = chance->search;
     float h = (float)hits;
     float fisher = log_fisher(chance, place, h, spread_s2);
-    int rates = has_rates(chance, h, spread_s2);
     return search->log_prior + log_hits_and_misses(search, first, hits) - h * place->log_density -
-           half_dimensions(chance, hits, spread_s2) * LOG_TWO_PI -
-           h * log_noise(chance, place, rates) - 0.5f * fisher +
+           half_dimensions(chance, hits) * LOG_TWO_PI - h * log_noise(chance, place) -
+           0.5f * fisher +
            rho_initiator_log_room(search, chance->has_z, chance->has_z ? hits : 0u,
-                                  rates ? hits : 0u) -
-           log_aliases(chance, h, rates);
+                                  chance->has_range_rate ? hits : 0u) -
+           aliases_of(chance, h);
 }
 
 /* 99.9 % of chi-square: Wilson and Hilferty's approximation. */
@@ -260,30 +251,22 @@ static float most_of(float half)
     return 0.5f * rho_initiator_chi2_max((unsigned)(2.0f * half + 0.5f));
 }
 
-/* A scan ago a track was as long, by a hit less. */
-static float half_before(const struct chance *chance, unsigned first, unsigned hits)
-{
-    return half_dimensions(chance, hits - 1u,
-                           mean_spread_s2(chance->search, first + 1u, hits - 1u));
-}
-
 static void add_pattern(struct chance *chance, unsigned first, unsigned hits)
 {
     const struct search *search = chance->search;
     unsigned newest = search->num_scans - 1u, between = newest - first - 1u;
-    float spread_s2 = mean_spread_s2(search, first, hits);
-    float half = half_dimensions(chance, hits, spread_s2);
+    float half = half_dimensions(chance, hits);
     chance->patterns[chance->num_patterns++] = (struct pattern){
         .first = (uint16_t)first,
         .hits = (uint16_t)hits,
         .log_choices = rho_initiator_log_factorial(between) -
                        rho_initiator_log_factorial(hits - 2u) -
                        rho_initiator_log_factorial(between + 2u - hits),
-        .spread_s2 = spread_s2,
+        .spread_s2 = mean_spread_s2(search, first, hits),
         .inside = share_inside(search, search->time_s[newest] - search->time_s[first]),
         .half_dimensions = half,
         .most = most_of(half),
-        .most_before = hits > 3u ? most_of(half_before(chance, first, hits)) : 0.0f,
+        .most_before = hits > 3u ? most_of(half_dimensions(chance, hits - 1u)) : 0.0f,
     };
 }
 
@@ -307,6 +290,7 @@ static struct place_class widened(const struct chance *chance, const struct plac
     return wide;
 }
 
+/* A scan ago a track was as long, by a hit less. */
 static struct reach reach_of(const struct chance *chance, const struct place_class *place,
                              const struct pattern *pattern)
 {
@@ -350,6 +334,19 @@ static void lay_patterns(struct chance *chance)
 
 /* ---- all of it -------------------------------------------------------------------------------- */
 
+#if RHO_AMBIGUOUS_RANGE_RATES
+static float mean_log_aliases(const struct search *search)
+{
+    float sum = 0.0f;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        sum += rho_measurement_log_aliases(
+            &rho_window_scan_at(&search->initiator->window, m)->sensor,
+            search->initiator->config.v_max_mps);
+    }
+    return sum / (float)search->num_scans;
+}
+#endif
+
 void rho_initiator_lay_chance(const struct search *search, struct chance *chance)
 {
     /* where only some scans measure them, chance is taken to need no heights or range rates: more than there is */
@@ -360,9 +357,11 @@ void rho_initiator_lay_chance(const struct search *search, struct chance *chance
     chance->search = search;
     chance->has_z = (measures & RHO_MEASURES_Z) != 0;
     chance->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
+#if RHO_AMBIGUOUS_RANGE_RATES
+    chance->log_aliases = chance->has_range_rate ? mean_log_aliases(search) : 0.0f;
+#endif
     chance->num_classes = 0;
     sample_places(chance);
-    rho_initiator_lay_spans(chance);
     lay_patterns(chance);
 }
 
@@ -442,15 +441,14 @@ float rho_initiator_gain_of_hit(const struct chance *chance)
 {
     const struct search *search = chance->search;
     float least = GAIN_MAX_NAT;
-    int rates = has_rates(chance, 3.0f, mean_spread_s2(search, search->num_scans - 3u, 3u));
     for (unsigned i = 0; i < chance->num_classes; i++) {
         const struct place_class wide =
             widened(chance, &chance->classes[i], search->num_scans - 3u);
         float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
-                     0.5f * dimensions_of_hit(chance, rates) * LOG_TWO_PI -
-                     log_noise(chance, &wide, rates) - rho_log(PREDICTION_SPREAD) +
-                     rho_initiator_log_room(search, 0, 0, rates ? 1u : 0u) -
-                     log_aliases(chance, 1.0f, rates);
+                     0.5f * dimensions_of_hit(chance) * LOG_TWO_PI - log_noise(chance, &wide) -
+                     rho_log(PREDICTION_SPREAD) +
+                     rho_initiator_log_room(search, 0, 0, chance->has_range_rate ? 1u : 0u) -
+                     aliases_of(chance, 1.0f);
         least = gain < least ? gain : least;
     }
     return least;

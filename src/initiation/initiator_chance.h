@@ -50,8 +50,7 @@ struct reach {
 struct chance {
     const struct search *search;
     int has_z, has_range_rate;
-    /* ambiguous range rates count from this spread of a set's times on; 0: always. ln of how many are taken for one */
-    float clear_s2, log_aliases;
+    float log_aliases; /* ln of how many range rates are taken for one, mean over the scans; 0: none are ambiguous */
     float bend_m2
         [RHO_MAX_SCANS]; /* by process noise, of tracks from this scan on: mean over the residual's dimensions */
     unsigned num_classes, num_patterns;
@@ -63,16 +62,6 @@ struct chance {
 
 /* Lays out the search's window. */
 void rho_initiator_lay_chance(const struct search *search, struct chance *chance);
-
-/* initiator_spans.c: whether ambiguous range rates count, by the places */
-#if RHO_AMBIGUOUS_RANGE_RATES
-void rho_initiator_lay_spans(struct chance *chance);
-#else
-static inline void rho_initiator_lay_spans(struct chance *chance)
-{
-    (void)chance;
-}
-#endif
 
 /* Chance tracks a search that are new at start_nat, and whose score reaches s_nat at once. */
 float rho_initiator_sets_above(const struct chance *chance, float s_nat, float start_nat);

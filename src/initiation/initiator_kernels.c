@@ -128,6 +128,24 @@ static int complete(const struct search *search, const struct span *span, struct
     return 1;
 }
 
+/* A kernel whose first plot has an ambiguous range rate is as many kernels as that can mean. */
+static void try_aliases(struct search *search, const struct span *span, struct kernel *kernel)
+{
+    struct aliases aliases = {.last = 0};
+    if (search->is_isotropic ||
+        !rho_initiator_open_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
+        try_kernel(search, span, kernel);
+        return;
+    }
+    struct rho_window_place place = kernel->place;
+    for (int i = aliases.first; i <= aliases.last; i++) {
+        rho_initiator_take_alias(&aliases, i, &place, &kernel->place);
+        if (rho_initiator_own_end(span, kernel)) {
+            try_kernel(search, span, kernel);
+        }
+    }
+}
+
 /* The earlier end of kernels. */
 struct start {
     const struct rho_window_plot *plot;
@@ -157,7 +175,7 @@ static void pair_with(struct search *search, const struct span *span, const stru
     kernel.duration_s = duration_s;
     kernel.noise_a = start->noise;
     if (complete(search, span, &kernel)) {
-        try_kernel(search, span, &kernel);
+        try_aliases(search, span, &kernel);
     }
 }
 

@@ -2,6 +2,8 @@
 /*
  * initiator_own: kernels, votes and fits where each plot has its own covariance, and heights and range rates count.
  */
+#include <float.h>
+
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
@@ -68,6 +70,12 @@ int rho_initiator_own_kernel(const struct search *search, const struct span *spa
                                  is_range_rate(span->scan_b, kernel->to, &kernel->place));
 }
 
+/* Does the range rate of the kernel's last plot agree with it? */
+int rho_initiator_own_end(const struct span *span, const struct kernel *kernel)
+{
+    return is_range_rate(span->scan_b, kernel->to, &kernel->place);
+}
+
 /* The voter's plot nearest to where the kernel says, in the gate of all three plots' covariances; -1: none. */
 int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel)
 {
@@ -122,7 +130,6 @@ struct regression {
     float middle_s, unit_s;
     float origin_m[3];
     int has_point; /* the unknowns below were found: range rates can be linearised there */
-    unsigned unclear_mask; /* scans whose range rates the places do not tell from others: they do not count */
     float unknown[UNKNOWNS_MAX];              /* place, then velocity times unit_s, `axes` each */
     float factor[RHO_TRIANGLE(UNKNOWNS_MAX)]; /* Cholesky factor of the normal equations */
 };
@@ -203,33 +210,7 @@ static int range_rate_equation(const struct regression *of, unsigned m, struct e
 static int equations_of(const struct regression *of, unsigned m, struct equation *equations)
 {
     int count = place_equations(of, m, equations);
-    return of->unclear_mask >> m & 1u ? count
-                                      : count + range_rate_equation(of, m, &equations[count]);
-}
-
-/* By the fit of the places: how sure it is of the range rate of scan m. */
-static int is_clear(const struct regression *of, unsigned m)
-{
-    struct equation equation;
-    if (!range_rate_equation(of, m, &equation)) {
-        return 1;
-    }
-    float variance = equation.variance;
-    rho_linalg_forward(2 * of->axes, of->factor, equation.row);
-    for (int i = 0; i < 2 * of->axes; i++) {
-        variance += equation.row[i] * equation.row[i];
-    }
-    return rho_measurement_is_range_rate_clear(&scan_of(of, m)->sensor, variance);
-}
-
-static void leave_out_unclear(struct regression *of)
-{
-    for (unsigned m = 0; m < of->search->num_scans; m++) {
-        if ((of->set->mask >> m & 1u) && rho_measurement_has_span(&scan_of(of, m)->sensor) &&
-            !is_clear(of, m)) {
-            of->unclear_mask |= 1u << m;
-        }
-    }
+    return count + range_rate_equation(of, m, &equations[count]);
 }
 
 static void add_equation(const struct equation *equation, int unknowns, float *normal, float *right)
@@ -298,18 +279,158 @@ static int lay_out(struct regression *of)
     return of->unit_s > 0.0f ? range_rates > 0 ? 2 : 1 : 0;
 }
 
+static float residual2(const struct regression *of, const struct equation *equation)
+{
+    float residual = equation->value;
+    for (int i = 0; i < 2 * of->axes; i++) {
+        residual -= equation->row[i] * of->unknown[i];
+    }
+    return residual * residual / equation->variance;
+}
+
+/* ---- ambiguous range rates -------------------------------------------------------------------- */
+
+#if RHO_AMBIGUOUS_RANGE_RATES
+#define ALIASES_MAX 8 /* either way: beyond, range rates say next to nothing, and do not count */
+
+/* The scan whose range rate means the fewest speeds; RHO_MAX_SCANS where none is ambiguous. */
+static unsigned widest_span(const struct regression *of)
+{
+    unsigned widest = RHO_MAX_SCANS;
+    float most_mps = 0.0f;
+    int is_ambiguous = 0;
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        const struct rho_window_scan *scan = scan_of(of, m);
+        if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
+            continue;
+        }
+        int has_span = rho_measurement_has_span(&scan->sensor);
+        float span_mps = has_span ? scan->sensor.range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
+        is_ambiguous = is_ambiguous || has_span;
+        if (span_mps > most_mps) {
+            most_mps = span_mps;
+            widest = m;
+        }
+    }
+    return is_ambiguous ? widest : RHO_MAX_SCANS;
+}
+
+/* One range rate as the fit of the places has it: innovation, its variance, and what a metre a second of it moves. */
+struct first_rate {
+    float error_mps, span_mps, variance;
+    float gain[UNKNOWNS_MAX];
+};
+
+static int see_first(const struct regression *of, unsigned m, struct first_rate *first)
+{
+    struct equation equation;
+    const int unknowns = 2 * of->axes;
+    if (!range_rate_equation(of, m, &equation)) {
+        return 0;
+    }
+    const struct rho_sensor *sensor = &scan_of(of, m)->sensor;
+    first->span_mps =
+        rho_measurement_has_span(sensor) ? sensor->range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
+    first->error_mps = equation.value;
+    first->variance = equation.variance;
+    for (int i = 0; i < unknowns; i++) {
+        first->error_mps -= equation.row[i] * of->unknown[i];
+        first->gain[i] = equation.row[i];
+    }
+    rho_linalg_forward(unknowns, of->factor, first->gain);
+    for (int i = 0; i < unknowns; i++) {
+        first->variance += first->gain[i] * first->gain[i];
+    }
+    rho_linalg_backward(unknowns, of->factor, first->gain);
+    return 1;
+}
+
+static float chi2_of(const struct regression *of)
+{
+    struct equation equations[ROWS_MAX];
+    float chi2 = 0.0f;
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        int count = of->set->mask >> m & 1u ? equations_of(of, m, equations) : 0;
+        for (int i = 0; i < count; i++) {
+            chi2 += residual2(of, &equations[i]);
+        }
+    }
+    return chi2;
+}
+
+/* Targets are: a meaning that makes one too fast is none. */
+static int is_slow_enough(const struct regression *of)
+{
+    float v_max_mps = of->search->initiator->config.v_max_mps * of->unit_s;
+    const float *v = &of->unknown[of->axes];
+    return v[0] * v[0] + v[1] * v[1] <= v_max_mps * v_max_mps;
+}
+
+/*
+ * The places leave a choice of speeds along the line of sight: with one range rate in each of its meanings the others' follow.
+ * The fit of the best one is kept; each is a target's as likely as any before it was seen.
+ */
+static int solve_aliases(struct regression *of, unsigned widest)
+{
+    const struct regression places = *of;
+    struct first_rate first;
+    float least = FLT_MAX;
+    of->has_point = 1;
+    if (!see_first(of, widest, &first)) {
+        return solve(of);
+    }
+    float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * first.variance);
+    if (reach_mps > (float)ALIASES_MAX * first.span_mps) {
+        of->has_point = 0;
+        return 1;
+    }
+    for (int i = -ALIASES_MAX; i <= ALIASES_MAX; i++) {
+        float error_mps = first.error_mps + (float)i * first.span_mps;
+        struct regression alias = places;
+        if (i != 0 && !(error_mps <= reach_mps && error_mps >= -reach_mps)) {
+            continue;
+        }
+        alias.has_point = 1;
+        for (int k = 0; k < 2 * of->axes; k++) {
+            alias.unknown[k] += first.gain[k] * (error_mps / first.variance);
+        }
+        if (solve(&alias) && is_slow_enough(&alias)) {
+            float chi2 = chi2_of(&alias);
+            if (chi2 < least) {
+                least = chi2;
+                *of = alias;
+            }
+        }
+    }
+    return least < FLT_MAX;
+}
+#else
+static unsigned widest_span(const struct regression *of)
+{
+    (void)of;
+    return RHO_MAX_SCANS;
+}
+
+static int solve_aliases(struct regression *of, unsigned widest)
+{
+    (void)of, (void)widest;
+    return 1;
+}
+#endif
+
 /* Fits the places first, and where there are range rates again with them. */
 static int regress(struct regression *of)
 {
     int rounds = lay_out(of);
+    unsigned widest = rounds > 1 ? widest_span(of) : RHO_MAX_SCANS;
+    if (widest < RHO_MAX_SCANS) {
+        return solve(of) && solve_aliases(of, widest);
+    }
     for (int i = 0; i < rounds; i++) {
         if (!solve(of)) {
             return 0;
         }
-        if (!of->has_point) {
-            of->has_point = 1;
-            leave_out_unclear(of);
-        }
+        of->has_point = 1;
     }
     return rounds > 0;
 }
@@ -339,15 +460,6 @@ int rho_initiator_own_fit(const struct search *search, const struct plot_set *se
 }
 
 /* ---- evidence --------------------------------------------------------------------------------- */
-
-static float residual2(const struct regression *of, const struct equation *equation)
-{
-    float residual = equation->value;
-    for (int i = 0; i < 2 * of->axes; i++) {
-        residual -= equation->row[i] * of->unknown[i];
-    }
-    return residual * residual / equation->variance;
-}
 
 /* ln of the space that clutter and births are spread over beyond the plane and its velocities. */
 float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
