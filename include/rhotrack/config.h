@@ -178,8 +178,8 @@
 #define RHO_CLAIMS_BEYOND 1
 #endif
 
-/* 1: range rates may be ambiguous (struct rho_sensor's range_rate_span_mps); 0: left out of the program (700 bytes less on a
- * Cortex-M4), and a sensor with a span is refused. */
+/* 1: range rates may be ambiguous (struct rho_sensor's range_rate_span_mps); 0: left out of the program (1.5 KB less on a
+ * Cortex-M4), and a sensor has no such field. */
 #ifndef RHO_AMBIGUOUS_RANGE_RATES
 #define RHO_AMBIGUOUS_RANGE_RATES 1
 #endif

@@ -115,8 +115,18 @@ int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_
  * True where what was seen of a range rate tells the estimate something: always, but where it is ambiguous and the estimate
  * does not tell which one is meant (measurement.h). Cost: rho_linalg_project6 where it is ambiguous.
  */
+#if RHO_AMBIGUOUS_RANGE_RATES
 int rho_kalman_tells_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
                                 const struct rho_kalman_row *seen);
+#else
+static inline int rho_kalman_tells_range_rate(const struct rho_kalman *kalman,
+                                              const struct rho_sensor *sensor,
+                                              const struct rho_kalman_row *seen)
+{
+    (void)kalman, (void)sensor, (void)seen;
+    return 1;
+}
+#endif
 
 /*
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate: after the position of

@@ -74,8 +74,7 @@ int rho_measurement_is_bearing(const struct rho_bearing *bearing);
 void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out);
 
-/* True where a sensor's place, biases and span of range rates are finite and within the limits of types.h; a span is refused
- * where RHO_AMBIGUOUS_RANGE_RATES is 0. Constant cost. */
+/* True where a sensor's place, biases and span of range rates are finite and within the limits of types.h. Constant cost. */
 int rho_measurement_is_sensor(const struct rho_sensor *sensor);
 
 /* The noise's covariance in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant cost. */
@@ -108,7 +107,7 @@ int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float v
 /*
  * The same for num (2 .. 7) correlated innovations, the last of them a range rate's: it is brought nearest to what the others
  * make of it. covariance: their packed triangle. Returns 0, and changes nothing, where it is not clear even so, or the
- * covariance is not positive definite. Cost: a Cholesky factor of num x num. Stack: 260 bytes.
+ * covariance is not positive definite. Cost: a Cholesky factor of num x num. Stack: 280 bytes.
  */
 int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
                                       const float *covariance, float *innovation);

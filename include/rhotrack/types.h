@@ -122,8 +122,10 @@ struct rho_sensor {
     float sector_from_rad, sector_to_rad;
     /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said */
     float range_bias_m, azimuth_bias_rad, time_bias_s;
+#if RHO_AMBIGUOUS_RANGE_RATES
     /* range rates are known up to multiples of this, within +-span/2 or anywhere; 0: they are not ambiguous */
     float range_rate_span_mps;
+#endif
 };
 
 /*

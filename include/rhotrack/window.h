@@ -173,11 +173,13 @@ struct rho_window_range_rate {
     float along[3];  /* the line of sight: derivative by the velocity */
 };
 
+#if RHO_AMBIGUOUS_RANGE_RATES
 /* Fills *seen; 0, and nothing is filled, for a plot in the sensor's place. Cost: 100 instructions. Stack: 140 bytes. */
 int rho_window_see_range_rate(const struct rho_window_scan *scan,
                               const struct rho_window_plot *plot,
                               const struct rho_window_place *place,
                               struct rho_window_range_rate *seen);
+#endif
 
 /*
  * Squared distance of a held plot's range rate from what the place's velocity would show there, in units of its

@@ -60,17 +60,25 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
     return !(measures & RHO_MEASURES_VELOCITY) || is_valid_velocity(plot, measures);
 }
 
+#if RHO_AMBIGUOUS_RANGE_RATES
 /* 0, or within its limits. */
-static int is_span(float span_mps)
+static int is_span(const struct rho_sensor *sensor)
 {
+    float span_mps = sensor->range_rate_span_mps;
     return rho_is_within(span_mps, 0.0f, 0.0f) ||
-           (RHO_AMBIGUOUS_RANGE_RATES &&
-            rho_is_within(span_mps, RHO_LIMIT_SPAN_MIN_MPS, RHO_LIMIT_SPAN_MAX_MPS));
+           rho_is_within(span_mps, RHO_LIMIT_SPAN_MIN_MPS, RHO_LIMIT_SPAN_MAX_MPS);
 }
+#else
+static int is_span(const struct rho_sensor *sensor)
+{
+    (void)sensor;
+    return 1;
+}
+#endif
 
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return is_span(sensor->range_rate_span_mps) && rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
+    return is_span(sensor) && rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
            rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
@@ -347,6 +355,24 @@ int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float v
     return CLEAR_SIGMAS * CLEAR_SIGMAS * variance <= half_mps * half_mps;
 }
 
+/* In place: the lower triangle's Cholesky factor. The stack of rho_linalg_cholesky is a filter's. */
+static int factorise(int num, float *a)
+{
+    for (int i = 0; i < num; i++) {
+        for (int j = 0; j <= i; j++) {
+            float rest = a[RHO_AT(i, j)];
+            for (int k = 0; k < j; k++) {
+                rest -= a[RHO_AT(i, k)] * a[RHO_AT(j, k)];
+            }
+            if (i == j && !(rest > 0.0f)) {
+                return 0;
+            }
+            a[RHO_AT(i, j)] = i == j ? rho_sqrt(rest) : rest / a[RHO_AT(j, j)];
+        }
+    }
+    return 1;
+}
+
 int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
                                       const float *covariance, float *innovation)
 {
@@ -355,7 +381,10 @@ int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
     if (!rho_measurement_has_span(sensor)) {
         return 1;
     }
-    if (rho_linalg_cholesky(num, covariance, factor) != RHO_OK) {
+    for (int k = 0; k < RHO_TRIANGLE(num); k++) {
+        factor[k] = covariance[k];
+    }
+    if (!factorise(num, factor)) {
         return 0;
     }
     for (int i = 0; i < last; i++) {

@@ -178,7 +178,12 @@ static float share_inside(const struct search *search, float span_s)
 /* What ambiguity takes off the room of so many range rates. */
 static float aliases_of(const struct chance *chance, float hits)
 {
-    return RHO_AMBIGUOUS_RANGE_RATES ? hits * chance->log_aliases : 0.0f;
+#if RHO_AMBIGUOUS_RANGE_RATES
+    return hits * chance->log_aliases;
+#else
+    (void)chance, (void)hits;
+    return 0.0f;
+#endif
 }
 
 /* ln det of the normal equations, all axes. */

@@ -128,10 +128,11 @@ static int complete(const struct search *search, const struct span *span, struct
     return 1;
 }
 
+#if RHO_AMBIGUOUS_RANGE_RATES
 /* A kernel whose first plot has an ambiguous range rate is as many kernels as that can mean. */
 static void try_aliases(struct search *search, const struct span *span, struct kernel *kernel)
 {
-    struct aliases aliases = {.last = 0};
+    struct aliases aliases;
     if (search->is_isotropic ||
         !rho_initiator_open_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
         try_kernel(search, span, kernel);
@@ -145,6 +146,7 @@ static void try_aliases(struct search *search, const struct span *span, struct k
         }
     }
 }
+#endif
 
 /* The earlier end of kernels. */
 struct start {
@@ -175,7 +177,11 @@ static void pair_with(struct search *search, const struct span *span, const stru
     kernel.duration_s = duration_s;
     kernel.noise_a = start->noise;
     if (complete(search, span, &kernel)) {
+#if RHO_AMBIGUOUS_RANGE_RATES
         try_aliases(search, span, &kernel);
+#else
+        try_kernel(search, span, &kernel);
+#endif
     }
 }
 

@@ -70,11 +70,12 @@ int rho_initiator_own_kernel(const struct search *search, const struct span *spa
                                  is_range_rate(span->scan_b, kernel->to, &kernel->place));
 }
 
-/* Does the range rate of the kernel's last plot agree with it? */
+#if RHO_AMBIGUOUS_RANGE_RATES
 int rho_initiator_own_end(const struct span *span, const struct kernel *kernel)
 {
     return is_range_rate(span->scan_b, kernel->to, &kernel->place);
 }
+#endif
 
 /* The voter's plot nearest to where the kernel says, in the gate of all three plots' covariances; -1: none. */
 int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel)
@@ -404,28 +405,18 @@ static int solve_aliases(struct regression *of, unsigned widest)
     }
     return least < FLT_MAX;
 }
-#else
-static unsigned widest_span(const struct regression *of)
-{
-    (void)of;
-    return RHO_MAX_SCANS;
-}
-
-static int solve_aliases(struct regression *of, unsigned widest)
-{
-    (void)of, (void)widest;
-    return 1;
-}
 #endif
 
 /* Fits the places first, and where there are range rates again with them. */
 static int regress(struct regression *of)
 {
     int rounds = lay_out(of);
+#if RHO_AMBIGUOUS_RANGE_RATES
     unsigned widest = rounds > 1 ? widest_span(of) : RHO_MAX_SCANS;
     if (widest < RHO_MAX_SCANS) {
         return solve(of) && solve_aliases(of, widest);
     }
+#endif
     for (int i = 0; i < rounds; i++) {
         if (!solve(of)) {
             return 0;

@@ -157,6 +157,7 @@ struct kernel {
     struct rho_window_place place;            /* the same */
 };
 
+#if RHO_AMBIGUOUS_RANGE_RATES
 /* What an ambiguous range rate can mean, as far as a velocity allows: error + i span, i from first to last. */
 struct aliases {
     struct rho_window_range_rate seen;
@@ -165,28 +166,14 @@ struct aliases {
 };
 
 /* initiator_alias.c: 0 where the plot's range rate is not ambiguous; the place as alias i makes it known */
-#if RHO_AMBIGUOUS_RANGE_RATES
 int rho_initiator_open_aliases(const struct rho_window_scan *scan,
                                const struct rho_window_plot *plot,
                                const struct rho_window_place *place, struct aliases *aliases);
 void rho_initiator_take_alias(const struct aliases *aliases, int i,
                               const struct rho_window_place *place, struct rho_window_place *known);
-#else
-static inline int rho_initiator_open_aliases(const struct rho_window_scan *scan,
-                                             const struct rho_window_plot *plot,
-                                             const struct rho_window_place *place,
-                                             struct aliases *aliases)
-{
-    (void)scan, (void)plot, (void)place, (void)aliases;
-    return 0;
-}
 
-static inline void rho_initiator_take_alias(const struct aliases *aliases, int i,
-                                            const struct rho_window_place *place,
-                                            struct rho_window_place *known)
-{
-    (void)aliases, (void)i, (void)place, (void)known;
-}
+/* initiator_own.c: does the range rate of the kernel's last plot agree with it? */
+int rho_initiator_own_end(const struct span *span, const struct kernel *kernel);
 #endif
 
 /* initiator_kernels.c: offers what enough scans vote for */
@@ -195,7 +182,6 @@ void rho_initiator_try_kernels(struct search *search);
 /* initiator_own.c: the same with each plot's own covariance, height and range rate */
 int rho_initiator_own_kernel(const struct search *search, const struct span *span,
                              struct kernel *kernel);
-int rho_initiator_own_end(const struct span *span, const struct kernel *kernel);
 int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel);
 int rho_initiator_own_fit(const struct search *search, const struct plot_set *set,
                           struct line_fit *fit);

@@ -146,10 +146,8 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
     return noise;
 }
 
-int rho_window_see_range_rate(const struct rho_window_scan *scan,
-                              const struct rho_window_plot *plot,
-                              const struct rho_window_place *place,
-                              struct rho_window_range_rate *seen)
+static int see_range_rate(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
+                          const struct rho_window_place *place, struct rho_window_range_rate *seen)
 {
     /* where the scan has no heights, the place's own tells how steeply the sensor looks up */
     float z_m =
@@ -179,12 +177,22 @@ int rho_window_see_range_rate(const struct rho_window_scan *scan,
     return 1;
 }
 
+#if RHO_AMBIGUOUS_RANGE_RATES
+int rho_window_see_range_rate(const struct rho_window_scan *scan,
+                              const struct rho_window_plot *plot,
+                              const struct rho_window_place *place,
+                              struct rho_window_range_rate *seen)
+{
+    return see_range_rate(scan, plot, place, seen);
+}
+#endif
+
 float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,
                                       const struct rho_window_place *place)
 {
     struct rho_window_range_rate seen;
-    if (!rho_window_see_range_rate(scan, plot, place, &seen)) {
+    if (!see_range_rate(scan, plot, place, &seen)) {
         return 0.0f;
     }
     return seen.error_mps * seen.error_mps / seen.variance;

@@ -90,9 +90,9 @@ static void add_position(const struct rho_kalman *at, const struct rho_measureme
     }
 }
 
-/* The innovations of a range rate and a position are correlated. 0 where it says nothing. */
-static int add_range_rate(const struct rho_gate_rate *rate, const struct rho_sensor *sensor,
-                          const struct rho_plot *plot, struct innovation *innovation)
+/* The innovations of a range rate and a position are correlated. */
+static int add_range_rate(const struct rho_gate_rate *rate, const struct rho_plot *plot,
+                          struct innovation *innovation)
 {
     int n = innovation->num;
     if (!rate->is_known) {
@@ -104,9 +104,6 @@ static int add_range_rate(const struct rho_gate_rate *rate, const struct rho_sen
     innovation->s[RHO_AT(n, n)] =
         rate->variance + plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
     innovation->d[n] = plot->range_rate_mps - rate->rate_mps;
-    if (!rho_measurement_unfold_range_rate(sensor, n + 1, innovation->s, innovation->d)) {
-        return 0;
-    }
     innovation->num = n + 1;
     return 1;
 }
@@ -149,8 +146,15 @@ static int test_closely(const struct rho_gate *gate, const struct rho_kalman *at
     rho_measurement_open(plot, gate->measures, gate->sensor, &seen);
     result->has_z = gate->has_z && seen.has_z;
     add_position(at, &seen, result->has_z ? 3 : 2, &innovation);
-    result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 &&
-                             add_range_rate(rate, gate->sensor, plot, &innovation);
+    result->has_range_rate =
+        (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 && add_range_rate(rate, plot, &innovation);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
+                                                                     innovation.s, innovation.d)) {
+        result->has_range_rate = 0;
+        innovation.num--;
+    }
+#endif
     return is_inside(&innovation, result);
 }
 

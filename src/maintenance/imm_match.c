@@ -21,7 +21,6 @@ struct view {
     float
         root; /* of the inverse determinant of the innovation's covariance: what the density is in proportion to */
     int counts;
-    int is_unclear; /* which of its range rates is meant: any is as likely */
 };
 
 /* Isotropic noise has no frame: nothing to find it for. */
@@ -170,15 +169,6 @@ static int add_range_rate(const struct view *view, const struct rho_imm_plot *se
     return 1;
 }
 
-/* A range rate that could be any of the target's says nothing; that it lies where it does has the density 1 / span. */
-static void unfold_range_rate(struct view *view, const struct rho_sensor *sensor,
-                              struct innovation *innovation)
-{
-    view->is_unclear = !rho_measurement_unfold_range_rate(sensor, innovation->num, innovation->s,
-                                                          innovation->d);
-    innovation->num -= view->is_unclear;
-}
-
 /* A model that is in the sensor's own place has no range rate, and says nothing. */
 static void view_all(struct view *view, const struct rho_imm_plot *seen,
                      const struct rho_imm_match *match)
@@ -191,15 +181,21 @@ static void view_all(struct view *view, const struct rho_imm_plot *seen,
     }
     view->counts = !match->has_range_rate ||
                    add_range_rate(view, seen, match->num_axes, match->has_velocity, &innovation);
-    if (match->has_range_rate && view->counts) {
-        unfold_range_rate(view, seen->sensor, &innovation);
-    }
+#if RHO_AMBIGUOUS_RANGE_RATES
+    /* which range rate is meant may be unclear: then any is as likely, with the density 1 / span */
+    int is_unclear = match->has_range_rate && view->counts &&
+                     !rho_measurement_unfold_range_rate(seen->sensor, innovation.num, innovation.s,
+                                                        innovation.d);
+    innovation.num -= is_unclear;
+#endif
     view->counts = view->counts && rho_linalg_match(innovation.num, innovation.s, innovation.d,
                                                     COUNTS_MAX, &view->distance2, &log_det);
     view->root = rho_exp(-0.5f * log_det);
-    if (view->is_unclear) {
+#if RHO_AMBIGUOUS_RANGE_RATES
+    if (is_unclear) {
         view->root *= ROOT_TWO_PI / seen->sensor->range_rate_span_mps;
     }
+#endif
 }
 
 /* Places alone: S = L D L^T by hand. */
@@ -314,8 +310,8 @@ static int weigh_models(const struct view views[2], float probability, int num_d
 int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
                   struct rho_imm_match *match)
 {
-    struct view views[2] = {{imm->steady.state, imm->steady.covariance, 0.0f, 0.0f, 0, 0},
-                            {imm->state, imm->covariance, 0.0f, 0.0f, 0, 0}};
+    struct view views[2] = {{imm->steady.state, imm->steady.covariance, 0.0f, 0.0f, 0},
+                            {imm->state, imm->covariance, 0.0f, 0.0f, 0}};
     match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;

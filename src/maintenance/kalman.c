@@ -409,6 +409,7 @@ int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_
     return 1;
 }
 
+#if RHO_AMBIGUOUS_RANGE_RATES
 int rho_kalman_tells_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
                                 const struct rho_kalman_row *seen)
 {
@@ -419,6 +420,7 @@ int rho_kalman_tells_range_rate(const struct rho_kalman *kalman, const struct rh
                sensor,
                rho_linalg_project6(kalman->covariance, seen->row, projected) + seen->variance);
 }
+#endif
 
 enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                              const struct rho_sensor *sensor, float rate_mps,
