@@ -157,7 +157,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 /*
  * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus
  * height plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the
- * position are neglected. Cost: as above, 60 instructions a plot. Stack: 230 bytes.
+ * position are neglected. Cost: as above, 60 instructions a plot. Stack: 260 bytes.
  */
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work);
@@ -174,7 +174,7 @@ struct rho_window_range_rate {
 };
 
 #if RHO_AMBIGUOUS_RANGE_RATES
-/* Fills *seen; 0, and nothing is filled, for a plot in the sensor's place. Cost: 100 instructions. Stack: 140 bytes. */
+/* Fills *seen; 0, and nothing is filled, for a plot in the sensor's place. Cost: 100 instructions. Stack: 160 bytes. */
 int rho_window_see_range_rate(const struct rho_window_scan *scan,
                               const struct rho_window_plot *plot,
                               const struct rho_window_place *place,
@@ -184,7 +184,7 @@ int rho_window_see_range_rate(const struct rho_window_scan *scan,
 /*
  * Squared distance of a held plot's range rate from what the place's velocity would show there, in units of its
  * variance. The line of sight is the plot's, whose own error turns the velocity. 0 for a plot in the sensor's place.
- * Cost: 100 instructions. Stack: 140 bytes.
+ * Cost: 100 instructions. Stack: 160 bytes.
  */
 float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,

@@ -415,6 +415,10 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     suggest_area(parameters, &scenario->box);
     if (is_radar(scenario)) {
         parameters_suggest(parameters, PARAMETER_RANGE_RATE, scenario->plan == plan_doppler);
+        if (scenario->plan == plan_doppler) {
+            parameters_suggest(parameters, PARAMETER_SIGMA_RANGE_M, 40);
+            parameters_suggest(parameters, PARAMETER_SIGMA_AZIMUTH_RAD, 0.007);
+        }
         suggest_radar(parameters, scenario->box.x_max_m);
     }
     if (!(scenario->true_pd > 0.0)) {
