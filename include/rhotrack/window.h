@@ -96,8 +96,8 @@ struct rho_window_place {
 #if RHO_AMBIGUOUS_RANGE_RATES
     float more_mps[3]; /* what range rates say of the velocity beside: for range rates alone */
 #endif
-    float factor;                           /* of the plots' covariances, and of the sum's gate */
-    int has_z;                              /* z_m and vz_mps are known */
+    float factor; /* of the plots' covariances, and of the sum's gate */
+    int has_z;    /* z_m and vz_mps are known */
     float reach_m;
     uint16_t skip_flags;
 };

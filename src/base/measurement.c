@@ -398,8 +398,8 @@ int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
     if (!rho_measurement_is_range_rate_clear(sensor, sd_mps * sd_mps)) {
         return 0;
     }
-    innovation[last] = expected_mps + rho_measurement_range_rate_error_mps(
-                                          sensor, innovation[last], expected_mps);
+    innovation[last] =
+        expected_mps + rho_measurement_range_rate_error_mps(sensor, innovation[last], expected_mps);
     return 1;
 }
 

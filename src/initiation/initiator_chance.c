@@ -344,9 +344,9 @@ static float mean_log_aliases(const struct search *search)
 {
     float sum = 0.0f;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        sum += rho_measurement_log_aliases(
-            &rho_window_scan_at(&search->initiator->window, m)->sensor,
-            search->initiator->config.v_max_mps);
+        sum +=
+            rho_measurement_log_aliases(&rho_window_scan_at(&search->initiator->window, m)->sensor,
+                                        search->initiator->config.v_max_mps);
     }
     return sum / (float)search->num_scans;
 }

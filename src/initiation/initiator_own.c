@@ -504,6 +504,7 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
         rho_linalg_log_determinant((int)unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     *dimensions = rows - unknowns;
     *log_likelihood = -0.5f * ((float)*dimensions * LOG_TWO_PI + log_noise + log_fisher + *chi2) +
-                      rho_initiator_log_room(search, of.axes == 3, heights, range_rates) - log_aliases;
+                      rho_initiator_log_room(search, of.axes == 3, heights, range_rates) -
+                      log_aliases;
     return 1;
 }

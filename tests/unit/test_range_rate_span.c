@@ -13,10 +13,8 @@
 
 static struct rho_sensor radar_of(float span_mps)
 {
-    return (struct rho_sensor){.sensor_id = 1,
-                               .pd = 0.9f,
-                               .range_max_m = 1e5f,
-                               .range_rate_span_mps = span_mps};
+    return (struct rho_sensor){
+        .sensor_id = 1, .pd = 0.9f, .range_max_m = 1e5f, .range_rate_span_mps = span_mps};
 }
 
 static float folded(double rate_mps, float span_mps)
@@ -30,13 +28,13 @@ static void errors_are_brought_within_half_the_span(void **state)
 {
     (void)state;
     const struct rho_sensor sensor = radar_of(SPAN), whole = radar_of(0.0f);
-    const float cases[][3] = {{0.0f, 0.0f, 0.0f},     {3.0f, 1.0f, 2.0f},    {-20.0f, 20.0f, 10.0f},
-                              {20.0f, -20.0f, -10.0f}, {7.0f, -243.0f, 0.0f}, {7.0f, 255.0f, 2.0f},
-                              {410.0f, 8.0f, 2.0f},    {24.0f, 0.0f, 24.0f},  {26.0f, 0.0f, -24.0f}};
+    const float cases[][3] = {
+        {0.0f, 0.0f, 0.0f},      {3.0f, 1.0f, 2.0f},    {-20.0f, 20.0f, 10.0f},
+        {20.0f, -20.0f, -10.0f}, {7.0f, -243.0f, 0.0f}, {7.0f, 255.0f, 2.0f},
+        {410.0f, 8.0f, 2.0f},    {24.0f, 0.0f, 24.0f},  {26.0f, 0.0f, -24.0f}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        assert_float_equal(
-            rho_measurement_range_rate_error_mps(&sensor, cases[i][0], cases[i][1]), cases[i][2],
-            1e-4);
+        assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, cases[i][0], cases[i][1]),
+                           cases[i][2], 1e-4);
         float all = cases[i][0] - cases[i][1];
         assert_float_equal(rho_measurement_range_rate_error_mps(&whole, cases[i][0], cases[i][1]),
                            all, 0.0);
@@ -109,9 +107,9 @@ static struct rho_kalman estimate_of(float sd_mps)
     struct rho_kalman kalman;
     rho_kalman_init(&kalman);
     for (int axis = 0; axis < 2; axis++) {
-        assert_int_equal(rho_kalman_open_axis(&kalman, axis, axis == 0 ? 4e4f : 5e3f, 400.0f,
-                                              sd_mps * sd_mps),
-                         RHO_OK);
+        assert_int_equal(
+            rho_kalman_open_axis(&kalman, axis, axis == 0 ? 4e4f : 5e3f, 400.0f, sd_mps * sd_mps),
+            RHO_OK);
     }
     kalman.state[3] = -200.0f;
     kalman.state[4] = 60.0f;
@@ -314,9 +312,8 @@ static struct rho_track_report follow(float span_mps)
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
     for (int scan = 0; scan < 20; scan++) {
         add_scan(4.0 * scan, span_mps, 20);
-        step_scan((struct rho_scan){.time_us = 4000000 * scan,
-                                    .sensor_id = 1,
-                                    .measures = RHO_MEASURES_RANGE_RATE});
+        step_scan((struct rho_scan){
+            .time_us = 4000000 * scan, .sensor_id = 1, .measures = RHO_MEASURES_RANGE_RATE});
     }
     assert_int_equal(report.num_tracks, 1);
     assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);

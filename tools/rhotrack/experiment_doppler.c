@@ -46,8 +46,8 @@ static void judge_beyond(struct verdicts *verdicts, const struct doppler_figures
                       of->clutter);
     verdicts_at_most(verdicts, of->false_a_run, DOPPLER_FALSE_MAX,
                      "%s, %g a turn: false candidates a run", name, of->clutter);
-    verdicts_at_least(verdicts, of->prompt, DOPPLER_PD_MIN,
-                      "%s, %g a turn: tracked after 5 turns", name, of->clutter);
+    verdicts_at_least(verdicts, of->prompt, DOPPLER_PD_MIN, "%s, %g a turn: tracked after 5 turns",
+                      name, of->clutter);
     verdicts_at_most(verdicts, of->false_tracks, DOPPLER_FALSE_MAX,
                      "%s, %g a turn: false tracks a run", name, of->clutter);
 }
@@ -144,8 +144,10 @@ void doppler_page(const struct doppler_result *result, const struct verdicts *ve
               "rates Pd .95, by a batch of seven turns and by the tracker after five, and .1 false "
               "ones a run are met up to %g clutter plots a turn; with them at ten times as many?",
               num_runs, (unsigned long long)seed, verdicts->held, verdicts->missed, result->limit);
-    page_text(&page, "A range rate within 800 m/s tells ln(800 / 4.13) = 5.3 nat a plot (4.13: e to the entropy of 1 m/s "
-                     "of normal noise), with a span of 100 m/s 3.2, of 30 m/s 2.0; ten times the clutter takes 2.3.");
+    page_text(&page, "A range rate within 800 m/s tells ln(800 / 4.13) = 5.3 nat a plot (4.13: e "
+                     "to the entropy of 1 m/s "
+                     "of normal noise), with a span of 100 m/s 3.2, of 30 m/s 2.0; ten times the "
+                     "clutter takes 2.3.");
     page_table(&page, &grid);
     page_figure(&page, "tracked.svg", "Targets with a confirmed track after five turns.");
     page_heading(&page, "What must hold");

@@ -18,14 +18,16 @@
 extern const struct polar_case doppler_cases[DOPPLER_CASES]; /* the first is without range rates */
 
 #define DOPPLER_LEVELS 7
-extern const double doppler_clutter[DOPPLER_LEVELS]; /* where the limit without range rates is looked for */
+extern const double
+    doppler_clutter[DOPPLER_LEVELS]; /* where the limit without range rates is looked for */
 
 /* One case at one clutter level over all runs. */
 struct doppler_figures {
     const struct polar_case *of;
     double clutter, static_clutter;
-    double found, false_a_run, search_ms;         /* a batch of seven turns */
-    double prompt, tracked, false_tracks, confirm_at; /* the tracker: after five turns, at the end, a run, mean turn */
+    double found, false_a_run, search_ms; /* a batch of seven turns */
+    double prompt, tracked, false_tracks,
+        confirm_at; /* the tracker: after five turns, at the end, a run, mean turn */
     double rmse_m, rmse_mps;
 };
 

@@ -122,8 +122,8 @@ double polar_search(const struct polar_case *of, const struct parameters *parame
     for (size_t turn = 0; turn < POLAR_WINDOW; turn++) {
         struct rho_scan scan = polar_scan(of, simulation, turn, chain->plots);
         memset(fates, RHO_FATE_HELD, RHO_MAX_PLOTS);
-        must_succeed(rho_initiator_push(chain->initiator, &scan, of->span_mps > 0.0 ? &sensor : NULL,
-                                        fates, &unused),
+        must_succeed(rho_initiator_push(chain->initiator, &scan,
+                                        of->span_mps > 0.0 ? &sensor : NULL, fates, &unused),
                      "push");
     }
     free(fates);

@@ -36,8 +36,8 @@ struct verdicts rotating_verdicts(const struct rotating_figures *figures)
     const struct rotating_figures *sectors = &figures[ROTATING_SECTORS];
     const struct rotating_figures *at_once = &figures[ROTATING_AT_ONCE];
     const struct parameters parameters = rotating_parameters();
-    double sector_ms = 1e3 * parameters.value[PARAMETER_INTERVAL_S] /
-                       parameters.value[PARAMETER_SECTORS_PER_TURN];
+    double sector_ms =
+        1e3 * parameters.value[PARAMETER_INTERVAL_S] / parameters.value[PARAMETER_SECTORS_PER_TURN];
     struct verdicts verdicts = verdicts_start();
 
     verdicts_at_most(&verdicts, at_once->found - sectors->found, LOSS_MAX,

@@ -50,7 +50,8 @@ struct rotating_figures {
     double step_max_us, latency_max_ms; /* of the runs that were timed */
 };
 
-struct rotating_figures *rotating_measure(uint64_t seed, size_t num_runs); /* ROTATING_CASES, new memory */
+struct rotating_figures *rotating_measure(uint64_t seed,
+                                          size_t num_runs); /* ROTATING_CASES, new memory */
 
 struct grid rotating_grid(const struct rotating_figures *figures);
 struct verdicts rotating_verdicts(const struct rotating_figures *figures);

@@ -10,8 +10,8 @@
 #include "scenario.h"
 #include "workers.h"
 
-#define STREAM 0x726f74 /* of random numbers */
-#define WINDOW 7        /* turns in which a target is to be found */
+#define STREAM 0x726f74   /* of random numbers */
+#define WINDOW 7          /* turns in which a target is to be found */
 #define TOLERANCE_M 700.0 /* a track within is the target's: a plot's error is up to 180 m across */
 #define TRACKS_MAX 512
 #define TIMED_RUNS 4
@@ -116,8 +116,8 @@ static struct rho_scan scan_of(struct following *all, const struct antenna_secto
 /* ---- tracks ----------------------------------------------------------------------------------- */
 
 /* The target nearest to a track; -1: none is near. */
-static int target_of(const struct following *all, const struct rho_track_report *report,
-                     double t_s, struct truth_point *truth)
+static int target_of(const struct following *all, const struct rho_track_report *report, double t_s,
+                     struct truth_point *truth)
 {
     double least_m = TOLERANCE_M;
     int nearest = -1;
@@ -176,8 +176,8 @@ static int look(struct following *all, double t_s)
         if (track->plot >= 0) {
             all->result.sum_m2 +=
                 pow(track->state[0] - truth.x_m, 2.0) + pow(track->state[1] - truth.y_m, 2.0);
-            all->result.sum_m2ps2 += pow(track->state[3] - truth.vx_mps, 2.0) +
-                                     pow(track->state[4] - truth.vy_mps, 2.0);
+            all->result.sum_m2ps2 +=
+                pow(track->state[3] - truth.vx_mps, 2.0) + pow(track->state[4] - truth.vy_mps, 2.0);
             all->result.count++;
         }
     }

@@ -433,7 +433,6 @@ void parameters_check(const struct parameters *parameters)
         }
         char whose[32];
         snprintf(whose, sizeof whose, "sensor %d: ", (int)id);
-        check_span(whose,
-                   parameters_of_sensor(parameters, id, SENSOR_RANGE_RATE_SPAN_MPS, 0.0));
+        check_span(whose, parameters_of_sensor(parameters, id, SENSOR_RANGE_RATE_SPAN_MPS, 0.0));
     }
 }

@@ -145,7 +145,7 @@
       "simulate air-traffic: share of targets that start so that they meet another")               \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
     X(RANGE_RATE, "range_rate", "-", 0, 0, 1, 1, 0,                                                \
-      "simulate polar, rotating, doppler: 1: the radar measures range rate")                                          \
+      "simulate polar, rotating, doppler: 1: the radar measures range rate")                       \
     X(STATIC_CLUTTER, "static_clutter", "-", 0, 0, 1e4, 0, 0,                                      \
       "simulate doppler: mean clutter plots a scan more, that stand still")                        \
     X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
@@ -180,7 +180,7 @@
       "simulate popup, ..., literal: random change of place a scan, each axis; root of Q")         \
     X(TRUE_NOISE_MPS, "true_noise_mps", "m/s", 1, 0, 1e4, 0, 0, "the same of velocities")          \
     X(SECTORS_PER_TURN, "sectors_per_turn", "-", 32, 1, 360, 1, 0,                                 \
-      "simulate two-radars, rotating: scans of a turn; 1: a turn is a scan")                                 \
+      "simulate two-radars, rotating: scans of a turn; 1: a turn is a scan")                       \
     X(SECOND_INTERVAL_S, "second_interval_s", "s", 4, 0.001, 3600, 0, 0,                           \
       "simulate two-radars: a turn of the second radar")                                           \
     X(TRUE_RANGE_BIAS_M, "true_range_bias_m", "m", 50, -1e4, 1e4, 0, 0,                            \

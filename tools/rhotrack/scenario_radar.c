@@ -141,7 +141,8 @@ struct scenario_state plan_straight_around(const struct parameters *parameters, 
             return state;
         }
     }
-    fail(EXIT_USAGE, "scenarios polar, doppler and rotating: no target can stay within 20 to 60 km for the whole run; "
+    fail(EXIT_USAGE, "scenarios polar, doppler and rotating: no target can stay within 20 to 60 km "
+                     "for the whole run; "
                      "take fewer scans or slower targets");
 }
 
@@ -150,7 +151,8 @@ static void check_turn(const struct parameters *parameters)
 {
     double max_s = parameters_text(PARAMETER_SCAN_INTERVAL_S).max;
     if (parameters->value[PARAMETER_INTERVAL_S] > max_s) {
-        fail(EXIT_USAGE, "scenarios polar and doppler: a turn of interval_s %.9g is longer than a scan, %.9g s",
+        fail(EXIT_USAGE,
+             "scenarios polar and doppler: a turn of interval_s %.9g is longer than a scan, %.9g s",
              parameters->value[PARAMETER_INTERVAL_S], max_s);
     }
 }

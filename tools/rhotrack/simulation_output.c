@@ -170,9 +170,8 @@ static void write_settings(const char *name, const struct simulation *simulation
 {
     static const enum parameter_id told[] = {PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS,
                                              PARAMETER_ACCEL_MAX_MPS2};
-    static const enum parameter_id told_if_set[] = {PARAMETER_STEADY_S,
-                                                    PARAMETER_PROCESS_NOISE_MPS2,
-                                                    PARAMETER_RANGE_RATE_SPAN_MPS};
+    static const enum parameter_id told_if_set[] = {
+        PARAMETER_STEADY_S, PARAMETER_PROCESS_NOISE_MPS2, PARAMETER_RANGE_RATE_SPAN_MPS};
     char *path = path_join(folder, "scenario.ini");
     struct output output = output_open(path);
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
