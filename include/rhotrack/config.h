@@ -185,6 +185,12 @@
 #define RHO_SECTORS 1
 #endif
 
+/* 1: range rates may be ambiguous (struct rho_sensor's range_rate_span_mps); 0: left out of the program (1.5 KB less on a
+ * Cortex-M4), and a sensor has no such field. */
+#ifndef RHO_AMBIGUOUS_RANGE_RATES
+#define RHO_AMBIGUOUS_RANGE_RATES 1
+#endif
+
 /* Strips that a scan's plots are sorted into, so that a track looks at those near it alone: worth it where tracks times plots
  * are a million. 1: no sorting. RAM: 2 bytes each, and 2 a plot. 1 .. 16384. */
 #ifndef RHO_PLOT_STRIPS

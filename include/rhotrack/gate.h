@@ -93,7 +93,7 @@ void rho_gate_box(const struct rho_gate *gate, float sigma_m, float offset_s, fl
 /*
  * Tests a valid plot. Returns 1 and fills *result where the plot is in the gate, else 0 (also where the covariance is not
  * positive definite). z counts where both have it, a range rate where the scan measures it and the prediction is not in
- * the sensor's place. The prediction moves on with the plot's own time.
+ * the sensor's place; an ambiguous one where it is clear which one is meant (measurement.h). The prediction moves on with the plot's own time.
  * Cost: about 30 instructions; for plots inside the gate's box about 350 more, as many again for a plot with an own
  * time, and 300 for its range rate. Stack: 850 bytes.
  */

@@ -184,7 +184,7 @@ float rho_hypotheses_slack_m(const struct rho_hypotheses *pool, uint16_t slot,
  * Weighs a plot of time_us, its own, with every hypothesis; each keeps its RHO_HYPOTHESES_CHILDREN best, of equals those that
  * came first. Returns 1 where the plot is in the gate of any, and then in *gain_nat what the best hypothesis with the plot
  * is worth: ln of pd times the plot's density over the clutter's, plus that hypothesis' weight.
- * Cost: rho_imm_weigh a hypothesis, and rho_imm_move for a plot with an own time. Stack: 700 bytes.
+ * Cost: rho_imm_weigh a hypothesis, and rho_imm_move for a plot with an own time. Stack: 820 bytes.
  */
 int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
                          const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
@@ -206,7 +206,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool
 /*
  * All hypotheses take a plot that is known to be the target's, at its own time. Errors: NULL, STATE (slot), and those of
  * rho_imm_update where no hypothesis could take it: then they are as they were predicted to its time, or where they were if
- * that is too far back. Stack: 650 bytes.
+ * that is too far back. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, uint16_t slot,
                                                    const struct rho_imm_plot *seen,
@@ -214,7 +214,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_take(struct rho_hypotheses *pool, 
 
 /*
  * The same with a bearing from a place: hypotheses' weights move by how well they had predicted it, and those that are too
- * light then are given up. Stack: 650 bytes.
+ * light then are given up. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses *pool,
                                                            uint16_t slot, int64_t time_us,
@@ -223,7 +223,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_take_bearing(struct rho_hypotheses
 
 /*
  * The mean over all hypotheses, moved to time_us. Errors: NULL, STATE (slot), VALUE (none can be moved there); *estimate is
- * unchanged. Cost: 450 instructions a hypothesis. Stack: 650 bytes.
+ * unchanged. Cost: 450 instructions a hypothesis. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot,
                                                        int64_t time_us,

@@ -116,7 +116,7 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
 /*
  * Weighs a plot at the estimate's time: returns 1 and fills *match where it is in the gate of either model, else 0. Height,
  * velocity and range rate count as far as both have them.
- * Cost: about 250 instructions, coupled or with own covariance 500. Stack: 600 bytes.
+ * Cost: about 250 instructions, coupled or with own covariance 500. Stack: 710 bytes.
  */
 int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
                   struct rho_imm_match *match);

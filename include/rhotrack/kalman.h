@@ -112,8 +112,26 @@ int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_
                               float rate_mps, float variance, struct rho_kalman_row *seen);
 
 /*
+ * True where what was seen of a range rate tells the estimate something: always, but where it is ambiguous and the estimate
+ * does not tell which one is meant (measurement.h). Cost: rho_linalg_project6 where it is ambiguous.
+ */
+#if RHO_AMBIGUOUS_RANGE_RATES
+int rho_kalman_tells_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                                const struct rho_kalman_row *seen);
+#else
+static inline int rho_kalman_tells_range_rate(const struct rho_kalman *kalman,
+                                              const struct rho_sensor *sensor,
+                                              const struct rho_kalman_row *seen)
+{
+    (void)kalman, (void)sensor, (void)seen;
+    return 1;
+}
+#endif
+
+/*
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate: after the position of
- * the same plot. An estimate nearer than a metre to the sensor has no range rate: nothing is done, RHO_OK.
+ * the same plot. An estimate nearer than a metre to the sensor has no range rate, and an
+ * ambiguous one may tell nothing: nothing is done, RHO_OK.
  * Errors: as rho_kalman_update_row. Cost: that and rho_measurement_range_rate. Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,

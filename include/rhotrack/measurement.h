@@ -74,7 +74,7 @@ int rho_measurement_is_bearing(const struct rho_bearing *bearing);
 void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out);
 
-/* True where a sensor's place and biases are finite and within the limits of types.h. Constant cost. */
+/* True where a sensor's place, biases and span of range rates are finite and within the limits of types.h. Constant cost. */
 int rho_measurement_is_sensor(const struct rho_sensor *sensor);
 
 /* The noise's covariance in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant cost. */
@@ -89,6 +89,70 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
  */
 int rho_measurement_range_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
                                float row[6], float *rate_mps);
+
+/*
+ * Ambiguous range rates: a radar of pulse repetition frequency f and wavelength w tells range rates up to multiples of f w / 2,
+ * the sensor's range_rate_span_mps. The one meant is the one nearest to what is expected, as long as the expectation is
+ * sure enough: three standard deviations of the difference must be within half the span. Where they are not, a range
+ * rate counts as if it had not been measured. Of a sensor without a span (or NULL) all of this says nothing new.
+ */
+#if RHO_AMBIGUOUS_RANGE_RATES
+/* Measured minus expected, brought within +-span/2. Cost: a division. */
+float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor, float measured_mps,
+                                           float expected_mps);
+
+/* True where a difference of this variance, (m/s)^2, tells which multiple is meant. Constant cost. */
+int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float variance);
+
+/*
+ * The same for num (2 .. 7) correlated innovations, the last of them a range rate's: it is brought nearest to what the others
+ * make of it. covariance: their packed triangle. Returns 0, and changes nothing, where it is not clear even so, or the
+ * covariance is not positive definite. Cost: a Cholesky factor of num x num. Stack: 280 bytes.
+ */
+int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
+                                      const float *covariance, float *innovation);
+
+/* ln of how many of the range rates -v_max .. v_max a sensor takes for one; 0 where it tells all. Cost: a logarithm. */
+float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps);
+
+static inline int rho_measurement_has_span(const struct rho_sensor *sensor)
+{
+    return sensor && sensor->range_rate_span_mps > 0.0f;
+}
+#else
+static inline float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor,
+                                                         float measured_mps, float expected_mps)
+{
+    (void)sensor;
+    return measured_mps - expected_mps;
+}
+
+static inline int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor,
+                                                      float variance)
+{
+    (void)sensor, (void)variance;
+    return 1;
+}
+
+static inline int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
+                                                    const float *covariance, float *innovation)
+{
+    (void)sensor, (void)num, (void)covariance, (void)innovation;
+    return 1;
+}
+
+static inline float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps)
+{
+    (void)sensor, (void)v_max_mps;
+    return 0.0f;
+}
+
+static inline int rho_measurement_has_span(const struct rho_sensor *sensor)
+{
+    (void)sensor;
+    return 0;
+}
+#endif
 
 /*
  * A bearing from a place as a scalar measurement of a state [x y z vx vy vz], in metres across the line of sight: the

@@ -30,6 +30,8 @@
 #define RHO_LIMIT_BIAS_M 1.0e4f /* of a sensor, either way */
 #define RHO_LIMIT_BIAS_RAD 0.5f
 #define RHO_LIMIT_BIAS_S 10.0f
+#define RHO_LIMIT_SPAN_MIN_MPS 1.0f /* of ambiguous range rates */
+#define RHO_LIMIT_SPAN_MAX_MPS (2.0f * RHO_LIMIT_SPEED_MPS)
 #define RHO_LIMIT_OFFSET_US 60000000 /* a plot's own time from its scan's */
 /* either side of 0; differences then fit 64 bits */
 #define RHO_LIMIT_TIME_US INT64_C(4000000000000000000)
@@ -50,7 +52,7 @@ struct rho_plot {
     int32_t offset_us; /* time of this plot after the scan's time: a rotating antenna's delay */
     float x_m, y_m, z_m;
     float vx_mps, vy_mps, vz_mps;
-    float range_rate_mps; /* positive: receding */
+    float range_rate_mps; /* positive: receding; its sensor's span says whether it is ambiguous */
     float sigma_range_m, sigma_cross_m, sigma_up_m;
     float sigma_mps; /* of each velocity component */
     float sigma_range_rate_mps;
@@ -123,6 +125,10 @@ struct rho_sensor {
 #if RHO_SECTORS
     /* how many times the variances of its plots' places count; 0: once. The tracker sets it of a sensor that it doubts */
     float variance_factor;
+#endif
+#if RHO_AMBIGUOUS_RANGE_RATES
+    /* range rates are known up to multiples of this, within +-span/2 or anywhere; 0: they are not ambiguous */
+    float range_rate_span_mps;
 #endif
 };
 

@@ -112,8 +112,11 @@ struct rho_window_place {
     float vx_mps, vy_mps, vz_mps;
     struct rho_window_noise noise;          /* of the place */
     struct rho_window_noise velocity_noise; /* of the velocity, (m/s)^2 */
-    float factor;                           /* of the plots' covariances, and of the sum's gate */
-    int has_z;                              /* z_m and vz_mps are known */
+#if RHO_AMBIGUOUS_RANGE_RATES
+    float more_mps[3]; /* what range rates say of the velocity beside: for range rates alone */
+#endif
+    float factor; /* of the plots' covariances, and of the sum's gate */
+    int has_z;    /* z_m and vz_mps are known */
     float reach_m;
     uint16_t skip_flags;
 };
@@ -180,7 +183,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 /*
  * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus
  * height plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the
- * position are neglected. Cost: as above, 60 instructions a plot. Stack: 230 bytes.
+ * position are neglected. Cost: as above, 60 instructions a plot. Stack: 260 bytes.
  */
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work);
@@ -189,10 +192,25 @@ int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_w
 struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
                                          const struct rho_window_plot *plot);
 
+/* A held plot's range rate, as a place's velocity would have it. */
+struct rho_window_range_rate {
+    float error_mps; /* measured minus expected, an ambiguous one the nearest */
+    float variance;  /* of that */
+    float along[3];  /* the line of sight: derivative by the velocity */
+};
+
+#if RHO_AMBIGUOUS_RANGE_RATES
+/* Fills *seen; 0, and nothing is filled, for a plot in the sensor's place. Cost: 100 instructions. Stack: 160 bytes. */
+int rho_window_see_range_rate(const struct rho_window_scan *scan,
+                              const struct rho_window_plot *plot,
+                              const struct rho_window_place *place,
+                              struct rho_window_range_rate *seen);
+#endif
+
 /*
  * Squared distance of a held plot's range rate from what the place's velocity would show there, in units of its
  * variance. The line of sight is the plot's, whose own error turns the velocity. 0 for a plot in the sensor's place.
- * Cost: 100 instructions. Stack: 140 bytes.
+ * Cost: 100 instructions. Stack: 160 bytes.
  */
 float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,

@@ -5,6 +5,7 @@
 
 #include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
+#include "rhotrack/linalg.h"
 
 /* Nearer than this a line of sight says nothing. */
 #define RANGE_LEAST_M 1.0f
@@ -59,9 +60,25 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
     return !(measures & RHO_MEASURES_VELOCITY) || is_valid_velocity(plot, measures);
 }
 
+#if RHO_AMBIGUOUS_RANGE_RATES
+/* 0, or within its limits. */
+static int is_span(const struct rho_sensor *sensor)
+{
+    float span_mps = sensor->range_rate_span_mps;
+    return rho_is_within(span_mps, 0.0f, 0.0f) ||
+           rho_is_within(span_mps, RHO_LIMIT_SPAN_MIN_MPS, RHO_LIMIT_SPAN_MAX_MPS);
+}
+#else
+static int is_span(const struct rho_sensor *sensor)
+{
+    (void)sensor;
+    return 1;
+}
+#endif
+
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
+    return is_span(sensor) && rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
            rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
@@ -311,6 +328,96 @@ int rho_measurement_range_rate(const float state[6], const struct rho_sensor *se
     *rate_mps = rate;
     return 1;
 }
+
+/* ---- ambiguous range rates -------------------------------------------------------------------- */
+
+#if RHO_AMBIGUOUS_RANGE_RATES
+#define INNOVATIONS_MAX 7
+#define TURNS_MAX 1.0e6f /* what is farther off is no range rate */
+
+/* Standard deviations that the expectation may be wrong by. */
+#define CLEAR_SIGMAS 3.0f
+
+float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor, float measured_mps,
+                                           float expected_mps)
+{
+    float error_mps = measured_mps - expected_mps;
+    if (!rho_measurement_has_span(sensor)) {
+        return error_mps;
+    }
+    float turns = error_mps / sensor->range_rate_span_mps;
+    if (!rho_is_within(turns, -TURNS_MAX, TURNS_MAX)) {
+        return error_mps;
+    }
+    int32_t whole = (int32_t)(turns + (turns < 0.0f ? -0.5f : 0.5f));
+    return error_mps - (float)whole * sensor->range_rate_span_mps;
+}
+
+int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float variance)
+{
+    if (!rho_measurement_has_span(sensor)) {
+        return 1;
+    }
+    float half_mps = 0.5f * sensor->range_rate_span_mps;
+    return CLEAR_SIGMAS * CLEAR_SIGMAS * variance <= half_mps * half_mps;
+}
+
+/* In place: the lower triangle's Cholesky factor. The stack of rho_linalg_cholesky is a filter's. */
+static int factorise(int num, float *a)
+{
+    for (int i = 0; i < num; i++) {
+        for (int j = 0; j <= i; j++) {
+            float rest = a[RHO_AT(i, j)];
+            for (int k = 0; k < j; k++) {
+                rest -= a[RHO_AT(i, k)] * a[RHO_AT(j, k)];
+            }
+            if (i == j && !(rest > 0.0f)) {
+                return 0;
+            }
+            a[RHO_AT(i, j)] = i == j ? rho_sqrt(rest) : rest / a[RHO_AT(j, j)];
+        }
+    }
+    return 1;
+}
+
+int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
+                                      const float *covariance, float *innovation)
+{
+    float factor[RHO_TRIANGLE(INNOVATIONS_MAX)], whitened[INNOVATIONS_MAX], expected_mps = 0.0f;
+    const int last = num - 1;
+    if (!rho_measurement_has_span(sensor)) {
+        return 1;
+    }
+    for (int k = 0; k < RHO_TRIANGLE(num); k++) {
+        factor[k] = covariance[k];
+    }
+    if (!factorise(num, factor)) {
+        return 0;
+    }
+    for (int i = 0; i < last; i++) {
+        whitened[i] = innovation[i];
+    }
+    rho_linalg_forward(last, factor, whitened);
+    for (int i = 0; i < last; i++) {
+        expected_mps += factor[RHO_AT(last, i)] * whitened[i];
+    }
+    const float sd_mps = factor[RHO_AT(last, last)];
+    if (!rho_measurement_is_range_rate_clear(sensor, sd_mps * sd_mps)) {
+        return 0;
+    }
+    innovation[last] =
+        expected_mps + rho_measurement_range_rate_error_mps(sensor, innovation[last], expected_mps);
+    return 1;
+}
+
+float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps)
+{
+    if (!rho_measurement_has_span(sensor) || !(sensor->range_rate_span_mps < 2.0f * v_max_mps)) {
+        return 0.0f;
+    }
+    return rho_log(2.0f * v_max_mps / sensor->range_rate_span_mps);
+}
+#endif
 
 /* ---- coverage --------------------------------------------------------------------------------- */
 

@@ -175,6 +175,17 @@ static float share_inside(const struct search *search, float span_s)
     return share > SHARE_MIN ? share : SHARE_MIN;
 }
 
+/* What ambiguity takes off the room of so many range rates. */
+static float aliases_of(const struct chance *chance, float hits)
+{
+#if RHO_AMBIGUOUS_RANGE_RATES
+    return hits * chance->log_aliases;
+#else
+    (void)chance, (void)hits;
+    return 0.0f;
+#endif
+}
+
 /* ln det of the normal equations, all axes. */
 static float log_fisher(const struct chance *chance, const struct place_class *place, float hits,
                         float spread_s2)
@@ -227,7 +238,8 @@ static float best_score(const struct chance *chance, const struct place_class *p
            half_dimensions(chance, hits) * LOG_TWO_PI - h * log_noise(chance, place) -
            0.5f * fisher +
            rho_initiator_log_room(search, chance->has_z, chance->has_z ? hits : 0u,
-                                  chance->has_range_rate ? hits : 0u);
+                                  chance->has_range_rate ? hits : 0u) -
+           aliases_of(chance, h);
 }
 
 /* 99.9 % of chi-square: Wilson and Hilferty's approximation. */
@@ -327,6 +339,19 @@ static void lay_patterns(struct chance *chance)
 
 /* ---- all of it -------------------------------------------------------------------------------- */
 
+#if RHO_AMBIGUOUS_RANGE_RATES
+static float mean_log_aliases(const struct search *search)
+{
+    float sum = 0.0f;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        sum +=
+            rho_measurement_log_aliases(&rho_window_scan_at(&search->initiator->window, m)->sensor,
+                                        search->initiator->config.v_max_mps);
+    }
+    return sum / (float)search->num_scans;
+}
+#endif
+
 void rho_initiator_lay_chance(const struct search *search, struct chance *chance)
 {
     /* where only some scans measure them, chance is taken to need no heights or range rates: more than there is */
@@ -337,6 +362,9 @@ void rho_initiator_lay_chance(const struct search *search, struct chance *chance
     chance->search = search;
     chance->has_z = (measures & RHO_MEASURES_Z) != 0;
     chance->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
+#if RHO_AMBIGUOUS_RANGE_RATES
+    chance->log_aliases = chance->has_range_rate ? mean_log_aliases(search) : 0.0f;
+#endif
     chance->num_classes = 0;
     sample_places(chance);
     lay_patterns(chance);
@@ -424,7 +452,8 @@ float rho_initiator_gain_of_hit(const struct chance *chance)
         float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
                      0.5f * dimensions_of_hit(chance) * LOG_TWO_PI - log_noise(chance, &wide) -
                      rho_log(PREDICTION_SPREAD) +
-                     rho_initiator_log_room(search, 0, 0, chance->has_range_rate ? 1u : 0u);
+                     rho_initiator_log_room(search, 0, 0, chance->has_range_rate ? 1u : 0u) -
+                     aliases_of(chance, 1.0f);
         least = gain < least ? gain : least;
     }
     return least;

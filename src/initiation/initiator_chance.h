@@ -50,6 +50,10 @@ struct reach {
 struct chance {
     const struct search *search;
     int has_z, has_range_rate;
+#if RHO_AMBIGUOUS_RANGE_RATES
+    float
+        log_aliases; /* ln of how many range rates are taken for one, mean over the scans; 0: none are ambiguous */
+#endif
     float bend_m2
         [RHO_MAX_SCANS]; /* by process noise, of tracks from this scan on: mean over the residual's dimensions */
     unsigned num_classes, num_patterns;

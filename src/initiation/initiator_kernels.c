@@ -128,6 +128,26 @@ static int complete(const struct search *search, const struct span *span, struct
     return 1;
 }
 
+#if RHO_AMBIGUOUS_RANGE_RATES
+/* A kernel whose first plot has an ambiguous range rate is as many kernels as that can mean. */
+static void try_aliases(struct search *search, const struct span *span, struct kernel *kernel)
+{
+    struct aliases aliases;
+    if (search->is_isotropic ||
+        !rho_initiator_open_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
+        try_kernel(search, span, kernel);
+        return;
+    }
+    struct rho_window_place place = kernel->place;
+    for (int i = aliases.first; i <= aliases.last; i++) {
+        rho_initiator_take_alias(&aliases, i, &place, &kernel->place);
+        if (rho_initiator_own_end(span, kernel)) {
+            try_kernel(search, span, kernel);
+        }
+    }
+}
+#endif
+
 /* The earlier end of kernels. */
 struct start {
     const struct rho_window_plot *plot;
@@ -200,7 +220,11 @@ static void pair_with(struct search *search, const struct span *span, const stru
     kernel.duration_s = duration_s;
     kernel.noise_a = start->noise;
     if (complete(search, span, &kernel)) {
+#if RHO_AMBIGUOUS_RANGE_RATES
+        try_aliases(search, span, &kernel);
+#else
         try_kernel(search, span, &kernel);
+#endif
     }
 }
 

@@ -2,6 +2,8 @@
 /*
  * initiator_own: kernels, votes and fits where each plot has its own covariance, and heights and range rates count.
  */
+#include <float.h>
+
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
@@ -67,6 +69,13 @@ int rho_initiator_own_kernel(const struct search *search, const struct span *spa
                                  is_range_rate(span->scan_a, kernel->from, &kernel->place) &&
                                  is_range_rate(span->scan_b, kernel->to, &kernel->place));
 }
+
+#if RHO_AMBIGUOUS_RANGE_RATES
+int rho_initiator_own_end(const struct span *span, const struct kernel *kernel)
+{
+    return is_range_rate(span->scan_b, kernel->to, &kernel->place);
+}
+#endif
 
 /* The voter's plot nearest to where the kernel says, in the gate of all three plots' covariances; -1: none. */
 int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel)
@@ -186,7 +195,8 @@ static int range_rate_equation(const struct regression *of, unsigned m, struct e
     if (!rho_measurement_range_rate(state, &scan->sensor, of->axes == 3, derivative, &rate_mps)) {
         return 0;
     }
-    equation->value = plot->range_rate_mps - rate_mps;
+    equation->value =
+        rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     for (int i = 0; i < of->axes; i++) {
         equation->row[i] = derivative[i];
         equation->row[of->axes + i] = time * derivative[i] + derivative[i + 3] / of->unit_s;
@@ -270,10 +280,143 @@ static int lay_out(struct regression *of)
     return of->unit_s > 0.0f ? range_rates > 0 ? 2 : 1 : 0;
 }
 
+static float residual2(const struct regression *of, const struct equation *equation)
+{
+    float residual = equation->value;
+    for (int i = 0; i < 2 * of->axes; i++) {
+        residual -= equation->row[i] * of->unknown[i];
+    }
+    return residual * residual / equation->variance;
+}
+
+/* ---- ambiguous range rates -------------------------------------------------------------------- */
+
+#if RHO_AMBIGUOUS_RANGE_RATES
+#define ALIASES_MAX 8 /* either way: beyond, range rates say next to nothing, and do not count */
+
+/* The scan whose range rate means the fewest speeds; RHO_MAX_SCANS where none is ambiguous. */
+static unsigned widest_span(const struct regression *of)
+{
+    unsigned widest = RHO_MAX_SCANS;
+    float most_mps = 0.0f;
+    int is_ambiguous = 0;
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        const struct rho_window_scan *scan = scan_of(of, m);
+        if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
+            continue;
+        }
+        int has_span = rho_measurement_has_span(&scan->sensor);
+        float span_mps = has_span ? scan->sensor.range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
+        is_ambiguous = is_ambiguous || has_span;
+        if (span_mps > most_mps) {
+            most_mps = span_mps;
+            widest = m;
+        }
+    }
+    return is_ambiguous ? widest : RHO_MAX_SCANS;
+}
+
+/* One range rate as the fit of the places has it: innovation, its variance, and what a metre a second of it moves. */
+struct first_rate {
+    float error_mps, span_mps, variance;
+    float gain[UNKNOWNS_MAX];
+};
+
+static int see_first(const struct regression *of, unsigned m, struct first_rate *first)
+{
+    struct equation equation;
+    const int unknowns = 2 * of->axes;
+    if (!range_rate_equation(of, m, &equation)) {
+        return 0;
+    }
+    const struct rho_sensor *sensor = &scan_of(of, m)->sensor;
+    first->span_mps =
+        rho_measurement_has_span(sensor) ? sensor->range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
+    first->error_mps = equation.value;
+    first->variance = equation.variance;
+    for (int i = 0; i < unknowns; i++) {
+        first->error_mps -= equation.row[i] * of->unknown[i];
+        first->gain[i] = equation.row[i];
+    }
+    rho_linalg_forward(unknowns, of->factor, first->gain);
+    for (int i = 0; i < unknowns; i++) {
+        first->variance += first->gain[i] * first->gain[i];
+    }
+    rho_linalg_backward(unknowns, of->factor, first->gain);
+    return 1;
+}
+
+static float chi2_of(const struct regression *of)
+{
+    struct equation equations[ROWS_MAX];
+    float chi2 = 0.0f;
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        int count = of->set->mask >> m & 1u ? equations_of(of, m, equations) : 0;
+        for (int i = 0; i < count; i++) {
+            chi2 += residual2(of, &equations[i]);
+        }
+    }
+    return chi2;
+}
+
+/* Targets are: a meaning that makes one too fast is none. */
+static int is_slow_enough(const struct regression *of)
+{
+    float v_max_mps = of->search->initiator->config.v_max_mps * of->unit_s;
+    const float *v = &of->unknown[of->axes];
+    return v[0] * v[0] + v[1] * v[1] <= v_max_mps * v_max_mps;
+}
+
+/*
+ * The places leave a choice of speeds along the line of sight: with one range rate in each of its meanings the others' follow.
+ * The fit of the best one is kept; each is a target's as likely as any before it was seen.
+ */
+static int solve_aliases(struct regression *of, unsigned widest)
+{
+    const struct regression places = *of;
+    struct first_rate first;
+    float least = FLT_MAX;
+    of->has_point = 1;
+    if (!see_first(of, widest, &first)) {
+        return solve(of);
+    }
+    float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * first.variance);
+    if (reach_mps > (float)ALIASES_MAX * first.span_mps) {
+        of->has_point = 0;
+        return 1;
+    }
+    for (int i = -ALIASES_MAX; i <= ALIASES_MAX; i++) {
+        float error_mps = first.error_mps + (float)i * first.span_mps;
+        struct regression alias = places;
+        if (i != 0 && !(error_mps <= reach_mps && error_mps >= -reach_mps)) {
+            continue;
+        }
+        alias.has_point = 1;
+        for (int k = 0; k < 2 * of->axes; k++) {
+            alias.unknown[k] += first.gain[k] * (error_mps / first.variance);
+        }
+        if (solve(&alias) && is_slow_enough(&alias)) {
+            float chi2 = chi2_of(&alias);
+            if (chi2 < least) {
+                least = chi2;
+                *of = alias;
+            }
+        }
+    }
+    return least < FLT_MAX;
+}
+#endif
+
 /* Fits the places first, and where there are range rates again with them. */
 static int regress(struct regression *of)
 {
     int rounds = lay_out(of);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    unsigned widest = rounds > 1 ? widest_span(of) : RHO_MAX_SCANS;
+    if (widest < RHO_MAX_SCANS) {
+        return solve(of) && solve_aliases(of, widest);
+    }
+#endif
     for (int i = 0; i < rounds; i++) {
         if (!solve(of)) {
             return 0;
@@ -309,15 +452,6 @@ int rho_initiator_own_fit(const struct search *search, const struct plot_set *se
 
 /* ---- evidence --------------------------------------------------------------------------------- */
 
-static float residual2(const struct regression *of, const struct equation *equation)
-{
-    float residual = equation->value;
-    for (int i = 0; i < 2 * of->axes; i++) {
-        residual -= equation->row[i] * of->unknown[i];
-    }
-    return residual * residual / equation->variance;
-}
-
 /* ln of the space that clutter and births are spread over beyond the plane and its velocities. */
 float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
                              unsigned range_rates)
@@ -340,7 +474,7 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
 {
     struct regression of = {.search = search, .set = set};
     unsigned rows = 0, heights = 0, range_rates = 0;
-    float log_noise = 0.0f;
+    float log_noise = 0.0f, log_aliases = 0.0f;
     if (!regress(&of)) {
         return 0;
     }
@@ -359,12 +493,18 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
         unsigned has_z = of.axes == 3 && (scan_of(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
         heights += has_z;
         range_rates += count - 2u - has_z;
+        if (rho_measurement_has_span(&scan_of(&of, m)->sensor)) {
+            log_aliases += (float)(count - 2u - has_z) *
+                           rho_measurement_log_aliases(&scan_of(&of, m)->sensor,
+                                                       search->initiator->config.v_max_mps);
+        }
     }
     unsigned unknowns = 2u * (unsigned)of.axes;
     float log_fisher =
         rho_linalg_log_determinant((int)unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     *dimensions = rows - unknowns;
     *log_likelihood = -0.5f * ((float)*dimensions * LOG_TWO_PI + log_noise + log_fisher + *chi2) +
-                      rho_initiator_log_room(search, of.axes == 3, heights, range_rates);
+                      rho_initiator_log_room(search, of.axes == 3, heights, range_rates) -
+                      log_aliases;
     return 1;
 }

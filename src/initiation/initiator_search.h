@@ -160,6 +160,25 @@ struct kernel {
     struct rho_window_place place;            /* the same */
 };
 
+#if RHO_AMBIGUOUS_RANGE_RATES
+/* What an ambiguous range rate can mean, as far as a velocity allows: error + i span, i from first to last. */
+struct aliases {
+    struct rho_window_range_rate seen;
+    float span_mps;
+    int first, last;
+};
+
+/* initiator_alias.c: 0 where the plot's range rate is not ambiguous; the place as alias i makes it known */
+int rho_initiator_open_aliases(const struct rho_window_scan *scan,
+                               const struct rho_window_plot *plot,
+                               const struct rho_window_place *place, struct aliases *aliases);
+void rho_initiator_take_alias(const struct aliases *aliases, int i,
+                              const struct rho_window_place *place, struct rho_window_place *known);
+
+/* initiator_own.c: does the range rate of the kernel's last plot agree with it? */
+int rho_initiator_own_end(const struct span *span, const struct kernel *kernel);
+#endif
+
 /* initiator_kernels.c: offers what enough scans vote for */
 void rho_initiator_try_kernels(struct search *search);
 

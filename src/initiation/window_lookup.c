@@ -146,27 +146,56 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
     return noise;
 }
 
-float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
-                                      const struct rho_window_plot *plot,
-                                      const struct rho_window_place *place)
+static int see_range_rate(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
+                          const struct rho_window_place *place, struct rho_window_range_rate *seen)
 {
     /* where the scan has no heights, the place's own tells how steeply the sensor looks up */
     float z_m =
         scan->measures & RHO_MEASURES_Z ? plot->z_m : place->z_m + place->vz_mps * plot->offset_s;
-    const float state[6] = {plot->x_m, plot->y_m, z_m, place->vx_mps, place->vy_mps, place->vz_mps};
+    float state[6] = {plot->x_m, plot->y_m, z_m, place->vx_mps, place->vy_mps, place->vz_mps};
     const struct rho_window_noise *noise = &place->velocity_noise;
     float row[6], rate_mps;
+#if RHO_AMBIGUOUS_RANGE_RATES
+    for (int i = 0; i < 3; i++) {
+        state[i + 3] += place->more_mps[i];
+    }
+#endif
     if (!rho_measurement_range_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
-        return 0.0f;
+        return 0;
     }
     const float *turn = row, *u = row + 3; /* by the position, by the velocity */
-    float error_mps = plot->range_rate_mps - rate_mps;
+    seen->error_mps =
+        rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     float turned2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
-    float variance = place->factor * (squared_sigma(plot->sigma_range_rate) +
+    seen->variance = place->factor * (squared_sigma(plot->sigma_range_rate) +
                                       turned2 * squared_sigma(larger_sigma(plot))) +
                      noise->xx_m2 * u[0] * u[0] + 2.0f * noise->xy_m2 * u[0] * u[1] +
                      noise->yy_m2 * u[1] * u[1] + noise->zz_m2 * u[2] * u[2];
-    return error_mps * error_mps / variance;
+    for (int i = 0; i < 3; i++) {
+        seen->along[i] = u[i];
+    }
+    return 1;
+}
+
+#if RHO_AMBIGUOUS_RANGE_RATES
+int rho_window_see_range_rate(const struct rho_window_scan *scan,
+                              const struct rho_window_plot *plot,
+                              const struct rho_window_place *place,
+                              struct rho_window_range_rate *seen)
+{
+    return see_range_rate(scan, plot, place, seen);
+}
+#endif
+
+float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
+                                      const struct rho_window_plot *plot,
+                                      const struct rho_window_place *place)
+{
+    struct rho_window_range_rate seen;
+    if (!see_range_rate(scan, plot, place, &seen)) {
+        return 0.0f;
+    }
+    return seen.error_mps * seen.error_mps / seen.variance;
 }
 
 /* Squared distance of a plot from the place, all dimensions; `limit` or more as soon as it is known to be. */

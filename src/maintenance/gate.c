@@ -148,6 +148,13 @@ static int test_closely(const struct rho_gate *gate, const struct rho_kalman *at
     add_position(at, &seen, result->has_z ? 3 : 2, &innovation);
     result->has_range_rate =
         (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 && add_range_rate(rate, plot, &innovation);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
+                                                                     innovation.s, innovation.d)) {
+        result->has_range_rate = 0;
+        innovation.num--;
+    }
+#endif
     return is_inside(&innovation, result);
 }
 

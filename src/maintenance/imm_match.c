@@ -8,6 +8,7 @@
 #include "rhotrack/approx.h"
 
 #define LOG_TWO_PI 1.83787707f
+#define ROOT_TWO_PI 2.50662827f
 #define LOG_TWO 0.6931473f /* rounded up */
 
 /* A model beyond the gate still counts beside one within it: its density may be the higher one, as it is narrower. */
@@ -185,9 +186,21 @@ static void view_all(struct view *view, const struct rho_imm_plot *seen,
     }
     view->counts = !match->has_range_rate ||
                    add_range_rate(view, seen, match->num_axes, match->has_velocity, &innovation);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    /* which range rate is meant may be unclear: then any is as likely, with the density 1 / span */
+    int is_unclear = match->has_range_rate && view->counts &&
+                     !rho_measurement_unfold_range_rate(seen->sensor, innovation.num, innovation.s,
+                                                        innovation.d);
+    innovation.num -= is_unclear;
+#endif
     view->counts = view->counts && rho_linalg_match(innovation.num, innovation.s, innovation.d,
                                                     COUNTS_MAX, &view->distance2, &log_det);
     view->root = rho_exp(-0.5f * log_det);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    if (is_unclear) {
+        view->root *= ROOT_TWO_PI / seen->sensor->range_rate_span_mps;
+    }
+#endif
 }
 
 /* Places alone: S = L D L^T by hand. */

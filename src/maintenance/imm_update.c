@@ -241,7 +241,8 @@ static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_i
     enum rho_status status =
         rho_kalman_update_range_rate(&imm->steady, seen->sensor, rate_mps, variance);
     if (status != RHO_OK ||
-        !rho_kalman_see_range_rate(&at, seen->sensor, rate_mps, variance, &rate)) {
+        !rho_kalman_see_range_rate(&at, seen->sensor, rate_mps, variance, &rate) ||
+        !rho_kalman_tells_range_rate(&at, seen->sensor, &rate)) {
         return status;
     }
     return rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, RHO_KALMAN_STATES,

@@ -147,7 +147,8 @@ enum rho_status rho_input_update_range_rate(struct rho_input *input,
         return RHO_ERROR_NULL;
     }
     rho_input_estimate(input, &corrected);
-    if (!rho_kalman_see_range_rate(&corrected, sensor, rate_mps, variance, &seen)) {
+    if (!rho_kalman_see_range_rate(&corrected, sensor, rate_mps, variance, &seen) ||
+        !rho_kalman_tells_range_rate(&corrected, sensor, &seen)) {
         return RHO_OK;
     }
     const float off_mps = without_input(input, &corrected, seen.row, seen.innovation);

@@ -401,13 +401,26 @@ int rho_kalman_see_range_rate(const struct rho_kalman *kalman, const struct rho_
         return 0;
     }
     const float bend = bend_variance(kalman, sensor);
-    seen->innovation = rate_mps - predicted_mps;
+    seen->innovation = rho_measurement_range_rate_error_mps(sensor, rate_mps, predicted_mps);
     seen->variance = variance;
     if (variance > 0.0f && bend <= FLT_MAX) { /* else it is refused */
         seen->variance += bend;
     }
     return 1;
 }
+
+#if RHO_AMBIGUOUS_RANGE_RATES
+int rho_kalman_tells_range_rate(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
+                                const struct rho_kalman_row *seen)
+{
+    float projected[RHO_KALMAN_STATES];
+
+    return !rho_measurement_has_span(sensor) ||
+           rho_measurement_is_range_rate_clear(
+               sensor,
+               rho_linalg_project6(kalman->covariance, seen->row, projected) + seen->variance);
+}
+#endif
 
 enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                              const struct rho_sensor *sensor, float rate_mps,
@@ -418,7 +431,8 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_kalman_see_range_rate(kalman, sensor, rate_mps, variance, &seen)) {
+    if (!rho_kalman_see_range_rate(kalman, sensor, rate_mps, variance, &seen) ||
+        !rho_kalman_tells_range_rate(kalman, sensor, &seen)) {
         return RHO_OK;
     }
     return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance, NULL);

@@ -124,6 +124,9 @@ static void set_model(struct step *step)
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
     step->log_height = rho_log(RHO_CLUTTER_HEIGHT_M);
     step->log_rates = rho_log(2.0f * tracker->config.v_max_mps);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    step->log_range_rates = step->log_rates;
+#endif
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
     if (filter_of(&tracker->config) == RHO_TRACK_HYPOTHESES) {
@@ -413,6 +416,10 @@ static void take_in(struct step *step)
     rho_tracker_set_pd(step);
     rho_tracker_note_look(step);
     rho_tracker_weigh_sensor(step);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    step->log_range_rates -=
+        rho_measurement_log_aliases(step->sensor, step->tracker->config.v_max_mps);
+#endif
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_age(step);

@@ -76,7 +76,7 @@ static float log_ratio(const struct step *step, const struct rho_gate_result *re
         dimensions += 1.0f;
     }
     if (result->has_range_rate) {
-        log_density -= step->log_rates;
+        log_density -= rho_tracker_log_range_rates(step);
         dimensions += 1.0f;
     }
     return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
@@ -197,7 +197,7 @@ static struct rho_hypotheses_clutter clutter_at(const struct step *step,
             rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1])),
         .log_per_m = -step->log_height,
         .log_per_mps = -step->log_rates,
-        .log_per_range_rate = -step->log_rates,
+        .log_per_range_rate = -rho_tracker_log_range_rates(step),
     };
 }
 

@@ -45,7 +45,20 @@ struct step {
     float log_miss; /* ln(1 - pd) */
     /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; the range rates that a target may have, m/s */
     float log_height, log_rates;
+#if RHO_AMBIGUOUS_RANGE_RATES
+    float log_range_rates; /* of them, those that the sensor tells apart */
+#endif
 };
+
+/* ln of what clutter's range rates are spread over, m/s. */
+static inline float rho_tracker_log_range_rates(const struct step *step)
+{
+#if RHO_AMBIGUOUS_RANGE_RATES
+    return step->log_range_rates;
+#else
+    return step->log_rates;
+#endif
+}
 
 /* tracker.c: what a step may be asked */
 int rho_tracker_is_ready(const struct rho_tracker *tracker);

@@ -67,7 +67,7 @@ simulate long --seed 1 --set interval_s=60 --set num_scans=2
 check 'the longest turns are tracked' grep -q 'rhotrack: 2 scans' long/summary
 # Longer ones were once simulated, with a scenario.ini that track refused.
 run simulate polar --set interval_s=60.1 --set num_scans=2 -o longer
-check 'longer ones are refused' says 2 'rhotrack: scenario polar: a turn of interval_s 60.1 is longer than a scan, 60 s'
+check 'longer ones are refused' says 2 'rhotrack: scenarios polar and doppler: a turn of interval_s 60.1 is longer than a scan, 60 s'
 check 'and leave nothing' test ! -e longer
 
 # ---- the noise of a polar plot is an ellipse: more is known than a circle says ----

@@ -16,6 +16,9 @@
 /* The feed's scans are never larger. */
 #define RHO_CLAIMS_BEYOND 0
 
+/* Its range rates, if it has any, are not ambiguous. */
+#define RHO_AMBIGUOUS_RANGE_RATES 0
+
 /* Nor a memory of clutter, for the same reason. */
 #define RHO_MAX_CLUTTER_CELLS 0
 

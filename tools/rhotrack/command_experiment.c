@@ -42,6 +42,8 @@ static const struct {
 } experiments[] = {
     {"initiation", experiment_initiation, is_plot_method, "methods " METHOD_PLOT_NAMES},
     {"polar", experiment_polar, is_kernel, "method kernel"},
+    {"doppler", experiment_doppler, is_kernel, "method kernel"},
+    {"rotating", experiment_rotating, is_kernel, "method kernel"},
     {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
     {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
     {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
@@ -50,7 +52,9 @@ static const struct {
     {"two-radars", experiment_two_radars, knows_no_method, "default alone, no methods"},
 };
 
-#define NAMES "initiation, polar, false-alarms, passive, maneuver, air-traffic, two-radars"
+#define NAMES                                                                                      \
+    "initiation, polar, doppler, rotating, false-alarms, passive, maneuver, air-traffic, "         \
+    "two-radars"
 
 int command_experiment(struct command_line *line)
 {

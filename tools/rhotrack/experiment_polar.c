@@ -46,6 +46,7 @@ static void add_errors(struct polar_errors *sum, const struct polar_errors *erro
         sum->sum_m2[turn] += errors->sum_m2[turn];
         sum->along_m2[turn] += errors->along_m2[turn];
         sum->reference_m2[turn] += errors->reference_m2[turn];
+        sum->sum_m2ps2[turn] += errors->sum_m2ps2[turn];
         sum->count[turn] += errors->count[turn];
     }
 }

@@ -17,6 +17,8 @@
 
 #define POLAR_TURNS_MAX 32
 #define POLAR_WINDOW 7 /* turns that initiation sees */
+#define POLAR_PROMPT 5 /* turns in which a track is wanted where it matters */
+#define POLAR_TARGETS_MAX 32
 #define POLAR_LEVELS 2
 
 /* Mean clutter plots a turn. */
@@ -27,14 +29,16 @@ struct polar_case {
     const char *name;
     bool is_isotropic; /* the larger sigma of each plot, along and across */
     bool has_range_rate;
+    double span_mps; /* its range rates are known up to multiples of it; 0: all */
 };
 #define POLAR_CASES 4
 extern const struct polar_case polar_cases[POLAR_CASES];
 
 /* Tracks against targets after each turn, from the confirmation on. Sums of squared errors: of the library's position,
- * its part along the line of sight, and of the reference filter's position. */
+ * its part along the line of sight, and of the reference filter's position; of the library's velocity. */
 struct polar_errors {
     double sum_m2[POLAR_TURNS_MAX], along_m2[POLAR_TURNS_MAX], reference_m2[POLAR_TURNS_MAX];
+    double sum_m2ps2[POLAR_TURNS_MAX];
     size_t count[POLAR_TURNS_MAX];
 };
 
@@ -45,6 +49,7 @@ struct polar_result {
     double found_m; /* sum of the found targets' mean errors */
     double search_us;
     /* the tracker over all turns */
+    int prompt;        /* targets with a confirmed track after POLAR_PROMPT turns */
     int tracked;       /* targets with a confirmed track at the last turn */
     int false_tracks;  /* confirmed ones that are no target's */
     double confirm_at; /* sum over confirmed targets of the turns seen until then, 1 = first */
@@ -54,6 +59,9 @@ struct polar_result {
 
 /* Parameters of the scenario with so much clutter: `rhotrack simulate polar --set clutter_per_scan=...`. */
 struct parameters polar_parameters(double clutter);
+
+/* The radar as the case tells of it; without a span the library is told nothing. */
+struct rho_sensor polar_sensor(const struct polar_case *of, const struct parameters *parameters);
 
 /* The scan as the case tells it to the library; plots has room for it. */
 struct rho_scan polar_scan(const struct polar_case *of, const struct simulation *simulation,

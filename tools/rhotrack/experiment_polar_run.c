@@ -17,10 +17,10 @@
 const double polar_clutter[POLAR_LEVELS] = {100.0, 1000.0};
 
 const struct polar_case polar_cases[POLAR_CASES] = {
-    {"own covariance", false, false},
-    {"one isotropic sigma", true, false},
-    {"own covariance, range rate", false, true},
-    {"one isotropic sigma, range rate", true, true},
+    {"own covariance", false, false, 0.0},
+    {"one isotropic sigma", true, false, 0.0},
+    {"own covariance, range rate", false, true, 0.0},
+    {"one isotropic sigma, range rate", true, true, 0.0},
 };
 
 struct parameters polar_parameters(double clutter)
@@ -44,6 +44,20 @@ struct truth_point polar_truth(const struct simulation *simulation, size_t targe
     return truth;
 }
 
+/* What is measured of a range rate where it is ambiguous. */
+static double told_mps(const struct polar_case *of, double rate_mps)
+{
+    return of->span_mps > 0.0 ? remainder(rate_mps, of->span_mps) : rate_mps;
+}
+
+struct rho_sensor polar_sensor(const struct polar_case *of, const struct parameters *parameters)
+{
+    struct rho_sensor sensor;
+    parameters_to_any_sensor(parameters, 0, &sensor);
+    sensor.range_rate_span_mps = (float)of->span_mps;
+    return sensor;
+}
+
 static void convert(const struct polar_case *of, const struct scenario_radar *radar,
                     const struct simulated_plot *from, struct rho_plot *plot)
 {
@@ -51,7 +65,7 @@ static void convert(const struct polar_case *of, const struct scenario_radar *ra
         .offset_us = (int32_t)lround(from->offset_s * 1e6),
         .range_m = (float)from->range_m,
         .azimuth_rad = (float)from->azimuth_rad,
-        .range_rate_mps = (float)from->range_rate_mps,
+        .range_rate_mps = (float)told_mps(of, from->range_rate_mps),
         .sigma_range_m = (float)radar->sigma_range_m,
         .sigma_azimuth_rad = (float)radar->sigma_azimuth_rad,
         .sigma_range_rate_mps = (float)radar->sigma_range_rate_mps,
@@ -101,12 +115,16 @@ double polar_search(const struct polar_case *of, const struct parameters *parame
     struct rho_initiator_config config = batch_config(simulation, parameters);
     uint8_t *fates = must_calloc(RHO_MAX_PLOTS, 1);
     uint32_t unused = 0;
+    struct rho_sensor sensor = polar_sensor(of, parameters);
+    sensor.pd = (float)PD;
     must_succeed(rho_initiator_init(chain->initiator, sizeof *chain->initiator, &config),
                  "initiator");
     for (size_t turn = 0; turn < POLAR_WINDOW; turn++) {
         struct rho_scan scan = polar_scan(of, simulation, turn, chain->plots);
         memset(fates, RHO_FATE_HELD, RHO_MAX_PLOTS);
-        must_succeed(rho_initiator_push(chain->initiator, &scan, NULL, fates, &unused), "push");
+        must_succeed(rho_initiator_push(chain->initiator, &scan,
+                                        of->span_mps > 0.0 ? &sensor : NULL, fates, &unused),
+                     "push");
     }
     free(fates);
     int64_t start_us = clock_us();

@@ -93,6 +93,8 @@ static void compare(struct shadowing *all, const struct shadow *shadow,
     errors->along_m2[turn] += pow((dx_m * truth.x_m + dy_m * truth.y_m) / range_m, 2.0);
     errors->reference_m2[turn] +=
         pow(at.state[0] - truth.x_m, 2.0) + pow(at.state[1] - truth.y_m, 2.0);
+    errors->sum_m2ps2[turn] +=
+        pow(report->state[3] - truth.vx_mps, 2.0) + pow(report->state[4] - truth.vy_mps, 2.0);
     errors->count[turn]++;
 }
 
@@ -130,17 +132,25 @@ static void follow(struct shadowing *all, const struct rho_track_report *report,
     }
 }
 
-static void count_tracks(struct shadowing *all)
+/* Targets with a confirmed track in the report. */
+static int count_tracked(struct shadowing *all)
 {
-    bool is_tracked[POLAR_TURNS_MAX] = {false};
+    bool is_tracked[POLAR_TARGETS_MAX] = {false};
+    int tracked = 0;
     for (unsigned i = 0; i < all->chain->report->num_tracks; i++) {
         const struct rho_track_report *report = &all->chain->report->tracks[i];
         const struct shadow *shadow = shadow_of(all, report->track_id);
         if (report->status != RHO_TRACK_TENTATIVE && is_targets(shadow)) {
-            all->result->tracked += !is_tracked[shadow->target];
+            tracked += !is_tracked[shadow->target];
             is_tracked[shadow->target] = true;
         }
     }
+    return tracked;
+}
+
+static void count_tracks(struct shadowing *all)
+{
+    all->result->tracked = count_tracked(all);
     for (size_t i = 0; i < all->num_shadows; i++) {
         all->result->false_tracks += all->shadows[i].is_confirmed && !is_targets(&all->shadows[i]);
     }
@@ -153,6 +163,10 @@ void polar_track(const struct polar_case *of, const struct parameters *parameter
     struct rho_tracker_config config;
     parameters_to_tracker(parameters, &config);
     chain_open(chain, parameters);
+    if (of->span_mps > 0.0) {
+        struct rho_sensor sensor = polar_sensor(of, parameters);
+        must_succeed(rho_tracker_set_sensor(chain->tracker, &sensor), "sensor");
+    }
     struct shadowing *all = must_calloc(1, sizeof *all);
     double accel_mps2 = 0.5 * config.accel_max_mps2; /* src/DESIGN.md: kept up for a second */
     *all = (struct shadowing){.of = of,
@@ -168,6 +182,9 @@ void polar_track(const struct polar_case *of, const struct parameters *parameter
         chain_step(chain, &scan);
         for (unsigned i = 0; i < chain->report->num_tracks; i++) {
             follow(all, &chain->report->tracks[i], turn);
+        }
+        if (turn + 1 == POLAR_PROMPT) {
+            result->prompt = count_tracked(all);
         }
     }
     count_tracks(all);

@@ -408,6 +408,14 @@ static void check_area(const struct parameters *parameters)
     check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
 }
 
+static void check_span(const char *whose, double span_mps)
+{
+    if (span_mps > 0.0 && span_mps < (double)RHO_LIMIT_SPAN_MIN_MPS) {
+        fail(EXIT_USAGE, "%srange_rate_span_mps %.9g is neither 0 nor %g or more", whose, span_mps,
+             (double)RHO_LIMIT_SPAN_MIN_MPS);
+    }
+}
+
 void parameters_check(const struct parameters *parameters)
 {
     double range_min_m = parameters->value[PARAMETER_RANGE_MIN_M];
@@ -417,6 +425,7 @@ void parameters_check(const struct parameters *parameters)
     check_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
     check_scans(parameters);
     check_area(parameters);
+    check_span("", parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS]);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         int32_t id = parameters->sensors[i].sensor_id;
         double low = parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
@@ -426,5 +435,8 @@ void parameters_check(const struct parameters *parameters)
             fail(EXIT_USAGE, "sensor %d: range_min_m %.9g is not below range_max_m %.9g", (int)id,
                  low, high);
         }
+        char whose[32];
+        snprintf(whose, sizeof whose, "sensor %d: ", (int)id);
+        check_span(whose, parameters_of_sensor(parameters, id, SENSOR_RANGE_RATE_SPAN_MPS, 0.0));
     }
 }

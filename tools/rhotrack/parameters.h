@@ -41,6 +41,8 @@
       "noise of alt_m of a polar plot, a transponder's height")                                    \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 1, 0.001, 1e5, 0, 1,                    \
       "range-rate noise of a plot")                                                                \
+    X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 0, 4e4, 0, 1,                          \
+      "range rates are known up to multiples of it; 0: not ambiguous")                             \
     X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
       "bearing noise of a passive sensor")                                                         \
     X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
@@ -157,7 +159,9 @@
       "simulate air-traffic: share of targets that start so that they meet another")               \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
     X(RANGE_RATE, "range_rate", "-", 0, 0, 1, 1, 0,                                                \
-      "simulate polar: 1: the radar measures range rate")                                          \
+      "simulate polar, rotating, doppler: 1: the radar measures range rate")                       \
+    X(STATIC_CLUTTER, "static_clutter", "-", 0, 0, 1e4, 0, 0,                                      \
+      "simulate doppler: mean clutter plots a scan more, that stand still")                        \
     X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
     X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0,                                                   \
       "simulate: number of targets, where the scenario leaves it open")                            \
@@ -192,7 +196,7 @@
     X(REFERENCE_SENSOR, "reference_sensor", "-", 0, -2147483648.0, 2147483647, 1, 0,               \
       "register: the radar whose time counts as right; unset: the lowest number")                  \
     X(SECTORS_PER_TURN, "sectors_per_turn", "-", 32, 1, 360, 1, 0,                                 \
-      "simulate two-radars: scans of a turn; 1: a turn is a scan")                                 \
+      "simulate two-radars, rotating: scans of a turn; 1: a turn is a scan")                       \
     X(SECOND_INTERVAL_S, "second_interval_s", "s", 4, 0.001, 3600, 0, 0,                           \
       "simulate two-radars: a turn of the second radar")                                           \
     X(TRUE_RANGE_BIAS_M, "true_range_bias_m", "m", 50, -1e4, 1e4, 0, 0,                            \
@@ -229,6 +233,8 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(SIGMA_ALT_M, "sigma_alt_m", "m", 0.001, 1e5, "noise of alt_m of a polar plot")               \
     X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 0.001, 1e5,                             \
       "range-rate noise of a plot")                                                                \
+    X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 4e4,                                   \
+      "its range rates are known up to multiples of it")                                           \
     X(SIGMA_RAD, "sigma_rad", "rad", 1e-6, 0.5, "bearing noise of a passive sensor")               \
     X(RANGE_BIAS_M, "range_bias_m", "m", -1e4, 1e4, "it measures ranges so much too long")         \
     X(AZIMUTH_BIAS_RAD, "azimuth_bias_rad", "rad", -0.5, 0.5,                                      \

@@ -116,6 +116,8 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
         .range_bias_m = OF_SENSOR(SENSOR_RANGE_BIAS_M, 0),
         .azimuth_bias_rad = OF_SENSOR(SENSOR_AZIMUTH_BIAS_RAD, 0),
         .time_bias_s = OF_SENSOR(SENSOR_TIME_BIAS_S, 0),
+        .range_rate_span_mps =
+            OF_SENSOR(SENSOR_RANGE_RATE_SPAN_MPS, value[PARAMETER_RANGE_RATE_SPAN_MPS]),
     };
 #undef OF_SENSOR
     turn_sector(sensor, parameters_turn_rad(parameters, sensor_id));
@@ -126,7 +128,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
 {
     if (!parameters_has_sensor(parameters, sensor_id) &&
         !is_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
-        !is_asked_for(parameters, PARAMETER_RANGE_MAX_M)) {
+        !is_asked_for(parameters, PARAMETER_RANGE_MAX_M) &&
+        !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0)) {
         return false;
     }
     parameters_to_any_sensor(parameters, sensor_id, sensor);

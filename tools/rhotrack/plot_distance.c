@@ -59,7 +59,8 @@ static void add_range_rate(struct innovation *innovation, const struct rho_kalma
         return;
     }
     innovation->num++;
-    innovation->off[i] = (double)plot->range_rate_mps - (double)rate_mps;
+    innovation->off[i] =
+        (double)rho_measurement_range_rate_error_mps(sensor, plot->range_rate_mps, rate_mps);
     innovation->noise[i][i] =
         (double)plot->sigma_range_rate_mps * (double)plot->sigma_range_rate_mps;
     for (int k = 0; k < RHO_KALMAN_STATES; k++) {

@@ -206,8 +206,7 @@ static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
         struct plot_scan next;
 
         if (!next_gathered(source, &next, &heard_us)) {
-            return (source->is_over || source->is_complete) &&
-                   hold_take(&source->hold, true, scan);
+            return (source->is_over || source->is_complete) && hold_take(&source->hold, true, scan);
         }
         hold_put(&source->hold, &next, heard_us);
     }

@@ -8,7 +8,6 @@
 #include "scenario_plan.h"
 
 #define DEG_RAD 0.017453292519943295
-#define BOX_MARGIN_M 500.0
 
 /* ---- their names and customary parameters ----------------------------------------------------- */
 
@@ -276,6 +275,34 @@ static const struct scenario {
      {-150000, 180000, -150000, 150000},
      0,
      20},
+    {"rotating",
+     "a turning radar by sectors: targets at 20 to 60 km, some of which turn gently",
+     NULL,
+     simulate_rotating,
+     15,
+     4,
+     100,
+     0.99,
+     100,
+     400,
+     5,
+     {-65000, 65000, -65000, 65000},
+     0,
+     100},
+    {"doppler",
+     "as polar, with range rates, ambiguous ones too, and clutter that stands still",
+     plan_doppler,
+     NULL,
+     15,
+     4,
+     100,
+     0.99,
+     100,
+     400,
+     5,
+     {-65000, 65000, -65000, 65000},
+     0,
+     100},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -330,6 +357,12 @@ static bool is_beam(const struct scenario *scenario)
            scenario->plan == plan_hard_turn;
 }
 
+static bool is_radar(const struct scenario *scenario)
+{
+    return scenario->plan == plan_polar || scenario->plan == plan_doppler ||
+           scenario->simulate == simulate_rotating;
+}
+
 static double spacing_of(const struct scenario *scenario)
 {
     if (scenario->plan == plan_formation) {
@@ -373,17 +406,20 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     if (scenario->accel_max_mps2 > 0.0) {
         parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, scenario->accel_max_mps2);
     }
-    parameters_suggest(parameters, PARAMETER_TARGETS, scenario->plan == plan_polar ? 3 : 50);
+    parameters_suggest(parameters, PARAMETER_TARGETS, is_radar(scenario) ? 3 : 50);
     parameters_suggest(parameters, PARAMETER_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_SECOND_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
     parameters_suggest(parameters, PARAMETER_TURN_DEG, 2);
     parameters_suggest(parameters, PARAMETER_SPACING_M, spacing_of(scenario));
     suggest_area(parameters, &scenario->box);
-    if (scenario->plan == plan_polar) {
-        parameters_suggest(parameters, PARAMETER_RANGE_RATE, 0);
-        parameters_suggest(parameters, PARAMETER_RANGE_MIN_M, 1000);
-        parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, scenario->box.x_max_m);
+    if (is_radar(scenario)) {
+        parameters_suggest(parameters, PARAMETER_RANGE_RATE, scenario->plan == plan_doppler);
+        if (scenario->plan == plan_doppler) {
+            parameters_suggest(parameters, PARAMETER_SIGMA_RANGE_M, 40);
+            parameters_suggest(parameters, PARAMETER_SIGMA_AZIMUTH_RAD, 0.007);
+        }
+        suggest_radar(parameters, scenario->box.x_max_m);
     }
     if (!(scenario->true_pd > 0.0)) {
         parameters_suggest(parameters, PARAMETER_PD, 0.95);
@@ -414,34 +450,6 @@ void scenario_suggest(const char *name, struct parameters *parameters)
 }
 
 /* ---- one run ---------------------------------------------------------------------------------- */
-
-/* Longer or wider runs than the customary one carry their targets out of the box: it grows, unless the user set it. */
-static void grow_box(struct scenario_plan *plan, const struct parameters *parameters)
-{
-    if (parameters->source[PARAMETER_AREA_X_MIN_M] > SOURCE_METHOD) {
-        return;
-    }
-    for (size_t i = 0; i < plan->num_scans * plan->num_targets; i++) {
-        const struct truth_point *point = &plan->truth[i];
-        if (!plan_box_holds(&plan->box, point->x_m, point->y_m)) {
-            plan->box.x_min_m = fmin(plan->box.x_min_m, point->x_m - BOX_MARGIN_M);
-            plan->box.x_max_m = fmax(plan->box.x_max_m, point->x_m + BOX_MARGIN_M);
-            plan->box.y_min_m = fmin(plan->box.y_min_m, point->y_m - BOX_MARGIN_M);
-            plan->box.y_max_m = fmax(plan->box.y_max_m, point->y_m + BOX_MARGIN_M);
-        }
-    }
-}
-
-/* The one that was set at the higher place counts. */
-static double clutter_mean(const struct parameters *parameters, const struct scenario_box *box)
-{
-    double area_km2 = (box->x_max_m - box->x_min_m) * (box->y_max_m - box->y_min_m) * 1e-6;
-    if (parameters->source[PARAMETER_CLUTTER_PER_KM2] >
-        parameters->source[PARAMETER_CLUTTER_PER_SCAN]) {
-        return parameters->value[PARAMETER_CLUTTER_PER_KM2] * area_km2;
-    }
-    return parameters->value[PARAMETER_CLUTTER_PER_SCAN];
-}
 
 static double value_or(const struct parameters *parameters, enum parameter_id id,
                        enum parameter_id otherwise)
@@ -481,8 +489,8 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
                        ? 0.0
                        : value_or(parameters, PARAMETER_TRUE_SIGMA_M, PARAMETER_SIGMA_M);
     plan.box = plan_box_of(parameters);
-    grow_box(&plan, parameters);
-    plan.clutter_mean = clutter_mean(parameters, &plan.box);
+    plan_grow_box(&plan, parameters);
+    plan.clutter_mean = plan_clutter_mean(parameters, &plan.box);
     add_sky(&plan, scenario, parameters, &random);
     struct simulation *simulation = plan_simulate(&plan, &random);
     plan_free(&plan);

@@ -3,7 +3,8 @@
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
  * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, air-traffic, polar,
- * passive-two, passive-three, passive-clutter, popup, weave, hard-turn, formation, two-radars. The same seed gives the same data
+ * passive-two, passive-three, passive-clutter, popup, weave, hard-turn, formation, two-radars, rotating, doppler. The same seed
+ * gives the same data
  * on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
@@ -38,6 +39,8 @@ struct scenario_radar {
     double sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps;
     double range_min_m, range_max_m; /* of the clutter, which is uniform in range and azimuth */
     double clutter_rate_max_mps;     /* its range rates are uniform within, either way */
+    double static_mean;              /* more clutter, plots a turn, that stands still */
+    double span_mps;                 /* range rates are measured up to multiples of it; 0: all */
 };
 
 #define SCENARIO_SENSORS_MAX 4

@@ -73,6 +73,36 @@ void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
     point->vy_mps = state.vy_mps;
 }
 
+#define BOX_MARGIN_M 500.0
+
+/* Longer or wider runs than the customary one carry their targets out of the box: it grows, unless the user set it. */
+void plan_grow_box(struct scenario_plan *plan, const struct parameters *parameters)
+{
+    if (parameters->source[PARAMETER_AREA_X_MIN_M] > SOURCE_METHOD) {
+        return;
+    }
+    for (size_t i = 0; i < plan->num_scans * plan->num_targets; i++) {
+        const struct truth_point *point = &plan->truth[i];
+        if (!plan_box_holds(&plan->box, point->x_m, point->y_m)) {
+            plan->box.x_min_m = fmin(plan->box.x_min_m, point->x_m - BOX_MARGIN_M);
+            plan->box.x_max_m = fmax(plan->box.x_max_m, point->x_m + BOX_MARGIN_M);
+            plan->box.y_min_m = fmin(plan->box.y_min_m, point->y_m - BOX_MARGIN_M);
+            plan->box.y_max_m = fmax(plan->box.y_max_m, point->y_m + BOX_MARGIN_M);
+        }
+    }
+}
+
+/* The one that was set at the higher place counts. */
+double plan_clutter_mean(const struct parameters *parameters, const struct scenario_box *box)
+{
+    double area_km2 = (box->x_max_m - box->x_min_m) * (box->y_max_m - box->y_min_m) * 1e-6;
+    if (parameters->source[PARAMETER_CLUTTER_PER_KM2] >
+        parameters->source[PARAMETER_CLUTTER_PER_SCAN]) {
+        return parameters->value[PARAMETER_CLUTTER_PER_KM2] * area_km2;
+    }
+    return parameters->value[PARAMETER_CLUTTER_PER_SCAN];
+}
+
 /* ---- paths ------------------------------------------------------------------------------------ */
 
 void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start)

@@ -73,6 +73,10 @@ void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
 /* The area that the parameters say, and whether a place is in it. */
 struct scenario_box plan_box_of(const struct parameters *parameters);
 bool plan_box_holds(const struct scenario_box *box, double x_m, double y_m);
+void plan_grow_box(struct scenario_plan *plan, const struct parameters *parameters);
+
+/* Plots a scan, of that box. */
+double plan_clutter_mean(const struct parameters *parameters, const struct scenario_box *box);
 
 /* Straight at constant velocity. */
 void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start);
@@ -114,8 +118,18 @@ struct scenario_plan plan_clutter_alone(const struct parameters *parameters, str
 struct scenario_plan plan_slow_turn(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_traffic(const struct parameters *parameters, struct random *random);
 
-/* Scenario polar. scenario_radar.c */
+/* Scenarios polar and doppler. scenario_radar.c */
 struct scenario_plan plan_polar(const struct parameters *parameters, struct random *random);
+struct scenario_plan plan_doppler(const struct parameters *parameters, struct random *random);
+void suggest_radar(struct parameters *parameters, double range_max_m);
+
+/* Where their targets are. */
+#define POLAR_NEAR_M 20000.0
+#define POLAR_FAR_M 60000.0
+
+/* Anywhere between, any heading, drawn again until the whole straight path lies there. */
+struct scenario_state plan_straight_around(const struct parameters *parameters, double duration_s,
+                                           struct random *random);
 
 /* One turn of the plan's radar, from scan `index` on: in the order of time. scenario_radar.c */
 void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
@@ -181,6 +195,9 @@ void suggest_beam(struct parameters *parameters);
 /* Scenario two-radars. scenario_two_radars.c */
 struct simulation *simulate_two_radars(const struct parameters *parameters, struct random *random);
 void suggest_two_radars(struct parameters *parameters);
+
+/* Scenario rotating. scenario_rotating.c */
+struct simulation *simulate_rotating(const struct parameters *parameters, struct random *random);
 
 /* ---- Many targets: scenario_air_traffic.c, scenario_sky.c ----------------------------------------- */
 

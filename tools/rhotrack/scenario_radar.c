@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scenario_radar: what a turning radar in the origin sees: polar plots, each at its own time; scenario polar. */
+/* scenario_radar: what a turning radar in the origin sees: polar plots, each at its own time; scenarios polar, doppler. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -52,6 +52,14 @@ static struct simulated_plot detection(const struct scenario_plan *plan,
     return plot;
 }
 
+#define STATIC_SIGMA_MPS 1.0 /* leaves in the wind, waves: sd of what stands still */
+
+/* What the radar says of a range rate. */
+static double told_mps(const struct scenario_radar *radar, double rate_mps)
+{
+    return radar->span_mps > 0.0 ? remainder(rate_mps, radar->span_mps) : rate_mps;
+}
+
 static struct simulated_plot clutter(const struct scenario_plan *plan, struct random *random)
 {
     const struct scenario_radar *radar = &plan->radar;
@@ -66,6 +74,13 @@ static struct simulated_plot clutter(const struct scenario_plan *plan, struct ra
     return plot;
 }
 
+static struct simulated_plot static_clutter(const struct scenario_plan *plan, struct random *random)
+{
+    struct simulated_plot plot = clutter(plan, random);
+    plot.range_rate_mps = STATIC_SIGMA_MPS * random_normal(random);
+    return plot;
+}
+
 static int by_time(const void *a, const void *b)
 {
     const struct simulated_plot *one = a, *other = b;
@@ -75,9 +90,12 @@ static int by_time(const void *a, const void *b)
 void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
                         struct random *random)
 {
+    double static_mean = plan->radar.static_mean;
     uint64_t num_clutter = random_poisson(random, plan->clutter_mean);
+    uint64_t num_static = static_mean > 0.0 ? random_poisson(random, static_mean) : 0;
     scan->t_s = (double)index * plan->interval_s;
-    scan->plots = must_calloc(plan->num_targets + num_clutter + 1, sizeof *scan->plots);
+    scan->plots =
+        must_calloc(plan->num_targets + num_clutter + num_static + 1, sizeof *scan->plots);
     for (size_t target = 0; target < plan->num_targets; target++) {
         struct simulated_plot plot = detection(plan, plan_truth(plan, index, target), random);
         if (random_uniform(random) < plan->pd) {
@@ -87,17 +105,20 @@ void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct s
     for (uint64_t i = 0; i < num_clutter; i++) {
         scan->plots[scan->num_plots++] = clutter(plan, random);
     }
+    for (uint64_t i = 0; i < num_static; i++) {
+        scan->plots[scan->num_plots++] = static_clutter(plan, random);
+    }
+    for (size_t i = 0; i < scan->num_plots; i++) {
+        scan->plots[i].range_rate_mps = told_mps(&plan->radar, scan->plots[i].range_rate_mps);
+    }
     qsort(scan->plots, scan->num_plots, sizeof *scan->plots, by_time);
 }
 
 /* ---- the scenario ----------------------------------------------------------------------------- */
 
-#define POLAR_NEAR_M 20000.0
-#define POLAR_FAR_M 60000.0
-
 /* Anywhere between 20 and 60 km, any heading, drawn again until the whole straight path lies there. */
-static struct scenario_state straight_around(const struct parameters *parameters, double duration_s,
-                                             struct random *random)
+struct scenario_state plan_straight_around(const struct parameters *parameters, double duration_s,
+                                           struct random *random)
 {
     for (int i = 0; i < 10000; i++) {
         double range_m =
@@ -120,7 +141,8 @@ static struct scenario_state straight_around(const struct parameters *parameters
             return state;
         }
     }
-    fail(EXIT_USAGE, "scenario polar: no target can stay within 20 to 60 km for the whole run; "
+    fail(EXIT_USAGE, "scenarios polar, doppler and rotating: no target can stay within 20 to 60 km "
+                     "for the whole run; "
                      "take fewer scans or slower targets");
 }
 
@@ -129,7 +151,8 @@ static void check_turn(const struct parameters *parameters)
 {
     double max_s = parameters_text(PARAMETER_SCAN_INTERVAL_S).max;
     if (parameters->value[PARAMETER_INTERVAL_S] > max_s) {
-        fail(EXIT_USAGE, "scenario polar: a turn of interval_s %.9g is longer than a scan, %.9g s",
+        fail(EXIT_USAGE,
+             "scenarios polar and doppler: a turn of interval_s %.9g is longer than a scan, %.9g s",
              parameters->value[PARAMETER_INTERVAL_S], max_s);
     }
 }
@@ -144,7 +167,7 @@ struct scenario_plan plan_polar(const struct parameters *parameters, struct rand
         /* also the last turn takes its time */
         plan_straight(
             &plan, target,
-            straight_around(parameters, plan.interval_s * (double)plan.num_scans, random));
+            plan_straight_around(parameters, plan.interval_s * (double)plan.num_scans, random));
     }
     plan.radar = (struct scenario_radar){
         .is_used = true,
@@ -157,4 +180,20 @@ struct scenario_plan plan_polar(const struct parameters *parameters, struct rand
         .clutter_rate_max_mps = parameters->value[PARAMETER_V_MAX_MPS],
     };
     return plan;
+}
+
+struct scenario_plan plan_doppler(const struct parameters *parameters, struct random *random)
+{
+    struct scenario_plan plan = plan_polar(parameters, random);
+    plan.radar.static_mean = parameters->value[PARAMETER_STATIC_CLUTTER];
+    plan.radar.span_mps = parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS];
+    return plan;
+}
+
+void suggest_radar(struct parameters *parameters, double range_max_m)
+{
+    parameters_suggest(parameters, PARAMETER_STATIC_CLUTTER, 0);
+    parameters_suggest(parameters, PARAMETER_SECTORS_PER_TURN, 32);
+    parameters_suggest(parameters, PARAMETER_RANGE_MIN_M, 1000);
+    parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, range_max_m);
 }

@@ -150,10 +150,11 @@ static void write_radar(const struct scenario_radar *radar, double interval_s, F
 }
 
 /* How many misses in a row are none too many, and how long scans have to be waited for. */
-static void write_patience(const struct parameters *parameters, FILE *file)
+static void write_patience(const struct scenario_record *record,
+                           const struct parameters *parameters, FILE *file)
 {
     fprintf(file, "coast_scans_max = %g\n", parameters->value[PARAMETER_COAST_SCANS_MAX]);
-    if (parameters->value[PARAMETER_LATE_SHARE] > 0.0) {
+    if (record->has_received) {
         fprintf(file, "hold_ms = %g\n", parameters->value[PARAMETER_LATE_MS]);
     }
 }
@@ -170,13 +171,13 @@ static void write_settings(const char *name, const struct simulation *simulation
 {
     static const enum parameter_id told[] = {PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS,
                                              PARAMETER_ACCEL_MAX_MPS2};
-    static const enum parameter_id told_if_set[] = {PARAMETER_STEADY_S,
-                                                    PARAMETER_PROCESS_NOISE_MPS2};
+    static const enum parameter_id told_if_set[] = {
+        PARAMETER_STEADY_S, PARAMETER_PROCESS_NOISE_MPS2, PARAMETER_RANGE_RATE_SPAN_MPS};
     char *path = path_join(folder, "scenario.ini");
     struct output output = output_open(path);
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
     if (simulation->record != NULL) {
-        write_patience(parameters, output.file);
+        write_patience(simulation->record, parameters, output.file);
     } else if (simulation->passive.is_used) {
         fprintf(output.file, "sigma_rad = %.9g\n", simulation->passive.sigma_rad);
     } else if (simulation->radar.is_used) {

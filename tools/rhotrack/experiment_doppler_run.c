@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT */
+/* experiment_doppler_run: cases over many runs, and the clutter that can be borne without range rates. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "common.h"
+#include "experiment_doppler.h"
+#include "workers.h"
+
+const struct polar_case doppler_cases[DOPPLER_CASES] = {
+    {"no range rate", false, false, 0.0},
+    {"range rate", false, true, 0.0},
+    {"range rate, span 100 m/s", false, true, 100.0},
+    {"range rate, span 30 m/s", false, true, 30.0},
+};
+
+const double doppler_clutter[DOPPLER_LEVELS] = {50.0, 75.0, 100.0, 150.0, 200.0, 300.0, 400.0};
+
+/* ---- one case at one level -------------------------------------------------------------------- */
+
+struct measuring {
+    const struct polar_case *of;
+    struct parameters parameters;
+    uint64_t seed;
+    struct polar_result *results; /* by run */
+    struct chain chains[WORKERS_MAX];
+};
+
+static void run_one(void *context, size_t worker, size_t run)
+{
+    struct measuring *measuring = context;
+    struct simulation *simulation =
+        scenario_simulate("doppler", &measuring->parameters, measuring->seed, run);
+    struct chain *chain = &measuring->chains[worker];
+
+    if (chain->tracker == NULL) {
+        *chain = chain_start();
+    }
+    measuring->results[run] = polar_run(measuring->of, &measuring->parameters, simulation, chain);
+    simulation_free(simulation);
+}
+
+static struct doppler_figures figures_of(const struct measuring *measuring, size_t num_runs)
+{
+    struct doppler_figures figures = {.of = measuring->of};
+    double targets = 0.0, found_by_tracker = 0.0, m2 = 0.0, m2ps2 = 0.0, count = 0.0;
+
+    for (size_t run = 0; run < num_runs; run++) {
+        const struct polar_result *result = &measuring->results[run];
+
+        targets += result->targets;
+        figures.found += result->found;
+        figures.false_a_run += result->false_candidates / (double)num_runs;
+        figures.search_ms += result->search_us / 1e3 / (double)num_runs;
+        figures.prompt += result->prompt;
+        figures.tracked += result->tracked;
+        figures.false_tracks += result->false_tracks / (double)num_runs;
+        figures.confirm_at += result->confirm_at;
+        found_by_tracker += result->confirmed;
+        for (size_t turn = 0; turn < POLAR_TURNS_MAX; turn++) {
+            m2 += result->errors.sum_m2[turn];
+            m2ps2 += result->errors.sum_m2ps2[turn];
+            count += (double)result->errors.count[turn];
+        }
+    }
+    figures.found /= targets;
+    figures.prompt /= targets;
+    figures.tracked /= targets;
+    figures.confirm_at /= found_by_tracker;
+    figures.rmse_m = sqrt(m2 / count);
+    figures.rmse_mps = sqrt(m2ps2 / count);
+    return figures;
+}
+
+struct doppler_figures doppler_measure(const struct polar_case *of, double clutter,
+                                       double static_clutter, uint64_t seed, size_t num_runs)
+{
+    struct measuring measuring = {.of = of, .seed = seed};
+
+    parameters_default(&measuring.parameters);
+    scenario_suggest("doppler", &measuring.parameters);
+    parameters_suggest(&measuring.parameters, PARAMETER_CLUTTER_PER_SCAN, clutter);
+    parameters_suggest(&measuring.parameters, PARAMETER_STATIC_CLUTTER, static_clutter);
+    measuring.results = must_calloc(num_runs, sizeof *measuring.results);
+    workers_run(num_runs, "runs", run_one, &measuring);
+    struct doppler_figures figures = figures_of(&measuring, num_runs);
+    figures.clutter = clutter;
+    figures.static_clutter = static_clutter;
+    for (size_t i = 0; i < WORKERS_MAX; i++) {
+        chain_free(&measuring.chains[i]);
+    }
+    free(measuring.results);
+    return figures;
+}
+
+bool doppler_meets(const struct doppler_figures *figures)
+{
+    return figures->found >= DOPPLER_PD_MIN && figures->prompt >= DOPPLER_PD_MIN &&
+           figures->false_a_run <= DOPPLER_FALSE_MAX && figures->false_tracks <= DOPPLER_FALSE_MAX;
+}
+
+/* ---- the limit, and beyond -------------------------------------------------------------------- */
+
+static void find_limit(struct doppler_result *result, uint64_t seed, size_t num_runs)
+{
+    for (size_t i = 0; i < DOPPLER_LEVELS; i++) {
+        struct doppler_figures *level = &result->levels[result->num_levels++];
+
+        *level = doppler_measure(&doppler_cases[0], doppler_clutter[i], 0.0, seed, num_runs);
+        if (!doppler_meets(level)) {
+            return;
+        }
+        result->limit = level->clutter;
+    }
+}
+
+struct doppler_result doppler_run(uint64_t seed, size_t num_runs)
+{
+    struct doppler_result result = {.num_levels = 0};
+
+    find_limit(&result, seed, num_runs);
+    double limit = result.limit > 0.0 ? result.limit : doppler_clutter[0];
+    double beyond = DOPPLER_TIMES * limit;
+    for (size_t i = 0; i < DOPPLER_CASES; i++) {
+        result.at_limit[i] = doppler_measure(&doppler_cases[i], limit, 0.0, seed, num_runs);
+        result.beyond[i] = doppler_measure(&doppler_cases[i], beyond, 0.0, seed, num_runs);
+    }
+    result.still = doppler_measure(&doppler_cases[1], beyond / 2.0, beyond / 2.0, seed, num_runs);
+    return result;
+}
