@@ -24,12 +24,12 @@ float rho_angle_difference(float a_rad, float b_rad);
 /* How far a sector goes round: above 0, up to 2 pi. NaN where an end is. */
 float rho_angle_sector_width(float from_rad, float to_rad);
 
-/* Which ends of a sector the next one goes on from, values or-ed; 0 where it touches none, or they overlap, or one is the whole
- * circle. Ends within 1 mrad are the same. */
+/* Which end of a sector the next one goes on from: the nearer one, gap_max_rad away at most; both, or-ed, where it closes the circle.
+ * 0 where it is farther, or they overlap, or one is the whole circle. Ends within 1 mrad are the same. */
 #define RHO_ANGLE_GOES_ON_LEFT 1u  /* counter-clockwise, from its end `to` */
 #define RHO_ANGLE_GOES_ON_RIGHT 2u /* clockwise, from its end `from` */
 unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_rad,
-                                  float next_to_rad);
+                                  float next_to_rad, float gap_max_rad);
 
 /* True (1) where the direction lies in the sector that runs counter-clockwise from .. to, ends included; equal ends are
  * the whole circle. All to 1e-6 rad, so that -pi .. pi and 0 .. 2 pi are whole too. False for NaN. */

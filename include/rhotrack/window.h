@@ -144,7 +144,7 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 
 /*
  * True where a scan would become part of the newest one held: a sector of the same sensor that measures the same, beside what
- * that one has seen so far, and within RHO_LIMIT_OFFSET_US of its time. Constant cost.
+ * that one has seen so far, or an eighth of a turn on at most, and within RHO_LIMIT_OFFSET_US of its time. Constant cost.
  */
 int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan);
 

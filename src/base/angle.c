@@ -73,24 +73,32 @@ float rho_angle_sector_width(float from_rad, float to_rad)
     return width <= SECTOR_TOLERANCE_RAD ? RHO_TWO_PI : width;
 }
 
-static int is_same_end(float a_rad, float b_rad)
+/* Counter-clockwise from one end to another, which may be the same. */
+static float gap_between(float from_rad, float to_rad)
 {
-    const float off_rad = rho_angle_difference(a_rad, b_rad);
+    const float way_rad = way_between(from_rad, to_rad);
 
-    return off_rad <= END_TOLERANCE_RAD && off_rad >= -END_TOLERANCE_RAD;
+    return way_rad > RHO_TWO_PI - END_TOLERANCE_RAD ? 0.0f : way_rad;
 }
 
 unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_rad,
-                                  float next_to_rad)
+                                  float next_to_rad, float gap_max_rad)
 {
-    const float both = rho_angle_sector_width(from_rad, to_rad) +
-                       rho_angle_sector_width(next_from_rad, next_to_rad);
+    const float left_rad = gap_between(to_rad, next_from_rad);
+    const float right_rad = gap_between(next_to_rad, from_rad);
+    const float all_rad = left_rad + right_rad + rho_angle_sector_width(from_rad, to_rad) +
+                          rho_angle_sector_width(next_from_rad, next_to_rad);
+    const float nearer_rad = left_rad < right_rad ? left_rad : right_rad;
 
-    if (!(both <= RHO_TWO_PI + END_TOLERANCE_RAD)) {
+    /* once round, where they do not overlap; else twice */
+    if (!(all_rad <= RHO_TWO_PI + 2.0f * END_TOLERANCE_RAD &&
+          nearer_rad <= gap_max_rad + END_TOLERANCE_RAD)) {
         return 0;
     }
-    return (is_same_end(next_from_rad, to_rad) ? RHO_ANGLE_GOES_ON_LEFT : 0u) |
-           (is_same_end(next_to_rad, from_rad) ? RHO_ANGLE_GOES_ON_RIGHT : 0u);
+    if (left_rad <= END_TOLERANCE_RAD && right_rad <= END_TOLERANCE_RAD) {
+        return RHO_ANGLE_GOES_ON_LEFT | RHO_ANGLE_GOES_ON_RIGHT;
+    }
+    return left_rad < right_rad ? RHO_ANGLE_GOES_ON_LEFT : RHO_ANGLE_GOES_ON_RIGHT;
 }
 
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)

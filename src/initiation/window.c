@@ -13,6 +13,10 @@
 
 #define ROW_MAX RHO_WINDOW_ROW
 
+/* Sectors that are missing in between (lost, or late) do not end a turn, up to an eighth of it. What they would have seen counts as
+ * not seen. */
+#define SECTOR_GAP_RAD (RHO_TWO_PI / 8.0f)
+
 /* Bins a plot that are worth their memory traffic when a scan has few plots. */
 #define BINS_PER_PLOT 8u
 
@@ -270,7 +274,8 @@ int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *s
            held->measures == scan->measures && held->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
            rho_angle_sector_goes_on(held->sector_from_rad, held->sector_to_rad,
-                                    scan->sector_from_rad, scan->sector_to_rad) != 0;
+                                    scan->sector_from_rad, scan->sector_to_rad,
+                                    SECTOR_GAP_RAD) != 0;
 }
 
 /* How many plots the turn will have that begins with so many in a sector: as the turn before, if there was one. */
@@ -299,8 +304,9 @@ static void begin_sector(struct rho_window_scan *slot, const struct rho_scan *sc
 
 static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
 {
-    const unsigned ends = rho_angle_sector_goes_on(slot->sector_from_rad, slot->sector_to_rad,
-                                                   scan->sector_from_rad, scan->sector_to_rad);
+    const unsigned ends =
+        rho_angle_sector_goes_on(slot->sector_from_rad, slot->sector_to_rad, scan->sector_from_rad,
+                                 scan->sector_to_rad, SECTOR_GAP_RAD);
     if (ends & RHO_ANGLE_GOES_ON_RIGHT) {
         slot->sector_from_rad = scan->sector_from_rad;
     } else {

@@ -45,8 +45,9 @@ void rho_tracker_note_look(struct step *step)
         return;
     }
     if (look->count > 0) {
-        const unsigned ends = rho_angle_sector_goes_on(look->sector_from_rad, look->sector_to_rad,
-                                                       scan->sector_from_rad, scan->sector_to_rad);
+        const unsigned ends =
+            rho_angle_sector_goes_on(look->sector_from_rad, look->sector_to_rad,
+                                     scan->sector_from_rad, scan->sector_to_rad, 0.0f);
         /* both ends are those of two halves, which do not tell the direction */
         step->turning = ends == RHO_ANGLE_GOES_ON_LEFT    ? 1.0f
                         : ends == RHO_ANGLE_GOES_ON_RIGHT ? -1.0f
