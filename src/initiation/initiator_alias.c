@@ -8,8 +8,6 @@
 
 #if RHO_AMBIGUOUS_RANGE_RATES
 
-#define ALIASES_MAX 8 /* either way: beyond, a range rate says next to nothing */
-
 static float larger(float a, float b)
 {
     return a > b ? a : b;

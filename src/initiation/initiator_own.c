@@ -8,9 +8,6 @@
 #include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
 
-/* Targets climb or sink by up to this share of v_max. */
-#define CLIMB_SHARE 0.5f
-
 #define ROWS_MAX 4     /* along, cross, up, range rate */
 #define UNKNOWNS_MAX 6 /* place and velocity */
 
@@ -292,7 +289,6 @@ static float residual2(const struct regression *of, const struct equation *equat
 /* ---- ambiguous range rates -------------------------------------------------------------------- */
 
 #if RHO_AMBIGUOUS_RANGE_RATES
-#define ALIASES_MAX 8 /* either way: beyond, range rates say next to nothing, and do not count */
 
 /* The scan whose range rate means the fewest speeds; RHO_MAX_SCANS where none is ambiguous. */
 static unsigned widest_span(const struct regression *of)
@@ -451,19 +447,6 @@ int rho_initiator_own_fit(const struct search *search, const struct plot_set *se
 }
 
 /* ---- evidence --------------------------------------------------------------------------------- */
-
-/* ln of the space that clutter and births are spread over beyond the plane and its velocities. */
-float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
-                             unsigned range_rates)
-{
-    float v_max_mps = search->initiator->config.v_max_mps;
-    float room = (float)range_rates * rho_log(2.0f * v_max_mps);
-    if (has_z) {
-        room += ((float)heights - 1.0f) * rho_log(RHO_CLUTTER_HEIGHT_M) -
-                rho_log(2.0f * CLIMB_SHARE * v_max_mps);
-    }
-    return room;
-}
 
 /*
  * ln of the joint density of a set's plots with place and velocity integrated out, with heights and range rates over

@@ -12,6 +12,12 @@
 #define LOG_TWO_PI 1.83787707f
 #define LOG_HALF (-0.69314718f)
 
+/* Targets climb or sink by up to this share of v_max. */
+#define CLIMB_SHARE 0.5f
+
+/* Meanings of an ambiguous range rate, either way: beyond, it says next to nothing. */
+#define ALIASES_MAX 8
+
 struct search {
     struct rho_initiator *initiator;
     enum rho_search kind;
@@ -85,6 +91,8 @@ static inline float rho_initiator_plot_time_s(const struct search *search,
 
 /* initiator_votes.c: before a search */
 void rho_initiator_prepare(struct search *search);
+float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
+                             unsigned range_rates);
 
 /* initiator_density.c: what the scans tell of clutter */
 float rho_initiator_area_m2(const struct rho_initiator *initiator);
@@ -190,8 +198,6 @@ int rho_initiator_own_fit(const struct search *search, const struct plot_set *se
                           struct line_fit *fit);
 int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit, float factor,
                               unsigned m);
-float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
-                             unsigned range_rates);
 int rho_initiator_own_evidence(const struct search *search, const struct plot_set *set,
                                float *log_likelihood, float *chi2, unsigned *dimensions);
 

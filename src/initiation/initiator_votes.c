@@ -74,6 +74,19 @@ static unsigned choose_min_scans(const struct search *search)
     return m;
 }
 
+/* ln of the space that clutter and births are spread over beyond the plane and its velocities. */
+float rho_initiator_log_room(const struct search *search, int has_z, unsigned heights,
+                             unsigned range_rates)
+{
+    float v_max_mps = search->initiator->config.v_max_mps;
+    float room = (float)range_rates * rho_log(2.0f * v_max_mps);
+    if (has_z) {
+        room += ((float)heights - 1.0f) * rho_log(RHO_CLUTTER_HEIGHT_M) -
+                rho_log(2.0f * CLIMB_SHARE * v_max_mps);
+    }
+    return room;
+}
+
 /* ---- before a search -------------------------------------------------------------------------- */
 
 void rho_initiator_prepare(struct search *search)
