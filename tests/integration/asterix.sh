@@ -36,9 +36,10 @@ for name in turns norths bare; do
     check "$name: convert ends well" exits 0
     check "$name: every plot is as it was sent, to the format's steps" python3 same.py sim/polar.csv "$name.csv"
 done
-check 'a turn is a scan, and begins with a row that saw nothing' \
-    test "$(awk -F, 'NR > 1 && $3 == ""' turns.csv | wc -l)" -eq 15
-run convert turns.ast sectors.csv --set asterix_scans=sector
+run convert turns.ast whole.csv --set asterix_scans=turn
+check 'a turn is a scan where that is asked for, and begins with a row that saw nothing' \
+    test "$(awk -F, 'NR > 1 && $3 == ""' whole.csv | wc -l)" -eq 15
+cp turns.csv sectors.csv
 check 'by sectors there are 32 a turn' test "$(awk -F, 'NR > 1 && $3 == ""' sectors.csv | wc -l)" -eq 480
 check 'each plot is in its sector, counter-clockwise from .. to' python3 -c '
 import csv, math
@@ -52,17 +53,19 @@ run convert no_ending no_ending.csv
 check 'a recording is known by what is in it' cmp turns.csv no_ending.csv
 
 # ---- The same tracks ----
-for name in turns norths bare; do
-    run track "$name.ast" --config sim/scenario.ini -o "$name.tracks.csv"
+run track turns.ast --config sim/scenario.ini -o turns.tracks.csv
+check 'sectors: 20 targets, 20 tracks' grep -q '480 scans, 1791 plots, 20 tracks confirmed' stderr
+for name in norths bare; do
+    run track "$name.ast" --config sim/scenario.ini
     check "$name: 20 targets, 20 tracks" grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
 done
 run track turns.csv --config sim/scenario.ini
 check 'a recording is tracked as the CSV file that it converts to' writes_same_as turns.tracks.csv
 run convert turns.ast turns.lcm
 run track turns.lcm --config sim/scenario.ini
-check 'and as the log' grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
-run track sectors.csv --config sim/scenario.ini
-check 'sectors are scans' grep -q '480 scans, 1791 plots' stderr
+check 'and as the log' grep -q '480 scans, 1791 plots, 20 tracks confirmed' stderr
+run track whole.csv --config sim/scenario.ini
+check 'turns: 20 targets, 20 tracks' grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
 run initiate turns.ast --config sim/scenario.ini
 check 'initiate reads recordings' exits 0
 run plot scans turns.ast -o turns.svg
@@ -246,7 +249,7 @@ kill -INT "$live"
 wait "$live"
 check 'publish udp:// ends well' test $? -eq 0
 check 'it counted all plots, one bad datagram' grep -q '1 datagrams bad' live.err
-check 'and sent all turns' grep -q '2288 datagrams, 1791 plots of 1 radars, 15 scans sent' live.err
+check 'and sent all sectors' grep -q '2288 datagrams, 1791 plots of 1 radars, 480 scans sent' live.err
 run convert live.lcm live.csv
 check 'the messages have the plots of the recording, at times of today' python3 -c '
 import csv

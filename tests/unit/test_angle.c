@@ -163,6 +163,33 @@ static void equal_ends_are_the_whole_circle(void **state)
     }
 }
 
+static void sectors_go_on_from_either_end(void **state)
+{
+    const unsigned left = RHO_ANGLE_GOES_ON_LEFT, right = RHO_ANGLE_GOES_ON_RIGHT;
+
+    (void)state;
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.0f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, -0.5f, 0.0f, 0.0f), right);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.0f, 0.0f, 0.0f), left | right);
+    assert_int_equal(rho_angle_sector_goes_on(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
+    /* apart, and as far as is allowed; the nearer end */
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.2f, 1.5f, 0.0f), 0);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.2f, 1.5f, 0.3f), left);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, -1.5f, -0.2f, 0.3f), right);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 5.0f, 5.5f, 6.0f, 1.0f), right);
+    /* overlap, the whole circle, no sector */
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 0.5f, 1.5f, 0.3f), 0);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 6.1f, 0.0f, 0.2f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 0.0f, 1.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 0.0f, 0.0f, 1.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 2.0f, 2.0f, 7.0f), 0);
+    assert_int_equal(rho_angle_sector_goes_on(NAN, 1.0f, 1.0f, 2.0f, 0.5f), 0);
+    assert_float_equal(rho_angle_sector_width(3.0f, -3.0f), 2.0 * 3.14159265 - 6.0, 1e-6);
+    assert_float_equal(rho_angle_sector_width(2.0f, 2.0f), 2.0 * 3.14159265, 1e-6);
+}
+
 static void sectors_over_random_triples(void **state)
 {
     uint32_t seed = 5;
@@ -302,6 +329,7 @@ int main(void)
         cmocka_unit_test(difference_goes_the_shorter_way),
         cmocka_unit_test(sectors_hold_their_ends_and_what_is_between),
         cmocka_unit_test(equal_ends_are_the_whole_circle),
+        cmocka_unit_test(sectors_go_on_from_either_end),
         cmocka_unit_test(sectors_over_random_triples),
         cmocka_unit_test(lines_agree_with_the_reference),
         cmocka_unit_test(lines_along_the_axes),

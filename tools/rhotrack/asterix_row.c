@@ -105,7 +105,7 @@ struct asterix_rules asterix_text_rules(const struct parameters *parameters, dou
 {
     return (struct asterix_rules){
         .hold_s = hold_s,
-        .is_by_turn = parameters->value[PARAMETER_ASTERIX_SCANS] < 0.5,
+        .is_by_turn = parameters->value[PARAMETER_ASTERIX_SCANS] > 0.5,
         .interval_s = parameters->value[PARAMETER_SCAN_INTERVAL_S],
         .wait_s = wait_s,
     };

@@ -70,7 +70,7 @@ static void look_through(struct asterix_text *text, bool keep_going)
 struct asterix_text *asterix_text_open(const char *path, const struct parameters *parameters,
                                        bool keep_going)
 {
-    struct asterix_rules rules = {.hold_s = HOLD_S, .is_by_turn = true};
+    struct asterix_rules rules = {.hold_s = HOLD_S};
     struct asterix_text *text = must_calloc(1, sizeof *text);
 
     if (parameters) {

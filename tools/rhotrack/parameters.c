@@ -41,7 +41,7 @@ static const char *choices_of(enum parameter_id id)
     case PARAMETER_TRUE_MODEL:
         return "literal|physical";
     case PARAMETER_ASTERIX_SCANS:
-        return "turn|sector";
+        return "sector|turn";
     case PARAMETER_PLANES:
         return "xy|xz|yz";
     default:

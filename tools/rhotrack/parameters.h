@@ -83,7 +83,7 @@
     X(FOLLOW_QUIET_S, "follow_quiet_s", "s", 2, 0.1, 3600, 0, 1,                                   \
       "track --follow: the last scan is complete when the file has not grown for so long")         \
     X(ASTERIX_SCANS, "asterix_scans", "-", 0, 0, 1, 1, 1,                                          \
-      "recordings in ASTERIX: a scan is a turn of the antenna, or each sector of it")              \
+      "recordings in ASTERIX: a scan is each sector of a turn of the antenna, or all of it")       \
     X(ASTERIX_HOLD_S, "asterix_hold_s", "s", 1, 0.1, 60, 0, 1,                                     \
       "publish udp://: wait for the plots of a sector so long after its end")                      \
     X(ASTERIX_SAC, "asterix_sac", "-", 0, 0, 255, 1, 1,                                            \
