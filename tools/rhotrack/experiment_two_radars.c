@@ -171,6 +171,22 @@ struct grid radars_biases_grid(const struct radars_summary *summary)
     return grid;
 }
 
+/* Late scans update tracks: what is lost is seen in how many targets have one, and in identities that change. */
+static void judge_arrived(const struct radars_summary *summary, struct verdicts *verdicts)
+{
+    const struct radars_figures *known = &summary->figures[CASE_KNOWN];
+    const struct radars_figures *arrived = &summary->figures[CASE_ARRIVED];
+
+    verdicts_at_most(verdicts, radars_rmse_m(arrived) / radars_rmse_m(known), 1.05,
+                     "scans as they arrive: rmse over that in order");
+    verdicts_at_most(verdicts,
+                     known->with_track / known->target_times -
+                         arrived->with_track / arrived->target_times,
+                     0.02, "scans as they arrive: completeness behind that in order");
+    verdicts_at_most(verdicts, an_hour(arrived->switches, arrived), 0.05,
+                     "scans as they arrive: switches a target and hour");
+}
+
 static struct verdicts judge(const struct radars_summary *summary)
 {
     struct verdicts verdicts = verdicts_start();
@@ -195,6 +211,7 @@ static struct verdicts judge(const struct radars_summary *summary)
                      "biases of register: switches a target and hour");
     verdicts_at_most(&verdicts, radars_rmse_m(found) / alone_m, 1.0,
                      "biases of register: rmse over the better radar's alone, biases known");
+    judge_arrived(summary, &verdicts);
     return verdicts;
 }
 
