@@ -383,7 +383,8 @@ static int factorise(int num, float *a)
 int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
                                       const float *covariance, float *innovation)
 {
-    float factor[RHO_TRIANGLE(INNOVATIONS_MAX)], whitened[INNOVATIONS_MAX], expected_mps = 0.0f;
+    float factor[RHO_TRIANGLE(INNOVATIONS_MAX)] = {0.0f}, whitened[INNOVATIONS_MAX] = {0.0f};
+    float expected_mps = 0.0f;
     const int last = num - 1;
     if (!rho_measurement_has_span(sensor)) {
         return 1;

@@ -320,7 +320,7 @@ struct first_rate {
 
 static int see_first(const struct regression *of, unsigned m, struct first_rate *first)
 {
-    struct equation equation;
+    struct equation equation = {.variance = 0.0f};
     const int unknowns = 2 * of->axes;
     if (!range_rate_equation(of, m, &equation)) {
         return 0;

@@ -65,8 +65,8 @@ struct antenna_targets rotating_targets(const struct rotating_scene *scene)
 
 static bool stays(const struct rotating_flight *flight, double duration_s)
 {
-    for (double t_s = 0.0; t_s <= duration_s; t_s += STEP_S) {
-        const struct truth_point at = along(flight, t_s);
+    for (int i = 0; i * STEP_S <= duration_s; i++) {
+        const struct truth_point at = along(flight, i * STEP_S);
         double range_m = hypot(at.x_m, at.y_m);
 
         if (range_m < POLAR_NEAR_M || range_m > POLAR_FAR_M) {
