@@ -1,8 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# Runs test programs and scripts, one after the other, and counts: tests/run.sh CHECK...
+# Runs test programs and scripts, and counts: tests/run.sh CHECK...
 #
+# Programs run beside one another, as many as there are processors, scripts one after the other behind them; both are told in
+# the order given.
 # A check passes where it exits with 0. CMocka programs count each of their tests, scripts that end with a line
 # `N passed, N failed` count as it says, all others as one. A check that is not there (it did not build) is a failure.
 # What a check leaves out is a line `skipped: ...` of its own, which is shown, and counts neither way.
@@ -27,9 +29,15 @@ cmocka_sum() {
     sed -n "s/^\[  $1  \] \([0-9][0-9]*\) test(s).*/\1/p" "$2" | awk '{sum += $1} END {print sum + 0}'
 }
 
-run_check() {
-    local check=$1 name=${1#"$BUILD"/} log status=0 good bad counts='' start=$EPOCHREALTIME seconds
-    log=$BUILD/log/${name//\//_}.log
+log_of() { # CHECK
+    local name=${1#"$BUILD"/}
+    printf '%s/log/%s.log' "$BUILD" "${name//\//_}"
+}
+
+# Runs a check; its exit code and time go into a file beside its log.
+execute() {
+    local check=$1 log status=0 start=$EPOCHREALTIME
+    log=$(log_of "$check")
     if [ -x "$check" ]; then
         timeout "$seconds_max" "$(realpath "$check")" >"$log" 2>&1 </dev/null || status=$?
     elif [ -f "$check" ]; then
@@ -38,6 +46,14 @@ run_check() {
         echo "not there: it did not build" >"$log"
         status=127
     fi
+    echo "$status $(awk "BEGIN {printf \"%.1f\", $EPOCHREALTIME - $start}")" >"$log.part"
+    mv "$log.part" "$log.result"
+}
+
+report() {
+    local check=$1 name=${1#"$BUILD"/} log status good bad counts='' seconds
+    log=$(log_of "$check")
+    read -r status seconds <"$log.result"
     good=$(cmocka_sum PASSED "$log")
     bad=$(cmocka_sum FAILED "$log")
     if [[ $(tail -n 1 "$log") =~ ^([0-9]+)\ passed,\ ([0-9]+)\ failed$ ]]; then
@@ -53,7 +69,6 @@ run_check() {
     fi
     passed=$((passed + good))
     failed=$((failed + bad))
-    seconds=$(awk "BEGIN {printf \"%.1f\", $EPOCHREALTIME - $start}")
     if [ "$status" -eq 0 ] && [ "$bad" -eq 0 ]; then
         printf 'ok      %-52s %4d  %6s s\n' "$name" "$good" "$seconds"
         sed -n 's/^skipped: /        | &/p' "$log"
@@ -68,8 +83,32 @@ run_check() {
 }
 
 mkdir -p "$BUILD/log"
+programs=()
+scripts=()
 for check in "$@"; do
-    run_check "$check"
+    rm -f "$(log_of "$check").result"
+    if [[ $check == *.sh ]]; then scripts+=("$check"); else programs+=("$check"); fi
+done
+
+told=0
+tell_done() { # those next in order
+    while [ "$told" -lt "${#programs[@]}" ] && [ -e "$(log_of "${programs[told]}").result" ]; do
+        report "${programs[told]}"
+        told=$((told + 1))
+    done
+}
+for check in "${programs[@]+"${programs[@]}"}"; do
+    while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do
+        wait -n || true
+        tell_done
+    done
+    execute "$check" &
+done
+wait
+tell_done
+for check in "${scripts[@]+"${scripts[@]}"}"; do
+    execute "$check"
+    report "$check"
 done
 
 if [ "${#failures[@]}" -gt 0 ]; then
