@@ -1,276 +1,346 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Radars over the same targets, one of which fails or lies from some time on: it is doubted, the tracks stay the others', and it is
- * believed again when it agrees.
+ * Tracks in doubt: believed no more, not yet dropped; what is said of them. Starts that share their newest plot. How long
+ * targets are taken to fly straight (steady_s).
  */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
+#include "tracker_setup.h"
 
-#include <cmocka.h>
+#define SCAN_S 2.0
+#define LAST 12 /* scans that a target is seen in at first */
 
-#include "draws.h"
-#include "rhotrack/tracker.h"
+/* A target at 250 m/s along x. */
+static void see(int k)
+{
+    const double x_m = 500.0 * k + uniform(-8.0, 8.0);
+    add(x_m, uniform(-8.0, 8.0), 10.0);
+}
 
-#define TARGETS 8
-#define OTHER 1
-#define SENSORS_MAX 3
-#define SIGMA_M 30.0
-#define ROUND_S 4.0
-#define LOST_MAX 2 /* misses in a row, by chance */
+static void fly(int from, int to)
+{
+    for (int k = from; k < to; k++) {
+        see(k);
+        step(SCAN_S * k);
+    }
+}
 
-static struct rho_tracker tracker;
-static struct rho_initiator initiators[SENSORS_MAX];
-static struct rho_report report;
+static enum rho_track_status status_of_first(void)
+{
+    const struct rho_track_report *first = report_of(1);
+    return first ? first->status : RHO_TRACK_FREE;
+}
 
-/* What the other radar does. */
-enum fault { NONE, SHIFTED, FAR_OFF, DEAD };
+/* ---- doubt ------------------------------------------------------------------------------------ */
 
-struct scene {
-    int sensors; /* the others are good */
-    enum fault fault;
-    int from, to; /* rounds in which it does so */
-    double turn_radps;
-    /* what came of it, from round 20 on */
-    double sum_m2;
-    int judged, lost, tracks_most, first_doubted, last_doubted;
+static void a_track_in_doubt_comes_back_with_its_identity(void **state)
+{
+    (void)state;
+    for (int misses = 3; misses <= 4; misses++) {
+        draw((uint64_t)misses);
+        begin();
+        fly(0, LAST);
+        for (int k = LAST; k < LAST + misses; k++) {
+            step(SCAN_S * k);
+            assert_int_equal(status_of_first(),
+                             k < LAST + 2 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
+        }
+        fly(LAST + misses, LAST + misses + 3);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].track_id, 1);
+        assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+        assert_int_equal(tracker.counters.tracks_started, 1);
+        assert_int_equal(tracker.counters.tracks_ended, 0);
+        /* believed once; what came after doubt is no other belief */
+        assert_int_equal(tracker.counters.tracks_confirmed, 1);
+    }
+}
+
+static void a_track_that_ends_in_doubt_is_reported_as_ended(void **state)
+{
+    (void)state;
+    draw(1);
+    begin();
+    fly(0, LAST);
+    for (int k = LAST; k < LAST + 4; k++) {
+        step(SCAN_S * k);
+        assert_int_equal(report.num_ended, 0);
+    }
+    assert_int_equal(status_of_first(), RHO_TRACK_TENTATIVE);
+    step(SCAN_S * (LAST + 4));
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], 1);
+    assert_int_equal(tracker.counters.tracks_confirmed, 1);
+    assert_int_equal(tracker.counters.tracks_ended, 1);
+}
+
+/* Believed is what has more than the score of a start: it takes plots to come. */
+static void what_never_was_believed_is_not_reported_as_ended(void **state)
+{
+    (void)state;
+    draw(1);
+    initiation.false_tracks_per_hour = 0.001f;
+    initiation.scans = 4;
+    initiation.min_scans = 3;
+    begin();
+    for (int k = 0; k < 20 && tracker.counters.tracks_started == 0; k++) {
+        for (int i = 0; i < 60; i++) {
+            const double x_m = uniform(-2e4, 2e4);
+            add(x_m, uniform(-2e4, 2e4), 10.0);
+        }
+        see(k);
+        step(SCAN_S * k);
+    }
+    if (tracker.counters.tracks_started == 0 || report.tracks[0].status != RHO_TRACK_TENTATIVE) {
+        fail_msg("the scene starts no tentative track");
+    }
+    uint32_t ended = 0;
+    for (int k = 20; k < 30 && report.num_tracks > 0; k++) {
+        step(SCAN_S * k);
+        ended += report.num_ended;
+    }
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(tracker.counters.tracks_confirmed, 0);
+    assert_int_equal(tracker.counters.tracks_ended, tracker.counters.tracks_started);
+    assert_int_equal(ended, 0);
+}
+
+/* Of a sensor that sees half of its targets, five misses in a row are rarer than none, and commoner than an end. */
+static void misses_of_a_weak_sensor_are_no_doubt(void **state)
+{
+    (void)state;
+    draw(1);
+    config.pd = 0.5f;
+    initiation.pd = 0.5f;
+    begin();
+    fly(0, LAST);
+    assert_int_equal(status_of_first(), RHO_TRACK_CONFIRMED);
+    for (int k = LAST; k < LAST + 4; k++) {
+        step(SCAN_S * k);
+        assert_int_equal(status_of_first(), RHO_TRACK_COASTING);
+    }
+    step(SCAN_S * (LAST + 4));
+    assert_int_equal(status_of_first(), RHO_TRACK_FREE);
+    assert_int_equal(report.num_ended, 1);
+}
+
+/* One step may end all that there is. */
+static void all_ends_of_a_step_are_reported(void **state)
+{
+    enum { TRACKS = 16 };
+    (void)state;
+    draw(1);
+    begin();
+    for (int k = 0; k < LAST; k++) {
+        for (int i = 0; i < TRACKS; i++) {
+            add(500.0 * k, 3000.0 * i + normal(), 10.0);
+        }
+        step(SCAN_S * k);
+    }
+    assert_int_equal(report.num_tracks, TRACKS);
+    for (int k = LAST; k < LAST + 5; k++) {
+        step(SCAN_S * k);
+    }
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(report.num_ended, TRACKS);
+    for (uint32_t i = 0; i < TRACKS; i++) {
+        assert_int_equal(report.ended[i], i + 1);
+    }
+    assert_int_equal(tracker.counters.tracks_confirmed, TRACKS);
+}
+
+/* ---- starts that share a plot ------------------------------------------------------------------ */
+
+/* Two targets meet in one plot of the scan that both could start with, and part. */
+static void of_two_starts_with_the_same_newest_plot_one_waits(void **state)
+{
+    (void)state;
+    draw(1);
+    begin();
+    for (int k = 0; k < 6; k++) {
+        const double y_m = 400.0 * (3 - k);
+        add(500.0 * k, y_m, 10.0);
+        if (k != 3) {
+            add(500.0 * k, -y_m, 10.0);
+        }
+        step(SCAN_S * k);
+        assert_int_equal(tracker.counters.tracks_started, k < 3 ? 0 : k == 3 ? 1 : 2);
+    }
+    assert_int_equal(report.num_tracks, 2);
+    assert_true(report.tracks[0].state[4] * report.tracks[1].state[4] < 0.0f);
+}
+
+/* Plots that two others share are no reason: the newest ones are each target's own. */
+static void starts_with_newest_plots_of_their_own_are_both_started(void **state)
+{
+    (void)state;
+    draw(1);
+    begin();
+    for (int k = 0; k < 4; k++) {
+        add(500.0 * k, 1000.0, 10.0);
+        add(500.0 * k, -1000.0, 10.0);
+        step(SCAN_S * k);
+    }
+    assert_int_equal(tracker.counters.tracks_started, 2);
+}
+
+/* ---- how long targets fly straight -------------------------------------------------------------- */
+
+static void steady_times_out_of_range_are_refused(void **state)
+{
+    static const float bad_s[] = {NAN, INFINITY, -INFINITY, -1.0f, -1e-6f, 1.0001e5f, 2e5f};
+    static const float good_s[] = {0.0f, 1e-6f, 60.0f, 1e5f};
+    static struct rho_tracker then;
+    (void)state;
+    draw(1);
+    memset(&tracker, 0x5a, sizeof tracker);
+    memcpy(&then, &tracker, sizeof tracker);
+    for (size_t i = 0; i < sizeof bad_s / sizeof bad_s[0]; i++) {
+        config.steady_s = bad_s[i];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+        assert_memory_equal(&tracker, &then, sizeof tracker);
+    }
+    for (size_t i = 0; i < sizeof good_s / sizeof good_s[0]; i++) {
+        config.steady_s = good_s[i];
+        begin();
+    }
+}
+
+struct flight {
+    double straight_m, turning_m; /* root mean squares of the errors */
+    double sure;                  /* of a manoeuvre, in the turn's second half: mean probability */
+    unsigned kept;                /* runs that one track followed to the end */
 };
 
-static void describe(int32_t sensor_id)
+/* 100 s straight, 3 g for 20 s; 50 m, a plot a second. */
+static struct flight fly_and_turn(float steady_s)
 {
-    const struct rho_sensor sensor = {.sensor_id = sensor_id, .pd = 0.9f, .range_max_m = 4e5f};
-
-    assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
-}
-
-static void start(void)
-{
-    struct rho_tracker_config config;
-    struct rho_initiator_config start_config;
-
-    random_state = 5;
-    rho_tracker_config_default(&config);
-    rho_initiator_config_default(&start_config);
-    config.v_max_mps = start_config.v_max_mps = 400.0f;
-    config.accel_max_mps2 = 10.0f;
-    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
-    for (int i = 0; i < SENSORS_MAX; i++) {
-        assert_int_equal(rho_initiator_init(&initiators[i], sizeof initiators[i], &start_config),
-                         RHO_OK);
-        describe(i + 1);
-    }
-}
-
-/* Straight, 90 km apart; or in circles. */
-static void truth_of(const struct scene *scene, int target, double t_s, double place_m[2])
-{
-    double heading = 0.7 * target, speed = 150.0 + 10.0 * target, w = scene->turn_radps;
-
-    place_m[0] = 90000.0 * (target % 4) - 135000.0;
-    place_m[1] = 90000.0 * (target / 4);
-    if (w > 0.0) {
-        place_m[0] += speed / w * (sin(heading + w * t_s) - sin(heading));
-        place_m[1] -= speed / w * (cos(heading + w * t_s) - cos(heading));
-    } else {
-        place_m[0] += speed * cos(heading) * t_s;
-        place_m[1] += speed * sin(heading) * t_s;
-    }
-}
-
-static void step(const struct scene *scene, int32_t sensor_id, double t_s, int is_faulty)
-{
-    struct rho_plot plots[TARGETS];
-    struct rho_scan scan = {.time_us = (int64_t)llround(1e6 * t_s), .sensor_id = sensor_id};
-    double shift_m = !is_faulty                ? 0.0
-                     : scene->fault == SHIFTED ? 4.0 * SIGMA_M
-                     : scene->fault == FAR_OFF ? 3000.0
-                                               : 0.0;
-
-    for (int i = 0; i < TARGETS; i++) {
-        double place_m[2], dx_m = SIGMA_M * normal(), dy_m = SIGMA_M * normal();
-
-        truth_of(scene, i, t_s, place_m);
-        if (uniform(0.0, 1.0) < 0.9 && !(is_faulty && scene->fault == DEAD)) {
-            plots[scan.num_plots++] = (struct rho_plot){.x_m = (float)(place_m[0] + dx_m + shift_m),
-                                                        .y_m = (float)(place_m[1] + dy_m + shift_m),
-                                                        .sigma_range_m = (float)SIGMA_M,
-                                                        .sigma_cross_m = (float)SIGMA_M};
-        }
-    }
-    scan.plots = plots;
-    assert_int_equal(rho_tracker_step(&tracker, &initiators[sensor_id - 1], &scan, &report),
-                     RHO_OK);
-}
-
-static void judge(struct scene *scene, double t_s)
-{
-    int confirmed = 0;
-
-    for (uint32_t k = 0; k < report.num_tracks; k++) {
-        confirmed += report.tracks[k].status != RHO_TRACK_TENTATIVE;
-    }
-    scene->tracks_most = confirmed > scene->tracks_most ? confirmed : scene->tracks_most;
-    for (int i = 0; i < TARGETS; i++) {
-        double place_m[2], best_m = 1000.0;
-
-        truth_of(scene, i, t_s, place_m);
-        for (uint32_t k = 0; k < report.num_tracks; k++) {
-            double error_m = hypot((double)report.tracks[k].state[0] - place_m[0],
-                                   (double)report.tracks[k].state[1] - place_m[1]);
-
-            if (report.tracks[k].status != RHO_TRACK_TENTATIVE && error_m < best_m) {
-                best_m = error_m;
+    enum { RUNS = 12, STRAIGHT = 100, TURN = 20 };
+    struct flight flight = {0};
+    for (int run = 0; run < RUNS; run++) {
+        double x_m = 0.0, y_m = 0.0, course_rad = 0.4;
+        draw(100 + (uint64_t)run);
+        config.accel_max_mps2 = 40.0f;
+        config.steady_s = steady_s;
+        begin();
+        for (int k = 0; k < STRAIGHT + TURN; k++) {
+            const double seen_m = x_m + 50.0 * normal();
+            add(seen_m, y_m + 50.0 * normal(), 50.0);
+            step(k);
+            const struct rho_track_report *track = report_of(1);
+            if (track && k >= 40) {
+                const double off_m =
+                    hypot((double)track->state[0] - x_m, (double)track->state[1] - y_m);
+                double *into = k < STRAIGHT ? &flight.straight_m : &flight.turning_m;
+                *into += off_m * off_m / RUNS / (k < STRAIGHT ? STRAIGHT - 40 : TURN);
+                flight.sure += k >= STRAIGHT + TURN / 2
+                                   ? (double)track->maneuver_probability / RUNS / (TURN / 2)
+                                   : 0.0;
+            }
+            for (int part = 0; part < 100; part++) {
+                course_rad += k >= STRAIGHT ? 0.01 * 30.0 / 250.0 : 0.0;
+                x_m += 2.5 * cos(course_rad);
+                y_m += 2.5 * sin(course_rad);
             }
         }
-        scene->lost += best_m >= 1000.0;
-        scene->sum_m2 += best_m < 1000.0 ? best_m * best_m : 0.0;
-        scene->judged += best_m < 1000.0;
+        const struct rho_track_report *track = report_of(1);
+        flight.kept += track && track->misses <= 2 && tracker.counters.tracks_started == 1;
     }
+    flight.straight_m = sqrt(flight.straight_m);
+    flight.turning_m = sqrt(flight.turning_m);
+    return flight;
 }
 
-static int is_doubted(int32_t sensor_id)
+static void steady_targets_are_known_better_and_turns_are_followed(void **state)
 {
-    return rho_tracker_look_of(&tracker, sensor_id)->is_doubted;
+    (void)state;
+    const struct flight restless = fly_and_turn(0.0f), steady = fly_and_turn(300.0f);
+    /* 47 and 30 m; 60 and 71 m; 0.48 */
+    assert_true(steady.straight_m < 0.85 * restless.straight_m);
+    assert_true(steady.turning_m < 1.5 * restless.turning_m);
+    assert_true(steady.sure > 0.3);
+    assert_int_equal(restless.kept, 12);
+    assert_int_equal(steady.kept, 12);
 }
 
-/* All look once a round, a second after one another. */
-static void fly(struct scene *scene, int rounds)
+/* Where it is less than manoeuvres last, it is as long as these. */
+static void a_short_steady_time_is_as_none(void **state)
 {
-    scene->first_doubted = scene->last_doubted = -1;
-    start();
-    for (int round = 0; round < rounds; round++) {
-        double t_s = ROUND_S * round;
-
-        step(scene, OTHER, t_s, round >= scene->from && round < scene->to);
-        if (is_doubted(OTHER)) {
-            scene->first_doubted = scene->first_doubted < 0 ? round : scene->first_doubted;
-            scene->last_doubted = round;
+    static struct rho_report other;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        draw(1);
+        config.steady_s = i ? 1.0f : 0.0f;
+        begin();
+        fly(0, 20);
+        if (i == 0) {
+            other = report;
         }
-        for (int32_t good = OTHER + 1; good <= scene->sensors; good++) {
-            step(scene, good, t_s + good - OTHER, 0);
-            assert_int_equal(is_doubted(good), 0);
+    }
+    assert_memory_equal(&report, &other, sizeof report);
+}
+
+/* ---- what stands -------------------------------------------------------------------------------- */
+
+static void what_stands_is_no_target_where_targets_move(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        for (int has_least = 0; has_least < 2; has_least++) {
+            unsigned ended = 0;
+            draw(3);
+            config.gate = (uint8_t)gate;
+            config.v_min_mps = has_least ? 50.0f : 0.0f;
+            begin();
+            for (int k = 0; k < 40; k++) {
+                /* it flies, then it has come upon something that stands */
+                add(k < 20 ? 400.0 * k - 8000.0 : 10.0 * normal(), 10.0 * normal(), 10.0);
+                step(2.0 * k);
+                for (unsigned i = 0; i < report.num_ended; i++) {
+                    ended += report.ended[i] == 1;
+                }
+            }
+            if (has_least) {
+                assert_int_equal(ended, 1);
+            } else {
+                assert_true(report.num_tracks >= 1);
+            }
         }
-        if (round >= 20) {
-            judge(scene, t_s + scene->sensors - OTHER);
-        }
     }
 }
 
-static double rmse_m(const struct scene *scene)
+static void least_speeds_out_of_range_are_refused(void **state)
 {
-    return sqrt(scene->sum_m2 / scene->judged);
-}
-
-static void sensors_that_agree_are_not_doubted(void **state)
-{
+    static const float bad[] = {-1.0f, NAN, INFINITY, 701.0f};
     (void)state;
-    for (int k = 0; k < 3; k++) {
-        struct scene scene = {.sensors = 2, .turn_radps = 0.02 * k}; /* up to 9 m/s^2 */
-
-        fly(&scene, 100);
-        assert_int_equal(scene.first_doubted, -1);
-        assert_in_range(scene.lost, 0, LOST_MAX);
-        assert_int_equal(scene.tracks_most, TARGETS);
-        assert_int_equal(tracker.counters.sensors_doubted, 0);
+    draw(3);
+    begin();
+    static struct rho_tracker before;
+    before = tracker;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        config.v_max_mps = 700.0f;
+        config.v_min_mps = bad[i];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+        assert_memory_equal(&tracker, &before, sizeof tracker);
     }
-}
-
-static void one_that_lies_is_doubted_and_counts_little(void **state)
-{
-    struct scene well = {.sensors = 3, .fault = NONE},
-                 lies = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
-    (void)state;
-    fly(&well, 100);
-    fly(&lies, 100);
-    print_message("all well %.1f m, one off by %.0f m: %.1f m, doubted from round %d\n",
-                  rmse_m(&well), 4.0 * SIGMA_M * 1.414, rmse_m(&lies), lies.first_doubted);
-    assert_in_range(lies.first_doubted, 31, 36);
-    assert_int_equal(lies.last_doubted, 99);
-    assert_in_range(lies.lost, 0, LOST_MAX);
-    assert_int_equal(lies.tracks_most, TARGETS);
-    /* a third of the measurements is gone */
-    assert_true(rmse_m(&lies) < 1.6 * rmse_m(&well));
-}
-
-/* Beyond all gates: its plots are no second tracks. */
-static void one_that_is_far_off_starts_no_tracks(void **state)
-{
-    struct scene scene = {.sensors = 2, .fault = FAR_OFF, .from = 30, .to = 1000};
-    (void)state;
-    fly(&scene, 100);
-    assert_in_range(scene.first_doubted, 31, 34);
-    assert_int_equal(scene.last_doubted, 99);
-    assert_int_equal(scene.tracks_most, TARGETS);
-    assert_in_range(scene.lost, 0, LOST_MAX);
-    assert_int_equal(tracker.counters.sensors_doubted, 1);
-}
-
-static void one_that_is_dead_ends_no_track(void **state)
-{
-    struct scene scene = {.sensors = 2, .fault = DEAD, .from = 30, .to = 1000};
-    (void)state;
-    fly(&scene, 100);
-    assert_in_range(scene.first_doubted, 31, 34);
-    assert_in_range(scene.lost, 0, LOST_MAX);
-    assert_int_equal(scene.tracks_most, TARGETS);
-}
-
-static void one_that_agrees_again_is_believed(void **state)
-{
-    const enum fault faults[] = {SHIFTED, FAR_OFF, DEAD};
-    (void)state;
-    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
-        struct scene scene = {.sensors = 3, .fault = faults[i], .from = 30, .to = 60};
-
-        fly(&scene, 100);
-        assert_in_range(scene.last_doubted, 59, 75);
-        assert_in_range(scene.lost, 0, LOST_MAX);
-        assert_int_equal(scene.tracks_most, TARGETS);
-        assert_true(!(tracker.sensors[0].variance_factor > 1.0f));
-    }
-}
-
-/* Two that contradict each other: on whose word would it be? Both count on, and what is wrong shows. */
-static void of_two_that_contradict_each_other_none_is_doubted(void **state)
-{
-    struct scene scene = {.sensors = 2, .fault = SHIFTED, .from = 30, .to = 1000};
-    (void)state;
-    fly(&scene, 100);
-    assert_int_equal(scene.first_doubted, -1);
-    assert_in_range(scene.lost, 0, LOST_MAX);
-    assert_int_equal(scene.tracks_most, TARGETS);
-    for (int32_t sensor = 1; sensor <= 2; sensor++) {
-        assert_true(rho_tracker_look_of(&tracker, sensor)->distance2 > 2.5f);
-    }
-}
-
-/* On whose word? */
-static void a_sensor_alone_is_never_doubted(void **state)
-{
-    struct scene scene = {.fault = DEAD, .from = 30, .to = 50};
-    (void)state;
-    start();
-    for (int round = 0; round < 60; round++) {
-        step(&scene, OTHER, ROUND_S * round, round >= scene.from && round < scene.to);
-        assert_int_equal(is_doubted(OTHER), 0);
-    }
-    assert_int_equal(tracker.counters.sensors_doubted, 0);
+    config.v_min_mps = 700.0f;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sensors_that_agree_are_not_doubted),
-        cmocka_unit_test(one_that_lies_is_doubted_and_counts_little),
-        cmocka_unit_test(one_that_is_far_off_starts_no_tracks),
-        cmocka_unit_test(one_that_is_dead_ends_no_track),
-        cmocka_unit_test(one_that_agrees_again_is_believed),
-        cmocka_unit_test(of_two_that_contradict_each_other_none_is_doubted),
-        cmocka_unit_test(a_sensor_alone_is_never_doubted),
+        cmocka_unit_test(a_track_in_doubt_comes_back_with_its_identity),
+        cmocka_unit_test(a_track_that_ends_in_doubt_is_reported_as_ended),
+        cmocka_unit_test(what_never_was_believed_is_not_reported_as_ended),
+        cmocka_unit_test(misses_of_a_weak_sensor_are_no_doubt),
+        cmocka_unit_test(all_ends_of_a_step_are_reported),
+        cmocka_unit_test(of_two_starts_with_the_same_newest_plot_one_waits),
+        cmocka_unit_test(starts_with_newest_plots_of_their_own_are_both_started),
+        cmocka_unit_test(steady_times_out_of_range_are_refused),
+        cmocka_unit_test(steady_targets_are_known_better_and_turns_are_followed),
+        cmocka_unit_test(a_short_steady_time_is_as_none),
+        cmocka_unit_test(what_stands_is_no_target_where_targets_move),
+        cmocka_unit_test(least_speeds_out_of_range_are_refused),
     };
-
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
