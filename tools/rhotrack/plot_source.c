@@ -199,14 +199,15 @@ static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
 {
     int64_t heard_us;
 
-    if (source->has_columns && source->columns.received_s < 0) {
-        return next_gathered(source, scan, &heard_us);
-    }
     while (!hold_take(&source->hold, false, scan)) {
         struct plot_scan next;
 
         if (!next_gathered(source, &next, &heard_us)) {
             return (source->is_over || source->is_complete) && hold_take(&source->hold, true, scan);
+        }
+        if (source->columns.received_s < 0) {
+            *scan = next;
+            return true;
         }
         hold_put(&source->hold, &next, heard_us);
     }
