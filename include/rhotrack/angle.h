@@ -25,7 +25,8 @@ float rho_angle_difference(float a_rad, float b_rad);
 float rho_angle_sector_width(float from_rad, float to_rad);
 
 /* Which end of a sector the next one goes on from: the nearer one, gap_max_rad away at most; both, or-ed, where it closes the circle.
- * 0 where it is farther, or they overlap, or one is the whole circle. Ends within 1 mrad are the same. */
+ * 0 where it is farther, or they overlap, or one is the whole circle. Ends within 1 mrad, or a
+ * quarter of the narrower one, are the same. */
 #define RHO_ANGLE_GOES_ON_LEFT 1u  /* counter-clockwise, from its end `to` */
 #define RHO_ANGLE_GOES_ON_RIGHT 2u /* clockwise, from its end `from` */
 unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_rad,

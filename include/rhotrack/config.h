@@ -307,6 +307,12 @@
 #if RHO_MAX_CLUTTER_CELLS < 0 || RHO_MAX_CLUTTER_CELLS > 1024
 #error "RHO_MAX_CLUTTER_CELLS must be 0 .. 1024"
 #endif
+#if RHO_SECTORS != 0 && RHO_SECTORS != 1
+#error "RHO_SECTORS must be 0 or 1"
+#endif
+#if RHO_AMBIGUOUS_RANGE_RATES != 0 && RHO_AMBIGUOUS_RANGE_RATES != 1
+#error "RHO_AMBIGUOUS_RANGE_RATES must be 0 or 1"
+#endif
 #if RHO_PLOT_STRIPS < 1 || RHO_PLOT_STRIPS > 16384
 #error "RHO_PLOT_STRIPS must be 1 .. 16384"
 #endif

@@ -114,6 +114,9 @@ struct rho_initiator {
     struct rho_initiator_work work;
     float density_per_m2; /* plots a scan, mean over the area, of the last search */
     struct rho_density_map density;
+#if RHO_SECTORS
+    uint32_t has_turn; /* map and thresholds are those of the turn that the newest scan is of */
+#endif
 #if RHO_MAX_CLUTTER_CELLS > 0
     struct rho_clutter_memory memory;
 #endif

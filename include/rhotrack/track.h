@@ -86,8 +86,10 @@ struct rho_track {
     uint8_t is_believed; /* has been confirmed */
 #if RHO_SECTORS
     uint8_t is_shared; /* two sensors have seen it */
-    uint16_t look;     /* the tracker's count of the sensor's scans at the last claimed plot */
-    int64_t ahead_us;  /* while a late scan is stepped: the time from which it was moved back */
+    /* of the two sensors that saw it last, the newer first: the tracker's count of their scans then */
+    int32_t look_sensor_id[2];
+    uint16_t look[2];
+    int64_t ahead_us; /* while a late scan is stepped: the time from which it was moved back */
 #endif
     struct rho_input input;
 };

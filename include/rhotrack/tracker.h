@@ -18,7 +18,8 @@
  * A scan is a whole turn of a radar, or a sector of it (RHO_SECTORS): sectors that go on where the one before ended, either way
  * round, are one turn. A target at the edge of two has one hit or one miss a turn; tracks start as from whole turns.
  * A sensor that does not see the tracks that others see, or sees them elsewhere, is doubted (struct rho_tracker_look, of which
- * rho_tracker_look_of gives a sensor's).
+ * rho_tracker_look_of gives a sensor's); the noise of its plots counts for more where it was described.
+ * Who steps a scan twice has it counted twice, but for the newest one of a sensor: rho_feed tells them apart.
  * Several radars: each scan is stepped by itself, in the order of time, with the initiator of its sensor or a common one.
  * Sectors of several need an initiator each.
  * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on every machine: there
@@ -114,7 +115,8 @@ struct rho_tracker_look {
     /* of the last search of its initiator: scores that start and confirm a track; 0, 0: there was none */
     int32_t start_mnat, confirm_mnat;
     /* of confirmed tracks that another sensor had seen before: share of those that it saw where it looked, and the plots' squared
-     * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 32 at most */
+     * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 16 at most; not of
+     * scans beyond RHO_MAX_PLOTS */
     float seen_share, distance2;
     uint16_t watched, watched_hits;
     uint16_t count; /* its scans so far, 1 .. 65535 round and round */
@@ -214,7 +216,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tra
                                                          int32_t sensor_id);
 
 #if RHO_SECTORS
-/* What is known of a sensor that has sent scans; NULL: it has sent none, or found no room (RHO_MAX_SENSORS). Cost: RHO_MAX_SENSORS. */
+/* What is known of a sensor that has sent scans; NULL: it has sent none, or RHO_MAX_SENSORS others since. Cost: RHO_MAX_SENSORS. */
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id);
 #endif

@@ -143,10 +143,11 @@ RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t
 int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 
 /*
- * True where a scan would become part of the newest one held: a sector of the same sensor that measures the same, beside what
+ * True where a scan would become part of the newest one held: a sector of the same sensor in the same place that measures the same, beside what
  * that one has seen so far, or an eighth of a turn on at most, and within RHO_LIMIT_OFFSET_US of its time. Constant cost.
  */
-int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan);
+int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
+                       const struct rho_sensor *sensor);
 
 /* What rho_window_push would say, without taking anything. Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *window,
@@ -158,10 +159,10 @@ RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *wi
  * Takes the plots of a scan whose fate is RHO_FATE_HELD. A scan that goes on with the newest one becomes part of it, its plots'
  * own times then count from that one's; before any other the oldest scan leaves when the window is full.
  *   scan    a valid scan, not older than the newest held; its plots are copied
- *   sensor  copied; NULL: not described, at the origin
+ *   sensor  copied, but of a scan that goes on its pd alone; NULL: not described, at the origin
  *   fates   one a plot; a HELD plot beyond RHO_MAX_PLOTS, or of row 16384 and up, becomes NO_ROOM
  *   left_unused  counts the plots that leave the window without having started a track
- * Errors: NULL, STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
+ * Errors: NULL, VALUE (RHO_SECTORS: a sector that is none), STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
  * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions; where the area is not given, three looks at all
  * plots held. Stack: 220 bytes.
  */

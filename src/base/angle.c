@@ -73,32 +73,41 @@ float rho_angle_sector_width(float from_rad, float to_rad)
     return width <= SECTOR_TOLERANCE_RAD ? RHO_TWO_PI : width;
 }
 
-/* Counter-clockwise from one end to another, which may be the same. */
-static float gap_between(float from_rad, float to_rad)
+/* 0 where the gap shows that sectors overlap by more than the tolerance: they and both gaps are then more than one turn. */
+static int settle_gap(float *gap_rad, float free_rad, float tolerance_rad)
 {
-    const float way_rad = way_between(from_rad, to_rad);
-
-    return way_rad > RHO_TWO_PI - END_TOLERANCE_RAD ? 0.0f : way_rad;
+    if (*gap_rad > free_rad + 2.0f * tolerance_rad) {
+        if (RHO_TWO_PI - *gap_rad > tolerance_rad) {
+            return 0;
+        }
+        *gap_rad = 0.0f;
+    }
+    return 1;
 }
 
 unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_rad,
                                   float next_to_rad, float gap_max_rad)
 {
-    const float left_rad = gap_between(to_rad, next_from_rad);
-    const float right_rad = gap_between(next_to_rad, from_rad);
-    const float all_rad = left_rad + right_rad + rho_angle_sector_width(from_rad, to_rad) +
-                          rho_angle_sector_width(next_from_rad, next_to_rad);
-    const float nearer_rad = left_rad < right_rad ? left_rad : right_rad;
+    const float width_rad = rho_angle_sector_width(from_rad, to_rad);
+    const float next_rad = rho_angle_sector_width(next_from_rad, next_to_rad);
+    const float narrower_rad = width_rad < next_rad ? width_rad : next_rad;
+    const float tolerance_rad =
+        0.25f * narrower_rad < END_TOLERANCE_RAD ? 0.25f * narrower_rad : END_TOLERANCE_RAD;
+    const float free_rad = RHO_TWO_PI - width_rad - next_rad;
+    float left_rad = way_between(to_rad, next_from_rad);
+    float right_rad = way_between(next_to_rad, from_rad);
 
-    /* once round, where they do not overlap; else twice */
-    if (!(all_rad <= RHO_TWO_PI + 2.0f * END_TOLERANCE_RAD &&
-          nearer_rad <= gap_max_rad + END_TOLERANCE_RAD)) {
+    if (!(free_rad >= -tolerance_rad) || !settle_gap(&left_rad, free_rad, tolerance_rad) ||
+        !settle_gap(&right_rad, free_rad, tolerance_rad)) {
         return 0;
     }
-    if (left_rad <= END_TOLERANCE_RAD && right_rad <= END_TOLERANCE_RAD) {
+    if (left_rad <= tolerance_rad && right_rad <= tolerance_rad) {
         return RHO_ANGLE_GOES_ON_LEFT | RHO_ANGLE_GOES_ON_RIGHT;
     }
-    return left_rad < right_rad ? RHO_ANGLE_GOES_ON_LEFT : RHO_ANGLE_GOES_ON_RIGHT;
+    if (left_rad < right_rad) {
+        return left_rad <= gap_max_rad + tolerance_rad ? RHO_ANGLE_GOES_ON_LEFT : 0u;
+    }
+    return right_rad <= gap_max_rad + tolerance_rad ? RHO_ANGLE_GOES_ON_RIGHT : 0u;
 }
 
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)

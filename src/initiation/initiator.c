@@ -88,13 +88,16 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     /* what leaves is remembered before it is overwritten, unless the push is going to be refused */
     if (initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
-        !rho_window_goes_on(&initiator->window, scan)) {
+        !rho_window_goes_on(&initiator->window, scan, sensor)) {
         rho_initiator_remember(initiator);
     }
 #endif
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
         initiator->num_candidates = 0;
+#if RHO_SECTORS
+        initiator->has_turn &= initiator->window.is_continued;
+#endif
     }
     return status;
 }
@@ -171,18 +174,14 @@ static float share_of_newest(struct search *search)
     return newest_rad / widest_rad;
 }
 
-/* A further sector of a turn, whose first one had everything measured and decided. */
-static int is_continued(const struct search *search)
-{
-    return search->kind == RHO_SEARCH_NEWEST && search->initiator->window.is_continued &&
-           search->initiator->min_scans > 0;
-}
-
 static void use_turn(struct search *search)
 {
     search->scans_seen = (float)(search->num_scans - 1u) + share_of_newest(search);
-    search->is_continued = is_continued(search);
-    if (search->kind == RHO_SEARCH_NEWEST) {
+    /* a further sector of a turn, whose first one had everything measured and decided */
+    search->is_continued = search->kind == RHO_SEARCH_NEWEST && search->initiator->has_turn ? 1 : 0;
+    search->initiator->has_turn = search->kind == RHO_SEARCH_NEWEST;
+    if (search->kind == RHO_SEARCH_NEWEST &&
+        (search->is_continued || !search->initiator->window.is_continued)) {
         search->newest =
             &rho_window_scan_at(&search->initiator->window, search->num_scans - 1u)->newest;
     }

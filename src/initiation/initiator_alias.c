@@ -6,6 +6,9 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
+/* Float32 rounds sums of a few such products to 1e-6 of them. */
+#define LESS_THAN_ALL (1.0f - 4.0e-6f)
+
 #if RHO_AMBIGUOUS_RANGE_RATES
 
 static float larger(float a, float b)
@@ -49,6 +52,8 @@ void rho_initiator_take_alias(const struct aliases *aliases, int i,
     for (int k = 0; k < 3; k++) {
         known->more_mps[k] = toward[k] * share;
     }
+    /* rounding must not take more off than there is */
+    per_variance *= LESS_THAN_ALL;
     known->velocity_noise.xx_m2 -= toward[0] * toward[0] * per_variance;
     known->velocity_noise.xy_m2 -= toward[0] * toward[1] * per_variance;
     known->velocity_noise.yy_m2 -= toward[1] * toward[1] * per_variance;

@@ -109,9 +109,12 @@ static unsigned admit(const struct rho_scan *scan, unsigned held, uint8_t *fates
 }
 
 /* The first scan has bins before the area is known. */
-static void guess_extent(struct rho_window *window, const struct rho_scan *scan,
-                         const uint8_t *fates)
+static void guess_extent_once(struct rho_window *window, const struct rho_scan *scan,
+                              const uint8_t *fates)
 {
+    if (window->area_is_fixed || window->extent.x_min_m <= window->extent.x_max_m) {
+        return;
+    }
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         if (fates[i] == RHO_FATE_HELD) {
             rho_extent_add(&window->extent, scan->plots[i].x_m, scan->plots[i].y_m);
@@ -267,11 +270,36 @@ static int is_newest_older(const struct rho_window *window, int64_t time_us)
     return newest_of(window)->newest.time_us <= time_us;
 }
 
-int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan)
+static int is_equal(float a, float b)
 {
+    return a <= b && a >= b;
+}
+
+/* What the turn's plots are held with would not be that of the sector's. */
+static int is_other_sensor(const struct rho_window_scan *held, const struct rho_sensor *sensor)
+{
+    const struct rho_sensor *was = &held->sensor;
+    if (!sensor) {
+        return was->pd > 0.0f;
+    }
+#if RHO_AMBIGUOUS_RANGE_RATES
+    if (!is_equal(was->range_rate_span_mps, sensor->range_rate_span_mps)) {
+        return 1;
+    }
+#endif
+    return !(was->pd > 0.0f) || !is_equal(was->x_m, sensor->x_m) ||
+           !is_equal(was->y_m, sensor->y_m) || !is_equal(was->z_m, sensor->z_m);
+}
+
+int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
+                       const struct rho_sensor *sensor)
+{
+    if (window->magic != WINDOW_MAGIC || window->num_scans == 0) {
+        return 0;
+    }
     const struct rho_window_scan *held = newest_of(window);
-    return window->num_scans > 0 && held->sensor.sensor_id == scan->sensor_id &&
-           held->measures == scan->measures && held->newest.time_us <= scan->time_us &&
+    return held->sensor.sensor_id == scan->sensor_id && held->measures == scan->measures &&
+           !is_other_sensor(held, sensor) && held->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
            rho_angle_sector_goes_on(held->sector_from_rad, held->sector_to_rad,
                                     scan->sector_from_rad, scan->sector_to_rad,
@@ -317,15 +345,21 @@ static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *sc
     }
 }
 
-static void add_sector(struct rho_window *window, const struct rho_scan *scan, uint8_t *fates)
+static void add_sector(struct rho_window *window, const struct rho_scan *scan,
+                       const struct rho_sensor *sensor, uint8_t *fates)
 {
     struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
     const struct entry entry = {slot, scan, fates,
                                 rho_seconds_between(slot->time_us, scan->time_us)};
     const unsigned held = admit(scan, slot->num_plots, fates);
+    if (slot->num_plots == 0) {
+        guess_extent_once(window, scan, fates);
+        lay_bins(slot, window, plots_of_turn(window, scan, held));
+    }
     widen_sector(slot, scan);
     begin_sector(slot, scan);
     sort_into_bins(&entry);
+    slot->sensor.pd = sensor ? sensor->pd : 0.0f;
     slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
     slot->num_plots = (uint16_t)held;
 }
@@ -339,9 +373,10 @@ static int is_newest_older(const struct rho_window *window, int64_t time_us)
     return window->ring[newest].time_us <= time_us;
 }
 
-int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan)
+int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
+                       const struct rho_sensor *sensor)
 {
-    (void)window, (void)scan;
+    (void)window, (void)scan, (void)sensor;
     return 0;
 }
 
@@ -391,6 +426,11 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
     if (!window || !scan || !left_unused || (scan->num_plots && (!scan->plots || !fates))) {
         return RHO_ERROR_NULL;
     }
+#if RHO_SECTORS
+    if (!rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
+        return RHO_ERROR_VALUE;
+    }
+#endif
     return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
 }
 
@@ -412,9 +452,7 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
 #if RHO_SECTORS
     begin_sector(slot, scan);
 #endif
-    if (!window->area_is_fixed && !(window->extent.x_min_m <= window->extent.x_max_m)) {
-        guess_extent(window, scan, fates);
-    }
+    guess_extent_once(window, scan, fates);
     lay_bins(slot, window, plots_of_turn(window, scan, held));
     sort_into_bins(&entry);
     slot->num_plots = slot->num_unused = (uint16_t)held;
@@ -432,9 +470,9 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
         return status;
     }
 #if RHO_SECTORS
-    window->is_continued = (uint32_t)rho_window_goes_on(window, scan);
+    window->is_continued = (uint32_t)rho_window_goes_on(window, scan, sensor);
     if (window->is_continued) {
-        add_sector(window, scan, fates);
+        add_sector(window, scan, sensor, fates);
         return RHO_OK;
     }
 #endif

@@ -260,6 +260,11 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
         rho_track_end(&start, model);
         return status;
     }
+#if RHO_SECTORS
+    for (unsigned i = 0; i + 1 < num_plots; i++) {
+        start.is_shared |= (uint8_t)(plots[i].sensor_id != last->sensor_id);
+    }
+#endif
     rho_track_apply(&start, RHO_TRACK_START);
     *track = start;
     return RHO_OK;
@@ -366,7 +371,11 @@ static void take_sighting(struct rho_track *track, int64_t time_us, int32_t sens
 #if RHO_SECTORS
     track->is_shared |= (uint8_t)(track->sensor_id != sensor_id);
 #endif
+#if RHO_SECTORS
+    track->updated_us = time_us > track->updated_us ? time_us : track->updated_us;
+#else
     track->updated_us = time_us;
+#endif
     track->sensor_id = sensor_id;
     track->plot = row;
 }
@@ -382,7 +391,9 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
         return status;
     }
     track->time_us = plot->time_us;
-    note_velocity(track, 1);
+    if (!RHO_SECTORS || plot->time_us >= track->updated_us) {
+        note_velocity(track, 1); /* one that came late does not come between the last two */
+    }
     take_sighting(track, plot->time_us, plot->sensor_id, plot->row);
     rho_track_count_hit(track);
     rho_track_add_score(track, gain_mnat);

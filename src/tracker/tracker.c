@@ -140,7 +140,7 @@ static void begin(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
-    if (RHO_SECTORS && rho_tracker_is_late(tracker, step->time_us)) {
+    if (RHO_SECTORS && step->is_late) {
         rho_tracker_begin_late(step);
         return;
     }
@@ -219,14 +219,13 @@ static void count_fates(const struct step *step)
     for (uint32_t i = 0; i < step->num_gated; i++) {
         report->fates_total[report->fates[i]]++;
     }
-    int late = step->num_gated > 0 && report->fates[0] == RHO_FATE_STALE;
     uint32_t others = step->num_inputs - step->num_gated;
     if (RHO_CLAIMS_BEYOND) {
         report->fates_total[RHO_FATE_CLAIMED] += step->num_beyond_claimed;
         report->fates_total[RHO_FATE_INVALID] += step->num_beyond_invalid;
         others -= step->num_beyond_claimed + step->num_beyond_invalid;
     }
-    report->fates_total[late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] += others;
+    report->fates_total[step->is_late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] += others;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
     }
@@ -365,6 +364,7 @@ enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t s
     tracker->num_sensors--;
     tracker->sensors[place] = tracker->sensors[tracker->num_sensors];
     memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
+    rho_tracker_forget_look(tracker, sensor_id);
     return RHO_OK;
 }
 
@@ -382,8 +382,11 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
         !rho_tracker_is_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
-    return !initiator || rho_tracker_is_late(tracker, scan->time_us) ||
-                   rho_initiator_accepts(initiator, scan->time_us)
+    /* a late scan is not pushed, but asks for the density */
+    return !initiator ||
+                   rho_initiator_accepts(initiator, rho_tracker_is_late(tracker, scan->time_us)
+                                                        ? RHO_LIMIT_TIME_US
+                                                        : scan->time_us)
                ? RHO_OK
                : RHO_ERROR_STATE;
 }
@@ -423,7 +426,7 @@ static void take_in(struct step *step)
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_age(step);
-    if (RHO_SECTORS && rho_tracker_is_late(step->tracker, step->time_us)) {
+    if (RHO_SECTORS && step->is_late) {
         rho_tracker_end_late(step);
         return;
     }
@@ -440,7 +443,8 @@ int rho_tracker_open(struct step *step)
     report->time_us = step->time_us;
     report->num_plots = step->num_inputs;
     set_model(step);
-    if (rho_tracker_is_late(step->tracker, step->time_us) && !rho_tracker_takes_late(step)) {
+    step->is_late = rho_tracker_is_late(step->tracker, step->time_us);
+    if (step->is_late && !rho_tracker_takes_late(step)) {
         refuse_late(step);
         return 0;
     }

@@ -27,12 +27,12 @@ void rho_tracker_predict(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
+        rho_tracker_note_ahead(track);
         if (!rho_tracker_reaches(step, track) || rho_tracker_was_seen(step, track) ||
             rho_tracker_is_hearsay(step, track)) {
             continue;
         }
         step->reached[i / 32] |= 1u << i % 32;
-        rho_tracker_note_ahead(track);
         /* an estimate that time has made worthless cannot be carried on */
         if (rho_track_predict(track, step->time_us, &step->model) != RHO_OK) {
             rho_tracker_end_track(step, track);

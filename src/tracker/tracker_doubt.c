@@ -126,7 +126,7 @@ static int is_telling(const struct step *step, unsigned row)
 void rho_tracker_watch(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *look = rho_tracker_own_look(tracker, step->scan->sensor_id);
+    struct rho_tracker_look *look = rho_tracker_own_look(step);
     if (!look) {
         return;
     }
@@ -141,8 +141,10 @@ void rho_tracker_watch(struct step *step)
 
 void rho_tracker_weigh_sensor(struct step *step)
 {
-    const struct rho_tracker_look *look =
-        rho_tracker_own_look(step->tracker, step->scan->sensor_id);
+    struct rho_tracker_look *look = rho_tracker_own_look(step);
+    if (look) {
+        judge(step, look); /* whoever was its witness may have gone */
+    }
     step->is_doubted = look && look->is_doubted;
     for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
         struct rho_sensor *sensor = &step->tracker->sensors[i];
@@ -152,17 +154,6 @@ void rho_tracker_weigh_sensor(struct step *step)
             sensor->variance_factor = shown < FACTOR_MAX ? shown : FACTOR_MAX;
         }
     }
-}
-
-const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
-                                                   int32_t sensor_id)
-{
-    for (unsigned i = 0; tracker && i < tracker->num_looks; i++) {
-        if (tracker->looks[i].sensor_id == sensor_id) {
-            return &tracker->looks[i];
-        }
-    }
-    return 0;
 }
 
 #else

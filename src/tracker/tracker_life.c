@@ -96,15 +96,6 @@ static int is_too_slow(const struct step *step, const struct rho_track *track)
                                    least_mps * least_mps;
 }
 
-static void note_look(const struct step *step, struct rho_track *track)
-{
-#if RHO_SECTORS
-    track->look = step->scan && track->plot >= 0 ? step->look : track->look;
-#else
-    (void)step, (void)track;
-#endif
-}
-
 void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -122,7 +113,7 @@ void rho_tracker_age(struct step *step)
                                       ? 0
                                       : rho_tracker_mnat(-step->log_miss));
         }
-        note_look(step, track);
+        rho_tracker_note_sight(step, track);
         judge(step, track, &limits);
         if (track->status != RHO_TRACK_FREE && is_too_slow(step, track)) {
             rho_tracker_end_track(step, track);
@@ -162,6 +153,19 @@ static int make_room(struct step *step, int32_t score_mnat)
     return 1;
 }
 
+/* The row of a held plot in its scan; -1: of an earlier sector's. */
+static int16_t row_of(struct rho_initiator *initiator, unsigned m, unsigned plot)
+{
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
+#if RHO_SECTORS
+    if (m + 1u == initiator->window.num_scans &&
+        scan->plots[plot].offset_s < scan->newest.offset_min_s) {
+        return -1;
+    }
+#endif
+    return (int16_t)(scan->marks[plot] & RHO_WINDOW_ROW);
+}
+
 /* The candidate's plots in the order of their scans. */
 static unsigned gather_plots(struct rho_initiator *initiator, const struct rho_candidate *candidate,
                              struct rho_track_plot *plots)
@@ -177,7 +181,7 @@ static unsigned gather_plots(struct rho_initiator *initiator, const struct rho_c
                 .sensor_id = scan->sensor.sensor_id,
                 .sensor = &scan->sensor,
                 .plot = plot,
-                .row = (int16_t)(scan->marks[candidate->plot[m]] & RHO_WINDOW_ROW),
+                .row = row_of(initiator, m, candidate->plot[m]),
             };
         }
     }
@@ -192,7 +196,8 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
         rho_track_end(track, &step->model);
         return 0;
     }
-    note_look(step, track);
+    rho_tracker_note_sight(step, track);
+    rho_tracker_note_ahead(track);
     judge(step, track, limits);
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;

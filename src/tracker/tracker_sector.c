@@ -10,6 +10,8 @@
  *                 (   gate   )  its plot may be in the next one, or was in the previous one: a track that took one there takes
  *                  '----|---'   none here, and one that has none is missed where the antenna has passed the whole gate
  */
+#include <string.h>
+
 #include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/measurement.h"
@@ -20,30 +22,65 @@
 /* Standard deviations from a track's place to the end of where its plot is expected. */
 #define GATE_SIGMAS 3.0f
 
-/* NULL: of a new sensor that has no room. */
-struct rho_tracker_look *rho_tracker_own_look(struct rho_tracker *tracker, int32_t sensor_id)
+/* num_looks where nothing is known of it. */
+static unsigned place_of_look(const struct rho_tracker *tracker, int32_t sensor_id)
 {
     unsigned place = 0;
     while (place < tracker->num_looks && tracker->looks[place].sensor_id != sensor_id) {
         place++;
     }
-    if (place == RHO_MAX_SENSORS) {
-        return 0;
+    return place;
+}
+
+static struct rho_tracker_look *find_look(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    const unsigned place = place_of_look(tracker, sensor_id);
+    return place < tracker->num_looks ? &tracker->looks[place] : 0;
+}
+
+/* A new sensor takes the place of the one that was heard longest ago, where there is no other. */
+static struct rho_tracker_look *add_look(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    struct rho_tracker_look *oldest = &tracker->looks[0];
+    for (unsigned i = 1; i < tracker->num_looks; i++) {
+        oldest = tracker->looks[i].time_us < oldest->time_us ? &tracker->looks[i] : oldest;
     }
-    if (place == tracker->num_looks) {
-        tracker->num_looks++;
-        tracker->looks[place] = (struct rho_tracker_look){.sensor_id = sensor_id};
+    if (tracker->num_looks < RHO_MAX_SENSORS) {
+        oldest = &tracker->looks[tracker->num_looks++];
     }
-    return &tracker->looks[place];
+    *oldest = (struct rho_tracker_look){.sensor_id = sensor_id};
+    return oldest;
+}
+
+const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
+                                                   int32_t sensor_id)
+{
+    const unsigned place = tracker ? place_of_look(tracker, sensor_id) : 0;
+    return tracker && place < tracker->num_looks ? &tracker->looks[place] : 0;
+}
+
+struct rho_tracker_look *rho_tracker_own_look(struct step *step)
+{
+    return find_look(step->tracker, step->scan->sensor_id);
+}
+
+void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    struct rho_tracker_look *look = find_look(tracker, sensor_id);
+    if (look) {
+        *look = tracker->looks[--tracker->num_looks];
+        memset(&tracker->looks[tracker->num_looks], 0, sizeof *look);
+    }
 }
 
 void rho_tracker_note_look(struct step *step)
 {
     const struct rho_scan *scan = step->scan;
-    struct rho_tracker_look *look = rho_tracker_own_look(step->tracker, scan->sensor_id);
-    if (!look || rho_tracker_is_late(step->tracker, step->time_us)) {
+    struct rho_tracker_look *look = rho_tracker_own_look(step);
+    if (step->is_late) {
         return;
     }
+    look = look ? look : add_look(step->tracker, scan->sensor_id);
     if (look->count > 0) {
         const unsigned ends =
             rho_angle_sector_goes_on(look->sector_from_rad, look->sector_to_rad,
@@ -64,7 +101,7 @@ void rho_tracker_note_look(struct step *step)
 void rho_tracker_note_thresholds(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *own = rho_tracker_own_look(tracker, step->scan->sensor_id);
+    struct rho_tracker_look *own = rho_tracker_own_look(step);
     if (own) {
         own->start_mnat = step->initiator->start_mnat;
         own->confirm_mnat = step->initiator->confirm_mnat;
@@ -90,7 +127,23 @@ static int is_turning(const struct step *step)
 int rho_tracker_was_seen(const struct step *step, const struct rho_track *track)
 {
     const uint16_t before = (uint16_t)(step->look == 1 ? UINT16_MAX : step->look - 1);
-    return is_turning(step) && track->sensor_id == step->scan->sensor_id && track->look == before;
+    const int32_t sensor_id = step->scan->sensor_id;
+    return is_turning(step) &&
+           ((track->look_sensor_id[0] == sensor_id && track->look[0] == before) ||
+            (track->look_sensor_id[1] == sensor_id && track->look[1] == before));
+}
+
+void rho_tracker_note_sight(const struct step *step, struct rho_track *track)
+{
+    if (!step->scan || track->plot < 0 || step->is_late) {
+        return;
+    }
+    if (track->look_sensor_id[0] != step->scan->sensor_id) {
+        track->look_sensor_id[1] = track->look_sensor_id[0];
+        track->look[1] = track->look[0];
+        track->look_sensor_id[0] = step->scan->sensor_id;
+    }
+    track->look[0] = step->look;
 }
 
 int rho_tracker_has_passed(const struct step *step, const struct rho_track *track)

@@ -29,6 +29,7 @@ struct step {
     float
         turning; /* the scan is the sector after the one before: 1 counter-clockwise, -1 clockwise; else 0 */
 #endif
+    int is_late;         /* older than what was stepped before */
     uint32_t num_inputs; /* plots or bearings */
     uint32_t num_gated;  /* of them: have a place in report->fates */
     /* of the plots that have none: claimed, invalid */
@@ -87,8 +88,12 @@ void rho_tracker_close(struct step *step);
 /* Who has said nothing for so long has no say any more. */
 #define RHO_TRACKER_SILENT_US 60000000
 
-/* What is known of a sensor's scans; a new one is added. NULL: no room. */
-struct rho_tracker_look *rho_tracker_own_look(struct rho_tracker *tracker, int32_t sensor_id);
+/* What is known of the sensor that looks; NULL: nothing. */
+struct rho_tracker_look *rho_tracker_own_look(struct step *step);
+void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
+
+/* The track has a plot of this scan, or has not. */
+void rho_tracker_note_sight(const struct step *step, struct rho_track *track);
 
 /* tracker_doubt.c: before its plots are gated; and between assignment and update: whether the sensor agrees with others */
 void rho_tracker_weigh_sensor(struct step *step);
@@ -131,6 +136,16 @@ static inline void rho_tracker_note_thresholds(struct step *step)
 static inline void rho_tracker_weigh_sensor(struct step *step)
 {
     (void)step;
+}
+
+static inline void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    (void)tracker, (void)sensor_id;
+}
+
+static inline void rho_tracker_note_sight(const struct step *step, struct rho_track *track)
+{
+    (void)step, (void)track;
 }
 
 static inline void rho_tracker_watch(struct step *step)

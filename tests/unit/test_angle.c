@@ -179,6 +179,10 @@ static void sectors_go_on_from_either_end(void **state)
     assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.2f, 1.5f, 0.3f), left);
     assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, -1.5f, -0.2f, 0.3f), right);
     assert_int_equal(rho_angle_sector_goes_on(0.0f, 5.0f, 5.5f, 6.0f, 1.0f), right);
+    /* narrow ones: of two there is no circle, nor of one twice */
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 4e-4f, 4e-4f, 8e-4f, 0.5f), left);
+    assert_int_equal(rho_angle_sector_goes_on(1.0f, 1.0004f, 0.9996f, 1.0f, 0.5f), right);
+    assert_int_equal(rho_angle_sector_goes_on(0.0f, 5e-4f, 0.0f, 5e-4f, 0.5f), 0);
     /* overlap, the whole circle, no sector */
     assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 0.5f, 1.5f, 0.3f), 0);
     assert_int_equal(rho_angle_sector_goes_on(0.0f, 6.1f, 0.0f, 0.2f, 0.5f), 0);

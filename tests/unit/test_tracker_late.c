@@ -87,6 +87,7 @@ static void a_late_scan_updates_tracks_and_starts_none(void **state)
         assert_true(report.tracks[0].score_nat > before.score_nat);
         assert_true(report.tracks[0].sigma_m < before.sigma_m);
         assert_float_equal(report.tracks[0].state[0], 8800.0f, 20.0f);
+        assert_int_equal(report.tracks[0].update_age_us, before.update_age_us);
         assert_int_equal(tracker.time_us, 11 * INTERVAL_US);
         assert_int_equal(tracker.counters.scans_retrodicted, 1);
         assert_int_equal(tracker.counters.scans_late, 0);
@@ -128,6 +129,62 @@ static void beyond_the_limit_all_is_stale_and_nothing_changes(void **state)
     assert_memory_equal(&tracker, &before, sizeof tracker);
     step_one(11, 1, 0); /* 4 s */
     assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
+}
+
+/* Tracks that a late scan does not reach stay where they are, whatever the times are. */
+static void a_late_scan_elsewhere_moves_no_track(void **state)
+{
+    static struct rho_tracker before;
+    (void)state;
+    for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        for (int early = 0; early < 2; early++) {
+            const int64_t start_us = early ? INT64_C(-1000000000) : 0;
+            struct rho_scan scan = {.num_plots = 1};
+
+            start(gate, 20.0f);
+            for (int k = 0; k < 8; k++) {
+                const struct rho_plot plot = {.x_m = 20000.0f + 800.0f * (float)k,
+                                              .sigma_range_m = 10.0f,
+                                              .sigma_cross_m = 10.0f};
+                scan.time_us = start_us + k * INTERVAL_US;
+                scan.plots = &plot;
+                assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+            }
+            assert_int_equal(report.num_tracks, 1);
+            before = tracker;
+            scan = (struct rho_scan){.time_us = scan.time_us - INTERVAL_US / 2,
+                                     .sector_from_rad = 2.0f,
+                                     .sector_to_rad = 2.5f};
+            assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+            assert_int_equal(report.num_tracks, 1);
+            assert_int_equal(tracker.tracks[0].time_us, before.tracks[0].time_us);
+            assert_memory_equal(&tracker.tracks[0].kalman, &before.tracks[0].kalman,
+                                sizeof before.tracks[0].kalman);
+        }
+    }
+}
+
+static void an_initiator_that_is_none_is_refused(void **state)
+{
+    const struct rho_scan scan = {.time_us = 8 * INTERVAL_US};
+    (void)state;
+    start(RHO_TRACKER_BEST, 20.0f);
+    fly_until(9);
+    memset(&initiator, 0x11, sizeof initiator);
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_ERROR_STATE);
+}
+
+/* The newest scan of a sensor comes twice, after another one's. */
+static void a_double_is_stale(void **state)
+{
+    const struct rho_scan other = {.time_us = 10 * INTERVAL_US, .sensor_id = 3};
+    (void)state;
+    start(RHO_TRACKER_BEST, 20.0f);
+    fly_until(9);
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &other, &report), RHO_OK);
+    step_one(9, 1, 0);
+    assert_int_equal(report.fates[0], RHO_FATE_STALE);
+    assert_int_equal(tracker.counters.scans_late, 1);
 }
 
 static void none_are_taken_where_the_limit_is_0(void **state)
@@ -283,6 +340,9 @@ int main(void)
         cmocka_unit_test(a_late_scan_updates_tracks_and_starts_none),
         cmocka_unit_test(a_miss_counts_late_as_well),
         cmocka_unit_test(beyond_the_limit_all_is_stale_and_nothing_changes),
+        cmocka_unit_test(a_late_scan_elsewhere_moves_no_track),
+        cmocka_unit_test(an_initiator_that_is_none_is_refused),
+        cmocka_unit_test(a_double_is_stale),
         cmocka_unit_test(none_are_taken_where_the_limit_is_0),
         cmocka_unit_test(limits_beyond_a_minute_are_refused),
         cmocka_unit_test(late_scans_are_worth_nearly_as_much_as_others),

@@ -134,6 +134,20 @@ static void step_sector(struct scene *scene, int turn, int sector)
     }
 }
 
+/* A scan of another radar, all round, of all targets. */
+static void look_around(const struct scene *scene, int64_t time_us)
+{
+    struct rho_plot plots[TARGETS];
+    const struct rho_scan scan = {
+        .time_us = time_us, .sensor_id = 2, .num_plots = TARGETS, .plots = plots};
+
+    for (int i = 0; i < TARGETS; i++) {
+        plots[i] = plot_of(scene, i, (double)time_us * 1e-6, time_us);
+    }
+    assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+    assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], TARGETS);
+}
+
 static void fly(struct scene *scene, int turns)
 {
     if (scene->sectors == 0) {
@@ -248,6 +262,29 @@ static void a_track_takes_one_plot_a_pass(void **state)
     }
 }
 
+/* Another radar's plots between two sectors: who was seen at the edge has been seen all the same. */
+static void another_radar_in_between_changes_nothing(void **state)
+{
+    (void)state;
+    for (int turning = -1; turning <= 1; turning += 2) {
+        struct scene scene = {.turning = turning, .hidden = -1, .sectors = SECTORS};
+
+        start();
+        for (int turn = 0; turn < 12; turn++) {
+            for (int sector = 0; sector < SECTORS; sector++) {
+                step_sector(&scene, turn, sector);
+                if (turn >= 6 && sector % 4 == 0) {
+                    look_around(&scene, report.time_us + SECTOR_US / 2);
+                }
+            }
+        }
+        assert_int_equal(report.num_tracks, TARGETS);
+        for (int i = 0; i < TARGETS; i++) {
+            assert_int_equal(track_of(&scene, i)->misses, 0);
+        }
+    }
+}
+
 /* A target that is not there any more is missed once a turn, wherever it stands to the edges. */
 static void misses_count_once_a_turn(void **state)
 {
@@ -338,6 +375,7 @@ int main(void)
         cmocka_unit_test(targets_at_edges_are_seen_once_a_turn),
         cmocka_unit_test(other_numbers_of_sectors_do_the_same),
         cmocka_unit_test(a_track_takes_one_plot_a_pass),
+        cmocka_unit_test(another_radar_in_between_changes_nothing),
         cmocka_unit_test(misses_count_once_a_turn),
         cmocka_unit_test(tracks_start_as_early_as_from_whole_turns),
         cmocka_unit_test(reports_keep_up_with_the_antenna),
