@@ -13,3 +13,7 @@
 #define RHO_MAX_SENSORS 1
 #define RHO_MAX_OPEN_SCANS 1
 #define RHO_MAX_PARTS 4
+
+/* Its scans are whole turns, and it is alone; its range rates, if it has any, are not ambiguous. */
+#define RHO_SECTORS 0
+#define RHO_AMBIGUOUS_RANGE_RATES 0

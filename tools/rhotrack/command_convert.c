@@ -316,6 +316,10 @@ int command_convert(struct command_line *line)
         convert_to_asterix(line);
         return 0;
     }
+    if (to_map && asterix_file_is_asterix(line->arguments[0])) {
+        fail(EXIT_USAGE, "%s: a recording of radars; GeoJSON is made of tracks",
+             line->arguments[0]);
+    }
     if (asterix_file_is_asterix(line->arguments[0]) &&
         !path_ends_with(line->arguments[1], ".lcm")) {
         if (line->kind) {

@@ -210,6 +210,12 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
             counts->steps, counts->plots, counters->tracks_confirmed,
             counters->fates[RHO_FATE_INVALID], counters->fates[RHO_FATE_STALE],
             counters->fates[RHO_FATE_NO_ROOM]);
+    if (counters->scans_late + counters->scans_retrodicted > 0) {
+        fprintf(stderr,
+                " (scans: %" PRIu32 " late, used for tracks alone, %" PRIu32
+                " too late; hold_ms waits longer)",
+                counters->scans_retrodicted, counters->scans_late);
+    }
     if (counts->frames_incomplete) {
         fprintf(stderr, ", %" PRIu64 " frames miss a sensor%s", counts->frames_incomplete,
                 counts->frames_incomplete == counts->frames ? " (all: see frame_tolerance_s)" : "");

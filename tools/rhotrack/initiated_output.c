@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "asterix_tracks.h"
 #include "chain.h"
 #include "common.h"
 #include "geojson.h"
@@ -25,6 +26,10 @@ struct initiated_output *initiated_output_open(const char *path)
 
     if (geojson_is_wanted(path)) {
         fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; GeoJSON is made of tracks",
+             path);
+    }
+    if (asterix_tracks_is_asterix(path)) {
+        fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; CAT062 is made of tracks",
              path);
     }
     found->path = path;

@@ -58,9 +58,11 @@ static const struct command commands[] = {
      "so\n"
      "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
      "crossing-angle,\n"
-     "same-line, clutter, slow-turn, traffic, air-traffic, polar (polar.csv: a turning radar's\n"
-     "plots), two-radars (of two, with biases), formation, passive-two, passive-three,\n"
-     "passive-clutter (bearings.csv), popup, weave, hard-turn (one target that pulls, in a beam, "
+     "same-line, clutter, slow-turn, traffic, air-traffic, formation; polar, doppler, rotating (a "
+     "turning\n"
+     "radar's plots, polar.csv) and two-radars (of two, with biases); passive-two, "
+     "passive-three,\n"
+     "passive-clutter (bearings.csv); popup, weave, hard-turn (one target that pulls, in a beam, "
      "with\n"
      "heights); their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
@@ -80,8 +82,9 @@ static const struct command commands[] = {
      "orSmj", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
-     "build/experiment/NAME). Experiments: initiation, polar, false-alarms, passive, maneuver,\n"
-     "air-traffic, two-radars; initiation takes --method kernel, ht, mht, iht or nht, passive "
+     "build/experiment/NAME). Experiments: initiation, polar, doppler, rotating, two-radars,\n"
+     "false-alarms, passive, maneuver, air-traffic; initiation takes --method kernel, ht, mht, iht "
+     "or nht, passive "
      "takes passive "
      "or\n"
      "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "

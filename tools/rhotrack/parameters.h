@@ -73,7 +73,7 @@
     X(AREA_Y_MIN_M, "area_y_min_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(AREA_Y_MAX_M, "area_y_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
     X(HOLD_MS, "hold_ms", "ms", 20, 0, 10000, 0, 1,                                                \
-      "messages: wait for parts of a scan, and for other sensors' earlier scans")                  \
+      "messages, and rows with received_s: wait for parts of a scan, and for earlier scans")       \
     X(JUMP_MAX_S, "jump_max_s", "s", 30, 1, 3600, 0, 1,                                            \
       "messages: gap in a sensor's times, or between sensors, that is believed at once")           \
     X(FOLLOW_SCANS, "follow_scans", "-", 3, 2, 255, 1, 1,                                          \
