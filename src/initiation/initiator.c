@@ -178,7 +178,8 @@ static void use_turn(struct search *search)
 {
     search->scans_seen = (float)(search->num_scans - 1u) + share_of_newest(search);
     /* a further sector of a turn, whose first one had everything measured and decided */
-    search->is_continued = search->kind == RHO_SEARCH_NEWEST && search->initiator->has_turn ? 1 : 0;
+    search->is_continued = search->kind == RHO_SEARCH_NEWEST &&
+                           search->initiator->window.is_continued && search->initiator->has_turn;
     search->initiator->has_turn = search->kind == RHO_SEARCH_NEWEST;
     if (search->kind == RHO_SEARCH_NEWEST &&
         (search->is_continued || !search->initiator->window.is_continued)) {

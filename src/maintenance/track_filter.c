@@ -366,16 +366,18 @@ enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
 }
 #endif
 
+/* A plot that came late is not the last one. */
+static int64_t last_seen_us(const struct rho_track *track, int64_t time_us)
+{
+    return RHO_SECTORS && time_us < track->updated_us ? track->updated_us : time_us;
+}
+
 static void take_sighting(struct rho_track *track, int64_t time_us, int32_t sensor_id, int16_t row)
 {
 #if RHO_SECTORS
     track->is_shared |= (uint8_t)(track->sensor_id != sensor_id);
 #endif
-#if RHO_SECTORS
-    track->updated_us = time_us > track->updated_us ? time_us : track->updated_us;
-#else
     track->updated_us = time_us;
-#endif
     track->sensor_id = sensor_id;
     track->plot = row;
 }
@@ -394,7 +396,7 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
     if (!RHO_SECTORS || plot->time_us >= track->updated_us) {
         note_velocity(track, 1); /* one that came late does not come between the last two */
     }
-    take_sighting(track, plot->time_us, plot->sensor_id, plot->row);
+    take_sighting(track, last_seen_us(track, plot->time_us), plot->sensor_id, plot->row);
     rho_track_count_hit(track);
     rho_track_add_score(track, gain_mnat);
     rho_track_apply(track, RHO_TRACK_UPDATE);
@@ -421,8 +423,9 @@ enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypot
                                     : outcome.gain_nat > SCORE_LIMIT_NAT ? SCORE_LIMIT_NAT
                                                                          : outcome.gain_nat)));
     if (outcome.row >= 0) {
-        take_sighting(track, scan->time_us + scan->plots[outcome.row].offset_us, sensor_id,
-                      outcome.row);
+        take_sighting(track,
+                      last_seen_us(track, scan->time_us + scan->plots[outcome.row].offset_us),
+                      sensor_id, outcome.row);
         rho_track_count_hit(track);
         rho_track_apply(track, RHO_TRACK_UPDATE);
     }
