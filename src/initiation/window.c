@@ -248,7 +248,8 @@ static struct rho_window_scan *next_slot(struct rho_window *window, uint32_t *le
 {
     if (window->num_scans == window->scans_max) {
         *left_unused = rho_count(*left_unused, window->ring[window->first].num_unused);
-        window->first = (uint16_t)((window->first + 1u) % window->scans_max);
+        window->first =
+            (uint16_t)(window->first + 1u < window->scans_max ? window->first + 1u : 0u);
         window->num_scans--;
     }
     window->num_scans++;
@@ -261,8 +262,8 @@ static struct rho_window_scan *next_slot(struct rho_window *window, uint32_t *le
 
 static const struct rho_window_scan *newest_of(const struct rho_window *window)
 {
-    return &window->ring[((unsigned)window->first + window->num_scans + window->scans_max - 1u) %
-                         window->scans_max];
+    const unsigned end = (unsigned)window->first + window->num_scans; /* num_scans > 0 */
+    return &window->ring[(end > window->scans_max ? end - window->scans_max : end) - 1u];
 }
 
 static int is_newest_older(const struct rho_window *window, int64_t time_us)
@@ -482,5 +483,6 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
 
 struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m)
 {
-    return &window->ring[(window->first + m) % window->scans_max];
+    const unsigned place = window->first + m;
+    return &window->ring[place < window->scans_max ? place : place - window->scans_max];
 }

@@ -13,36 +13,43 @@ void hold_put(struct hold *hold, const struct plot_scan *scan, int64_t heard_us)
     hold->clock_us = heard_us;
 }
 
-/* When the one that was received first has waited long enough: what came after that is not waited for. */
-static int64_t due_of(const struct hold *hold)
+static size_t first_heard(const struct hold *hold)
 {
-    int64_t heard_us = hold->scans[0].heard_us;
+    size_t first = 0;
 
     for (size_t i = 1; i < hold->count; i++) {
-        heard_us = hold->scans[i].heard_us < heard_us ? hold->scans[i].heard_us : heard_us;
+        first = hold->scans[i].heard_us < hold->scans[first].heard_us ? i : first;
     }
-    return heard_us + hold->hold_us;
+    return first;
 }
 
+/* When the one that was received first has waited long enough: what came after that is not waited for. */
 bool hold_take(struct hold *hold, bool all, struct plot_scan *scan)
 {
-    struct held_scan *first = NULL;
-    int64_t due_us = hold->count > 0 ? due_of(hold) : 0;
+    size_t first;
+    int64_t due_us;
 
-    if (hold->count == 0 || !(all || hold->clock_us >= due_us)) {
+    if (hold->count == 0) {
+        return false;
+    }
+    first = first_heard(hold);
+    due_us = hold->scans[first].heard_us + hold->hold_us;
+    if (!all && hold->clock_us < due_us) {
         return false;
     }
     for (size_t i = 0; i < hold->count; i++) {
-        struct held_scan *held = &hold->scans[i];
+        int64_t time_us = hold->scans[i].scan.scan.time_us,
+                first_us = hold->scans[first].scan.scan.time_us;
 
-        if (held->heard_us <= due_us &&
-            (!first || held->scan.scan.time_us < first->scan.scan.time_us)) {
-            first = held;
+        if (hold->scans[i].heard_us <= due_us &&
+            (time_us < first_us || (time_us == first_us && i < first))) {
+            first = i;
         }
     }
-    *scan = first->scan;
+    *scan = hold->scans[first].scan;
     hold->count--;
-    memmove(first, first + 1, (size_t)(hold->scans + hold->count - first) * sizeof *first);
+    memmove(hold->scans + first, hold->scans + first + 1,
+            (hold->count - first) * sizeof *hold->scans);
     return true;
 }
 

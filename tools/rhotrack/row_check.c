@@ -51,7 +51,7 @@ bool row_double(const struct row_check *check, int column, double min, double ma
 
 bool row_float(const struct row_check *check, int column, float min, float max, float *value)
 {
-    double number;
+    double number = 0.0;
 
     if (!row_double(check, column, (double)min, (double)max, &number)) {
         return false;

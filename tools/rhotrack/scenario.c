@@ -479,6 +479,7 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
     const struct scenario *scenario = find_scenario(name);
     struct random random = random_start(seed, (uint64_t)(scenario - scenarios), run);
     if (scenario->simulate != NULL) {
+        /* cppcheck-suppress returnDanglingLifetime ; what is returned has nothing of it */
         return scenario->simulate(parameters, &random);
     }
     struct scenario_plan plan = scenario->plan(parameters, &random);
