@@ -72,8 +72,6 @@ compile = @mkdir -p $(@D) && echo "  cc       $@" && $(CC) $(1) $(OPT) $(CFLAGS)
 # As many jobs as processors, unless the caller said how many.
 jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 
-comma := ,
-
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .PHONY: all lib codegen bench-opencv bench-stonesoup test-programs test fuzz demo demo-live layers poison gates size \
@@ -294,10 +292,10 @@ $(BUILD)/fuzz/program.a: $(filter-out %/main.o,$(program_objects))
 $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a:
 	@rm -f $@ && echo "  ar       $@" && ar rcs $@ $^
 
-# --wrap=fail: a reader that refuses its file comes back to the target instead of ending it.
+# --wrap: a reader that refuses its file comes back to the target instead of ending it, which closes its streams.
 $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a $(workstation_library) Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -MF $@.d -fsanitize=fuzzer \
-	    $(if $(shell grep -l __wrap_fail $<),-Wl$(comma)--wrap=fail) -o $@ $< $(filter %.a,$^) $(program_libraries)
+	    $(shell grep -o '__wrap_[a-z_]*' $< | sort -u | sed 's/__wrap_/-Wl,--wrap=/') -o $@ $< $(filter %.a,$^) $(program_libraries)
 
 # --- gates -----------------------------------------------------------------------------------
 

@@ -5,8 +5,8 @@
  * one scan; the rest is the file.
  *
  * A reader that refuses its file calls fail(), which ends the program. Here it jumps out of the reader (linked with
- * --wrap=fail), and what that reader had allocated is given back by the hooks of the sanitizer's allocator, and the files
- * that it had open are closed. So leaks of runs that do not fail are still found.
+ * --wrap=fail), and the files that it had open are closed (the streams by --wrap=fopen and its like), and what it had
+ * allocated is given back by the hooks of the sanitizer's allocator. So leaks of runs that do not fail are still found.
  */
 #include <limits.h>
 #include <math.h>
@@ -79,6 +79,60 @@ static int first_free_file(void)
     return file;
 }
 
+/* ---- Streams that a run has open ---- */
+
+/*
+ * The C library lists its open streams: one whose memory is given back while it is open breaks that list, and the program
+ * may then run in a circle when it ends.
+ */
+#define STREAMS_MAX 16
+
+static FILE *streams[STREAMS_MAX];
+static size_t num_streams;
+
+static FILE *keep_stream(FILE *stream)
+{
+    if (stream && is_keeping) {
+        must(num_streams < STREAMS_MAX);
+        streams[num_streams++] = stream;
+    }
+    return stream;
+}
+
+FILE *__real_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode)
+{
+    return keep_stream(__real_fopen(path, mode));
+}
+
+FILE *__real_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size)
+{
+    return keep_stream(__real_open_memstream(text, size));
+}
+
+int __real_fclose(FILE *stream);
+int __wrap_fclose(FILE *stream);
+int __wrap_fclose(FILE *stream)
+{
+    for (size_t i = 0; i < num_streams; i++) {
+        if (streams[i] == stream) {
+            streams[i] = streams[--num_streams];
+            break;
+        }
+    }
+    return __real_fclose(stream);
+}
+
+static void close_streams(void)
+{
+    while (num_streams > 0) {
+        must(__real_fclose(streams[--num_streams]) == 0);
+    }
+}
+
 /* ---- fail() ---- */
 
 static jmp_buf refused;
@@ -96,6 +150,7 @@ _Noreturn void __wrap_fail(int exit_code, const char *format, ...)
     must(vsnprintf(message, sizeof message, format, arguments) > 0);
     va_end(arguments);
     must(exit_code == EXIT_USAGE);
+    close_streams(); /* before the jump: a stream into memory writes where its opener's variables are */
     longjmp(refused, 1);
 }
 
@@ -273,6 +328,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         read_file(path, &parameters, data[0]);
         is_keeping = false;
         num_kept = 0;
+        must(num_streams == 0);
     } else {
         free_kept();
         must(close_range((unsigned)first_free, (unsigned)first_free + 8, 0) == 0);

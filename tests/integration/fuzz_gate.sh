@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# `make fuzz` can fail: each defect seeded in the codec or a reader is found within 20 s, and both pass as they are.
+# `make fuzz` can fail: each defect seeded in the codec or a reader is found within 20 s, a hang too, and both pass as they are.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build}
@@ -26,10 +26,12 @@ build_message() { # codec
         tests/fuzz/fuzz_message.c "$1" src/wire/message.c src/wire/message_names.c src/base/status.c
 }
 
+wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/fuzz_tables.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
+
 # The other parts are the program's own objects.
 # shellcheck disable=SC2086
 build_tables() { # reader
-    clang $flags -DRHO_PROFILE_WORKSTATION -Wl,--wrap=fail -o "$folder/fuzz_tables" tests/fuzz/fuzz_tables.c "$1" \
+    clang $flags -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/fuzz_tables" tests/fuzz/fuzz_tables.c "$1" \
         "$folder/program.a" "$build/workstation/librhotrack.a" -lcsv -linih -lcjson -lproj -pthread -lm
 }
 
@@ -77,6 +79,18 @@ must_pass() { # target, file
     fi
     rm -rf "$folder/fuzz"
 }
+# A target that hangs fails, and the others are still run.
+printf '#!/bin/bash\ntrap "" TERM\nwhile :; do sleep 1; done\n' >"$folder/fuzz_hangs"
+chmod +x "$folder/fuzz_hangs"
+if FUZZ_GRACE_SECONDS=1 fuzz fuzz_hangs 1 || ! grep -q '^FAIL fuzz_hangs: exit 137' "$folder/output"; then
+    echo 'FAIL a target that hangs: not told'
+    cat "$folder/output"
+    failed=$((failed + 1))
+else
+    echo 'ok   a target that hangs: told'
+    passed=$((passed + 1))
+fi
+
 must_pass fuzz_message src/wire/message_codec.c
 
 objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)
