@@ -169,7 +169,7 @@ static void whole_turns_are_followed(void **state)
     assert_true(figures[ROTATING_SECTORS].latency_max_ms < 200.0);
     assert_true(figures[ROTATING_TURNS].latency_max_ms > 3900.0);
     assert_true(figures[ROTATING_SECTORS].step_max_us > 0.0);
-    free(figures);
+    rotating_figures_free(figures);
 }
 
 int main(void)

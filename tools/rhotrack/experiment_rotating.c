@@ -2,11 +2,13 @@
 #include "experiment_rotating.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "common.h"
 #include "experiment.h"
 #include "page.h"
+#include "picture.h"
 
 #define DEFAULT_RUNS 200
 
@@ -77,11 +79,39 @@ static void print_as_json(const struct rotating_figures *figures, struct verdict
     json_print(root);
 }
 
+/* The time of each step of a run, by the time that has passed in the scenario. */
+static void draw_load(const struct rotating_figures *figures, const char *path)
+{
+    const struct parameters parameters = rotating_parameters();
+    double sector_s =
+        parameters.value[PARAMETER_INTERVAL_S] / parameters.value[PARAMETER_SECTORS_PER_TURN];
+    struct picture picture = picture_open(path, 1000, 420);
+    FILE *file = picture.script;
+
+    for (size_t i = 0; i < ROTATING_CASES; i++) {
+        fprintf(file, "$case%zu << EOD\n", i);
+        for (size_t k = 0; k < figures[i].num_sectors; k++) {
+            if (isfinite(figures[i].step_us[k])) {
+                fprintf(file, "%.3f %.6f\n", (double)k * sector_s, figures[i].step_us[k] * 1e-3);
+            }
+        }
+        fprintf(file, "EOD\n");
+    }
+    fprintf(file, "set logscale y\nset xlabel 'since the start (s)'\nset ylabel 'a step (ms)'\n"
+                  "set key outside right top\nplot ");
+    for (size_t i = 0; i < ROTATING_CASES; i++) {
+        fprintf(file, "%s$case%zu with lines lw 1.5 lt %zu title '%s'", i == 0 ? "" : ", \\\n ", i,
+                i + 1, rotating_names[i]);
+    }
+    fprintf(file, "\n");
+    picture_close(&picture);
+}
+
 static void write_page(const struct rotating_figures *figures, const struct verdicts *verdicts,
                        size_t num_runs, uint64_t seed, const char *folder)
 {
     make_folder(folder);
-    char *path = path_join(folder, "index.html");
+    char *picture = path_join(folder, "load.svg"), *path = path_join(folder, "index.html");
     struct page page = page_open(path, "A turning antenna, sector by sector");
     struct grid grid = rotating_grid(figures);
     page_text(&page,
@@ -92,10 +122,14 @@ static void write_page(const struct rotating_figures *figures, const struct verd
               "reports that have their plots. Times are the least of three rounds.",
               num_runs, (unsigned long long)seed, verdicts->held, verdicts->missed);
     page_table(&page, &grid);
+    draw_load(figures, picture);
+    page_figure(&page, "load.svg",
+                "How long each step of the first run takes: the load spreads over the turn.");
     page_heading(&page, "What must hold");
     page_table(&page, &verdicts->grid);
     page_close(&page);
     grid_free(&grid);
+    free(picture);
     free(path);
 }
 
@@ -119,6 +153,6 @@ int experiment_rotating(const struct command_line *line)
         grid_free(&grid);
     }
     verdicts_free(&verdicts);
-    free(figures);
+    rotating_figures_free(figures);
     return 0;
 }

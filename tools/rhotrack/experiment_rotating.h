@@ -48,10 +48,14 @@ struct rotating_result rotating_follow(enum rotating_case of, const struct param
 struct rotating_figures {
     double found, tracked, false_a_run, rmse_m, rmse_mps;
     double step_max_us, latency_max_ms; /* of the runs that were timed */
+    /* the first of these, sector by sector: the step in which it was the first one; INFINITY: it was not */
+    double *step_us;
+    size_t num_sectors;
 };
 
-struct rotating_figures *rotating_measure(uint64_t seed,
-                                          size_t num_runs); /* ROTATING_CASES, new memory */
+/* ROTATING_CASES, to be freed by rotating_figures_free. */
+struct rotating_figures *rotating_measure(uint64_t seed, size_t num_runs);
+void rotating_figures_free(struct rotating_figures *figures);
 
 struct grid rotating_grid(const struct rotating_figures *figures);
 struct verdicts rotating_verdicts(const struct rotating_figures *figures);

@@ -294,7 +294,12 @@ static void time_steps(struct measuring *measuring, struct rotating_figures *fig
             figures[i].step_max_us = fmax(figures[i].step_max_us, result.step_max_us);
             figures[i].latency_max_ms =
                 fmax(figures[i].latency_max_ms, result.latency_max_us * 1e-3);
-            free(step_us);
+            if (run == 0) {
+                figures[i].step_us = step_us;
+                figures[i].num_sectors = view.num_sectors;
+            } else {
+                free(step_us);
+            }
         }
         antenna_view_free(&view);
         rotating_free(&scene);
@@ -344,4 +349,12 @@ struct rotating_figures *rotating_measure(uint64_t seed, size_t num_runs)
     }
     free(measuring.results);
     return figures;
+}
+
+void rotating_figures_free(struct rotating_figures *figures)
+{
+    for (size_t i = 0; i < ROTATING_CASES; i++) {
+        free(figures[i].step_us);
+    }
+    free(figures);
 }
