@@ -126,10 +126,12 @@ static int is_turning(const struct step *step)
 
 int rho_tracker_was_seen(const struct step *step, const struct rho_track *track)
 {
+    if (!is_turning(step)) { /* nor is there a scan in a step of bearings */
+        return 0;
+    }
     const uint16_t before = (uint16_t)(step->look == 1 ? UINT16_MAX : step->look - 1);
     const int32_t sensor_id = step->scan->sensor_id;
-    return is_turning(step) &&
-           ((track->look_sensor_id[0] == sensor_id && track->look[0] == before) ||
+    return ((track->look_sensor_id[0] == sensor_id && track->look[0] == before) ||
             (track->look_sensor_id[1] == sensor_id && track->look[1] == before));
 }
 
