@@ -271,7 +271,6 @@ static void add_pattern(struct chance *chance, unsigned first, unsigned hits)
         .inside = share_inside(search, search->time_s[newest] - search->time_s[first]),
         .half_dimensions = half,
         .most = most_of(half),
-        .most_before = hits > 3u ? most_of(half_dimensions(chance, hits - 1u)) : 0.0f,
     };
 }
 
@@ -295,24 +294,17 @@ static struct place_class widened(const struct chance *chance, const struct plac
     return wide;
 }
 
-/* A scan ago a track was as long, by a hit less. */
 static struct reach reach_of(const struct chance *chance, const struct place_class *place,
                              const struct pattern *pattern)
 {
     const struct search *search = chance->search;
     unsigned first = pattern->first, hits = pattern->hits;
     struct place_class wide = widened(chance, place, first);
-    struct reach reach = {.best_nat = best_score(chance, &wide, first, hits, pattern->spread_s2),
-                          .before_nat = NEVER_NAT};
+    struct reach reach = {.best_nat = best_score(chance, &wide, first, hits, pattern->spread_s2)};
     reach.weight = 0.5f * place->share * pattern->inside *
                    rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
                            reach.best_nat - log_gamma(pattern->half_dimensions));
     reach.weight = reach.weight < WEIGHT_MAX ? reach.weight : WEIGHT_MAX;
-    if (hits > 3u) {
-        float before_s2 = mean_spread_s2(search, first + 1u, hits - 1u);
-        wide = widened(chance, place, first + 1u);
-        reach.before_nat = best_score(chance, &wide, first + 1u, hits - 1u, before_s2);
-    }
     return reach;
 }
 
@@ -378,16 +370,14 @@ void rho_initiator_lay_chance(const struct search *search, struct chance *chance
  * with it: of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q = before / y.
  * Asked for too often for logarithms: k is a multiple of a half.
  */
-static float sets_in(const struct pattern *pattern, const struct reach *reach, int has_before,
-                     float s_nat, float start_nat)
+static float sets_in(const struct pattern *pattern, const struct reach *reach, float before,
+                     float s_nat)
 {
     float k = pattern->half_dimensions, y = reach->best_nat - s_nat;
     if (!(y > 0.0f)) {
         return 0.0f;
     }
-    float before = has_before ? reach->before_nat - start_nat : 0.0f;
     y = y < pattern->most ? y : pattern->most;
-    before = before < pattern->most_before ? before : pattern->most_before;
     if (before >= y) {
         return 0.0f;
     }
@@ -402,6 +392,19 @@ static float sets_in(const struct pattern *pattern, const struct reach *reach, i
     return reach->weight * (content * y) * share;
 }
 
+/* A scan ago a track was as long, by a hit less: what its pattern, of one scan later and one hit less, leaves at start_nat. */
+static float before_of(const struct chance *chance, unsigned place, unsigned k, float start_nat)
+{
+    if (chance->patterns[k].hits <= chance->least_hits) {
+        return 0.0f;
+    }
+    /* patterns are laid by their first scan, then by hits */
+    const unsigned less = k + chance->search->num_scans - chance->patterns[k].first - 3u;
+    const float before = chance->reaches[place][less].best_nat - start_nat;
+    const float most = chance->patterns[less].most;
+    return before < most ? before : most;
+}
+
 static float sets_of(const struct chance *chance, unsigned k, float s_nat, float start_nat)
 {
     float sum = 0.0f;
@@ -410,7 +413,7 @@ static float sets_of(const struct chance *chance, unsigned k, float s_nat, float
     }
     for (unsigned i = 0; i < chance->num_classes; i++) {
         sum += sets_in(&chance->patterns[k], &chance->reaches[i][k],
-                       chance->patterns[k].hits > chance->least_hits, s_nat, start_nat);
+                       before_of(chance, i, k, start_nat), s_nat);
     }
     return sum;
 }

@@ -35,15 +35,13 @@ struct pattern {
     float spread_s2;   /* mean_spread_s2 */
     float inside;      /* share of tracks so long that stay in the area */
     float half_dimensions;
-    float most;        /* chi2 / 2 that a fit may have */
-    float most_before; /* the same without the newest hit */
+    float most; /* chi2 / 2 that a fit may have */
 };
 
 /* A pattern in one class of places. */
 struct reach {
-    float weight;     /* births, pattern of hits, choices of scans and e^-c, over Gamma(k + 1) */
-    float best_nat;   /* c */
-    float before_nat; /* c of the same track without its newest hit */
+    float weight;   /* births, pattern of hits, choices of scans and e^-c, over Gamma(k + 1) */
+    float best_nat; /* c */
 };
 
 /* All of them. */
