@@ -2,6 +2,7 @@
 #include "log_scans.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,8 @@
 #include "common.h"
 #include "lcm_log.h"
 #include "rhotrack/message.h"
+
+#define HOLD_MAX_MS 10000.0 /* of rho_feed_config */
 
 /* ---- Kinds ---- */
 
@@ -55,10 +58,26 @@ struct log_scans {
     uint64_t first;     /* what it gives before this one is left out */
 };
 
+/*
+ * A log's events may stand at the times that the sensors said, as `convert` writes them: a sensor whose time bias is taken
+ * off comes so much too early or too late then, and is waited for. Nobody waits for a file.
+ */
+static void wait_for_biases(struct parameters *parameters)
+{
+    double *hold_ms = &parameters->value[PARAMETER_HOLD_MS];
+    int32_t least_us, largest_us;
+
+    parameters_time_biases_us(parameters, &least_us, &largest_us);
+    *hold_ms = fmin(*hold_ms + ((double)largest_us - (double)least_us) * 1e-3, HOLD_MAX_MS);
+}
+
 /* The feed as it was before the first event. */
 static void start(struct log_scans *scans)
 {
-    parameters_to_feed(scans->parameters, scans->feed);
+    struct parameters parameters = *scans->parameters;
+
+    wait_for_biases(&parameters);
+    parameters_to_feed(&parameters, scans->feed);
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
     scans->num_given = 0;

@@ -361,6 +361,11 @@ double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_
 /* How far a sensor sees: its own range_max_m, or the one for all. */
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id);
 
+/* A sensor's time bias, as the library has it; the least and the largest of all sensors, of which some have none. */
+int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id);
+void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
+                               int32_t *largest_us);
+
 /*
  * The library's configs from the parameters, checked (parameters_check). A sensor is described only
  * where somebody set something of it, or the range limits of all: else false, and *sensor is

@@ -56,10 +56,22 @@ static bool check_scan(const struct gathered *scan, const struct plot_row *row,
                              "or in none");
 }
 
+/* A scan that has no number is complete when a row is received after it. */
+static bool check_received(const struct gather *gather, const struct gathered *scan,
+                           const struct plot_row *row, const struct row_check *check)
+{
+    return !scan || !gather->has_clock || (row->number.is_given && scan->number.is_given) ||
+           row->received_us == scan->heard_us ||
+           row_refuse(check, "received_s is %.6f s, and %.6f s of the scan's other rows: without a "
+                             "number (column 'scan') rows of a scan have one",
+                      (double)row->received_us * 1e-6, (double)scan->heard_us * 1e-6);
+}
+
 static struct gathered *begin_scan(struct plot_source *source, const struct plot_row *row)
 {
     const struct gathered scan = {.sensor_id = row->sensor_id,
                                   .number = row->number,
+                                  .bias_us = row->bias_us,
                                   .sector_from_rad = row->sector_from_rad,
                                   .sector_to_rad = row->sector_to_rad,
                                   .has_sensor = row->has_sensor,
@@ -112,6 +124,7 @@ static void take_row(struct plot_source *source, const struct table *table)
     if (is_good) {
         scan = gather_find(&source->gather, row.sensor_id, &row.number, row.time_us);
         is_good = gather_check_time(&source->gather, scan, row.time_us, &check) &&
+                  check_received(&source->gather, scan, &row, &check) &&
                   check_scan(scan, &row, &check);
     }
     if (is_good) {
@@ -162,7 +175,7 @@ static void fill_scan(struct plot_scan *out, struct gathered *scan)
     for (size_t i = 0; i < scan->count; i++) {
         plots[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
     }
-    *out = (struct plot_scan){.scan = {.time_us = scan->time_us,
+    *out = (struct plot_scan){.scan = {.time_us = gathered_time_us(scan),
                                        .sensor_id = scan->sensor_id,
                                        .sector_from_rad = scan->sector_from_rad,
                                        .sector_to_rad = scan->sector_to_rad,
@@ -243,10 +256,13 @@ bool plot_source_next(struct plot_source *source, struct plot_scan *scan)
 
 static void open_table(struct plot_source *source, const char *path)
 {
+    int32_t least_us;
+
     source->stream =
         table_stream_open(path, source->parameters, source->keep_going, source->follow);
     gather_start(&source->gather, sizeof(struct rho_plot),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
+    parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
     source->gather.begun_max = source->follow ? FOLLOW_BEGUN_MAX : 0;
     source->hold.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
     find_columns(source, table_stream_table(source->stream));
