@@ -183,8 +183,7 @@ void rho_feed_right_time(const struct rho_feed *feed, struct feed_heading *headi
 
     /* beyond its limit no time is believed, and a difference might not fit */
     if (*time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US) {
-        *time_us -=
-            rho_measurement_time_bias_us(&rho_feed_known(feed, heading->sensor_id)->sensor);
+        *time_us -= rho_measurement_time_bias_us(&rho_feed_known(feed, heading->sensor_id)->sensor);
     }
 }
 

@@ -125,8 +125,8 @@ void gather_add(struct gather *gather, struct gathered *scan, int64_t time_us, c
 void gather_add_nothing(struct gather *gather, struct gathered *scan, int64_t time_us)
 {
     /* that time is over */
-    bool is_given = gather->has_given && !gather->has_clock &&
-                    time_us - scan->bias_us < gather->given_us;
+    bool is_given =
+        gather->has_given && !gather->has_clock && time_us - scan->bias_us < gather->given_us;
 
     if (scan->number.is_given && !scan->has_time && !is_given) {
         scan->has_time = true;

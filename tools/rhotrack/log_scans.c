@@ -52,6 +52,7 @@ struct log_scans {
     struct rho_feed *feed;
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
+    int64_t clock_us;   /* the latest event's */
     bool has_event;     /* the feed has not taken it yet */
     bool is_over;       /* there are no more events */
     uint64_t num_given; /* by the feed */
@@ -80,6 +81,7 @@ static void start(struct log_scans *scans)
     parameters_to_feed(&parameters, scans->feed);
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
+    scans->clock_us = INT64_MIN;
     scans->num_given = 0;
 }
 
@@ -96,6 +98,8 @@ static void next_event(struct log_scans *scans)
 {
     scans->is_over = !lcm_log_next(scans->reader, &scans->event);
     if (!scans->is_over) {
+        scans->clock_us =
+            scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
         offer(scans);
     }
 }
@@ -240,6 +244,11 @@ void log_scans_rewind(struct log_scans *scans)
 {
     lcm_log_close(scans->reader);
     start(scans);
+}
+
+int64_t log_scans_clock_us(const struct log_scans *scans)
+{
+    return scans->clock_us;
 }
 
 uint64_t log_scans_position(const struct log_scans *scans)

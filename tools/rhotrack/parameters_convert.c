@@ -127,8 +127,7 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
 int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id)
 {
     const struct rho_sensor sensor = {
-        .time_bias_s =
-            (float)parameters_of_sensor(parameters, sensor_id, SENSOR_TIME_BIAS_S, 0.0)};
+        .time_bias_s = (float)parameters_of_sensor(parameters, sensor_id, SENSOR_TIME_BIAS_S, 0.0)};
 
     return rho_measurement_time_bias_us(&sensor);
 }

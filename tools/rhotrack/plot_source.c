@@ -24,7 +24,7 @@ struct plot_source {
     bool has_columns, has_good, is_over, waits, is_complete;
     struct plot_columns columns;
     struct gather gather;
-    struct hold hold;      /* of a file that says when its rows were received */
+    struct hold hold;      /* of a file that says when its rows were received, or of a log */
     uint64_t rows_skipped; /* but those of the stream */
 };
 
@@ -62,8 +62,9 @@ static bool check_received(const struct gather *gather, const struct gathered *s
 {
     return !scan || !gather->has_clock || (row->number.is_given && scan->number.is_given) ||
            row->received_us == scan->heard_us ||
-           row_refuse(check, "received_s is %.6f s, and %.6f s of the scan's other rows: without a "
-                             "number (column 'scan') rows of a scan have one",
+           row_refuse(check,
+                      "received_s is %.6f s, and %.6f s of the scan's other rows: without a "
+                      "number (column 'scan') rows of a scan have one",
                       (double)row->received_us * 1e-6, (double)scan->heard_us * 1e-6);
 }
 
@@ -227,7 +228,7 @@ static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
     return true;
 }
 
-static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
+static bool take_of_log(struct plot_source *source, struct plot_scan *scan)
 {
     struct rho_feed_item item;
 
@@ -243,6 +244,24 @@ static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
         struct rho_plot *plots = must_calloc(item.scan.num_plots, sizeof *plots);
 
         scan->scan.plots = memcpy(plots, item.scan.plots, item.scan.num_plots * sizeof *plots);
+    }
+    return true;
+}
+
+/* Before a feed has heard of a sensor it does not wait for it: the first ones of clocks that are apart are put in order here. */
+static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
+{
+    struct plot_scan next;
+
+    while (!hold_take(&source->hold, false, scan)) {
+        if (!take_of_log(source, &next)) {
+            return hold_take(&source->hold, true, scan);
+        }
+        if (source->hold.hold_us == 0) {
+            *scan = next;
+            return true;
+        }
+        hold_put(&source->hold, &next, log_scans_clock_us(source->log));
     }
     return true;
 }
@@ -281,6 +300,10 @@ struct plot_source *plot_source_open(const char *path, const struct parameters *
     } else if (follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is an LCM log", path);
     } else {
+        int32_t least_us, largest_us;
+
+        parameters_time_biases_us(parameters, &least_us, &largest_us);
+        source->hold.hold_us = (int64_t)largest_us - least_us;
         source->log = log_scans_open(path, parameters, keep_going, true);
     }
     return source;
@@ -328,9 +351,9 @@ void plot_source_close(struct plot_source *source)
         log_scans_close(source->log);
     } else {
         gather_free(&source->gather);
-        hold_free(&source->hold);
         plot_columns_free(&source->columns);
         table_stream_close(source->stream);
     }
+    hold_free(&source->hold);
     free(source);
 }
