@@ -176,15 +176,13 @@ const struct rho_feed_sensor *rho_feed_known(const struct rho_feed *feed, int32_
     return &feed->config.other;
 }
 
-/* Times are those of the common clock from here on: in the order of time, and in what they are compared with. */
-void rho_feed_right_time(const struct rho_feed *feed, struct feed_heading *heading)
+/* A valid time is within its limit, so that the difference fits. */
+int rho_feed_right_time(const struct rho_feed *feed, struct feed_heading *heading)
 {
     int64_t *time_us = &heading->place.time_us;
 
-    /* beyond its limit no time is believed, and a difference might not fit */
-    if (*time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US) {
-        *time_us -= rho_measurement_time_bias_us(&rho_feed_known(feed, heading->sensor_id)->sensor);
-    }
+    *time_us -= rho_measurement_time_bias_us(&rho_feed_known(feed, heading->sensor_id)->sensor);
+    return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
 }
 
 /* ---- Parts ---- */
