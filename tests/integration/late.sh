@@ -117,6 +117,9 @@ check 'convert says so, too' says 2 "*bad.csv:13: received_s is not that of the 
 awk -F, 'NR == 1 { print $0 ",scan" } NR > 1 { print $0 "," int(NR / 2) }' bad.csv >numbered.csv
 run track numbered.csv -o out.csv
 check 'those of one with a number may differ' exits 0
+printf 't_s,sensor_id,x_m,y_m\n4e12,1,1,1\n' >bad.csv
+run track bad.csv --set sensor.1.time_bias_s=-10
+check 'a time that is beyond what is believed once its bias is off' says 2 "*bad.csv:2: t_s is beyond 4e12 s without *"
 run track in_time.csv --set late_max_s=61
 check 'late_max_s is a minute at most' says 2 '*late_max_s*60*'
 

@@ -96,6 +96,9 @@ bool bearing_row_read(const struct table *table, const struct bearing_columns *c
         return false;
     }
     bearing_row->bias_us = parameters_time_bias_us(parameters, bearing_row->sensor_id);
+    if (!row_right_time(&check, bearing_row->time_us, bearing_row->bias_us)) {
+        return false;
+    }
     return !row_has(&check, columns->bearing_rad) ||
            read_bearing(&check, columns, parameters, bearing_row);
 }

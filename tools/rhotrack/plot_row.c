@@ -406,7 +406,8 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
         !row_number(&checking.cells, columns->scan, columns->epoch, &plot_row->number) ||
         !row_sector(&checking.cells, columns->sector_from_rad, columns->sector_to_rad,
                     &plot_row->sector_from_rad, &plot_row->sector_to_rad) ||
-        !read_sensor(&checking, parameters, plot_row)) {
+        !read_sensor(&checking, parameters, plot_row) ||
+        !row_right_time(&checking.cells, plot_row->time_us, plot_row->bias_us)) {
         return false;
     }
     has_measurement = geodetic_is_said(columns->geodetic, &checking.cells);
