@@ -73,7 +73,9 @@ struct rho_feed_noise {
 
 /*
  * What is known of a sensor beforehand. A polar message or bearing says the sensor's place itself; the place here
- * counts for plots, and for polar messages that say 0, 0, 0. Biases are taken off polar plots and bearings.
+ * counts for plots, and for polar messages that say 0, 0, 0. Biases of range and azimuth are taken off polar plots and
+ * bearings. time_bias_s is taken off each scan's time before it is looked at in any way: order, numbers, clock; plots keep
+ * their time after their scan's. One that is changed while the sensor sends looks as if its clock was set.
  */
 struct rho_feed_sensor {
     struct rho_sensor sensor;

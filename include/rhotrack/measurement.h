@@ -42,6 +42,9 @@ struct rho_measurement {
     int is_isotropic; /* the variances are equal, over two or three axes: the frame does not matter */
 };
 
+/* A sensor's time bias in whole microseconds: its clock is so much ahead. Constant cost. */
+int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor);
+
 /*
  * Makes a plot of a polar one: the sensor's biases are taken off (range, azimuth, time), the place is converted,
  * unbiased, and the angles' noise becomes metres across.

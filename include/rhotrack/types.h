@@ -120,7 +120,8 @@ struct rho_sensor {
     float range_max_m; /* nor beyond */
     /* where the sensor can look at all; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
-    /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said */
+    /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said. Feeds take
+     * it off the scan's time, so that scans are in the right order; who makes scans without a feed should do so too */
     float range_bias_m, azimuth_bias_rad, time_bias_s;
 #if RHO_SECTORS
     /* how many times the variances of its plots' places count; 0: once. The tracker sets it of a sensor that it doubts */

@@ -85,6 +85,12 @@ int rho_measurement_is_sensor(const struct rho_sensor *sensor)
            rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
 }
 
+int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor)
+{
+    float bias_us = sensor->time_bias_s * 1e6f; /* RHO_LIMIT_BIAS_S: 32 bits hold it */
+    return (int32_t)(bias_us + (bias_us < 0.0f ? -0.5f : 0.5f));
+}
+
 /* ---- polar plots ------------------------------------------------------------------------------ */
 
 static int is_usable_polar(const struct rho_polar_plot *polar, uint32_t measures)
@@ -127,8 +133,7 @@ static struct sighting sight(const struct rho_polar_plot *polar, uint32_t measur
     if (sensor) {
         seen.range_m -= sensor->range_bias_m;
         seen.azimuth_rad -= sensor->azimuth_bias_rad;
-        float bias_us = sensor->time_bias_s * 1e6f; /* RHO_LIMIT_BIAS_S: 32 bits hold it */
-        seen.offset_us -= (int32_t)(bias_us + (bias_us < 0.0f ? -0.5f : 0.5f));
+        seen.offset_us -= rho_measurement_time_bias_us(sensor);
         seen.x_m = sensor->x_m;
         seen.y_m = sensor->y_m;
         seen.z_m = sensor->z_m;

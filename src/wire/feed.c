@@ -342,6 +342,10 @@ enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const 
                                                     : &feed->counters.messages_bad);
         return RHO_OK;
     }
+    if (!rho_feed_right_time(feed, &heading)) {
+        rho_feed_count_one(&feed->counters.messages_bad);
+        return RHO_OK;
+    }
     if (heading.num_parts > RHO_MAX_PARTS) {
         rho_feed_count_one(&feed->counters.scans_bad);
         return RHO_OK;

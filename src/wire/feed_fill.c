@@ -127,12 +127,14 @@ static void fill_polar(struct rho_plot *to, unsigned count,
                        const struct rho_message_polar_scan *scan, uint32_t measures,
                        const struct rho_sensor *sensor, const struct rho_feed_noise *noise)
 {
+    struct rho_sensor seen_from = *sensor;
     struct rho_polar_plot polar = {
         .sigma_range_m = or_else(scan->sigma_range_m, noise->sigma_range_m),
         .sigma_azimuth_rad = or_else(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad),
         .sigma_elevation_rad = or_else(scan->sigma_elevation_rad, noise->sigma_elevation_rad),
         .sigma_range_rate_mps = or_else(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps)};
 
+    seen_from.time_bias_s = 0.0f; /* it is off the scan's time */
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_polar_plot *plot = &scan->polar_plots[i];
 
@@ -143,7 +145,7 @@ static void fill_polar(struct rho_plot *to, unsigned count,
         polar.range_rate_mps = plot->range_rate_mps;
         polar.snr_db = plot->snr_db;
         /* A plot that is no place keeps its row, so that those behind it keep theirs. */
-        if (rho_measurement_from_polar(&polar, measures, sensor, &to[i]) != RHO_OK) {
+        if (rho_measurement_from_polar(&polar, measures, &seen_from, &to[i]) != RHO_OK) {
             to[i] = (struct rho_plot){.x_m = NOT_A_PLACE};
         }
     }
@@ -153,17 +155,13 @@ static void fill_bearings(struct rho_bearing *to, unsigned count,
                           const struct rho_message_bearing_scan *scan,
                           const struct rho_feed_sensor *known)
 {
-    float off_us = known->sensor.time_bias_s * -1.0e6f;
-
     for (unsigned i = 0; i < count; i++) {
         float bearing_rad = scan->bearing_rad[i];
 
         if (known->sensor.azimuth_bias_rad < 0.0f || known->sensor.azimuth_bias_rad > 0.0f) {
             bearing_rad = rho_angle_difference(bearing_rad, known->sensor.azimuth_bias_rad);
         }
-        to[i] = (struct rho_bearing){.offset_us =
-                                         (int32_t)(off_us < 0.0f ? off_us - 0.5f : off_us + 0.5f),
-                                     .bearing_rad = bearing_rad,
+        to[i] = (struct rho_bearing){.bearing_rad = bearing_rad,
                                      .sigma_rad = or_else(scan->sigma_rad, known->noise.sigma_rad)};
     }
 }
@@ -176,6 +174,15 @@ const struct rho_feed_sensor *rho_feed_known(const struct rho_feed *feed, int32_
         }
     }
     return &feed->config.other;
+}
+
+/* A valid time is within its limit, so that the difference fits. */
+int rho_feed_right_time(const struct rho_feed *feed, struct feed_heading *heading)
+{
+    int64_t *time_us = &heading->place.time_us;
+
+    *time_us -= rho_measurement_time_bias_us(&rho_feed_known(feed, heading->sensor_id)->sensor);
+    return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
 }
 
 /* ---- Parts ---- */

@@ -116,6 +116,9 @@ void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *
 enum rho_status rho_feed_open_message(enum rho_feed_kind kind, const uint8_t *data, size_t size,
                                       union feed_message *message, struct feed_heading *heading);
 
+/* Takes the sensor's time bias off the scan's time: from here on it is the common clock's. 0: it is beyond its limit then. */
+int rho_feed_right_time(const struct rho_feed *feed, struct feed_heading *heading);
+
 /* Puts a part's plots or bearings in their place in the slot, and counts what finds no room. */
 void rho_feed_fill(struct rho_feed *feed, struct rho_feed_slot *slot,
                    const struct feed_heading *heading, const union feed_message *message);

@@ -80,6 +80,38 @@ check 'tracks without covariance: the sigmas are the same' same_values tracks.cs
 run convert one.lcm back.csv
 check 'without --covariance no column of it' bash -c '! grep -q cov_ back.csv'
 
+# ---- a radar that turns: rows of a scan go back behind the one that has its time ----
+run simulate rotating -o rotating
+check 'sectors: the log is the same' there_and_back rotating/polar.csv --config rotating/scenario.ini
+{ head -n 1 rotating/polar.csv && sed 1d rotating/polar.csv | sort -s -t, -k 1,1n; } >sorted.csv
+check 'sectors: the values are the same' same_values sorted.csv back.csv
+run track rotating/polar.csv --config rotating/scenario.ini --covariance -o expected.csv
+for file in one.lcm back.csv; do
+    run track "$file" --config rotating/scenario.ini --covariance -o found.csv
+    check "sectors: the same tracks of $file" cmp expected.csv found.csv
+done
+run publish rotating/polar.csv --config rotating/scenario.ini --speed 0 --lcm 'file://published.lcm?mode=w'
+check 'publish takes them' exits 0
+run node --lcm 'file://published.lcm?speed=0' --config rotating/scenario.ini --log node.lcm
+"$program" convert node.lcm found.csv --kind tracks --covariance 2>stderr
+cut -d, -f1-12 expected.csv >expected_states.csv
+cut -d, -f1-12 found.csv | grep -v ,deleted, >found_states.csv
+check 'sectors: a node makes the same tracks' cmp expected_states.csv found_states.csv
+
+# ---- received_s ----
+run simulate two-radars --set num_scans=12 -o late
+check 'received_s: the log is the same' there_and_back late/polar.csv --config late/scenario.ini
+check 'received_s: the values are the same' same_values late/polar.csv back.csv
+run track late/polar.csv --config late/scenario.ini -o expected.csv
+run track back.csv --config late/scenario.ini -o found.csv
+check 'received_s: the same tracks' cmp expected.csv found.csv
+printf 't_s,received_s,sensor_id,x_m,y_m\n1,1.5,1,10,20\n3,3.5,1,30,40\n2,4,1,50,60\n2,4,1,70,80\n' >received.csv
+run convert received.csv one.lcm
+run convert one.lcm back.csv
+printf 't_s,sensor_id,x_m,y_m,scan,epoch,received_s\n%s\n%s\n%s\n%s\n' 1.000000,1,10,20,1,1,1.500000 \
+    3.000000,1,30,40,3,1,3.500000 2.000000,1,50,60,2,1,4.000000 2.000000,1,70,80,2,1,4.000000 >expected.csv
+check 'received_s: numbers are in the order of time, rows in that of reception' cmp expected.csv back.csv
+
 # ---- columns ----
 cat >all.csv <<'END'
 t_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,sigma_m,sigma_mps,snr_db,scan,epoch,sector_from_rad,sector_to_rad,note
@@ -177,6 +209,11 @@ refuse 'sensor beyond int16' "2: sensor_id '32768' is outside -32768 .. 32767, w
 refuse 'x without y' '2: y_m is empty' "${plots}1,1,1,\n"
 refuse 'no time' '2: t_s is empty' "${plots},1,1,1\n"
 refuse 'time that goes back' '3: time goes back from 2.000000 s to 1.000000 s' "${plots}2,1,1,1\n1,2,1,1\n"
+refuse 'time that goes back, in another scan' '4: time goes back from 2.000000 s to 1.000000 s' \
+    't_s,sensor_id,x_m,y_m,scan\n1,1,1,1,1\n2,1,1,1,2\n1,1,1,1,3\n'
+refuse 'received_s that goes back' '3: received_s goes back from 3.000000 s to 2.000000 s' \
+    't_s,sensor_id,x_m,y_m,received_s\n1,1,1,1,3\n2,1,1,1,2\n'
+refuse 'no received_s' '2: received_s is empty' 't_s,sensor_id,x_m,y_m,received_s\n1,1,1,1,\n'
 refuse 'a velocity beyond the range' '2: vy_mps 20001 is outside the range of a plot_scan_t' \
     't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,1,1,1,20001\n'
 refuse 'vx without vy' '2: vy_mps is missing beside vx_mps' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,1,1,1,\n'

@@ -49,6 +49,52 @@ sed 's/,1,/,2,/' held.csv >second.csv
 run track held.csv second.csv --set hold_ms=500 --json -o both.csv
 check 'two files are merged by time' json stdout 'o["counters"]["scans_late"] == 0 and o["scans"] == 80'
 
+# ---- time biases ----
+# A second radar of the same targets, half a second later, whose clock is 1 s behind: in one file as its clock says, in one
+# of its own, in the order of reception, as logs, and through a node.
+shifted() { # SECONDS
+    awk -F, -v by="$1" 'NR > 1 { $1 = sprintf("%.3f", $1 + by); $2 = 2 } NR > 1 { print }' OFS=, in_time.csv
+}
+{ cat in_time.csv; shifted 0.5; } | (read -r header && echo "$header" && sort -s -t, -n -k 1,1) >right.csv
+{ cat in_time.csv; shifted -0.5; } | (read -r header && echo "$header" && sort -s -t, -n -k 1,1) >behind.csv
+{ head -n 1 in_time.csv; shifted -0.5; } >behind_alone.csv
+awk -F, 'NR == 1 { print "received_s," $0; next }
+    { print ($2 == 1 ? $1 : sprintf("%.3f", $1 + 1)) "," $0 }' behind.csv |
+    (read -r header && echo "$header" && sort -s -t, -n -k 1,1) >behind_received.csv
+run track right.csv -o expected.csv --json
+check 'the right times: nothing is late' json stdout 'o["counters"]["scans_retrodicted"] == 0 and o["scans"] == 80'
+settings=(--set sensor.2.time_bias_s=-1)
+same() { # file, arguments
+    run track "$@" "${settings[@]}" -o biased.csv && exits 0 && cmp biased.csv expected.csv
+}
+check 'a clock that is behind: the same tracks' same behind.csv
+check 'from two files' same in_time.csv behind_alone.csv
+check 'from two files, the other first' same behind_alone.csv in_time.csv
+check 'in the order of reception' same behind_received.csv
+run convert behind.csv behind.lcm
+check 'from a log' same behind.lcm --set sensor.1.pd=0.9
+run convert behind_received.csv received.lcm
+check 'from a log of the order of reception' same received.lcm --set sensor.1.pd=0.9
+run publish behind_received.csv --lcm 'file://published.lcm?mode=w' --speed 0
+run node --lcm 'file://published.lcm?speed=0' "${settings[@]}" --set sensor.1.pd=0.9 --log node.lcm
+check 'a node counts nothing late' bash -c '! grep -q late stderr'
+"$program" convert node.lcm node.csv --kind tracks 2>stderr
+check 'and has the same tracks' python3 -c '
+import csv
+def rows(name):
+    return [(round(float(r["t_s"]) * 1e6), r["track_id"], round(float(r["x_m"]), 1), round(float(r["y_m"]), 1), r["hits"])
+            for r in csv.DictReader(open(name)) if r["status"] != "deleted"]
+one, other = rows("expected.csv"), rows("node.csv")
+assert one == other and one, (len(one), len(other), [x for x in zip(one, other) if x[0] != x[1]][:3])'
+run track behind_received.csv --json -o biased.csv
+check 'not told of it, its scans are late' json stdout 'o["counters"]["scans_retrodicted"] > 30'
+settings=(--set sensor.1.time_bias_s=1 --set sensor.2.time_bias_s=-9)
+{ sed 1d in_time.csv | awk -F, '{ $1 = sprintf("%.3f", $1 + 1); print }' OFS=,; shifted -8.5; } | sort -s -t, -n -k 1,1 |
+    (head -n 1 in_time.csv; cat) >apart.csv
+check 'clocks that are 10 s apart, in one file' same apart.csv
+run convert apart.csv apart.lcm
+check 'in a log' same apart.lcm
+
 # ---- refused ----
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,3.000,/' held.csv >bad.csv
 run track bad.csv -o out.csv
@@ -61,6 +107,19 @@ check 'nor is it left out' says 2 "*bad.csv:20: received_s *"
 sed '1s/received_s/other/' later.csv >bad.csv
 run track bad.csv -o out.csv
 check 'without it times do not go back' says 2 '*bad.csv:*: time goes back from * s to * s'
+awk -F, 'NR == 1 { print "t_s,received_s,sensor_id,x_m,y_m"; next }
+    { print $1 "," ($1 + (NR == 13 ? 0.5 : 0)) "," $2 "," $3 "," $4 }' in_time.csv >bad.csv
+run track bad.csv -o out.csv
+check 'rows of a scan without a number have one received_s' says 2 \
+    "*bad.csv:13: received_s is 20.500000 s, and 20.000000 s of the scan's other rows: *"
+run convert bad.csv out.lcm
+check 'convert says so, too' says 2 "*bad.csv:13: received_s is not that of the scan's first row: *"
+awk -F, 'NR == 1 { print $0 ",scan" } NR > 1 { print $0 "," int(NR / 2) }' bad.csv >numbered.csv
+run track numbered.csv -o out.csv
+check 'those of one with a number may differ' exits 0
+printf 't_s,sensor_id,x_m,y_m\n4e12,1,1,1\n' >bad.csv
+run track bad.csv --set sensor.1.time_bias_s=-10
+check 'a time that is beyond what is believed once its bias is off' says 2 "*bad.csv:2: t_s is beyond 4e12 s without *"
 run track in_time.csv --set late_max_s=61
 check 'late_max_s is a minute at most' says 2 '*late_max_s*60*'
 

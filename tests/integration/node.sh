@@ -109,6 +109,17 @@ if [ -n "$logger" ]; then
     check 'lcm-logger has recorded the tracks' same_tracks tracks.csv once.csv
 fi
 
+# ---- a radar that turns, sector by sector ----
+"$program" simulate rotating -o rotating
+run track rotating/polar.csv --config rotating/scenario.ini
+cp stdout rotating.csv
+start turning --config rotating/scenario.ini
+run publish rotating/polar.csv --config rotating/scenario.ini --speed 30
+check 'rows of a sector may go back behind the one that has its time' exits 0
+sleep 0.7
+stop INT "$node"
+check 'sectors: the tracks are those of track' cmp rotating.csv turning.csv
+
 # count LOG CHANNEL: how often the name stands in the log.
 count() { grep -aoF "$2" "$1" | wc -l; }
 

@@ -252,6 +252,42 @@ static void numbered_scans_are_complete_by_time_or_by_those_after(void **state)
     }
 }
 
+/* Rows by clocks that are off, scans by the common one: sensor 1 is two seconds ahead, sensor 2 three behind. */
+static void scans_are_in_order_without_their_time_biases(void **state)
+{
+    const int64_t biases_us[] = {0, 2 * SECOND, -3 * SECOND};
+    struct gather gather;
+    struct gathered scan;
+    int64_t last_us = INT64_MIN;
+    size_t count = 0, most = 0;
+    (void)state;
+
+    gather_start(&gather, sizeof(int32_t), 0);
+    gather.bias_max_us = (int32_t)biases_us[1];
+    for (int k = 0; k < 300; k++) {
+        const int sensor_id = k % 3;
+        const struct gathered begun = {.sensor_id = sensor_id,
+                                       .bias_us = (int32_t)biases_us[sensor_id]};
+        const int64_t time_us = k * SECOND / 2;
+
+        gather_add(&gather, gather_begin(&gather, &begun, time_us), time_us, &k);
+        most = gather.count > most ? gather.count : most;
+        while (gather_take(&gather, k == 299, &scan)) {
+            const int element = *(const int32_t *)scan.elements;
+
+            assert_int_equal(gathered_time_us(&scan),
+                             element * SECOND / 2 - biases_us[scan.sensor_id]);
+            assert_true(gathered_time_us(&scan) >= last_us);
+            last_us = gathered_time_us(&scan);
+            count++;
+            gathered_free(&scan);
+        }
+    }
+    assert_int_equal(count, 300);
+    assert_true(most <= 2 * 5 + 2);
+    gather_free(&gather);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +295,7 @@ int main(void)
         cmocka_unit_test(rows_by_number),
         cmocka_unit_test(numbered_rows_may_go_back_within_their_scan_alone),
         cmocka_unit_test(numbered_scans_are_complete_by_time_or_by_those_after),
+        cmocka_unit_test(scans_are_in_order_without_their_time_biases),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -162,12 +162,38 @@ static void test_a_share_arrives_late(void **state)
     simulation_free(simulation);
 }
 
+/* A clock that is off: the file says when scans arrived, by the true time; the truth has the scans' true ends. */
+static void test_a_clock_that_is_off(void **state)
+{
+    struct parameters parameters = parameters_of_scenario();
+
+    (void)state;
+    set(&parameters, PARAMETER_LATE_SHARE, 0.0);
+    set(&parameters, PARAMETER_SECTORS_PER_TURN, 1.0);
+    set(&parameters, PARAMETER_TRUE_TIME_BIAS_S, -SECOND_TIME_BIAS_S);
+    struct simulation *simulation = scenario_simulate("two-radars", &parameters, SEED, 2);
+    const struct scenario_record *record = simulation->record;
+
+    assert_true(record->has_received);
+    for (size_t i = 0; i < record->num_arrivals; i++) {
+        const struct record_arrival *arrival = &record->arrivals[i];
+        double bias_s = arrival->antenna == 1 ? -SECOND_TIME_BIAS_S : 0.0;
+        double said_s = (double)record_scan_us(record, arrival) * 1e-6;
+
+        assert_true(fabs(arrival->received_s - (said_s - bias_s)) < 2e-6);
+        assert_true(fabs(simulation->truth[i * simulation->num_targets].t_s - arrival->received_s) <
+                    2e-6);
+    }
+    simulation_free(simulation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_radars_are_off_by_their_biases),
         cmocka_unit_test(test_aircraft_are_common),
         cmocka_unit_test(test_a_share_arrives_late),
+        cmocka_unit_test(test_a_clock_that_is_off),
     };
 
     return cmocka_run_group_tests_name("scenario_two_radars", tests, NULL, NULL);

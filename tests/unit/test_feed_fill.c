@@ -8,6 +8,8 @@
 
 static uint8_t buffer[DATAGRAM];
 
+#define KNOWN_BIAS_US 250000
+
 static void set_sensor(const struct rho_feed_sensor *sensor)
 {
     assert_int_equal(rho_feed_set_sensor(&feed, sensor), RHO_OK);
@@ -38,7 +40,9 @@ static struct rho_feed_sensor known_sensor(void)
 
 /* ---- plots ------------------------------------------------------------------------------------ */
 
-static void take_plot(int16_t sensor_id, int8_t kind, const struct rho_message_plot *plot)
+/* bias_us: of the sensor's clock, as it is known. */
+static void take_plot(int16_t sensor_id, int8_t kind, const struct rho_message_plot *plot,
+                      int64_t bias_us)
 {
     struct rho_message_plot_scan_head head = {
         .utime = 1000, .scan = 1, .sensor_id = sensor_id, .kind = kind, .num_parts = 1};
@@ -48,7 +52,7 @@ static void take_plot(int16_t sensor_id, int8_t kind, const struct rho_message_p
     assert_int_equal(rho_message_plot_scan_add(&writer, plot), RHO_OK);
     assert_int_equal(take_bytes(channel_of(RHO_FEED_PLOTS, sensor_id), buffer, end_of(&writer), 0),
                      RHO_OK);
-    next_is(0, sensor_id, 1000);
+    next_is(0, sensor_id, 1000 - bias_us);
     assert_int_equal(item.scan.num_plots, 1);
 }
 
@@ -86,7 +90,7 @@ static void a_plot_keeps_its_values(void **state)
     for (int8_t kind = 2; kind <= 6; kind++) {
         if (kind != 5) {
             start();
-            take_plot(3, kind, &plot);
+            take_plot(3, kind, &plot, 0);
             assert_int_equal(item.kind, RHO_FEED_PLOTS);
             assert_int_equal(item.scan.measures, measures[kind]);
             assert_memory_equal(item.scan.plots, &want, sizeof want);
@@ -107,7 +111,7 @@ static void noise_is_the_messages_the_sensors_or_the_defaults(void **state)
             if (is_known) {
                 set_sensor(&known);
             }
-            take_plot(7, 6, is_said ? &said : &silent);
+            take_plot(7, 6, is_said ? &said : &silent, is_known ? KNOWN_BIAS_US : 0);
             const struct rho_plot *plot = &item.scan.plots[0];
             assert_true(plot->sigma_range_m == (is_said ? 7.0f : is_known ? 21.0f : 10.0f));
             assert_true(plot->sigma_cross_m == plot->sigma_range_m);
@@ -131,7 +135,7 @@ static void is_told_tells_of_all_sensors(void **state)
     config.other.sensor.pd = 0.55f;
     config.other.sensor.sensor_id = 99;
     start_with(&config);
-    take_plot(3, 2, &plot);
+    take_plot(3, 2, &plot, 0);
     assert_int_equal(item.has_sensor, 1);
     assert_int_equal(item.sensor.sensor_id, 3);
     assert_true(item.sensor.pd == 0.55f);
@@ -199,10 +203,11 @@ static void polar_plots_are_what_measurement_makes_of_them(void **state)
             set_sensor(&known);
         }
         take_polar(&head, 5, plots);
-        next_is(0, 7, 5);
+        next_is(0, 7, is_known ? 5 - KNOWN_BIAS_US : 5);
         assert_int_equal(item.kind, RHO_FEED_POLAR);
         assert_int_equal(item.has_sensor, is_known || has_place);
         assert_memory_equal(&item.sensor, &sensor, sizeof sensor);
+        sensor.time_bias_s = 0.0f; /* off the scan's time */
         for (unsigned i = 0; i < 5; i++) {
             struct rho_polar_plot polar = {.offset_us = plots[i].dt_us,
                                            .range_m = plots[i].range_m,
@@ -242,7 +247,7 @@ static void plots_without_a_place_keep_their_row_and_are_invalid(void **state)
     start();
     set_sensor(&known);
     take_polar(&head, 5, plots);
-    next_is(0, 7, 0);
+    next_is(0, 7, -KNOWN_BIAS_US);
     assert_int_equal(item.scan.num_plots, 5);
     rho_tracker_config_default(&config);
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
@@ -268,7 +273,7 @@ static void bearings_have_the_sensors_biases_taken_off(void **state)
         known.sensor.time_bias_s = 0.25f * (float)sign;
         set_sensor(&known);
         take(&look, 0);
-        next_is(0, 7, 9);
+        next_is(0, 7, 9 - KNOWN_BIAS_US * sign);
         assert_int_equal(item.kind, RHO_FEED_BEARINGS);
         assert_int_equal(item.has_sensor, 1);
         assert_true(item.bearings.x_m == 5.0f && item.bearings.y_m == -6.0f);
@@ -279,7 +284,7 @@ static void bearings_have_the_sensors_biases_taken_off(void **state)
             double want = remainder(-3.141 + 0.001 * i - 0.02 * sign, 2.0 * acos(-1.0));
 
             assert_true(fabs(bearing->bearing_rad - want) < 1e-6);
-            assert_int_equal(bearing->offset_us, -250000 * sign);
+            assert_int_equal(bearing->offset_us, 0);
             assert_true(bearing->sigma_rad == 0.013f);
         }
     }
@@ -307,6 +312,75 @@ static void bearings_noise_is_the_messages_or_the_defaults(void **state)
     }
 }
 
+/* ---- clocks ----------------------------------------------------------------------------------- */
+
+/* A clock that is a second behind, and one that is right: scans come as they are made, and go out so, all of them. */
+static void scans_are_in_order_without_their_time_biases(void **state)
+{
+    struct rho_feed_sensor known = known_sensor();
+
+    (void)state;
+    for (uint8_t kind = 0; kind < RHO_NUM_FEED_KINDS; kind++) {
+        start();
+        known.sensor.time_bias_s = -1.0f;
+        set_sensor(&known);
+        for (int32_t k = 1; k <= 20; k++) {
+            struct look right = {.time_us = k * SECOND_US, .scan = k, .sensor_id = 3, .kind = kind},
+                        behind = right;
+
+            behind.sensor_id = 7;
+            behind.time_us -= SECOND_US / 2;
+            take(&right, k * SECOND_US);
+            next_is(INT64_MAX, 3, k * SECOND_US);
+            take(&behind, k * SECOND_US + SECOND_US / 2);
+            next_is(INT64_MAX, 7, k * SECOND_US + SECOND_US / 2);
+        }
+        assert_int_equal(feed.counters.scans_accepted, 40);
+        assert_int_equal(feed.counters.clock_jumps, 0);
+        assert_int_equal(feed.counters.scans_late, 0);
+    }
+}
+
+/* Held no longer than hold_us, a scan whose clock is ahead waits for one that was made before it. */
+static void a_scan_waits_for_one_that_was_made_before_it(void **state)
+{
+    struct rho_feed_sensor known = known_sensor();
+    struct look ahead = {.time_us = 3 * SECOND_US, .scan = 1, .sensor_id = 7},
+                right = {.time_us = 2 * SECOND_US - 5000, .scan = 1, .sensor_id = 3};
+
+    (void)state;
+    known.sensor.time_bias_s = 1.0f; /* it was made at 2 s */
+    for (int comes_first = 0; comes_first < 2; comes_first++) {
+        start();
+        set_sensor(&known);
+        ahead.scan = right.scan = 1;
+        take(comes_first ? &ahead : &right, 0);
+        take(comes_first ? &right : &ahead, HOLD_US / 2);
+        next_is(INT64_MAX, 3, 2 * SECOND_US - 5000);
+        next_is(INT64_MAX, 7, 2 * SECOND_US);
+    }
+}
+
+static void times_beyond_their_limit_are_refused(void **state)
+{
+    struct rho_feed_sensor known = known_sensor();
+    const int64_t times_us[] = {-RHO_LIMIT_TIME_US, RHO_LIMIT_TIME_US};
+
+    (void)state;
+    for (unsigned i = 0; i < 2; i++) {
+        for (int beyond = 0; beyond < 2; beyond++) {
+            struct look look = {.time_us = times_us[i], .scan = 1, .sensor_id = 7};
+
+            start();
+            known.sensor.time_bias_s = i == (unsigned)beyond ? -10.0f : 10.0f;
+            set_sensor(&known);
+            take(&look, 0);
+            assert_int_equal(feed.counters.messages_bad, beyond);
+            assert_int_equal(feed.counters.scans_accepted, 1 - beyond);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -317,6 +391,9 @@ int main(void)
         cmocka_unit_test(plots_without_a_place_keep_their_row_and_are_invalid),
         cmocka_unit_test(bearings_have_the_sensors_biases_taken_off),
         cmocka_unit_test(bearings_noise_is_the_messages_or_the_defaults),
+        cmocka_unit_test(scans_are_in_order_without_their_time_biases),
+        cmocka_unit_test(a_scan_waits_for_one_that_was_made_before_it),
+        cmocka_unit_test(times_beyond_their_limit_are_refused),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

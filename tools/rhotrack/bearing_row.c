@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "bearing_row.h"
 
-#include <math.h>
-
 #include "rhotrack/angle.h"
 
 #define PI 3.1415927f /* the nearest float, a little more: -pi .. pi as numbers of a file */
@@ -54,17 +52,15 @@ struct bearing_columns bearing_columns_find(const struct table *table)
 
 /* ---- Rows ---- */
 
-/* What the sensor is said to measure too much of. */
-static void take_off_biases(const struct parameters *parameters, struct bearing_row *row)
+/* What the sensor is said to measure too much of; its time comes off the scan's. */
+static void take_off_bias(const struct parameters *parameters, struct bearing_row *row)
 {
     double bias_rad =
         parameters_of_sensor(parameters, row->sensor_id, SENSOR_AZIMUTH_BIAS_RAD, 0.0);
-    double bias_s = parameters_of_sensor(parameters, row->sensor_id, SENSOR_TIME_BIAS_S, 0.0);
 
     if (bias_rad < 0.0 || bias_rad > 0.0) {
         row->bearing.bearing_rad = rho_angle_difference(row->bearing.bearing_rad, (float)bias_rad);
     }
-    row->bearing.offset_us = (int32_t)-lround(bias_s * 1e6);
 }
 
 static bool read_bearing(const struct row_check *check, const struct bearing_columns *columns,
@@ -77,7 +73,7 @@ static bool read_bearing(const struct row_check *check, const struct bearing_col
     if (!row_float(check, columns->bearing_rad, -PI, PI, &row->bearing.bearing_rad)) {
         return false;
     }
-    take_off_biases(parameters, row);
+    take_off_bias(parameters, row);
     return row_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
            row_snr(check, columns->snr_db, &row->bearing.snr_db);
 }
@@ -97,6 +93,10 @@ bool bearing_row_read(const struct table *table, const struct bearing_columns *c
         !row_position(&check, columns->sensor_y_m, &bearing_row->y_m) ||
         !row_sector(&check, columns->sector_from_rad, columns->sector_to_rad,
                     &bearing_row->sector_from_rad, &bearing_row->sector_to_rad)) {
+        return false;
+    }
+    bearing_row->bias_us = parameters_time_bias_us(parameters, bearing_row->sensor_id);
+    if (!row_right_time(&check, bearing_row->time_us, bearing_row->bias_us)) {
         return false;
     }
     return !row_has(&check, columns->bearing_rad) ||

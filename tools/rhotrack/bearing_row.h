@@ -13,7 +13,8 @@
 #include "table.h"
 
 struct bearing_row {
-    int64_t time_us;
+    int64_t time_us;          /* as it stands in the row */
+    int32_t bias_us;          /* the sensor's time bias, which is still in */
     struct row_number number; /* of the scan */
     int32_t sensor_id;
     float x_m, y_m;                       /* of the sensor */

@@ -127,6 +127,7 @@ static struct gathered *begin_scan(struct bearing_source *source, uint32_t line,
 {
     const struct gathered scan = {.sensor_id = row->sensor_id,
                                   .number = row->number,
+                                  .bias_us = row->bias_us,
                                   .line = line,
                                   .sector_from_rad = row->sector_from_rad,
                                   .sector_to_rad = row->sector_to_rad,
@@ -200,7 +201,7 @@ static void fill_scan(const struct bearing_source *source, struct bearing_scan *
     for (size_t i = 0; i < scan->count; i++) {
         bearings[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
     }
-    *out = (struct bearing_scan){.scan = {.time_us = scan->time_us,
+    *out = (struct bearing_scan){.scan = {.time_us = gathered_time_us(scan),
                                           .sensor_id = scan->sensor_id,
                                           .x_m = scan->sensor.x_m,
                                           .y_m = scan->sensor.y_m,
@@ -281,10 +282,13 @@ bool bearing_source_next(struct bearing_source *source, struct bearing_scan *sca
 
 static void open_table(struct bearing_source *source)
 {
+    int32_t least_us;
+
     source->stream = table_stream_open(source->path, NULL, source->keep_going, false);
     source->columns = bearing_columns_find(table_stream_table(source->stream));
     gather_start(&source->gather, sizeof(struct rho_bearing),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
+    parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
 }
 
 /* Of a log that has plots, too, their reader says what is wrong. */

@@ -156,6 +156,7 @@ static void choose_kind(struct reading *reading, const struct rows_kind *kind)
 {
     reading->kind = kind;
     rows_collect_start(&reading->collection, kind);
+    reading->collection.with_received = true;
 }
 
 static void take_event(struct reading *reading, const struct lcm_log_event *event)

@@ -125,7 +125,8 @@ void gather_add(struct gather *gather, struct gathered *scan, int64_t time_us, c
 void gather_add_nothing(struct gather *gather, struct gathered *scan, int64_t time_us)
 {
     /* that time is over */
-    bool is_given = gather->has_given && !gather->has_clock && time_us < gather->given_us;
+    bool is_given =
+        gather->has_given && !gather->has_clock && time_us - scan->bias_us < gather->given_us;
 
     if (scan->number.is_given && !scan->has_time && !is_given) {
         scan->has_time = true;
@@ -147,10 +148,22 @@ static bool is_complete(const struct gather *gather, const struct gathered *scan
     return since_us > 0 && since_us >= gather->interval_us;
 }
 
+int64_t gathered_time_us(const struct gathered *scan)
+{
+    return scan->time_us - scan->bias_us;
+}
+
+/* A row to come may begin a scan that is before it: its sensor's clock may be ahead. */
+static bool may_be_preceded(const struct gather *gather, const struct gathered *scan)
+{
+    return !gather->has_clock && gather->last_us - gather->bias_max_us < gathered_time_us(scan);
+}
+
 static bool comes_before(const struct gather *gather, const struct gathered *one,
                          const struct gathered *other)
 {
-    return gather->has_clock ? one->begun_us < other->begun_us : one->time_us < other->time_us;
+    return gather->has_clock ? one->begun_us < other->begun_us
+                             : gathered_time_us(one) < gathered_time_us(other);
 }
 
 /* The one that is before all others. */
@@ -170,7 +183,8 @@ bool gather_take(struct gather *gather, bool all, struct gathered *scan)
 {
     size_t first = find_first(gather);
 
-    if (gather->count == 0 || !(all || is_complete(gather, &gather->scans[first]))) {
+    if (gather->count == 0 || (!all && (!is_complete(gather, &gather->scans[first]) ||
+                                        may_be_preceded(gather, &gather->scans[first])))) {
         return false;
     }
     *scan = gather->scans[first];
@@ -178,7 +192,7 @@ bool gather_take(struct gather *gather, bool all, struct gathered *scan)
     memmove(gather->scans + first, gather->scans + first + 1,
             (gather->count - first) * sizeof *gather->scans);
     gather->has_given = true;
-    gather->given_us = scan->time_us;
+    gather->given_us = gathered_time_us(scan);
     return true;
 }
 

@@ -6,6 +6,9 @@
  * one. Their times do not go back, but within a scan that has a number. A scan is complete when rows have come to a time
  * that cannot be its own: of a numbered one RHO_LIMIT_OFFSET_US after its first row.
  *
+ * A sensor's time bias, where it has one, is taken off its scan's time: rows come by the sensors' clocks, scans go out in the
+ * order of the common one. They wait until no row to come can begin one that is before them, bias_max_us at most.
+ *
  * Where rows say when they were received, these are the times that do not go back, and that complete scans; those are given out
  * as they were received.
  */
@@ -24,6 +27,7 @@
 struct gathered {
     int32_t sensor_id;
     struct row_number number;
+    int32_t bias_us;  /* of its sensor's clock, on which all times of the scan are */
     int64_t start_us; /* of its first row */
     int64_t begun_us,
         heard_us; /* its first and its last row were received; without such times: start_us, its last row's */
@@ -47,6 +51,7 @@ struct gathered {
 struct gather {
     size_t element_bytes;
     int64_t interval_us;
+    int32_t bias_max_us; /* no sensor has a larger one; 0: none has one above 0 */
     unsigned begun_max; /* a numbered scan is complete after so many of its sensor, too; 0: never */
     struct gathered *scans; /* those in memory, in the order of their first rows */
     size_t count, capacity;
@@ -56,7 +61,7 @@ struct gather {
     int64_t last_us; /* the latest time of a row, or when the last one was received */
     bool has_clock;  /* the row that comes was received at ... */
     int64_t clock_us;
-    int64_t given_us; /* the newest scan's that was given out */
+    int64_t given_us; /* the newest scan's that was given out, on the common clock */
 };
 
 void gather_start(struct gather *gather, size_t element_bytes, int64_t interval_us);
@@ -72,12 +77,15 @@ struct gathered *gather_find(struct gather *gather, int32_t sensor_id,
 bool gather_check_time(const struct gather *gather, const struct gathered *scan, int64_t time_us,
                        const struct row_check *check);
 
-/* Begins a scan with what is set of this one: sensor, number, sector, line. */
+/* Begins a scan with what is set of this one: sensor, number, bias, sector, line. */
 struct gathered *gather_begin(struct gather *gather, const struct gathered *scan, int64_t time_us);
 
 /* The row has an element; or it saw nothing. */
 void gather_add(struct gather *gather, struct gathered *scan, int64_t time_us, const void *element);
 void gather_add_nothing(struct gather *gather, struct gathered *scan, int64_t time_us);
+
+/* The scan's time on the common clock. */
+int64_t gathered_time_us(const struct gathered *scan);
 
 /* Takes out the next scan, if there is a complete one; with all, complete or not. Its memory is the caller's then. */
 bool gather_take(struct gather *gather, bool all, struct gathered *scan);

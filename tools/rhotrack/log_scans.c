@@ -2,6 +2,7 @@
 #include "log_scans.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,8 @@
 #include "common.h"
 #include "lcm_log.h"
 #include "rhotrack/message.h"
+
+#define HOLD_MAX_MS 10000.0 /* of rho_feed_config */
 
 /* ---- Kinds ---- */
 
@@ -49,18 +52,36 @@ struct log_scans {
     struct rho_feed *feed;
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
+    int64_t clock_us;   /* the latest event's */
     bool has_event;     /* the feed has not taken it yet */
     bool is_over;       /* there are no more events */
     uint64_t num_given; /* by the feed */
     uint64_t first;     /* what it gives before this one is left out */
 };
 
+/*
+ * A log's events may stand at the times that the sensors said, as `convert` writes them: a sensor whose time bias is taken
+ * off comes so much too early or too late then, and is waited for. Nobody waits for a file.
+ */
+static void wait_for_biases(struct parameters *parameters)
+{
+    double *hold_ms = &parameters->value[PARAMETER_HOLD_MS];
+    int32_t least_us, largest_us;
+
+    parameters_time_biases_us(parameters, &least_us, &largest_us);
+    *hold_ms = fmin(*hold_ms + ((double)largest_us - (double)least_us) * 1e-3, HOLD_MAX_MS);
+}
+
 /* The feed as it was before the first event. */
 static void start(struct log_scans *scans)
 {
-    parameters_to_feed(scans->parameters, scans->feed);
+    struct parameters parameters = *scans->parameters;
+
+    wait_for_biases(&parameters);
+    parameters_to_feed(&parameters, scans->feed);
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
+    scans->clock_us = INT64_MIN;
     scans->num_given = 0;
 }
 
@@ -77,6 +98,8 @@ static void next_event(struct log_scans *scans)
 {
     scans->is_over = !lcm_log_next(scans->reader, &scans->event);
     if (!scans->is_over) {
+        scans->clock_us =
+            scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
         offer(scans);
     }
 }
@@ -221,6 +244,11 @@ void log_scans_rewind(struct log_scans *scans)
 {
     lcm_log_close(scans->reader);
     start(scans);
+}
+
+int64_t log_scans_clock_us(const struct log_scans *scans)
+{
+    return scans->clock_us;
 }
 
 uint64_t log_scans_position(const struct log_scans *scans)

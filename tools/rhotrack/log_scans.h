@@ -34,6 +34,9 @@ bool log_scans_next(struct log_scans *scans, struct rho_feed_item *item);
 /* The log from its beginning again. */
 void log_scans_rewind(struct log_scans *scans);
 
+/* The latest time of the events so far. */
+int64_t log_scans_clock_us(const struct log_scans *scans);
+
 /* How many bytes of the log are taken. */
 uint64_t log_scans_position(const struct log_scans *scans);
 void log_scans_close(struct log_scans *scans);

@@ -3,7 +3,7 @@
  * message_source: files in, LCM messages out, in the order of time.
  *
  * A CSV file of plots, polar plots, bearings, truth or tracks (told apart by its columns) gives its messages, at the times
- * of their scans; long scans come in parts, one after the other. An LCM log gives its events as they are, of any channel
+ * of their scans, or where it says so (received_s) when these were received; long scans come in parts, one after the other. An LCM log gives its events as they are, of any channel
  * and content, at the times that stand in the log, in the log's own order. Several files are merged by time; of one time
  * the first file's come first.
  */
@@ -20,7 +20,7 @@ struct message_source;
 
 /* Valid until the next call. */
 struct message_event {
-    int64_t utime;       /* us: of the scan, or as the log has it */
+    int64_t utime;       /* us: of the scan or its reception, or as the log has it */
     const char *channel; /* 1 to 63 characters */
     const uint8_t *data; /* of a CSV file: a message of rhotrack that is valid */
     size_t size;

@@ -206,8 +206,10 @@
     X(TRUE_TIME_BIAS_S, "true_time_bias_s", "s", 0, -10, 10, 0, 0,                                 \
       "simulate two-radars: the second radar's clock is so much ahead")                            \
     X(LATE_SHARE, "late_share", "-", 0.2, 0, 1, 0, 0,                                              \
-      "simulate two-radars: share of scans that arrive late_ms late; 0: no column received_s")     \
-    X(LATE_MS, "late_ms", "ms", 300, 0, 60000, 0, 0, "simulate two-radars: how late")
+      "simulate two-radars: share of scans that arrive late_ms late")                              \
+    X(LATE_MS, "late_ms", "ms", 300, 0, 60000, 0, 0, "simulate two-radars: how late")              \
+    X(TIME_TOLERANCE_S, "time_tolerance_s", "s", 0.001, 0.001, 60, 0, 1,                           \
+      "evaluate: the truth's times have the nearest tracks, so far off at most, led there")
 
 enum parameter_id {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,
@@ -360,6 +362,11 @@ double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_
 
 /* How far a sensor sees: its own range_max_m, or the one for all. */
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id);
+
+/* A sensor's time bias, as the library has it; the least and the largest of all sensors, of which some have none. */
+int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id);
+void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
+                               int32_t *largest_us);
 
 /*
  * The library's configs from the parameters, checked (parameters_check). A sensor is described only

@@ -4,6 +4,7 @@
 
 #include "common.h"
 #include "parameters.h"
+#include "rhotrack/measurement.h"
 
 void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config)
@@ -121,6 +122,26 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
     };
 #undef OF_SENSOR
     turn_sector(sensor, parameters_turn_rad(parameters, sensor_id));
+}
+
+int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id)
+{
+    const struct rho_sensor sensor = {
+        .time_bias_s = (float)parameters_of_sensor(parameters, sensor_id, SENSOR_TIME_BIAS_S, 0.0)};
+
+    return rho_measurement_time_bias_us(&sensor);
+}
+
+void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
+                               int32_t *largest_us)
+{
+    *least_us = *largest_us = 0;
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        int32_t bias_us = parameters_time_bias_us(parameters, parameters->sensors[i].sensor_id);
+
+        *least_us = bias_us < *least_us ? bias_us : *least_us;
+        *largest_us = bias_us > *largest_us ? bias_us : *largest_us;
+    }
 }
 
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,

@@ -70,7 +70,7 @@ static bool read_polar(const struct reading *reading, size_t row, struct plot_po
                        reason)) {
         table_fail(reading->table, row, "%s", reason);
     }
-    *point = (struct plot_point){.time_us = plot_row.time_us,
+    *point = (struct plot_point){.time_us = plot_row.time_us - plot_row.bias_us,
                                  .x_m = (double)plot_row.plot.x_m,
                                  .y_m = (double)plot_row.plot.y_m};
     return plot_row.has_plot;

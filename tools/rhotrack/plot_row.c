@@ -316,7 +316,9 @@ static bool read_polar(const struct checking *checking, const struct parameters 
                        struct plot_row *row)
 {
     struct rho_polar_plot polar = {0};
+    struct rho_sensor seen_from = row->sensor;
 
+    seen_from.time_bias_s = 0.0f; /* it comes off the scan's time */
     row->has_plot = true;
     row->measures = 0;
     if (!read_range(checking, &polar.range_m) || !read_azimuth(checking, &polar.azimuth_rad) ||
@@ -328,7 +330,7 @@ static bool read_polar(const struct checking *checking, const struct parameters 
         !row_snr(&checking->cells, checking->columns->snr_db, &polar.snr_db)) {
         return false;
     }
-    if (rho_measurement_from_polar(&polar, row->measures, &row->sensor, &row->plot) != RHO_OK) {
+    if (rho_measurement_from_polar(&polar, row->measures, &seen_from, &row->plot) != RHO_OK) {
         return row_refuse(&checking->cells,
                           "range_m %.9g at azimuth %.9g rad is no place that is believed, "
                           "once the sensor's place and biases are taken into account",
@@ -370,6 +372,7 @@ static bool read_sensor(const struct checking *checking, const struct parameters
     row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
                       columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
     parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
+    row->bias_us = rho_measurement_time_bias_us(&row->sensor);
     if (!geodetic_radar(columns->geodetic, &checking->cells, row->sensor_id, &row->frame)) {
         return false;
     }
@@ -403,7 +406,8 @@ bool plot_row_read(const struct table *table, const struct plot_columns *columns
         !row_number(&checking.cells, columns->scan, columns->epoch, &plot_row->number) ||
         !row_sector(&checking.cells, columns->sector_from_rad, columns->sector_to_rad,
                     &plot_row->sector_from_rad, &plot_row->sector_to_rad) ||
-        !read_sensor(&checking, parameters, plot_row)) {
+        !read_sensor(&checking, parameters, plot_row) ||
+        !row_right_time(&checking.cells, plot_row->time_us, plot_row->bias_us)) {
         return false;
     }
     has_measurement = geodetic_is_said(columns->geodetic, &checking.cells);

@@ -14,14 +14,15 @@
 #include "table.h"
 
 struct plot_row {
-    int64_t time_us;
+    int64_t time_us;          /* as it stands in the row */
+    int32_t bias_us;          /* the sensor's time bias, which is still in */
     int64_t received_us;      /* where the file has that column */
     struct row_number number; /* of the scan */
     int32_t sensor_id;
     float sector_from_rad, sector_to_rad; /* of the scan; both 0 where not given */
     bool has_plot;
     uint32_t measures;    /* RHO_MEASURES_... of the plot */
-    struct rho_plot plot; /* its offset: what a time bias makes of the row's time */
+    struct rho_plot plot; /* its offset is 0 */
     bool has_sensor;      /* the sensor below is described */
     struct rho_sensor sensor;
     const struct radar_frame

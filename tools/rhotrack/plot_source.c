@@ -24,7 +24,7 @@ struct plot_source {
     bool has_columns, has_good, is_over, waits, is_complete;
     struct plot_columns columns;
     struct gather gather;
-    struct hold hold;      /* of a file that says when its rows were received */
+    struct hold hold;      /* of a file that says when its rows were received, or of a log */
     uint64_t rows_skipped; /* but those of the stream */
 };
 
@@ -56,10 +56,23 @@ static bool check_scan(const struct gathered *scan, const struct plot_row *row,
                              "or in none");
 }
 
+/* A scan that has no number is complete when a row is received after it. */
+static bool check_received(const struct gather *gather, const struct gathered *scan,
+                           const struct plot_row *row, const struct row_check *check)
+{
+    return !scan || !gather->has_clock || (row->number.is_given && scan->number.is_given) ||
+           row->received_us == scan->heard_us ||
+           row_refuse(check,
+                      "received_s is %.6f s, and %.6f s of the scan's other rows: without a "
+                      "number (column 'scan') rows of a scan have one",
+                      (double)row->received_us * 1e-6, (double)scan->heard_us * 1e-6);
+}
+
 static struct gathered *begin_scan(struct plot_source *source, const struct plot_row *row)
 {
     const struct gathered scan = {.sensor_id = row->sensor_id,
                                   .number = row->number,
+                                  .bias_us = row->bias_us,
                                   .sector_from_rad = row->sector_from_rad,
                                   .sector_to_rad = row->sector_to_rad,
                                   .has_sensor = row->has_sensor,
@@ -112,6 +125,7 @@ static void take_row(struct plot_source *source, const struct table *table)
     if (is_good) {
         scan = gather_find(&source->gather, row.sensor_id, &row.number, row.time_us);
         is_good = gather_check_time(&source->gather, scan, row.time_us, &check) &&
+                  check_received(&source->gather, scan, &row, &check) &&
                   check_scan(scan, &row, &check);
     }
     if (is_good) {
@@ -162,7 +176,7 @@ static void fill_scan(struct plot_scan *out, struct gathered *scan)
     for (size_t i = 0; i < scan->count; i++) {
         plots[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
     }
-    *out = (struct plot_scan){.scan = {.time_us = scan->time_us,
+    *out = (struct plot_scan){.scan = {.time_us = gathered_time_us(scan),
                                        .sensor_id = scan->sensor_id,
                                        .sector_from_rad = scan->sector_from_rad,
                                        .sector_to_rad = scan->sector_to_rad,
@@ -214,7 +228,7 @@ static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
     return true;
 }
 
-static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
+static bool take_of_log(struct plot_source *source, struct plot_scan *scan)
 {
     struct rho_feed_item item;
 
@@ -234,6 +248,24 @@ static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
     return true;
 }
 
+/* Before a feed has heard of a sensor it does not wait for it: the first ones of clocks that are apart are put in order here. */
+static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
+{
+    struct plot_scan next;
+
+    while (!hold_take(&source->hold, false, scan)) {
+        if (!take_of_log(source, &next)) {
+            return hold_take(&source->hold, true, scan);
+        }
+        if (source->hold.hold_us == 0) {
+            *scan = next;
+            return true;
+        }
+        hold_put(&source->hold, &next, log_scans_clock_us(source->log));
+    }
+    return true;
+}
+
 bool plot_source_next(struct plot_source *source, struct plot_scan *scan)
 {
     return source->log ? next_of_log(source, scan) : next_of_table(source, scan);
@@ -243,10 +275,13 @@ bool plot_source_next(struct plot_source *source, struct plot_scan *scan)
 
 static void open_table(struct plot_source *source, const char *path)
 {
+    int32_t least_us;
+
     source->stream =
         table_stream_open(path, source->parameters, source->keep_going, source->follow);
     gather_start(&source->gather, sizeof(struct rho_plot),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
+    parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
     source->gather.begun_max = source->follow ? FOLLOW_BEGUN_MAX : 0;
     source->hold.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
     find_columns(source, table_stream_table(source->stream));
@@ -265,6 +300,10 @@ struct plot_source *plot_source_open(const char *path, const struct parameters *
     } else if (follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is an LCM log", path);
     } else {
+        int32_t least_us, largest_us;
+
+        parameters_time_biases_us(parameters, &least_us, &largest_us);
+        source->hold.hold_us = (int64_t)largest_us - least_us;
         source->log = log_scans_open(path, parameters, keep_going, true);
     }
     return source;
@@ -312,9 +351,9 @@ void plot_source_close(struct plot_source *source)
         log_scans_close(source->log);
     } else {
         gather_free(&source->gather);
-        hold_free(&source->hold);
         plot_columns_free(&source->columns);
         table_stream_close(source->stream);
     }
+    hold_free(&source->hold);
     free(source);
 }

@@ -102,6 +102,14 @@ bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *tim
     return why ? row_refuse_cell(check, sensor_id, why) : true;
 }
 
+bool row_right_time(const struct row_check *check, int64_t time_us, int32_t bias_us)
+{
+    int64_t right_us = time_us - bias_us;
+
+    return (right_us >= -RHO_LIMIT_TIME_US && right_us <= RHO_LIMIT_TIME_US) ||
+           row_refuse(check, "t_s is beyond 4e12 s without the sensor's time_bias_s");
+}
+
 bool row_received(const struct row_check *check, int column, int64_t *received_us)
 {
     const char *why =

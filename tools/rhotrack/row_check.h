@@ -44,6 +44,9 @@ bool row_snr(const struct row_check *check, int column, float *snr_db);
 bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
              int32_t *sensor);
 
+/* Once the sensor's time bias is off the time is still one that is believed. */
+bool row_right_time(const struct row_check *check, int64_t time_us, int32_t bias_us);
+
 /* When the row was received; *received_us is left alone where the file does not say. */
 bool row_received(const struct row_check *check, int column, int64_t *received_us);
 

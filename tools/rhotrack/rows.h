@@ -39,7 +39,8 @@ struct rows_column {
 };
 
 struct row {
-    int64_t time_us; /* its own */
+    int64_t time_us;     /* its own */
+    int64_t received_us; /* where that is known */
     int32_t sensor_id, epoch, scan;
     uint32_t line;  /* of the file; 0 of a message */
     uint64_t order; /* among rows of one time */
@@ -48,6 +49,8 @@ struct row {
 
 struct rows {
     const struct rows_kind *kind;
+    bool
+        has_received; /* it is known when rows were received; they are in that order, else in that of time */
     struct row *list;
     double *cells;
     size_t count, capacity, num_cells, cells_capacity;
@@ -56,9 +59,10 @@ struct rows {
 /* Rows of one sensor's look, or of one list: what messages are made of. */
 struct rows_scan {
     int64_t utime;
+    int64_t due_us;      /* its messages': when its last row was received, else utime */
     struct row head;     /* its first row, whose sector and place are the scan's */
     size_t first, count; /* in rows.list, those that saw something */
-    size_t order;        /* among scans of one time */
+    size_t order;        /* among scans that are due at one time */
     int16_t num_parts;
 };
 
@@ -71,7 +75,8 @@ struct rows_part {
 
 /* A message that became rows: one for the scan itself (its place, its sector), and one for each element of the list. */
 struct rows_message {
-    struct row key; /* sensor_id, epoch, scan; time_us is its utime */
+    struct row key;      /* sensor_id, epoch, scan; time_us is its utime */
+    int64_t received_us; /* else its utime */
     int16_t part, num_parts;
     size_t first, count; /* of the elements' rows; the scan's own is before them */
     uint64_t arrival;
@@ -84,6 +89,7 @@ struct rows_kind {
     bool has_sensor; /* scans of sensors, else lists */
     bool has_epoch;
     bool has_one_time; /* no row has a time of its own */
+    bool has_received; /* files may say when rows were received */
     size_t rows_max;   /* in one scan; 0: as many as fit 32767 parts */
     const struct rows_column *columns;
     int num_columns;

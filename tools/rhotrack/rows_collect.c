@@ -99,6 +99,7 @@ const char *rows_collect(struct rows_collection *collection, const char *channel
         drop_rows(&collection->rows, before);
         return "sensor_id is not that of the channel";
     }
+    message.received_us = message.key.time_us;
     collection->messages = must_grow(collection->messages, collection->count, &collection->capacity,
                                      sizeof *collection->messages);
     collection->messages[collection->count++] = message;
@@ -120,6 +121,12 @@ void rows_collect_event(struct rows_collection *collection, const char *path,
              event->offset, event->channel, why);
     }
     collection->messages_bad += why != NULL;
+    if (!why && collection->with_received && collection->rows.kind->has_received) {
+        struct rows_message *message = &collection->messages[collection->count - 1];
+
+        message->received_us = event->utime;
+        collection->rows.has_received |= event->utime != message->key.time_us;
+    }
 }
 
 /* ---- Messages that belong together ---- */
@@ -149,10 +156,14 @@ struct ordering {
     size_t count;
 };
 
-static void take_row(struct ordering *ordering, size_t index, uint64_t order)
+static void take_row(struct ordering *ordering, size_t index, const struct rows_message *message,
+                     uint64_t order)
 {
-    ordering->list[ordering->count] = ordering->collection->rows.list[index];
-    ordering->list[ordering->count++].order = order;
+    struct row *row = &ordering->list[ordering->count++];
+
+    *row = ordering->collection->rows.list[index];
+    row->received_us = message->received_us;
+    row->order = order;
 }
 
 static uint64_t first_arrival(const struct rows_message *messages, size_t count)
@@ -178,7 +189,7 @@ static void take_head(struct ordering *ordering, const struct rows_message *mess
     }
     if (ordering->collection->rows.kind->has_sensor) {
         if (earliest_us != message->key.time_us) {
-            take_row(ordering, message->first - 1, order);
+            take_row(ordering, message->first - 1, message, order);
         }
     } else if (ordering->count == before) {
         ordering->collection->lists_empty++;
@@ -198,7 +209,8 @@ static void take_scan(struct ordering *ordering, const struct rows_message *mess
         }
         parts++;
         for (size_t row = 0; row < messages[i].count; row++) {
-            take_row(ordering, messages[i].first + row, order + 1 + (ordering->count - before));
+            take_row(ordering, messages[i].first + row, &messages[i],
+                     order + 1 + (ordering->count - before));
         }
     }
     ordering->collection->scans_incomplete += parts < (size_t)messages[0].num_parts;
@@ -209,6 +221,14 @@ static int by_time(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
     int order = rows_compare(one->time_us, other->time_us);
+
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+}
+
+static int by_reception(const void *a, const void *b)
+{
+    const struct row *one = a, *other = b;
+    int order = rows_compare(one->received_us, other->received_us);
 
     return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
 }
@@ -232,7 +252,8 @@ void rows_collect_finish(struct rows_collection *collection)
         }
         take_scan(&ordering, messages, end - first);
     }
-    qsort(ordering.list, ordering.count, sizeof *ordering.list, by_time);
+    qsort(ordering.list, ordering.count, sizeof *ordering.list,
+          collection->rows.has_received ? by_reception : by_time);
     free(collection->rows.list);
     collection->rows.list = ordering.list;
     collection->rows.capacity = collection->rows.count;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_collect: messages of one kind, in any order, as rows in the order of time.
+ * rows_collect: messages of one kind, in any order, as rows in the order of time, or of reception.
  *
  * The parts of a scan come together, in their order; its plots in the order of their own times. A scan without plots, and
  * one whose first plot is not at the scan's time, begins with a row that saw nothing. A list without elements has no row.
@@ -13,6 +13,8 @@
 
 struct rows_collection {
     struct rows rows;
+    bool
+        with_received; /* the times of a log's events count, where they are not those of the scans */
     struct rows_message *messages;
     size_t count, capacity;
     uint64_t messages_bad;     /* left out */

@@ -219,6 +219,7 @@ const struct rows_kind rows_kind_polar = {
     .type = RHO_MESSAGE_TYPE_POLAR_SCAN,
     .has_sensor = true,
     .has_epoch = true,
+    .has_received = true,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
     .why_not = why_not,

@@ -10,6 +10,7 @@
 #include "common.h"
 #include "row_check.h"
 #include "rows_geodetic.h"
+#include "scan_numbers.h"
 #include "table.h"
 
 /* A file on its way; columns are indices into the table, -1 where it has none. */
@@ -17,13 +18,14 @@ struct reading {
     struct rows_file *file;
     const struct table *table;
     const struct parameters *parameters;
-    int t_s, sensor_id, scan, epoch;
+    int t_s, received_s, sensor_id, scan, epoch;
     int columns[ROWS_MAX_COLUMNS];
     bool is_degrees[ROWS_MAX_COLUMNS];
     int place; /* of kinds that have it: the first column of a radar's place, else -1 */
     struct rows_geodetic geodetic;
+    struct scan_numbers numbers; /* of scans, by their first rows */
     bool has_last;
-    int64_t last_us;
+    int64_t last_us; /* the latest time so far, or when the last row was received */
 };
 
 /* ---- Columns ---- */
@@ -73,6 +75,8 @@ static void find_columns(struct reading *reading)
 
     reading->t_s = table_need(table, "t_s");
     reading->sensor_id = kind->has_sensor ? table_need(table, "sensor_id") : -1;
+    reading->received_s = kind->has_received ? table_find(table, "received_s") : -1;
+    reading->file->rows.has_received = reading->received_s >= 0;
     reading->scan = table_find(table, "scan");
     reading->epoch = kind->has_epoch ? table_find(table, "epoch") : -1;
     reading->file->has_scan = reading->scan >= 0;
@@ -219,7 +223,8 @@ static bool read_key(const struct reading *reading, const struct row_check *chec
         return row_refuse_cell(check, reading->t_s, why);
     }
     row->epoch = 1;
-    return (reading->sensor_id < 0 || read_int16(check, reading->sensor_id, &row->sensor_id)) &&
+    return row_received(check, reading->received_s, &row->received_us) &&
+           (reading->sensor_id < 0 || read_int16(check, reading->sensor_id, &row->sensor_id)) &&
            (reading->scan < 0 || read_int32(check, reading->scan, &row->scan)) &&
            (reading->epoch < 0 || read_int32(check, reading->epoch, &row->epoch));
 }
@@ -245,16 +250,53 @@ static bool check_ranges(const struct reading *reading, const struct row_check *
                       rho_message_type_name(rows->kind->type));
 }
 
-/* Scans come in the order of time; lists are put in order. */
+static struct row_number number_of(const struct reading *reading, const struct row *row)
+{
+    return (struct row_number){
+        .is_given = reading->file->has_scan, .scan = row->scan, .epoch = row->epoch};
+}
+
+/* The row belongs to a scan that has begun, by its number. */
+static bool is_within(const struct reading *reading, const struct row *row)
+{
+    const struct row_number number = number_of(reading, row);
+    size_t first = scan_numbers_find(&reading->numbers, row->sensor_id, &number);
+
+    return first != SCAN_NUMBERS_NONE &&
+           row_joins(&number, row->time_us, &number, reading->file->rows.list[first].time_us, 0);
+}
+
+/* What must not go back. */
+static int64_t clock_of(const struct reading *reading, const struct row *row)
+{
+    return reading->received_s >= 0 ? row->received_us : row->time_us;
+}
+
+/* Rows come as they were received, or scans in the order of time, in which numbered ones go back; lists are put in order. */
 static bool check_order(const struct reading *reading, const struct row_check *check,
                         const struct row *row)
 {
     if (!reading->file->rows.kind->has_sensor || !reading->has_last ||
-        row->time_us >= reading->last_us) {
+        clock_of(reading, row) >= reading->last_us ||
+        (reading->received_s < 0 && is_within(reading, row))) {
         return true;
     }
-    return row_refuse(check, "time goes back from %.6f s to %.6f s",
-                      (double)reading->last_us * 1e-6, (double)row->time_us * 1e-6);
+    return row_refuse(check, "%s goes back from %.6f s to %.6f s",
+                      reading->received_s >= 0 ? "received_s" : "time",
+                      (double)reading->last_us * 1e-6, (double)clock_of(reading, row) * 1e-6);
+}
+
+static void pass_row(struct reading *reading, const struct row *row)
+{
+    const struct row_number number = number_of(reading, row);
+
+    if (reading->file->rows.kind->has_sensor && !is_within(reading, row)) {
+        scan_numbers_set(&reading->numbers, row->sensor_id, &number, reading->file->rows.count - 1);
+    }
+    if (!reading->has_last || clock_of(reading, row) > reading->last_us) {
+        reading->last_us = clock_of(reading, row);
+    }
+    reading->has_last = true;
 }
 
 static bool check_row(const struct reading *reading, const struct row_check *check,
@@ -288,8 +330,7 @@ static bool read_row(struct reading *reading, const struct row_check *check)
         rows->num_cells = rows->list[--rows->count].cells;
         return false;
     }
-    reading->has_last = true;
-    reading->last_us = row.time_us;
+    pass_row(reading, &row);
     return true;
 }
 
@@ -318,6 +359,7 @@ bool rows_read_table(struct rows_file *file, const char *path, const struct tabl
     find_columns(&reading);
     read_rows(&reading);
     rows_geodetic_close(&reading.geodetic);
+    scan_numbers_clear(&reading.numbers);
     return reading.has_last;
 }
 

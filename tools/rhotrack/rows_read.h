@@ -2,7 +2,8 @@
 /*
  * rows_read: rows from a CSV file, each checked by what its message may hold.
  *
- * Columns scan and epoch, of scans and lists both, number these; a file without them has none numbered.
+ * Columns scan and epoch, of scans and lists both, number these; a file without them has none numbered. Times of scans do not
+ * go back, but within a scan that has a number; nor do those of a column received_s, of plots: then all times may go back.
  */
 #ifndef RHOTRACK_TOOL_ROWS_READ_H
 #define RHOTRACK_TOOL_ROWS_READ_H

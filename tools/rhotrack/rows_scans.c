@@ -94,9 +94,10 @@ static bool joins(const struct making *making, size_t first, size_t index)
                 making->before[index] < first);
     }
     if (making->file->has_scan) {
-        return row->time_us - start->time_us <= OWN_TIME_MAX_US;
+        return llabs(row->time_us - start->time_us) <= OWN_TIME_MAX_US;
     }
-    return row->time_us == start->time_us || row->time_us - making->interval_us < start->time_us;
+    return row->time_us == start->time_us ||
+           (row->time_us > start->time_us && row->time_us - making->interval_us < start->time_us);
 }
 
 /* ---- What rows of a scan have in common ---- */
@@ -154,6 +155,13 @@ static bool check_row(struct making *making, const struct rows_scan *scan, const
         rows_refuse(making->file, row, "%s is not that of the scan's first row", name);
         return false;
     }
+    if (making->file->rows.has_received && !making->file->has_scan &&
+        row->received_us != scan->head.received_us) {
+        rows_refuse(making->file, row,
+                    "received_s is not that of the scan's first row: without a number (column "
+                    "'scan') rows of a scan have one");
+        return false;
+    }
     if (making->kind->has_one_time && row->time_us != scan->utime) {
         rows_refuse(making->file, row,
                     "t_s is not that of the scan's first row: a scan of bearings has one time");
@@ -201,6 +209,7 @@ static void add_scan(struct making *making, size_t first, size_t end)
                              .order = making->rows[first].order};
     size_t parts;
 
+    scan.due_us = making->file->rows.has_received ? making->rows[end - 1].received_us : scan.utime;
     for (size_t i = first; i < end; i++) {
         struct row row = making->rows[i];
         bool is_plot = rows_saw_something(&making->file->rows, &row);
@@ -223,12 +232,25 @@ static void add_scan(struct making *making, size_t first, size_t end)
     scans->list[scans->count++] = scan;
 }
 
-/* Scans are in the order of sensors, and of each sensor in that of time. */
+static int by_sensor(const void *a, const void *b)
+{
+    const struct rows_scan *one = a, *other = b;
+    int order = rows_compare(one->head.sensor_id, other->head.sensor_id);
+
+    order = order ? order : rows_compare(one->head.epoch, other->head.epoch);
+    order = order ? order : rows_compare(one->utime, other->utime);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+}
+
+/* Of each sensor in the order of time, also those that were received in another one. */
 static void number_scans(const struct making *making)
 {
     struct rows_scan *list = making->scans->list;
     int32_t number = 0;
 
+    if (making->scans->count > 0) {
+        qsort(list, making->scans->count, sizeof *list, by_sensor);
+    }
     for (size_t i = 0; i < making->scans->count; i++) {
         bool is_next = i > 0 && list[i].head.sensor_id == list[i - 1].head.sensor_id &&
                        list[i].head.epoch == list[i - 1].head.epoch;
@@ -241,7 +263,7 @@ static void number_scans(const struct making *making)
 static int by_time(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
-    int order = rows_compare(one->utime, other->utime);
+    int order = rows_compare(one->due_us, other->due_us);
 
     return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
 }
@@ -303,7 +325,7 @@ bool rows_scans_next(const struct rows_scans *scans, struct rows_at *at, struct 
     part.first = part.scan->first + at->row;
     part.count = part.scan->count - at->row;
     part.count = part.count > 0 ? kind->fit(&part) : 0;
-    output->utime = part.scan->utime;
+    output->utime = part.scan->due_us;
     put_channel(kind, part.scan->head.sensor_id, output->channel);
     output->size = kind->encode(&part, output->data, &field);
     if (output->size == 0) { /* each row was good alone */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_scans: a file's rows as scans and lists in the order of time, and these as messages.
+ * rows_scans: a file's rows as scans and lists in the order of time, or as they were received, and these as messages.
  *
  * Rows of a sensor are one scan where they have the same scan and epoch (columns of these names), else the same t_s, or
  * are within scan_interval_s of the first. Its time is that of its first row, or, with a column scan, of the row that saw
@@ -14,7 +14,7 @@
 
 struct rows_scans {
     struct rows_file *file;
-    struct rows_scan *list; /* in the order of time */
+    struct rows_scan *list; /* in the order in which they are due */
     size_t count, capacity;
 };
 
@@ -32,7 +32,7 @@ struct rows_at {
 
 /* A message in the caller's memory. */
 struct rows_output {
-    int64_t utime;
+    int64_t utime; /* of the scan, or when it was received */
     char channel[ROWS_CHANNEL_BYTES];
     uint8_t data[ROWS_MESSAGE_BYTES];
     size_t size;

@@ -67,15 +67,18 @@ static void write_cell(FILE *file, const struct rows_column *column, double cell
     }
 }
 
-static void write_header(FILE *file, const struct rows_kind *kind, const bool *is_chosen)
+static void write_header(FILE *file, const struct rows *rows, const bool *is_chosen)
 {
+    const struct rows_kind *kind = rows->kind;
+
     fputs(kind->has_sensor ? "t_s,sensor_id" : "t_s", file);
     for (int i = 0; i < kind->num_columns; i++) {
         if (is_chosen[i]) {
             fprintf(file, ",%s", kind->columns[i].name);
         }
     }
-    fputs(kind->has_epoch ? ",scan,epoch\n" : ",scan\n", file);
+    fprintf(file, ",scan%s%s\n", kind->has_epoch ? ",epoch" : "",
+            rows->has_received ? ",received_s" : "");
 }
 
 static void write_row(FILE *file, const struct rows *rows, const struct row *row,
@@ -97,6 +100,10 @@ static void write_row(FILE *file, const struct rows *rows, const struct row *row
     if (kind->has_epoch) {
         fprintf(file, ",%" PRId32, row->epoch);
     }
+    if (rows->has_received) {
+        fputc(',', file);
+        tracks_write_time(file, row->received_us);
+    }
     fputc('\n', file);
 }
 
@@ -105,7 +112,7 @@ void rows_write(FILE *file, const struct rows *rows, bool with_covariance)
     bool is_chosen[ROWS_MAX_COLUMNS];
 
     choose_columns(rows, with_covariance, is_chosen);
-    write_header(file, rows->kind, is_chosen);
+    write_header(file, rows, is_chosen);
     for (size_t i = 0; i < rows->count; i++) {
         write_row(file, rows, &rows->list[i], is_chosen);
     }

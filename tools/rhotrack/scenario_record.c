@@ -67,14 +67,17 @@ static int by_number(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-/* The scans' times, each once, in new memory. */
+/* When the scans ended, by the true time, each once, in new memory. */
 static int64_t *times_of(const struct scenario_record *record, size_t *count)
 {
     int64_t *times_us = must_calloc(record->num_arrivals + 1, sizeof *times_us);
     size_t kept = 0;
 
     for (size_t i = 0; i < record->num_arrivals; i++) {
-        times_us[i] = record_scan_us(record, &record->arrivals[i]);
+        const struct record_arrival *arrival = &record->arrivals[i];
+        double bias_s = record->antennas[arrival->antenna].time_bias_s;
+
+        times_us[i] = record_scan_us(record, arrival) - llround(bias_s * 1e6);
     }
     qsort(times_us, record->num_arrivals, sizeof *times_us, by_number);
     for (size_t i = 0; i < record->num_arrivals; i++) {

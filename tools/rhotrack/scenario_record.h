@@ -33,10 +33,10 @@ void record_watch(struct scenario_record *record, const struct scenario_antenna 
 void record_arrive(struct scenario_record *record, double late_share, double late_s,
                    struct random *random);
 
-/* A scan's time in whole microseconds, as files have it. */
+/* A scan's time in whole microseconds, as its radar says it and files have it. */
 int64_t record_scan_us(const struct scenario_record *record, const struct record_arrival *arrival);
 
-/* All targets at all scans' times, by time, then target, in new memory. The count goes to *num_truth, and to *num_times. */
+/* All targets at all scans' ends by the true time, by time, then target, in new memory. The count goes to *num_truth, and to *num_times. */
 struct truth_point *record_truth(const struct scenario_record *record,
                                  const struct antenna_targets *targets, size_t *num_truth,
                                  size_t *num_times);

@@ -267,7 +267,9 @@ static struct scenario_record *watch(const struct scenario_antenna radars[NUM_RA
 
         record_watch(record, &radars[i], targets, turns > 0.0 ? (size_t)turns : 0, random);
     }
-    record->has_received = parameters->value[PARAMETER_LATE_SHARE] > 0.0;
+    /* a clock that is off says other times than those of arrival, in another order */
+    record->has_received =
+        parameters->value[PARAMETER_LATE_SHARE] > 0.0 || radars[1].time_bias_s != 0.0;
     record_arrive(record, parameters->value[PARAMETER_LATE_SHARE],
                   parameters->value[PARAMETER_LATE_MS] * 1e-3, random);
     return record;

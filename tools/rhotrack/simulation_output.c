@@ -154,8 +154,10 @@ static void write_patience(const struct scenario_record *record,
                            const struct parameters *parameters, FILE *file)
 {
     fprintf(file, "coast_scans_max = %g\n", parameters->value[PARAMETER_COAST_SCANS_MAX]);
-    if (record->has_received) {
-        fprintf(file, "hold_ms = %g\n", parameters->value[PARAMETER_LATE_MS]);
+    if (parameters->value[PARAMETER_LATE_SHARE] > 0.0 && record->has_received) {
+        double most_ms = parameters_text(PARAMETER_HOLD_MS).max;
+
+        fprintf(file, "hold_ms = %g\n", fmin(parameters->value[PARAMETER_LATE_MS], most_ms));
     }
 }
 
