@@ -139,7 +139,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiato
 /* True where a scan of this time can be pushed: the initiator is initialised, and holds no newer scan. Constant cost. */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
-/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 240 bytes. */
+/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 260 bytes. */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,
                                                   const struct rho_sensor *sensor, uint8_t *fates,
@@ -152,7 +152,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
  * or N - M + 1 (newest) times n^2 f kernels, two look-ups each unless clutter is dense; fits are few. Bins make n f
  * the plots within v_max x time, so that cost grows with density, not with area. Thresholds for false_tracks_per_hour:
  * 0.3 to 0.9 million instructions, twice where there are likely candidates. Where all plots lie within their noise of
- * one another, n f is n, and a look-up compares n plots. Stack: 3.1 KB (embedded profile).
+ * one another, n f is n, and a look-up compares n plots. Stack: 3.2 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);

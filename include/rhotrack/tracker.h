@@ -26,7 +26,7 @@
  * is no clock, no random number and no global variable inside. Calls on one tracker must not overlap; several
  * trackers are independent. The objects hold no pointers: a memcpy is a snapshot.
  *
- * Stack: 100 bytes at most where nothing else is said.
+ * Stack: 104 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_TRACKER_H
 #define RHOTRACK_TRACKER_H
@@ -196,7 +196,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 320 bytes.
+ * bytes cleared. Stack: 340 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
