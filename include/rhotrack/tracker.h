@@ -227,7 +227,8 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
  *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks may claim (RHO_CLAIMS_BEYOND), in
  *              the first 4 RHO_MAX_PLOTS and 32767 of the scan; what nobody claims of them is not held, but NO_ROOM.
  *              A scan older than the newest accepted one is late. By late_max_s at most, tracks are moved back to its time,
- *              claim its plots and are missed as at any scan; no track starts from it: the other plots are STALE. Beyond that
+ *              claim its plots and are missed as at any scan (of a sector: where all of the gate is in it); no track starts from it:
+ *              the other plots are STALE. Beyond that
  *              all its plots are, and but for counters nothing else changes.
  *   report     filled whole, whatever it held before; of a late scan that updates tracks at the newest scan's time
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
