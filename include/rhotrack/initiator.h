@@ -34,7 +34,8 @@
 
 struct rho_initiator_config {
     uint16_t scans; /* N, the window: 3 .. RHO_MAX_SCANS */
-    /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter */
+    /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter, by places alone: of a batch with range rates it may be
+     * more than it need be */
     uint16_t min_scans;
     float v_min_mps,
         v_max_mps; /* speeds of targets, 0 <= v_min < v_max, 0.01 <= v_max <= RHO_LIMIT_SPEED_MPS */
@@ -43,7 +44,8 @@ struct rho_initiator_config {
      * score_min_nat is the threshold */
     float false_tracks_per_hour;
     float score_min_nat; /* candidates below are none; a batch always goes by it */
-    /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
+    /* acceleration, constant within a scan interval, that gates and scores allow for in places; 0: none. Range rates are
+     * gated and scored as if there were none */
     float process_noise_mps2;
     int area_is_fixed;      /* area below is meant; else the extent of the plots seen lately */
     struct rho_extent area; /* that clutter and births are spread over */

@@ -115,8 +115,7 @@ struct rho_tracker_look {
     /* of the last search of its initiator: scores that start and confirm a track; 0, 0: there was none */
     int32_t start_mnat, confirm_mnat;
     /* of confirmed tracks that another sensor had seen before: share of those that it saw where it looked, and the plots' squared
-     * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 16 at most; not of
-     * scans beyond RHO_MAX_PLOTS */
+     * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 16 at most */
     float seen_share, distance2;
     uint16_t watched, watched_hits;
     uint16_t count; /* its scans so far, 1 .. 65535 round and round */
