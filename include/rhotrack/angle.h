@@ -2,7 +2,7 @@
 /*
  * angle: angles on the circle, and lines as points (rho, theta).
  *
- * Constant cost, stack 64 bytes at most. |angle| <= 100 rad (16 turns) is accepted; NaN beyond.
+ * Constant cost, stack 80 bytes at most. |angle| <= 100 rad (16 turns) is accepted; NaN beyond.
  */
 #ifndef RHOTRACK_ANGLE_H
 #define RHOTRACK_ANGLE_H

@@ -156,7 +156,8 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *poo
                                                       int64_t time_us);
 
 #if RHO_SECTORS
-/* The same without noise, and without change: on to where they had been before they were moved back. */
+/* The same without noise, and without change: on to where they had been before they were moved back.
+ * Errors as above. Stack: 380 bytes. */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot,
                                                      int64_t time_us);
 #endif
@@ -169,14 +170,14 @@ void rho_hypotheses_look(struct rho_hypotheses *pool, uint16_t slot,
 /*
  * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the slot, whose reach
  * rho_hypotheses_look has filled since its last prediction; *reach takes more in for the first plot with a time of its own.
- * Constant cost but for that. Stack: 160 bytes.
+ * Constant cost but for that. Stack: 170 bytes.
  */
 int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
                            struct rho_hypotheses_reach *reach, const struct rho_plot *plot,
                            uint32_t measures);
 
-/* How far beyond *reach plots may be whose noise is sigma_m at most, and their own times offset_s either way. The same cost and
- * stack. */
+/* How far beyond *reach plots may be whose noise is sigma_m at most, and their own times offset_s either way. The same cost,
+ * stack as above. */
 float rho_hypotheses_slack_m(const struct rho_hypotheses *pool, uint16_t slot,
                              struct rho_hypotheses_reach *reach, float sigma_m, float offset_s);
 

@@ -34,7 +34,8 @@
 
 struct rho_initiator_config {
     uint16_t scans; /* N, the window: 3 .. RHO_MAX_SCANS */
-    /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter */
+    /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter, by places alone: of a batch with range rates it may be
+     * more than it need be */
     uint16_t min_scans;
     float v_min_mps,
         v_max_mps; /* speeds of targets, 0 <= v_min < v_max, 0.01 <= v_max <= RHO_LIMIT_SPEED_MPS */
@@ -43,7 +44,8 @@ struct rho_initiator_config {
      * score_min_nat is the threshold */
     float false_tracks_per_hour;
     float score_min_nat; /* candidates below are none; a batch always goes by it */
-    /* acceleration, constant within a scan interval, that gates and scores allow for; 0: none */
+    /* acceleration, constant within a scan interval, that gates and scores allow for in places; 0: none. Range rates are
+     * gated and scored as if there were none */
     float process_noise_mps2;
     int area_is_fixed;      /* area below is meant; else the extent of the plots seen lately */
     struct rho_extent area; /* that clutter and births are spread over */
@@ -139,7 +141,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiato
 /* True where a scan of this time can be pushed: the initiator is initialised, and holds no newer scan. Constant cost. */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
-/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 240 bytes. */
+/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 260 bytes. */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,
                                                   const struct rho_sensor *sensor, uint8_t *fates,
@@ -152,7 +154,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
  * or N - M + 1 (newest) times n^2 f kernels, two look-ups each unless clutter is dense; fits are few. Bins make n f
  * the plots within v_max x time, so that cost grows with density, not with area. Thresholds for false_tracks_per_hour:
  * 0.3 to 0.9 million instructions, twice where there are likely candidates. Where all plots lie within their noise of
- * one another, n f is n, and a look-up compares n plots. Stack: 3.1 KB (embedded profile).
+ * one another, n f is n, and a look-up compares n plots. Stack: 3.2 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);

@@ -135,7 +135,7 @@ struct rho_track_plot {
  * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is
  * that plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
  * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses), CONFIG (the filter that the model
- * asks for is none of RHO_FILTERS); *track is unchanged. Cost: num_plots filter steps. Stack: 1.8 KB.
+ * asks for is none of RHO_FILTERS); *track is unchanged. Cost: num_plots filter steps. Stack: 1.9 KB.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
@@ -155,7 +155,7 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
 #if RHO_SECTORS
 /*
  * Moves a track on to time_us without noise: back to where it had been before it was moved back, with what it has learned there.
- * Errors and costs as rho_track_predict.
+ * Errors and costs as rho_track_predict. Stack: 570 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
                                                 const struct rho_track_model *model);

@@ -26,7 +26,7 @@
  * is no clock, no random number and no global variable inside. Calls on one tracker must not overlap; several
  * trackers are independent. The objects hold no pointers: a memcpy is a snapshot.
  *
- * Stack: 100 bytes at most where nothing else is said.
+ * Stack: 104 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_TRACKER_H
 #define RHOTRACK_TRACKER_H
@@ -115,8 +115,7 @@ struct rho_tracker_look {
     /* of the last search of its initiator: scores that start and confirm a track; 0, 0: there was none */
     int32_t start_mnat, confirm_mnat;
     /* of confirmed tracks that another sensor had seen before: share of those that it saw where it looked, and the plots' squared
-     * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 16 at most; not of
-     * scans beyond RHO_MAX_PLOTS */
+     * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 16 at most */
     float seen_share, distance2;
     uint16_t watched, watched_hits;
     uint16_t count; /* its scans so far, 1 .. 65535 round and round */
@@ -196,7 +195,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 320 bytes.
+ * bytes cleared. Stack: 340 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
@@ -227,7 +226,8 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
  *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks may claim (RHO_CLAIMS_BEYOND), in
  *              the first 4 RHO_MAX_PLOTS and 32767 of the scan; what nobody claims of them is not held, but NO_ROOM.
  *              A scan older than the newest accepted one is late. By late_max_s at most, tracks are moved back to its time,
- *              claim its plots and are missed as at any scan; no track starts from it: the other plots are STALE. Beyond that
+ *              claim its plots and are missed as at any scan (of a sector: where all of the gate is in it); no track starts from it:
+ *              the other plots are STALE. Beyond that
  *              all its plots are, and but for counters nothing else changes.
  *   report     filled whole, whatever it held before; of a late scan that updates tracks at the newest scan's time
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),

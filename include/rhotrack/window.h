@@ -9,7 +9,7 @@
  * A radar may say what it sees sector by sector (RHO_SECTORS). One that goes on where the newest held scan of the same sensor
  * ends becomes part of it, until the turn is whole: N scans are N turns. Sectors of several radars need a window each.
  *
- * Stack: 100 bytes at most where nothing else is said.
+ * Stack: 104 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_WINDOW_H
 #define RHOTRACK_WINDOW_H

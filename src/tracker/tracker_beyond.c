@@ -95,6 +95,7 @@ void rho_tracker_claim_parts(struct step *step)
     for (uint32_t first = 0; first < end; first += RHO_MAX_PLOTS) {
         begin_part(step, &part, before.scan, first, end);
         rho_tracker_claim(step);
+        rho_tracker_watch(step);
         rho_tracker_update(step);
         end_part(step, &part);
         if (first == 0) {

@@ -20,6 +20,8 @@
 #define DISTANCE2_GOOD 2.5f
 /* Of what a manoeuvre model claims beyond the plain gate. */
 #define DISTANCE2_OUTSIDE 9.0f
+/* Of the squared distances of one that is off: these are less off. */
+#define RIGHTER 0.7f
 #define FACTOR_MAX 400.0f
 
 static void average(float *mean, float value, uint16_t *count)
@@ -55,7 +57,7 @@ static void watch(const struct step *step, struct rho_tracker_look *look, unsign
     if (plot != RHO_ASSIGNMENT_NONE) {
         average(&look->seen_share, 1.0f, &look->watched);
         average(&look->distance2, distance2_of(step, track, plot), &look->watched_hits);
-    } else if (rho_tracker_has_passed(step, track)) {
+    } else if (!step->has_more_parts && rho_tracker_has_passed(step, track)) {
         average(&look->seen_share, 0.0f, &look->watched);
     }
 }
@@ -79,11 +81,23 @@ static int is_off(const struct rho_tracker_look *look)
     return look->watched_hits >= WATCH_MIN && look->distance2 > DISTANCE2_HIGH;
 }
 
-static int agrees(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
+static int sees_enough(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
 {
     return look->watched >= WATCH_MIN &&
-           look->seen_share > SHARE_GOOD * pd_of(tracker, look->sensor_id) &&
-           look->distance2 < DISTANCE2_GOOD;
+           look->seen_share > SHARE_GOOD * pd_of(tracker, look->sensor_id);
+}
+
+static int agrees(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
+{
+    return sees_enough(tracker, look) && look->distance2 < DISTANCE2_GOOD;
+}
+
+/* One that lies pulls the tracks, so that the others look off to them as well: but less than it is itself. */
+static int is_witness(const struct rho_tracker *tracker, const struct rho_tracker_look *look,
+                      const struct rho_tracker_look *against)
+{
+    return agrees(tracker, look) ||
+           (sees_enough(tracker, look) && look->distance2 < RIGHTER * against->distance2);
 }
 
 /* Others that are heard, and have nothing against them. */
@@ -93,7 +107,7 @@ static unsigned count_witnesses(const struct step *step, const struct rho_tracke
     unsigned count = 0;
     for (unsigned i = 0; i < tracker->num_looks; i++) {
         const struct rho_tracker_look *other = &tracker->looks[i];
-        count += other != look && !other->is_doubted && agrees(tracker, other) &&
+        count += other != look && !other->is_doubted && is_witness(tracker, other, look) &&
                  step->time_us - other->time_us <= RHO_TRACKER_SILENT_US;
     }
     return count;
@@ -135,8 +149,10 @@ void rho_tracker_watch(struct step *step)
             watch(step, look, row);
         }
     }
-    judge(step, look);
-    step->is_doubted = look->is_doubted;
+    if (!step->has_more_parts) {
+        judge(step, look);
+        step->is_doubted = look->is_doubted;
+    }
 }
 
 void rho_tracker_weigh_sensor(struct step *step)

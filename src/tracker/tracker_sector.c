@@ -38,6 +38,17 @@ static struct rho_tracker_look *find_look(struct rho_tracker *tracker, int32_t s
     return place < tracker->num_looks ? &tracker->looks[place] : 0;
 }
 
+/* Scans of a sensor that comes anew are counted anew. */
+static void forget_sights(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        for (int k = 0; k < 2; k++) {
+            track->look[k] = track->look_sensor_id[k] == sensor_id ? 0 : track->look[k];
+        }
+    }
+}
+
 /* A new sensor takes the place of the one that was heard longest ago, where there is no other. */
 static struct rho_tracker_look *add_look(struct rho_tracker *tracker, int32_t sensor_id)
 {
@@ -48,6 +59,7 @@ static struct rho_tracker_look *add_look(struct rho_tracker *tracker, int32_t se
     if (tracker->num_looks < RHO_MAX_SENSORS) {
         oldest = &tracker->looks[tracker->num_looks++];
     }
+    forget_sights(tracker, sensor_id);
     *oldest = (struct rho_tracker_look){.sensor_id = sensor_id};
     return oldest;
 }
@@ -148,12 +160,10 @@ void rho_tracker_note_sight(const struct step *step, struct rho_track *track)
     track->look[0] = step->look;
 }
 
-int rho_tracker_has_passed(const struct step *step, const struct rho_track *track)
+/* Is the gate's end in the sector that lies counter-clockwise (+1), or clockwise (-1)? */
+static int holds_end(const struct step *step, const struct rho_track *track, float way)
 {
     const struct rho_scan *scan = step->scan;
-    if (!is_turning(step)) {
-        return rho_tracker_looked_at(step, scan->sector_from_rad, scan->sector_to_rad, track);
-    }
     const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
     const float dx_m = track->kalman.state[0] - (step->sensor ? step->sensor->x_m : 0.0f);
     const float dy_m = track->kalman.state[1] - (step->sensor ? step->sensor->y_m : 0.0f);
@@ -162,11 +172,24 @@ int rho_tracker_has_passed(const struct step *step, const struct rho_track *trac
     if (!(margin_rad < 0.5f * width_rad)) {
         margin_rad = 0.5f * width_rad;
     }
-    /* the far end of the gate: turned by a small angle */
-    const float turn = step->turning * margin_rad;
+    /* turned by a small angle */
+    const float turn = way * margin_rad;
     return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
                                     track->kalman.state[0] - turn * dy_m,
                                     track->kalman.state[1] + turn * dx_m);
+}
+
+int rho_tracker_has_passed(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_scan *scan = step->scan;
+    if (is_turning(step)) {
+        return holds_end(step, track, step->turning); /* the far one */
+    }
+    if (step->is_late) {
+        /* either neighbour may have had its plot */
+        return holds_end(step, track, 1.0f) && holds_end(step, track, -1.0f);
+    }
+    return rho_tracker_looked_at(step, scan->sector_from_rad, scan->sector_to_rad, track);
 }
 
 float rho_tracker_turns(const struct step *step)

@@ -202,6 +202,34 @@ elif command -v setpriv >/dev/null; then
     check 'track: unreadable file' says 2 'rhotrack: secret.csv: Permission denied'
 fi
 
+# ---- a span of range rates ----
+printf 't_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,20000,0.1,3\n' >polar.csv
+refuse_span() { # value, pattern: of all sensors and of one, by an option and by a file
+    printf '# for all\n[rhotrack]\nrange_rate_span_mps = %s\n' "$1" >all.ini
+    printf '[sensor 1]\npd = 0.8\n\nrange_rate_span_mps = %s\n' "$1" >one.ini
+    for options in "--set range_rate_span_mps=$1" "--set sensor.1.range_rate_span_mps=$1" '--config all.ini' '--config one.ini'; do
+        case $options in
+            --set*) place=$options ;;
+            *all*) place='all.ini:3' ;;
+            *) place='one.ini:4' ;;
+        esac
+        for command in 'track polar.csv' 'initiate polar.csv' 'maintain polar.csv' config; do
+            echo before >out.csv
+            # shellcheck disable=SC2086
+            run $command $options $([ "$command" = config ] || echo -o out.csv)
+            check "$command, $options" refused "$place: range_rate_span_mps $2"
+        done
+    done
+}
+refuse_span -1 '-1 is outside 0 .. 40000 m/s'
+refuse_span 0.5 '0.5 is neither 0 nor 1 or more'
+refuse_span 4.1e4 '4.1e4 is outside 0 .. 40000 m/s'
+refuse_span nan "'nan' is not finite"
+refuse_span inf "'inf' is not finite"
+refuse_span many "'many' is not a number"
+run track polar.csv --set range_rate_span_mps=30 --set sensor.1.range_rate_span_mps=0
+check 'a span, and none' exits 0
+
 # ---- keep going ----
 printf "${header}1,1,2,3\nbad row\n2,1,x,3\n2,1,2,3\n1.5,1,2,3\n2,1,4,5\n3,1,\"2,3\n4,1,2,3\n4,1,2,3,4\n" >mixed.csv
 run track mixed.csv --keep-going --json

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # What the public headers state of stacks is an upper bound, and tools/stack.py goes red where it is not, or is missing.
-set -eu
+set -euo pipefail # a pipe into tee goes red, too
 cd "$(dirname "$0")/../.."
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT

@@ -41,10 +41,12 @@ static void check_value(bool is_there, double value, double expected)
     }
 }
 
-/* Every item has the length that it should have; and no shorter record is one. */
-static struct asterix_record check_record(uint8_t category, const uint8_t *bytes, size_t size,
-                                          const uint16_t *sizes, size_t places)
+/* The record of a vector; its items stand in `bytes`. Every item has the length that it should have; no shorter record is one. */
+static struct asterix_record check_record(uint8_t category, const char *hex,
+                                          uint8_t bytes[RECORD_MAX], const uint16_t *sizes,
+                                          size_t places)
 {
+    size_t size = from_hex(hex, bytes);
     struct asterix_record record, cut;
     struct asterix_error error = {.reason = ""};
 
@@ -74,9 +76,8 @@ static void test_plots(void **state)
     for (size_t i = 0; i < COUNT(vectors_48); i++) {
         const double *v = vectors_48[i].values;
         uint8_t bytes[RECORD_MAX];
-        size_t size = from_hex(vectors_48[i].hex, bytes);
-        struct asterix_record record =
-            check_record(ASTERIX_PLOTS, bytes, size, vectors_48[i].sizes, VECTORS_48_PLACES);
+        struct asterix_record record = check_record(ASTERIX_PLOTS, vectors_48[i].hex, bytes,
+                                                    vectors_48[i].sizes, VECTORS_48_PLACES);
         struct asterix_plot plot;
         bool has_second = !isnan(v[6]);
 
@@ -108,9 +109,8 @@ static void test_services(void **state)
     for (size_t i = 0; i < COUNT(vectors_34); i++) {
         const double *v = vectors_34[i].values;
         uint8_t bytes[RECORD_MAX];
-        size_t size = from_hex(vectors_34[i].hex, bytes);
-        struct asterix_record record =
-            check_record(ASTERIX_SERVICE, bytes, size, vectors_34[i].sizes, VECTORS_34_PLACES);
+        struct asterix_record record = check_record(ASTERIX_SERVICE, vectors_34[i].hex, bytes,
+                                                    vectors_34[i].sizes, VECTORS_34_PLACES);
         struct asterix_service service;
 
         asterix_service_read(&record, &service);
@@ -134,9 +134,8 @@ static void test_tracks(void **state)
     for (size_t i = 0; i < COUNT(vectors_62); i++) {
         const double *v = vectors_62[i].values;
         uint8_t bytes[RECORD_MAX];
-        size_t size = from_hex(vectors_62[i].hex, bytes);
-        struct asterix_record record =
-            check_record(ASTERIX_TRACKS, bytes, size, vectors_62[i].sizes, VECTORS_62_PLACES);
+        struct asterix_record record = check_record(ASTERIX_TRACKS, vectors_62[i].hex, bytes,
+                                                    vectors_62[i].sizes, VECTORS_62_PLACES);
         struct asterix_track track;
 
         asterix_track_read(&record, &track);

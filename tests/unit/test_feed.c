@@ -183,6 +183,44 @@ static void parts_that_contradict_are_refused(void **state)
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 8);
 }
 
+/* A writer takes no such sector: its bytes are put in the place of a good one's. */
+static void impossible_sectors_are_refused(void **state)
+{
+    static const uint8_t good[4] = {0xbf, 0x40, 0, 0};          /* -0.75 */
+    static const uint8_t bad[][4] = {{0x7f, 0xc0, 0, 0},        /* NaN */
+                                     {0x7f, 0x80, 0, 0},        /* infinite */
+                                     {0xff, 0x80, 0, 0},        /* either way */
+                                     {0x40, 0xca, 0, 0},        /* 6.3125 */
+                                     {0xc0, 0xca, 0, 0},        /* -6.3125 */
+                                     {0x7f, 0x7f, 0xff, 0xff}}; /* FLT_MAX */
+    const struct rho_message_plot_scan_head heads[] = {
+        {.sensor_id = 3, .num_parts = 1, .sector_from_rad = -0.75f, .sector_to_rad = 1.0f},
+        {.sensor_id = 3, .num_parts = 1, .sector_from_rad = -1.0f, .sector_to_rad = -0.75f}};
+    struct rho_message_writer writer;
+    uint8_t buffer[DATAGRAM];
+    uint32_t refused = 0;
+
+    (void)state;
+    start();
+    for (size_t i = 0; i < 2; i++) {
+        for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+            size_t at = 0;
+
+            assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, sizeof buffer, &heads[i]),
+                             RHO_OK);
+            const size_t size = end_of(&writer);
+            while (at + 4 < size && memcmp(&buffer[at], good, 4) != 0) {
+                at++;
+            }
+            assert_true(at + 4 < size);
+            memcpy(&buffer[at], bad[k], 4);
+            assert_int_equal(take_bytes("RHO_PLOTS_3", buffer, size, 0), RHO_OK);
+            COUNTERS_ARE(.messages_bad = ++refused);
+        }
+    }
+    next_is_none(SECOND_US);
+}
+
 static void take_polar(int part, float x_m, float y_m, float z_m)
 {
     struct rho_message_polar_scan_head head = {.scan = 1,
@@ -495,6 +533,7 @@ int main(void)
         cmocka_unit_test(a_part_counts_once),
         cmocka_unit_test(doubles_do_not_hold_a_scan_longer),
         cmocka_unit_test(parts_that_contradict_are_refused),
+        cmocka_unit_test(impossible_sectors_are_refused),
         cmocka_unit_test(polar_parts_come_from_one_place),
         cmocka_unit_test(empty_parts_are_parts),
         cmocka_unit_test(parts_beyond_the_capacity_are_refused),

@@ -21,10 +21,12 @@
 #define SIGMA_M 30.0
 #define ROUND_S 4.0
 #define LOST_MAX 2 /* misses in a row, by chance */
+#define CLUTTER (RHO_MAX_PLOTS + 40)
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiators[SENSORS_MAX];
 static struct rho_report report;
+static uint64_t seed = 5;
 
 /* What the other radar does. */
 enum fault { NONE, SHIFTED, FAR_OFF, DEAD };
@@ -34,6 +36,7 @@ struct scene {
     enum fault fault;
     int from, to; /* rounds in which it does so */
     double turn_radps;
+    int clutter; /* plots of the other radar far and wide: half before the targets', half behind */
     /* what came of it, from round 20 on */
     double sum_m2;
     int judged, lost, tracks_most, first_doubted, last_doubted;
@@ -51,7 +54,7 @@ static void start(void)
     struct rho_tracker_config config;
     struct rho_initiator_config start_config;
 
-    random_state = 5;
+    random_state = seed;
     rho_tracker_config_default(&config);
     rho_initiator_config_default(&start_config);
     config.v_max_mps = start_config.v_max_mps = 400.0f;
@@ -80,15 +83,28 @@ static void truth_of(const struct scene *scene, int target, double t_s, double p
     }
 }
 
+static uint32_t add_clutter(struct rho_plot *plots, uint32_t count, int more)
+{
+    for (int i = 0; i < more; i++) {
+        plots[count++] = (struct rho_plot){.x_m = (float)uniform(-1e6, 1e6),
+                                           .y_m = (float)uniform(-1e6, 1e6),
+                                           .sigma_range_m = (float)SIGMA_M,
+                                           .sigma_cross_m = (float)SIGMA_M};
+    }
+    return count;
+}
+
 static void step(const struct scene *scene, int32_t sensor_id, double t_s, int is_faulty)
 {
-    struct rho_plot plots[TARGETS];
+    static struct rho_plot plots[TARGETS + CLUTTER];
+    const int clutter = sensor_id == OTHER ? scene->clutter / 2 : 0;
     struct rho_scan scan = {.time_us = (int64_t)llround(1e6 * t_s), .sensor_id = sensor_id};
     double shift_m = !is_faulty                ? 0.0
                      : scene->fault == SHIFTED ? 4.0 * SIGMA_M
                      : scene->fault == FAR_OFF ? 3000.0
                                                : 0.0;
 
+    scan.num_plots = add_clutter(plots, 0, clutter);
     for (int i = 0; i < TARGETS; i++) {
         double place_m[2], dx_m = SIGMA_M * normal(), dy_m = SIGMA_M * normal();
 
@@ -100,6 +116,7 @@ static void step(const struct scene *scene, int32_t sensor_id, double t_s, int i
                                                         .sigma_cross_m = (float)SIGMA_M};
         }
     }
+    scan.num_plots = add_clutter(plots, scan.num_plots, clutter);
     scan.plots = plots;
     assert_int_equal(rho_tracker_step(&tracker, &initiators[sensor_id - 1], &scan, &report),
                      RHO_OK);
@@ -195,6 +212,21 @@ static void one_that_lies_is_doubted_and_counts_little(void **state)
     assert_true(rmse_m(&lies) < 1.6 * rmse_m(&well));
 }
 
+/* It pulls the tracks, so that the others look off to them as well: less than it is itself. */
+static void whoever_lies_is_found_out_whatever_the_noise(void **state)
+{
+    (void)state;
+    for (seed = 1; seed <= 20; seed++) {
+        struct scene scene = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
+
+        fly(&scene, 60);
+        assert_in_range(scene.first_doubted, 30, 36);
+        assert_int_equal(scene.last_doubted, 59);
+        assert_in_range(scene.lost, 0, LOST_MAX);
+    }
+    seed = 5;
+}
+
 /* Beyond all gates: its plots are no second tracks. */
 static void one_that_is_far_off_starts_no_tracks(void **state)
 {
@@ -233,6 +265,26 @@ static void one_that_agrees_again_is_believed(void **state)
     }
 }
 
+/* Scans of more plots than there is room for are watched as others are. */
+static void one_of_very_many_plots_is_watched_too(void **state)
+{
+    const enum fault faults[] = {NONE, SHIFTED, FAR_OFF, DEAD};
+    (void)state;
+    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+        struct scene scene = {
+            .sensors = 3, .fault = faults[i], .from = 30, .to = 60, .clutter = CLUTTER};
+
+        fly(&scene, 100);
+        assert_in_range(scene.lost, 0, LOST_MAX);
+        if (faults[i] == NONE) {
+            assert_int_equal(scene.first_doubted, -1);
+        } else {
+            assert_in_range(scene.first_doubted, 30, 36);
+            assert_in_range(scene.last_doubted, 59, 75);
+        }
+    }
+}
+
 /* Two that contradict each other: on whose word would it be? Both count on, and what is wrong shows. */
 static void of_two_that_contradict_each_other_none_is_doubted(void **state)
 {
@@ -265,9 +317,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sensors_that_agree_are_not_doubted),
         cmocka_unit_test(one_that_lies_is_doubted_and_counts_little),
+        cmocka_unit_test(whoever_lies_is_found_out_whatever_the_noise),
         cmocka_unit_test(one_that_is_far_off_starts_no_tracks),
         cmocka_unit_test(one_that_is_dead_ends_no_track),
         cmocka_unit_test(one_that_agrees_again_is_believed),
+        cmocka_unit_test(one_of_very_many_plots_is_watched_too),
         cmocka_unit_test(of_two_that_contradict_each_other_none_is_doubted),
         cmocka_unit_test(a_sensor_alone_is_never_doubted),
     };

@@ -344,6 +344,16 @@ void json_add_number(struct cJSON *object, const char *name, double value)
                           isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
 }
 
+struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed)
+{
+    cJSON *object = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(object, "experiment", name);
+    cJSON_AddNumberToObject(object, "runs", (double)num_runs);
+    cJSON_AddNumberToObject(object, "seed", (double)seed);
+    return object;
+}
+
 void json_print(struct cJSON *object)
 {
     struct output output = output_open(NULL);

@@ -59,6 +59,9 @@ void make_folder(const char *path);
 struct cJSON;
 void json_print(struct cJSON *object);
 
+/* A new object that begins with an experiment's name, how many runs it took, and where they started. */
+struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed);
+
 /* Adds a number, or null where it is not finite. */
 void json_add_number(struct cJSON *object, const char *name, double value);
 

@@ -111,11 +111,8 @@ static void rivals_to_json(const struct air_report *report, cJSON *root)
 
 static void print_as_json(struct air_report *report)
 {
-    cJSON *root = cJSON_CreateObject();
+    cJSON *root = json_experiment("air-traffic", report->num_runs, report->seed);
 
-    cJSON_AddStringToObject(root, "experiment", "air-traffic");
-    cJSON_AddNumberToObject(root, "runs", (double)report->num_runs);
-    cJSON_AddNumberToObject(root, "seed", (double)report->seed);
     cases_to_json(report, root);
     pairs_to_json(report, root);
     clutter_to_json(report, root);

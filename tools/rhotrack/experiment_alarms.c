@@ -237,10 +237,7 @@ static cJSON *delays_json(const struct alarm_figures *figures)
 static void print_as_json(const struct alarm_figures *figures, struct verdicts *verdicts,
                           uint64_t seed, size_t num_runs)
 {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "experiment", "false-alarms");
-    cJSON_AddNumberToObject(root, "runs", (double)num_runs);
-    cJSON_AddNumberToObject(root, "seed", (double)seed);
+    cJSON *root = json_experiment("false-alarms", num_runs, seed);
     cJSON_AddItemToObject(root, "clutter_alone", alarms_json(figures));
     cJSON_AddItemToObject(root, "targets", delays_json(figures));
     verdicts_to_json(verdicts, root);

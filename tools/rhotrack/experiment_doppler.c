@@ -87,10 +87,7 @@ static cJSON *figures_json(const struct doppler_figures *of)
 static void print_as_json(const struct doppler_result *result, struct verdicts *verdicts,
                           uint64_t seed, size_t num_runs)
 {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "experiment", "doppler");
-    cJSON_AddNumberToObject(root, "runs", (double)num_runs);
-    cJSON_AddNumberToObject(root, "seed", (double)seed);
+    cJSON *root = json_experiment("doppler", num_runs, seed);
     cJSON_AddNumberToObject(root, "limit_clutter_per_scan", result->limit);
     cJSON *list = cJSON_AddArrayToObject(root, "cases");
     for (size_t i = 0; i < result->num_levels; i++) {

@@ -206,10 +206,7 @@ static cJSON *summary_json(const struct polar_summary *of)
 static void print_as_json(const struct polar_summary *summaries, struct verdicts *verdicts,
                           uint64_t seed, size_t num_runs)
 {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "experiment", "polar");
-    cJSON_AddNumberToObject(root, "runs", (double)num_runs);
-    cJSON_AddNumberToObject(root, "seed", (double)seed);
+    cJSON *root = json_experiment("polar", num_runs, seed);
     cJSON *list = cJSON_AddArrayToObject(root, "cases");
     for (size_t i = 0; i < POLAR_SUMMARIES; i++) {
         cJSON_AddItemToArray(list, summary_json(&summaries[i]));

@@ -58,10 +58,7 @@ struct verdicts rotating_verdicts(const struct rotating_figures *figures)
 static void print_as_json(const struct rotating_figures *figures, struct verdicts *verdicts,
                           uint64_t seed, size_t num_runs)
 {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "experiment", "rotating");
-    cJSON_AddNumberToObject(root, "runs", (double)num_runs);
-    cJSON_AddNumberToObject(root, "seed", (double)seed);
+    cJSON *root = json_experiment("rotating", num_runs, seed);
     cJSON *list = cJSON_AddArrayToObject(root, "cases");
     for (size_t i = 0; i < ROTATING_CASES; i++) {
         cJSON *object = cJSON_CreateObject();

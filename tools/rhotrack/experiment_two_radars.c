@@ -248,11 +248,8 @@ static cJSON *errors_json(const struct radars_errors *errors)
 
 static void print_as_json(const struct radars_summary *summary, struct verdicts *verdicts)
 {
-    cJSON *root = cJSON_CreateObject(), *list;
+    cJSON *root = json_experiment("two-radars", summary->num_runs, summary->seed), *list;
 
-    cJSON_AddStringToObject(root, "experiment", "two-radars");
-    cJSON_AddNumberToObject(root, "runs", (double)summary->num_runs);
-    cJSON_AddNumberToObject(root, "seed", (double)summary->seed);
     list = cJSON_AddArrayToObject(root, "cases");
     for (size_t i = 0; i < RADARS_CASES; i++) {
         cJSON_AddItemToArray(list, case_json(summary, i));

@@ -215,6 +215,19 @@ static bool read_value(const struct parameter_text *text, const char *cell, doub
     return false;
 }
 
+/* Range rates that are ambiguous by next to nothing say nothing. */
+static bool check_span(double span_mps, char *reason)
+{
+    bool is_span = span_mps <= 0.0 || span_mps >= (double)RHO_LIMIT_SPAN_MIN_MPS;
+
+    if (!is_span) {
+        snprintf(reason, PARAMETER_REASON_BYTES,
+                 "range_rate_span_mps %.9g is neither 0 nor %g or more", span_mps,
+                 (double)RHO_LIMIT_SPAN_MIN_MPS);
+    }
+    return is_span;
+}
+
 static void store(double *value, enum parameter_source *source, double number,
                   enum parameter_source from)
 {
@@ -272,7 +285,8 @@ static bool assign_sensor(struct parameters *parameters, const char *key, const 
         return false;
     }
     id = find_name(dot + 1, sensor_text_name, reason);
-    if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason)) {
+    if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason) ||
+        (id == SENSOR_RANGE_RATE_SPAN_MPS && !check_span(number, reason))) {
         return false;
     }
     sensor = have_sensor(parameters, sensor_id);
@@ -300,7 +314,8 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
         return false;
     }
     text = parameters_text((enum parameter_id)id);
-    if (!read_value(&text, value, &number, reason)) {
+    if (!read_value(&text, value, &number, reason) ||
+        (id == PARAMETER_RANGE_RATE_SPAN_MPS && !check_span(number, reason))) {
         return false;
     }
     store(&parameters->value[id], &parameters->source[id], number, source);
@@ -408,14 +423,6 @@ static void check_area(const struct parameters *parameters)
     check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
 }
 
-static void check_span(const char *whose, double span_mps)
-{
-    if (span_mps > 0.0 && span_mps < (double)RHO_LIMIT_SPAN_MIN_MPS) {
-        fail(EXIT_USAGE, "%srange_rate_span_mps %.9g is neither 0 nor %g or more", whose, span_mps,
-             (double)RHO_LIMIT_SPAN_MIN_MPS);
-    }
-}
-
 void parameters_check(const struct parameters *parameters)
 {
     double range_min_m = parameters->value[PARAMETER_RANGE_MIN_M];
@@ -425,7 +432,6 @@ void parameters_check(const struct parameters *parameters)
     check_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
     check_scans(parameters);
     check_area(parameters);
-    check_span("", parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS]);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         int32_t id = parameters->sensors[i].sensor_id;
         double low = parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
@@ -435,8 +441,5 @@ void parameters_check(const struct parameters *parameters)
             fail(EXIT_USAGE, "sensor %d: range_min_m %.9g is not below range_max_m %.9g", (int)id,
                  low, high);
         }
-        char whose[32];
-        snprintf(whose, sizeof whose, "sensor %d: ", (int)id);
-        check_span(whose, parameters_of_sensor(parameters, id, SENSOR_RANGE_RATE_SPAN_MPS, 0.0));
     }
 }

@@ -11,298 +11,213 @@
 
 /* ---- their names and customary parameters ----------------------------------------------------- */
 
-static const struct scenario {
-    const char *name, *text;
-    struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
-    /* or, where that is NULL, what turning radars saw */
-    struct simulation *(*simulate)(const struct parameters *parameters, struct random *random);
-    /* true_pd 0: what is assumed */
+/* What scenarios are customarily drawn with; several may share it. true_pd 0: what is assumed. */
+struct customs {
     double num_scans, interval_s, sigma_m, true_pd, v_min_mps, v_max_mps, accel_max_mps2;
     struct scenario_box box;
     double clutter_per_km2; /* where positive, else: */
     double clutter_per_scan;
+};
+
+static const struct customs paper_targets = {.num_scans = 7,
+                                             .interval_s = 2,
+                                             .sigma_m = 10,
+                                             .true_pd = 0.99,
+                                             .v_min_mps = 100,
+                                             .v_max_mps = 400,
+                                             .accel_max_mps2 = 5,
+                                             .box = {0, 4000, -1000, 1500},
+                                             .clutter_per_km2 = 1};
+static const struct customs radar_table = {.num_scans = RADAR_TABLE_SCANS,
+                                           .interval_s = RADAR_TABLE_INTERVAL_S,
+                                           .sigma_m = RADAR_TABLE_SIGMA_M,
+                                           .true_pd = 1.0,
+                                           .v_min_mps = 100,
+                                           .v_max_mps = 400,
+                                           .accel_max_mps2 = 5,
+                                           .box = {-25000, -1000, 13000, 29000},
+                                           .clutter_per_scan = 100};
+static const struct customs pair = {.num_scans = 7,
+                                    .interval_s = 2,
+                                    .sigma_m = 10,
+                                    .true_pd = 0.99,
+                                    .v_min_mps = 100,
+                                    .v_max_mps = 400,
+                                    .accel_max_mps2 = 5,
+                                    .box = {-2500, 2500, -2500, 2500},
+                                    .clutter_per_km2 = 1};
+static const struct customs no_target = {.num_scans = 7,
+                                         .interval_s = 2,
+                                         .sigma_m = 10,
+                                         .true_pd = 0.99,
+                                         .v_min_mps = 100,
+                                         .v_max_mps = 400,
+                                         .accel_max_mps2 = 5,
+                                         .box = {0, 4000, -1000, 1500},
+                                         .clutter_per_km2 = 10};
+static const struct customs slow_turn = {.num_scans = 20,
+                                         .interval_s = 2,
+                                         .sigma_m = 10,
+                                         .true_pd = 0.99,
+                                         .v_min_mps = 100,
+                                         .v_max_mps = 400,
+                                         .accel_max_mps2 = 10,
+                                         .box = {-2500, 2500, -2500, 2500},
+                                         .clutter_per_km2 = 1};
+static const struct customs wide_traffic = {.num_scans = 120,
+                                            .interval_s = 10,
+                                            .sigma_m = 50,
+                                            .true_pd = 0.99,
+                                            .v_min_mps = 50,
+                                            .v_max_mps = 300,
+                                            .accel_max_mps2 = 5,
+                                            .box = {-250000, 250000, -250000, 250000},
+                                            .clutter_per_scan = 950};
+static const struct customs turning_radar = {.num_scans = 15,
+                                             .interval_s = 4,
+                                             .sigma_m = 100,
+                                             .true_pd = 0.99,
+                                             .v_min_mps = 100,
+                                             .v_max_mps = 400,
+                                             .accel_max_mps2 = 5,
+                                             .box = {-65000, 65000, -65000, 65000},
+                                             .clutter_per_scan = 100};
+static const struct customs passive = {.num_scans = 8,
+                                       .interval_s = 10,
+                                       .sigma_m = 10,
+                                       .true_pd = 1,
+                                       .v_min_mps = 150,
+                                       .v_max_mps = 350,
+                                       .accel_max_mps2 = 5,
+                                       .box = {0, 80000, -55000, 55000}};
+static const struct customs passive_clutter = {.num_scans = 8,
+                                               .interval_s = 10,
+                                               .sigma_m = 10,
+                                               .true_pd = 0.9,
+                                               .v_min_mps = 150,
+                                               .v_max_mps = 350,
+                                               .accel_max_mps2 = 5,
+                                               .box = {0, 80000, -55000, 55000}};
+static const struct customs beam = {.num_scans = 161,
+                                    .interval_s = 0.25,
+                                    .sigma_m = 10,
+                                    .true_pd = 1,
+                                    .v_min_mps = 100,
+                                    .v_max_mps = 1000,
+                                    .box = {10000, 60000, 5000, 45000},
+                                    .clutter_per_scan = 4};
+static const struct customs air_traffic = {.num_scans = 120,
+                                           .interval_s = 10,
+                                           .sigma_m = 50,
+                                           .v_min_mps = 50,
+                                           .v_max_mps = 300,
+                                           .accel_max_mps2 = 6,
+                                           .box = {-250000, 250000, -250000, 250000},
+                                           .clutter_per_scan = 100};
+static const struct customs formation = {.num_scans = 61,
+                                         .interval_s = 10,
+                                         .sigma_m = 50,
+                                         .v_min_mps = 50,
+                                         .v_max_mps = 300,
+                                         .accel_max_mps2 = 6,
+                                         .box = {-50000, 120000, -50000, 50000},
+                                         .clutter_per_scan = 40};
+static const struct customs two_radars = {.num_scans = 60,
+                                          .interval_s = 10,
+                                          .sigma_m = 50,
+                                          .v_min_mps = 50,
+                                          .v_max_mps = 300,
+                                          .accel_max_mps2 = 6,
+                                          .box = {-150000, 180000, -150000, 150000},
+                                          .clutter_per_scan = 20};
+
+static const struct scenario {
+    const char *name, *text;
+    const struct customs *customs;
+    struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
+    /* or, where that is NULL, what turning radars saw */
+    struct simulation *(*simulate)(const struct parameters *parameters, struct random *random);
 } scenarios[] = {
-    {"crossing",
-     "three targets, two of which cross (the paper's Table 1)",
-     plan_crossing,
-     NULL,
-     7,
-     2,
-     10,
-     0.99,
-     100,
-     400,
-     5,
-     {0, 4000, -1000, 1500},
-     1,
-     0},
-    {"radar",
-     "the real plots of three aircraft (the paper's Table 3) in clutter",
-     plan_radar,
-     NULL,
-     RADAR_TABLE_SCANS,
-     RADAR_TABLE_INTERVAL_S,
-     RADAR_TABLE_SIGMA_M,
-     1.0,
-     100,
-     400,
-     5,
-     {-25000, -1000, 13000, 29000},
-     0,
-     100},
-    {"parallel",
-     "two targets side by side, spacing_m apart",
-     plan_parallel,
-     NULL,
-     7,
-     2,
-     10,
-     0.99,
-     100,
-     400,
-     5,
-     {-2500, 2500, -2500, 2500},
-     1,
-     0},
-    {"crossing-angle",
-     "two targets that meet at crossing_deg",
-     plan_crossing_angle,
-     NULL,
-     7,
-     2,
-     10,
-     0.99,
-     100,
-     400,
-     5,
-     {-2500, 2500, -2500, 2500},
-     1,
-     0},
-    {"same-line",
-     "two targets on one line, spacing_m apart, with speeds of their own",
-     plan_same_line,
-     NULL,
-     7,
-     2,
-     10,
-     0.99,
-     100,
-     400,
-     5,
-     {-2500, 2500, -2500, 2500},
-     1,
-     0},
-    {"clutter",
-     "no target at all",
-     plan_clutter_alone,
-     NULL,
-     7,
-     2,
-     10,
-     0.99,
-     100,
-     400,
-     5,
-     {0, 4000, -1000, 1500},
-     10,
-     0},
-    {"slow-turn",
-     "one target that turns by turn_deg a scan",
-     plan_slow_turn,
-     NULL,
-     20,
-     2,
-     10,
-     0.99,
-     100,
-     400,
-     10,
-     {-2500, 2500, -2500, 2500},
-     1,
-     0},
-    {"traffic",
-     "many straight targets in a large area",
-     plan_traffic,
-     NULL,
-     120,
-     10,
-     50,
-     0.99,
-     50,
-     300,
-     5,
-     {-250000, 250000, -250000, 250000},
-     0,
-     950},
-    {"polar",
-     "a turning radar: straight targets at 20 to 60 km, plots in range and azimuth, each at its "
-     "own time",
-     plan_polar,
-     NULL,
-     15,
-     4,
-     100,
-     0.99,
-     100,
-     400,
-     5,
-     {-65000, 65000, -65000, 65000},
-     0,
-     100},
-    {"passive-two",
-     "two passive sensors: bearings of two targets that come towards them",
-     plan_passive,
-     NULL,
-     8,
-     10,
-     10,
-     1,
-     150,
-     350,
-     5,
-     {0, 80000, -55000, 55000},
-     0,
-     0},
-    {"passive-three",
-     "the same with a third sensor",
-     plan_passive,
-     NULL,
-     8,
-     10,
-     10,
-     1,
-     150,
-     350,
-     5,
-     {0, 80000, -55000, 55000},
-     0,
-     0},
-    {"passive-clutter",
-     "two passive sensors, four targets, misses and false bearings",
-     plan_passive,
-     NULL,
-     8,
-     10,
-     10,
-     0.9,
-     150,
-     350,
-     5,
-     {0, 80000, -55000, 55000},
-     0,
-     0},
-    {"popup",
-     "one target in a beam that pulls accel_g upwards, over, and level again",
-     plan_popup,
-     NULL,
-     161,
-     0.25,
-     10,
-     1,
-     100,
-     1000,
-     0,
-     {10000, 60000, 5000, 45000},
-     0,
-     4},
-    {"weave",
-     "the same to the sides",
-     plan_weave,
-     NULL,
-     161,
-     0.25,
-     10,
-     1,
-     100,
-     1000,
-     0,
-     {10000, 60000, 5000, 45000},
-     0,
-     4},
-    {"hard-turn",
-     "the same in level turns",
-     plan_hard_turn,
-     NULL,
-     161,
-     0.25,
-     10,
-     1,
-     100,
-     1000,
-     0,
-     {10000, 60000, 5000, 45000},
-     0,
-     4},
-    {"air-traffic",
-     "aircraft that take off, turn, hold, cross, land, come and go: always so many in the air",
-     plan_air_traffic,
-     NULL,
-     120,
-     10,
-     50,
-     0,
-     50,
-     300,
-     6,
-     {-250000, 250000, -250000, 250000},
-     0,
-     100},
-    {"formation",
-     "two aircraft that come together, fly side by side for half the time, and part",
-     plan_formation,
-     NULL,
-     61,
-     10,
-     50,
-     0,
-     50,
-     300,
-     6,
-     {-50000, 120000, -50000, 50000},
-     0,
-     40},
-    {"two-radars",
-     "two turning radars with biases, and the aircraft that both see; a share of it arrives late",
-     NULL,
-     simulate_two_radars,
-     60,
-     10,
-     50,
-     0,
-     50,
-     300,
-     6,
-     {-150000, 180000, -150000, 150000},
-     0,
-     20},
-    {"rotating",
-     "a turning radar by sectors: targets at 20 to 60 km, some of which turn gently",
-     NULL,
-     simulate_rotating,
-     15,
-     4,
-     100,
-     0.99,
-     100,
-     400,
-     5,
-     {-65000, 65000, -65000, 65000},
-     0,
-     100},
-    {"doppler",
-     "as polar, with range rates, ambiguous ones too, and clutter that stands still",
-     plan_doppler,
-     NULL,
-     15,
-     4,
-     100,
-     0.99,
-     100,
-     400,
-     5,
-     {-65000, 65000, -65000, 65000},
-     0,
-     100},
+    {.name = "crossing",
+     .text = "three targets, two of which cross (the paper's Table 1)",
+     .customs = &paper_targets,
+     .plan = plan_crossing},
+    {.name = "radar",
+     .text = "the real plots of three aircraft (the paper's Table 3) in clutter",
+     .customs = &radar_table,
+     .plan = plan_radar},
+    {.name = "parallel",
+     .text = "two targets side by side, spacing_m apart",
+     .customs = &pair,
+     .plan = plan_parallel},
+    {.name = "crossing-angle",
+     .text = "two targets that meet at crossing_deg",
+     .customs = &pair,
+     .plan = plan_crossing_angle},
+    {.name = "same-line",
+     .text = "two targets on one line, spacing_m apart, with speeds of their own",
+     .customs = &pair,
+     .plan = plan_same_line},
+    {.name = "clutter",
+     .text = "no target at all",
+     .customs = &no_target,
+     .plan = plan_clutter_alone},
+    {.name = "slow-turn",
+     .text = "one target that turns by turn_deg a scan",
+     .customs = &slow_turn,
+     .plan = plan_slow_turn},
+    {.name = "traffic",
+     .text = "many straight targets in a large area",
+     .customs = &wide_traffic,
+     .plan = plan_traffic},
+    {.name = "polar",
+     .text = "a turning radar: straight targets at 20 to 60 km, plots in range and azimuth, each "
+             "at its own time",
+     .customs = &turning_radar,
+     .plan = plan_polar},
+    {.name = "passive-two",
+     .text = "two passive sensors: bearings of two targets that come towards them",
+     .customs = &passive,
+     .plan = plan_passive},
+    {.name = "passive-three",
+     .text = "the same with a third sensor",
+     .customs = &passive,
+     .plan = plan_passive},
+    {.name = "passive-clutter",
+     .text = "two passive sensors, four targets, misses and false bearings",
+     .customs = &passive_clutter,
+     .plan = plan_passive},
+    {.name = "popup",
+     .text = "one target in a beam that pulls accel_g upwards, over, and level again",
+     .customs = &beam,
+     .plan = plan_popup},
+    {.name = "weave", .text = "the same to the sides", .customs = &beam, .plan = plan_weave},
+    {.name = "hard-turn",
+     .text = "the same in level turns",
+     .customs = &beam,
+     .plan = plan_hard_turn},
+    {.name = "air-traffic",
+     .text =
+         "aircraft that take off, turn, hold, cross, land, come and go: always so many in the air",
+     .customs = &air_traffic,
+     .plan = plan_air_traffic},
+    {.name = "formation",
+     .text = "two aircraft that come together, fly side by side for half the time, and part",
+     .customs = &formation,
+     .plan = plan_formation},
+    {.name = "two-radars",
+     .text = "two turning radars with biases, and the aircraft that both see; a share of it "
+             "arrives late",
+     .customs = &two_radars,
+     .simulate = simulate_two_radars},
+    {.name = "rotating",
+     .text = "a turning radar by sectors: targets at 20 to 60 km, some of which turn gently",
+     .customs = &turning_radar,
+     .simulate = simulate_rotating},
+    {.name = "doppler",
+     .text = "as polar, with range rates, ambiguous ones too, and clutter that stands still",
+     .customs = &turning_radar,
+     .plan = plan_doppler},
 };
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
@@ -395,16 +310,16 @@ static void suggest_sky(struct parameters *parameters)
 void scenario_suggest(const char *name, struct parameters *parameters)
 {
     const struct scenario *scenario = find_scenario(name);
-    parameters_suggest(parameters, PARAMETER_NUM_SCANS, scenario->num_scans);
-    parameters_suggest(parameters, PARAMETER_INTERVAL_S, scenario->interval_s);
-    parameters_suggest(parameters, PARAMETER_SIGMA_M, scenario->sigma_m);
-    if (scenario->true_pd > 0.0) {
-        parameters_suggest(parameters, PARAMETER_TRUE_PD, scenario->true_pd);
+    parameters_suggest(parameters, PARAMETER_NUM_SCANS, scenario->customs->num_scans);
+    parameters_suggest(parameters, PARAMETER_INTERVAL_S, scenario->customs->interval_s);
+    parameters_suggest(parameters, PARAMETER_SIGMA_M, scenario->customs->sigma_m);
+    if (scenario->customs->true_pd > 0.0) {
+        parameters_suggest(parameters, PARAMETER_TRUE_PD, scenario->customs->true_pd);
     }
-    parameters_suggest(parameters, PARAMETER_V_MIN_MPS, scenario->v_min_mps);
-    parameters_suggest(parameters, PARAMETER_V_MAX_MPS, scenario->v_max_mps);
-    if (scenario->accel_max_mps2 > 0.0) {
-        parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, scenario->accel_max_mps2);
+    parameters_suggest(parameters, PARAMETER_V_MIN_MPS, scenario->customs->v_min_mps);
+    parameters_suggest(parameters, PARAMETER_V_MAX_MPS, scenario->customs->v_max_mps);
+    if (scenario->customs->accel_max_mps2 > 0.0) {
+        parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, scenario->customs->accel_max_mps2);
     }
     parameters_suggest(parameters, PARAMETER_TARGETS, is_radar(scenario) ? 3 : 50);
     parameters_suggest(parameters, PARAMETER_SPEED_MPS, 250);
@@ -412,16 +327,16 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
     parameters_suggest(parameters, PARAMETER_TURN_DEG, 2);
     parameters_suggest(parameters, PARAMETER_SPACING_M, spacing_of(scenario));
-    suggest_area(parameters, &scenario->box);
+    suggest_area(parameters, &scenario->customs->box);
     if (is_radar(scenario)) {
         parameters_suggest(parameters, PARAMETER_RANGE_RATE, scenario->plan == plan_doppler);
         if (scenario->plan == plan_doppler) {
             parameters_suggest(parameters, PARAMETER_SIGMA_RANGE_M, 40);
             parameters_suggest(parameters, PARAMETER_SIGMA_AZIMUTH_RAD, 0.007);
         }
-        suggest_radar(parameters, scenario->box.x_max_m);
+        suggest_radar(parameters, scenario->customs->box.x_max_m);
     }
-    if (!(scenario->true_pd > 0.0)) {
+    if (!(scenario->customs->true_pd > 0.0)) {
         parameters_suggest(parameters, PARAMETER_PD, 0.95);
     }
     if (scenario->simulate == simulate_two_radars) {
@@ -442,10 +357,12 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     if (is_beam(scenario)) {
         suggest_beam(parameters);
     }
-    if (scenario->clutter_per_km2 > 0.0) {
-        parameters_suggest(parameters, PARAMETER_CLUTTER_PER_KM2, scenario->clutter_per_km2);
+    if (scenario->customs->clutter_per_km2 > 0.0) {
+        parameters_suggest(parameters, PARAMETER_CLUTTER_PER_KM2,
+                           scenario->customs->clutter_per_km2);
     } else {
-        parameters_suggest(parameters, PARAMETER_CLUTTER_PER_SCAN, scenario->clutter_per_scan);
+        parameters_suggest(parameters, PARAMETER_CLUTTER_PER_SCAN,
+                           scenario->customs->clutter_per_scan);
     }
 }
 
@@ -465,7 +382,7 @@ static void add_sky(struct scenario_plan *plan, const struct scenario *scenario,
     bool can_merge = scenario->plan == plan_parallel || scenario->plan == plan_crossing_angle ||
                      scenario->plan == plan_formation;
 
-    if (!(scenario->true_pd > 0.0)) {
+    if (!(scenario->customs->true_pd > 0.0)) {
         plan->told_pd = parameters->value[PARAMETER_PD];
     }
     if (is_traffic || (can_merge && parameters->value[PARAMETER_MERGE_M] > 0.0)) {
