@@ -74,16 +74,14 @@ int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tr
 uint16_t rho_publish_num_sensor_parts(const struct rho_feed *feed);
 
 /*
- * One part of the sensors that the feed hears (sensor_list_t), in the order of their places. `utime` is the tracker's
- * time, 0 without one.
+ * Fills one part of the list of the sensors that the feed hears, in the order of their places. `utime` is the tracker's
+ * time, 0 without one; scan and epoch are 0: they are the caller's.
  *   part  0 .. rho_publish_num_sensor_parts - 1
- * Errors: NULL (feed, buffer, size), VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost:
- * RHO_MAX_SENSORS squared, and the message's bytes. Stack: 280 bytes.
+ * Errors: NULL (feed, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS squared. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_feed *feed,
                                                    const struct rho_tracker *tracker,
-                                                   int64_t now_us, int32_t step, int32_t epoch,
-                                                   uint16_t part, uint8_t *buffer, size_t capacity,
-                                                   size_t *size);
+                                                   int64_t now_us, uint16_t part,
+                                                   struct rho_message_sensor_list *list);
 
 #endif

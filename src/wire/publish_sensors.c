@@ -91,33 +91,29 @@ uint16_t rho_publish_num_sensor_parts(const struct rho_feed *feed)
 }
 
 enum rho_status rho_publish_sensors(const struct rho_feed *feed, const struct rho_tracker *tracker,
-                                    int64_t now_us, int32_t step, int32_t epoch, uint16_t part,
-                                    uint8_t *buffer, size_t capacity, size_t *size)
+                                    int64_t now_us, uint16_t part,
+                                    struct rho_message_sensor_list *list)
 {
-    struct rho_message_sensor_list_head head;
-    struct rho_message_writer writer;
     struct rho_message_sensor sensor;
-    enum rho_status status;
     unsigned sensors, at = 0;
 
-    if (!feed || !buffer || !size) {
+    if (!feed || !list) {
         return RHO_ERROR_NULL;
     }
     sensors = count_sensors(feed);
     if (part >= num_parts(sensors)) {
         return RHO_ERROR_VALUE;
     }
-    head = (struct rho_message_sensor_list_head){.utime = tracker ? tracker->time_us : 0,
-                                                 .scan = step,
-                                                 .epoch = epoch,
-                                                 .num_sensors_total = (int16_t)sensors,
-                                                 .part = (int16_t)part,
-                                                 .num_parts = (int16_t)num_parts(sensors)};
-    status = rho_message_sensor_list_begin(&writer, buffer, capacity, &head);
-    for (unsigned i = 0; i < RHO_MAX_SENSORS && status == RHO_OK; i++) {
+    list->utime = tracker ? tracker->time_us : 0;
+    list->scan = list->epoch = 0;
+    list->num_sensors_total = (int16_t)sensors;
+    list->part = (int16_t)part;
+    list->num_parts = (int16_t)num_parts(sensors);
+    list->num_sensors = 0;
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         if (rho_publish_sensor(feed, tracker, now_us, i, &sensor) && at++ / PART_SENSORS == part) {
-            status = rho_message_sensor_list_add(&writer, &sensor);
+            list->sensors[list->num_sensors++] = sensor;
         }
     }
-    return status == RHO_OK ? rho_message_end(&writer, size) : status;
+    return RHO_OK;
 }

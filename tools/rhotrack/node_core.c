@@ -393,12 +393,18 @@ static int32_t round_origin(const struct parameters *parameters, enum parameter_
 
 static void send_sensors(const struct node_core *core)
 {
+    struct rho_message_sensor_list list;
     uint8_t buffer[RHO_MESSAGE_SENSOR_LIST_MAX_SIZE];
     size_t size;
 
     for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&core->feed); part++) {
-        if (rho_publish_sensors(&core->feed, core->chain.tracker, core->now_us, core->step,
-                                core->epoch, part, buffer, sizeof buffer, &size) == RHO_OK) {
+        if (rho_publish_sensors(&core->feed, core->chain.tracker, core->now_us, part, &list) !=
+            RHO_OK) {
+            return;
+        }
+        list.scan = core->step;
+        list.epoch = core->epoch;
+        if (rho_message_sensor_list_encode(&list, buffer, sizeof buffer, &size) == RHO_OK) {
             core->events.send(core->events.context, RHO_MESSAGE_SENSOR_LIST_CHANNEL, buffer, size);
         }
     }
