@@ -65,7 +65,7 @@ void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *fr
  *   now_us   the feed's reception clock
  *   place    in the feed: 0 .. RHO_MAX_SENSORS - 1; a sensor keeps its place while it is known
  * Returns 0 where there is no sensor at this place, or feed or sensor is NULL; *sensor is unchanged then. Cost:
- * RHO_MAX_SENSORS. Stack: 100 bytes.
+ * RHO_MAX_SENSORS. Stack: 180 bytes.
  */
 int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tracker,
                        int64_t now_us, unsigned place, struct rho_message_sensor *sensor);
@@ -77,7 +77,7 @@ uint16_t rho_publish_num_sensor_parts(const struct rho_feed *feed);
  * Fills one part of the list of the sensors that the feed hears, in the order of their places. `utime` is the tracker's
  * time, 0 without one; scan and epoch are 0: they are the caller's.
  *   part  0 .. rho_publish_num_sensor_parts - 1
- * Errors: NULL (feed, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS squared. Stack: 200 bytes.
+ * Errors: NULL (feed, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS squared. Stack: 320 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_feed *feed,
                                                    const struct rho_tracker *tracker,
