@@ -357,6 +357,6 @@
      640)
 #define RHO_RAM_FEED_BYTES                                                                         \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
-     240 * RHO_MAX_SENSORS + 520)
+     248 * RHO_MAX_SENSORS + 520)
 
 #endif

@@ -19,8 +19,12 @@
  *            held that long (but with hold_us 0). Plots are in the order of the parts. The part that comes first
  *            counts: those that say something else of the scan are refused.
  * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans
- *            of different sensors go out in the order of time. With one sensor nothing waits. A sensor is live for
- *            jump_max_us after its last scan.
+ *            of different sensors go out in the order of time. A scan behind a number that was skipped waits for that one,
+ *            hold_us at most, too; else with one sensor nothing waits. A sensor is live for jump_max_us after its last scan.
+ * Late       A number that was skipped may come after all, out of order, up to 31 numbers behind the newest and with a time
+ *            that goes with it. Where nothing newer has gone out it takes its place in the order of time. Else it goes out
+ *            behind what is newer by late_max_us at most, for a tracker that takes late scans; bearings, whose frames are
+ *            over, do not. It does not move its sensor on, makes no other scan wait but for its parts, and cuts none short.
  * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps), its
  *            time later, and both go together: it took no longer than half as long again as its numbers usually take,
  *            or as nothing was heard of the sensor, and where it skips numbers no shorter than three quarters of that.
@@ -85,6 +89,8 @@ struct rho_feed_sensor {
 struct rho_feed_config {
     int64_t
         hold_us; /* 0 .. 10 s; 0: nothing waits for other sensors, and parts wait for a newer scan alone */
+    int64_t
+        late_max_us; /* 0 .. 60 s; 0: what comes behind a newer scan that has gone out is dropped */
     int64_t jump_max_us;   /* 1 s .. 1 h */
     uint32_t flood_per_s;  /* 1 .. 1e6 */
     uint16_t follow_scans; /* 2 .. 255 */
@@ -99,7 +105,8 @@ struct rho_feed_counters {
     uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
     uint32_t messages_flooded;
     uint32_t scans_accepted; /* of which a first part came */
-    uint32_t scans_late;     /* older than one of the same sensor that was accepted */
+    /* older than one of the same sensor that was accepted; those that are of use all the same are accepted, too */
+    uint32_t scans_late;
     /* scans, or parts of one, that were there before; parts that come when the scan is closed */
     uint32_t scans_duplicate;
     uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
@@ -137,12 +144,14 @@ struct rho_feed_source {
     int64_t bucket_us;                             /* reception clock: when the bucket was full */
     uint32_t bucket;      /* messages that may still come before the bucket is filled again */
     uint32_t seen;        /* bit i: number place.scan - i was there */
+    uint32_t skipped;     /* bit i: it was not, and may still come */
     uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
     uint16_t scans;       /* believed; saturates */
     uint16_t off_clock;   /* scans in a row; saturates; 0: it tells the common time */
     int16_t sensor_id;
     uint8_t kind; /* enum rho_feed_kind */
     uint8_t is_used;
+    uint32_t reserved; /* 0 */
 };
 
 /* A scan that is put together. */
@@ -170,6 +179,7 @@ struct rho_feed {
     uint16_t num_known;
     uint16_t is_pressed; /* a scan found no room: the oldest goes out at the next call */
     int64_t clock_us;    /* of the newest accepted scan */
+    int64_t out_us;      /* of the newest one that went out; INT64_MIN: none */
     uint16_t has_clock;
     uint16_t is_restart; /* the next scan that goes out is the first on another clock */
     uint32_t reserved;   /* 0 */
@@ -194,7 +204,7 @@ struct rho_feed_item {
 };
 
 /*
- * hold 20 ms, jump_max 30 s, flood 10 000 a second, follow_scans 3; other sensors: at the origin, looking everywhere,
+ * hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30 s, flood 10 000 a second, follow_scans 3; other sensors: at the origin, looking everywhere,
  * pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3 mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0. Constant cost.
  */
 void rho_feed_config_default(struct rho_feed_config *config);

@@ -38,6 +38,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_PEAK = 0,
     RHO_MESSAGE_TYPE_PLOT,
     RHO_MESSAGE_TYPE_POLAR_PLOT,
+    RHO_MESSAGE_TYPE_SENSOR,
     RHO_MESSAGE_TYPE_STATUS,
     RHO_MESSAGE_TYPE_TRACK,
     RHO_MESSAGE_TYPE_TRUTH,
@@ -45,6 +46,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_PEAK_LIST,
     RHO_MESSAGE_TYPE_PLOT_SCAN,
     RHO_MESSAGE_TYPE_POLAR_SCAN,
+    RHO_MESSAGE_TYPE_SENSOR_LIST,
     RHO_MESSAGE_TYPE_TRACK_LIST,
     RHO_MESSAGE_TYPE_TRUTH_LIST,
     RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */
@@ -140,6 +142,37 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_plot_decode(
 RHO_MUST_CHECK enum rho_status rho_message_polar_plot_validate(
     const struct rho_message_polar_plot *message, struct rho_message_place *place);
 const char *rho_message_polar_plot_field(const struct rho_message_place *place);
+
+/* ---- sensor_t: One sensor of a sensor_list_t: whether it is heard, and whether the other sensors bear it out. ---- */
+
+#define RHO_MESSAGE_SENSOR_FINGERPRINT UINT64_C(0x3384d71d72b4cd6c)
+#define RHO_MESSAGE_SENSOR_MAX_SIZE 46u
+#define RHO_MESSAGE_SENSOR_PLOTS 1
+#define RHO_MESSAGE_SENSOR_POLAR 2
+#define RHO_MESSAGE_SENSOR_BEARINGS 3
+
+struct rho_message_sensor {
+    int16_t sensor_id;
+    int8_t kind; /* of its messages; one number may send several kinds; one of PLOTS, POLAR, BEARINGS */
+    int8_t is_silent; /* 1: nothing was heard of it for so long (jump_max) that no scan waits for it any more; 0 .. 1 */
+    int8_t is_off_clock; /* 1: its last scan was refused, its time is not the other sensors'; 0 .. 1 */
+    int8_t is_doubted; /* 1: it contradicts the others: it starts no tracks, its misses say nothing, its plots count little; 0 .. 1 */
+    int32_t scans; /* whose number was believed; stays at 65535; 0 .. 2147483647 */
+    int64_t scan_utime; /* time of measurement of the newest of them, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t heard_age_us; /* since that was received, by the receiver's clock; stays at 2147483647; 0 .. 2147483647 */
+    int32_t interval_us; /* from scan to scan, smoothed; 0: not known; stays at 2147483647; 0 .. 2147483647 */
+    int16_t watched; /* looks that the next one is of; below 12 it says little; 0 .. 32767 */
+    int16_t watched_hits; /* plots that the last one is of; below 12 it says little; 0 .. 32767 */
+    float seen_share; /* of those tracks where it looked, so many had a plot of it; 0 .. 1 */
+    float innovation_factor; /* their innovations' variance over what its sigmas and the tracks' say: 1 where all is well; 0 .. 1e12 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_sensor_encode(
+    const struct rho_message_sensor *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_sensor_decode(
+    const uint8_t *data, size_t size, struct rho_message_sensor *message);
+RHO_MUST_CHECK enum rho_status rho_message_sensor_validate(
+    const struct rho_message_sensor *message, struct rho_message_place *place);
+const char *rho_message_sensor_field(const struct rho_message_place *place);
 
 /* ---- status_t: How a tracker is doing: once a second, also when nothing comes. Channel RHO_STATUS. ---- */
 /* Counters count since the start and stay at 2147483647. */
@@ -434,6 +467,45 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_scan_begin(
     const struct rho_message_polar_scan_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_polar_scan_add(
     struct rho_message_writer *writer, const struct rho_message_polar_plot *polar_plot);
+
+/* ---- sensor_list_t: How the sensors are doing that a tracker hears, or a part of them: once a second, with status_t. Channel RHO_SENSORS. ---- */
+
+#define RHO_MESSAGE_SENSOR_LIST_CHANNEL "RHO_SENSORS"
+#define RHO_MESSAGE_SENSOR_LIST_FINGERPRINT UINT64_C(0x573b8d1ed41bb0ea)
+#define RHO_MESSAGE_SENSOR_LIST_MAX_SIZE 1400u
+#define RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS 36
+
+struct rho_message_sensor_list {
+    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int16_t num_sensors_total; /* of all parts; 0 .. 32767 */
+    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
+    int16_t num_sensors; /* in this part */
+    struct rho_message_sensor sensors[RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS];
+};
+
+struct rho_message_sensor_list_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t num_sensors_total;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_sensor_list_encode(
+    const struct rho_message_sensor_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_sensor_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_sensor_list *message);
+RHO_MUST_CHECK enum rho_status rho_message_sensor_list_validate(
+    const struct rho_message_sensor_list *message, struct rho_message_place *place);
+const char *rho_message_sensor_list_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_sensor_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_sensor_list_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_sensor_list_add(
+    struct rho_message_writer *writer, const struct rho_message_sensor *sensor);
 
 /* ---- track_list_t: The tracks after one step of the tracker, or a part of them. Channel RHO_TRACKS. ---- */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS and RHO_STATUS.
+ * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS and RHO_SENSORS.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
@@ -58,5 +58,30 @@ RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *ini
 void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *frames,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status);
+
+/*
+ * How one sensor is doing (sensor_t): what the feed hears of it, and of a sensor of plots what the tracker makes of it.
+ *   tracker  NULL, or without RHO_SECTORS: nothing is known of that, and is_doubted is 0
+ *   now_us   the feed's reception clock
+ *   place    in the feed: 0 .. RHO_MAX_SENSORS - 1; a sensor keeps its place while it is known
+ * Returns 0 where there is no sensor at this place, or feed or sensor is NULL; *sensor is unchanged then. Cost:
+ * RHO_MAX_SENSORS. Stack: 180 bytes.
+ */
+int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tracker,
+                       int64_t now_us, unsigned place, struct rho_message_sensor *sensor);
+
+/* Messages that the feed's sensors take; 1 where there are none. Cost: RHO_MAX_SENSORS. */
+uint16_t rho_publish_num_sensor_parts(const struct rho_feed *feed);
+
+/*
+ * Fills one part of the list of the sensors that the feed hears, in the order of their places. `utime` is the tracker's
+ * time, 0 without one; scan and epoch are 0: they are the caller's.
+ *   part  0 .. rho_publish_num_sensor_parts - 1
+ * Errors: NULL (feed, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS squared. Stack: 320 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_feed *feed,
+                                                   const struct rho_tracker *tracker,
+                                                   int64_t now_us, uint16_t part,
+                                                   struct rho_message_sensor_list *list);
 
 #endif

@@ -9,6 +9,7 @@
 
 #define MAGIC 0x66656564u
 #define HOLD_MAX_US 10000000
+#define LATE_MAX_US 60000000
 #define JUMP_MIN_US 1000000
 #define JUMP_MAX_US 3600000000ll
 #define FLOOD_MAX 1000000u
@@ -47,16 +48,18 @@ static int is_known(const struct rho_feed_sensor *known)
 
 static int is_config(const struct rho_feed_config *config)
 {
-    return config->hold_us >= 0 && config->hold_us <= HOLD_MAX_US &&
-           config->jump_max_us >= JUMP_MIN_US && config->jump_max_us <= JUMP_MAX_US &&
-           config->flood_per_s >= 1 && config->flood_per_s <= FLOOD_MAX &&
-           config->follow_scans >= 2 && config->follow_scans <= 255 && is_known(&config->other);
+    return config->hold_us >= 0 && config->hold_us <= HOLD_MAX_US && config->late_max_us >= 0 &&
+           config->late_max_us <= LATE_MAX_US && config->jump_max_us >= JUMP_MIN_US &&
+           config->jump_max_us <= JUMP_MAX_US && config->flood_per_s >= 1 &&
+           config->flood_per_s <= FLOOD_MAX && config->follow_scans >= 2 &&
+           config->follow_scans <= 255 && is_known(&config->other);
 }
 
 void rho_feed_config_default(struct rho_feed_config *config)
 {
     *config = (struct rho_feed_config){
         .hold_us = 20000,
+        .late_max_us = RHO_SECTORS ? 20000000 : 0,
         .jump_max_us = 30000000,
         .flood_per_s = 10000,
         .follow_scans = 3,
@@ -86,6 +89,7 @@ enum rho_status rho_feed_init(struct rho_feed *feed, size_t size,
     memset(feed, 0, sizeof *feed);
     memcpy(&feed->config, config, sizeof feed->config);
     feed->stranger.bucket = config->flood_per_s;
+    feed->out_us = INT64_MIN;
     feed->magic = MAGIC;
     return RHO_OK;
 }
@@ -220,16 +224,23 @@ static void refuse(struct rho_feed *feed, struct rho_feed_source *source, enum f
     }
 }
 
+static void open_scan(struct rho_feed *feed, const struct rho_feed_source *source,
+                      const struct feed_heading *heading, const union feed_message *message,
+                      int64_t now_us)
+{
+    struct rho_feed_slot *slot = rho_feed_find_state(feed, FEED_SLOT_FREE);
+
+    rho_feed_count_one(&feed->counters.scans_accepted);
+    rho_feed_open_slot(feed, slot, source, heading);
+    rho_feed_add_part(feed, slot, heading, message, now_us);
+}
+
 /* A scan that is believed begins; the one before it of this sensor is as complete as it gets. */
 static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
                        enum feed_verdict verdict, const struct feed_heading *heading,
                        const union feed_message *message, int64_t now_us)
 {
-    struct rho_feed_slot *last = rho_feed_find_open(feed, source), *slot;
-
-    if (last) {
-        rho_feed_close_slot(feed, last);
-    }
+    rho_feed_close_open(feed, source);
     feed->counters.scans_lost =
         rho_count(feed->counters.scans_lost,
                   rho_feed_note_place(&feed->config, source, &heading->place, verdict, now_us));
@@ -240,26 +251,29 @@ static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
         rho_feed_count_one(&feed->counters.clock_jumps);
         return;
     }
-    slot = rho_feed_find_state(feed, FEED_SLOT_FREE);
-    rho_feed_count_one(&feed->counters.scans_accepted);
-    rho_feed_open_slot(feed, slot, source, heading);
-    rho_feed_add_part(feed, slot, heading, message, now_us);
+    open_scan(feed, source, heading, message, now_us);
+}
+
+/* A number that was skipped comes after all. */
+static void begin_skipped(struct rho_feed *feed, struct rho_feed_source *source,
+                          const struct feed_heading *heading, const union feed_message *message,
+                          int64_t now_us)
+{
+    rho_feed_note_skipped(source, heading->place.scan);
+    rho_feed_count_one(&feed->counters.scans_late);
+    open_scan(feed, source, heading, message, now_us);
 }
 
 static struct rho_feed_source *new_source(struct rho_feed *feed, const struct feed_heading *heading,
                                           const struct rho_feed_source *stranger, int64_t now_us)
 {
     struct rho_feed_source *source = find_room(feed, now_us);
-    struct rho_feed_slot *slot;
 
     if (!source) {
         rho_feed_count_one(&feed->counters.sensors_no_room);
         return NULL;
     }
-    slot = rho_feed_find_open(feed, source);
-    if (slot) {
-        rho_feed_close_slot(feed, slot);
-    }
+    rho_feed_close_open(feed, source);
     *source = (struct rho_feed_source){.bucket_us = stranger->bucket_us,
                                        .bucket = feed->config.flood_per_s,
                                        .sensor_id = heading->sensor_id,
@@ -270,13 +284,14 @@ static struct rho_feed_source *new_source(struct rho_feed *feed, const struct fe
 
 /*
  * True where room may be made for another scan. A sensor that is not proven must not cut short a scan of one that is
- * while its parts are still coming.
+ * while its parts are still coming, and a late scan must not cut short any.
  */
-static int may_press(struct rho_feed *feed, const struct rho_feed_source *source)
+static int may_press(struct rho_feed *feed, const struct rho_feed_source *source, int is_late)
 {
-    return (source && rho_feed_is_proven(&feed->config, source)) ||
-           rho_feed_find_state(feed, FEED_SLOT_GIVEN) ||
-           rho_feed_find_state(feed, FEED_SLOT_COMPLETE) || rho_feed_find_weak(feed);
+    return rho_feed_find_state(feed, FEED_SLOT_GIVEN) ||
+           rho_feed_find_state(feed, FEED_SLOT_COMPLETE) ||
+           (!is_late &&
+            ((source && rho_feed_is_proven(&feed->config, source)) || rho_feed_find_weak(feed)));
 }
 
 /* Errors: CAPACITY. */
@@ -284,20 +299,20 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
                                  const union feed_message *message, int64_t now_us)
 {
     struct rho_feed_source *source = find_source(feed, heading->kind, heading->sensor_id);
-    struct rho_feed_slot *slot = source ? rho_feed_find_open(feed, source) : NULL;
+    struct rho_feed_slot *slot = source ? rho_feed_find_scan(feed, source, heading) : NULL;
     enum feed_verdict verdict;
 
-    if (slot && rho_feed_is_same_scan(slot, heading)) {
+    if (slot) {
         rho_feed_add_part(feed, slot, heading, message, now_us);
         return RHO_OK;
     }
-    verdict = source ? rho_feed_judge(&feed->config, source, &heading->place, now_us) : FEED_NEXT;
-    if (verdict != FEED_NEXT && verdict != FEED_FOLLOW) {
+    verdict = source ? rho_feed_judge(feed, source, &heading->place, now_us) : FEED_NEXT;
+    if (verdict != FEED_NEXT && verdict != FEED_FOLLOW && verdict != FEED_SKIPPED) {
         refuse(feed, source, verdict, heading);
         return RHO_OK;
     }
     if (!rho_feed_find_state(feed, FEED_SLOT_FREE)) {
-        if (!may_press(feed, source)) {
+        if (!may_press(feed, source, verdict == FEED_SKIPPED)) {
             rho_feed_count_one(&feed->counters.sensors_no_room);
             return RHO_OK;
         }
@@ -305,7 +320,9 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
         return RHO_ERROR_CAPACITY;
     }
     source = source ? source : new_source(feed, heading, &feed->stranger, now_us);
-    if (source) {
+    if (verdict == FEED_SKIPPED) {
+        begin_skipped(feed, source, heading, message, now_us);
+    } else if (source) {
         begin_scan(feed, source, verdict, heading, message, now_us);
     }
     return RHO_OK;
@@ -376,6 +393,7 @@ int rho_feed_next(struct rho_feed *feed, int64_t now_us, struct rho_feed_item *i
         return 0;
     }
     slot->state = FEED_SLOT_GIVEN;
+    feed->out_us = feed->out_us > slot->place.time_us ? feed->out_us : slot->place.time_us;
     rho_feed_fill_item(slot, item);
     item->is_restart = feed->is_restart;
     feed->is_restart = 0;

@@ -148,10 +148,28 @@ static const struct rho_feed_stray *find_stray(const struct rho_feed_config *con
     return most;
 }
 
-enum feed_verdict rho_feed_judge(const struct rho_feed_config *config,
-                                 const struct rho_feed_source *source,
+/*
+ * A late scan is of use where its number was skipped, its time goes with the number, and the tracker still takes it.
+ * Otherwise it is not remembered: the real one may still come.
+ */
+static int is_of_use(const struct rho_feed *feed, const struct rho_feed_source *source,
+                     const struct rho_feed_place *place)
+{
+    uint32_t behind = (uint32_t)steps(source->place.scan, place->scan); /* 1 .. SEEN_SCANS - 1 */
+    uint64_t before_us = rho_feed_elapsed_us(source->place.time_us, place->time_us);
+    uint64_t usual_us = (uint64_t)behind * source->interval_us;
+    int64_t late_max_us = source->kind == RHO_FEED_BEARINGS ? 0 : feed->config.late_max_us;
+
+    return source->off_clock == 0 && (source->skipped >> behind & 1u) && before_us > 0 &&
+           before_us + JITTER_US >= usual_us - usual_us / 4 &&
+           !(before_us > JITTER_US && is_half_as_long_again(before_us - JITTER_US, usual_us)) &&
+           rho_feed_elapsed_us(feed->out_us, place->time_us) <= (uint64_t)late_max_us;
+}
+
+enum feed_verdict rho_feed_judge(const struct rho_feed *feed, const struct rho_feed_source *source,
                                  const struct rho_feed_place *place, int64_t now_us)
 {
+    const struct rho_feed_config *config = &feed->config;
     const struct rho_feed_stray *stray;
     enum feed_verdict verdict;
 
@@ -165,7 +183,7 @@ enum feed_verdict rho_feed_judge(const struct rho_feed_config *config,
             return FEED_FOLLOW;
         }
     }
-    return verdict;
+    return verdict == FEED_LATE && is_of_use(feed, source, place) ? FEED_SKIPPED : verdict;
 }
 
 /* What gives way to the next stray: of the fewest scans the one that was there longest. */
@@ -237,11 +255,29 @@ uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_fe
         note_interval(source, place->time_us - from->time_us, ahead, is_next);
     }
     source->seen = is_next && ahead < SEEN_SCANS ? source->seen << ahead | 1u : 1u;
+    source->skipped = !is_next             ? 0u
+                      : ahead < SEEN_SCANS ? source->skipped << ahead | ((1u << ahead) - 2u)
+                                           : ~1u;
     source->place = *place;
     source->heard_us = now_us;
     memset(source->strays, 0, sizeof source->strays);
     source->scans = (uint16_t)(source->scans + (source->scans < UINT16_MAX));
     return is_next ? (uint32_t)(ahead - 1) : 0;
+}
+
+void rho_feed_note_skipped(struct rho_feed_source *source, int32_t scan)
+{
+    uint32_t bit = 1u << steps(source->place.scan, scan);
+
+    source->seen |= bit;
+    source->skipped &= ~bit;
+}
+
+int rho_feed_awaits(const struct rho_feed_source *source, int32_t scan)
+{
+    int32_t behind = steps(source->place.scan, scan);
+
+    return behind >= 0 && behind < SEEN_SCANS - 1 && (source->skipped >> (behind + 1) & 1u);
 }
 
 int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_feed_source *source)
@@ -330,6 +366,7 @@ static void follow(struct rho_feed *feed, int64_t time_us, int64_t now_us)
         }
     }
     feed->is_restart = 1;
+    feed->out_us = INT64_MIN;
     rho_feed_drop_slots(feed);
 }
 

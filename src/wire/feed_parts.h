@@ -33,6 +33,7 @@ enum feed_verdict {
     FEED_NEXT,         /* believed */
     FEED_FOLLOW,       /* believed, as it agrees with those before it that were not */
     FEED_DUPLICATE,    /* was there */
+    FEED_SKIPPED,      /* believed: older, was not there, and is of use */
     FEED_LATE,         /* older */
     FEED_STRAY_NUMBER, /* not believed: its number or epoch */
     FEED_STRAY_TIME    /* not believed: its time */
@@ -43,8 +44,7 @@ enum feed_verdict {
 /* Microseconds from one time to another of the reception clock; 0 where that goes back. */
 uint64_t rho_feed_elapsed_us(int64_t now_us, int64_t then_us);
 
-enum feed_verdict rho_feed_judge(const struct rho_feed_config *config,
-                                 const struct rho_feed_source *source,
+enum feed_verdict rho_feed_judge(const struct rho_feed *feed, const struct rho_feed_source *source,
                                  const struct rho_feed_place *place, int64_t now_us);
 
 /* A scan that was not believed is remembered, for those that may agree with it. */
@@ -55,6 +55,12 @@ void rho_feed_note_stray(const struct rho_feed_config *config, struct rho_feed_s
 uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_feed_source *source,
                              const struct rho_feed_place *place, enum feed_verdict verdict,
                              int64_t now_us);
+
+/* A skipped number has come: its sensor stays where it was. */
+void rho_feed_note_skipped(struct rho_feed_source *source, int32_t scan);
+
+/* The number before this one was skipped, and may still come. */
+int rho_feed_awaits(const struct rho_feed_source *source, int32_t scan);
 
 /* It has shown by follow_scans scans that it is no chance message. */
 int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_feed_source *source);
@@ -82,8 +88,9 @@ void rho_feed_count_one(uint32_t *counter);
 
 /* NULL: none. */
 struct rho_feed_slot *rho_feed_find_state(struct rho_feed *feed, enum feed_slot_state state);
-struct rho_feed_slot *rho_feed_find_open(struct rho_feed *feed,
-                                         const struct rho_feed_source *source);
+struct rho_feed_slot *rho_feed_find_scan(struct rho_feed *feed,
+                                         const struct rho_feed_source *source,
+                                         const struct feed_heading *heading);
 
 /* An open scan of a sensor that is not proven. */
 struct rho_feed_slot *rho_feed_find_weak(struct rho_feed *feed);
@@ -95,10 +102,11 @@ void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
 /* Nothing more is waited for. */
 void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot);
 
+/* The same of all open scans of a sensor. */
+void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *source);
+
 /* Of the clock that held before: what cannot be stepped any more. */
 void rho_feed_drop_slots(struct rho_feed *feed);
-
-int rho_feed_is_same_scan(const struct rho_feed_slot *slot, const struct feed_heading *heading);
 
 /* Another part of the slot's scan; it may be there already, or contradict the others. */
 void rho_feed_add_part(struct rho_feed *feed, struct rho_feed_slot *slot,

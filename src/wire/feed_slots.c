@@ -19,13 +19,21 @@ struct rho_feed_slot *rho_feed_find_state(struct rho_feed *feed, enum feed_slot_
     return NULL;
 }
 
-struct rho_feed_slot *rho_feed_find_open(struct rho_feed *feed,
-                                         const struct rho_feed_source *source)
+static int is_open_of(const struct rho_feed *feed, const struct rho_feed_slot *slot,
+                      const struct rho_feed_source *source)
+{
+    return slot->state == FEED_SLOT_OPEN && &feed->sources[slot->source] == source;
+}
+
+struct rho_feed_slot *rho_feed_find_scan(struct rho_feed *feed,
+                                         const struct rho_feed_source *source,
+                                         const struct feed_heading *heading)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_feed_slot *slot = &feed->slots[i];
 
-        if (slot->state == FEED_SLOT_OPEN && &feed->sources[slot->source] == source) {
+        if (is_open_of(feed, slot, source) && slot->place.scan == heading->place.scan &&
+            slot->place.epoch == heading->place.epoch) {
             return slot;
         }
     }
@@ -51,6 +59,15 @@ void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot)
         rho_feed_count_one(&feed->counters.scans_incomplete);
     }
     slot->state = FEED_SLOT_COMPLETE;
+}
+
+void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *source)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (is_open_of(feed, &feed->slots[i], source)) {
+            rho_feed_close_slot(feed, &feed->slots[i]);
+        }
+    }
 }
 
 /* What belongs to the clock that held before cannot be stepped any more. */
@@ -108,11 +125,6 @@ static int is_equal(float a, float b)
     return a <= b && a >= b;
 }
 
-int rho_feed_is_same_scan(const struct rho_feed_slot *slot, const struct feed_heading *heading)
-{
-    return slot->place.scan == heading->place.scan && slot->place.epoch == heading->place.epoch;
-}
-
 /* The parts of a scan must say the same of it. */
 static int agrees(const struct rho_feed_slot *slot, const struct feed_heading *heading)
 {
@@ -150,7 +162,21 @@ void rho_feed_add_part(struct rho_feed *feed, struct rho_feed_slot *slot,
 
 /* ---- Scans that are due ---- */
 
-/* Every other live sensor has sent what is not older, and nothing older is still being put together. */
+/* The number before the slot's was skipped; if it comes, it is likely to be older than time_us. */
+static int awaits_older(const struct rho_feed *feed, const struct rho_feed_slot *slot,
+                        int64_t time_us)
+{
+    const struct rho_feed_source *source = &feed->sources[slot->source];
+
+    return (slot->state == FEED_SLOT_OPEN || slot->state == FEED_SLOT_COMPLETE) &&
+           rho_feed_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
+           rho_feed_awaits(source, slot->place.scan);
+}
+
+/*
+ * Every other live sensor has sent what is not older, none has skipped a number that may be, and nothing older is still being
+ * put together.
+ */
 static int is_turn(const struct rho_feed *feed, const struct rho_feed_slot *slot, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -163,8 +189,10 @@ static int is_turn(const struct rho_feed *feed, const struct rho_feed_slot *slot
         }
     }
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        if (feed->slots[i].state == FEED_SLOT_OPEN &&
-            feed->slots[i].place.time_us < slot->place.time_us) {
+        const struct rho_feed_slot *other = &feed->slots[i];
+
+        if ((other->state == FEED_SLOT_OPEN && other->place.time_us < slot->place.time_us) ||
+            awaits_older(feed, other, slot->place.time_us)) {
             return 0;
         }
     }

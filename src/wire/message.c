@@ -12,6 +12,13 @@ const struct message_run rho_message_runs[] = {
     {offsetof(struct rho_message_peak, scans_hit), 2, 2},
     {offsetof(struct rho_message_plot, dt_us), 4, 10},
     {offsetof(struct rho_message_polar_plot, dt_us), 4, 6},
+    {offsetof(struct rho_message_sensor, sensor_id), 2, 1},
+    {offsetof(struct rho_message_sensor, kind), 1, 4},
+    {offsetof(struct rho_message_sensor, scans), 4, 1},
+    {offsetof(struct rho_message_sensor, scan_utime), 8, 1},
+    {offsetof(struct rho_message_sensor, heard_age_us), 4, 2},
+    {offsetof(struct rho_message_sensor, watched), 2, 2},
+    {offsetof(struct rho_message_sensor, seen_share), 4, 2},
     {offsetof(struct rho_message_status, utime), 8, 1},
     {offsetof(struct rho_message_status, scan), 4, 25},
     {offsetof(struct rho_message_status, tracks_tentative), 2, 3},
@@ -40,6 +47,9 @@ const struct message_run rho_message_runs[] = {
     {offsetof(struct rho_message_polar_scan, has_elevation), 1, 2},
     {offsetof(struct rho_message_polar_scan, part), 2, 2},
     {offsetof(struct rho_message_polar_scan, sensor_x_m), 4, 9},
+    {offsetof(struct rho_message_sensor_list, utime), 8, 1},
+    {offsetof(struct rho_message_sensor_list, scan), 4, 2},
+    {offsetof(struct rho_message_sensor_list, num_sensors_total), 2, 3},
     {offsetof(struct rho_message_track_list, utime), 8, 1},
     {offsetof(struct rho_message_track_list, scan), 4, 2},
     {offsetof(struct rho_message_track_list, num_tracks_total), 2, 3},
@@ -62,6 +72,8 @@ const struct message_float_rule rho_message_float_rules[] = {
     {offsetof(struct rho_message_polar_plot, elevation_rad), 1, -1.5707964f, 1.5707964f},
     {offsetof(struct rho_message_polar_plot, range_rate_mps), 1, -20000.0f, 20000.0f},
     {offsetof(struct rho_message_polar_plot, snr_db), 1, -1000.0f, 1000.0f},
+    {offsetof(struct rho_message_sensor, seen_share), 1, 0.0f, 1.0f},
+    {offsetof(struct rho_message_sensor, innovation_factor), 1, 0.0f, 1000000000000.0f},
     {offsetof(struct rho_message_status, step_us), 3, 0.0f, 1000000000000.0f},
     {offsetof(struct rho_message_track, x_m), 10, -FLT_MAX, FLT_MAX},
     {offsetof(struct rho_message_track, maneuver_probability), 1, 0.0f, 1.0f},
@@ -83,6 +95,12 @@ const struct message_int_rule rho_message_int_rules[] = {
     {offsetof(struct rho_message_peak, scans_hit), 2, 2, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_plot, dt_us), 4, 1, MESSAGE_RANGE, -60000000, 60000000},
     {offsetof(struct rho_message_polar_plot, dt_us), 4, 1, MESSAGE_RANGE, -60000000, 60000000},
+    {offsetof(struct rho_message_sensor, kind), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3},
+    {offsetof(struct rho_message_sensor, is_silent), 1, 3, MESSAGE_RANGE, 0, 1},
+    {offsetof(struct rho_message_sensor, scans), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_sensor, scan_utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_sensor, heard_age_us), 4, 2, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_sensor, watched), 2, 2, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_status, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_status, scans_accepted), 4, 23, MESSAGE_RANGE, 0, 2147483647},
     {offsetof(struct rho_message_status, tracks_tentative), 2, 3, MESSAGE_RANGE, 0, 32767},
@@ -102,6 +120,10 @@ const struct message_int_rule rho_message_int_rules[] = {
     {offsetof(struct rho_message_polar_scan, has_elevation), 1, 2, MESSAGE_RANGE, 0, 1},
     {offsetof(struct rho_message_polar_scan, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
     {offsetof(struct rho_message_polar_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_polar_scan, num_parts)},
+    {offsetof(struct rho_message_sensor_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_sensor_list, num_sensors_total), 2, 1, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_sensor_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_sensor_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_sensor_list, num_parts)},
     {offsetof(struct rho_message_track_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_track_list, num_tracks_total), 2, 1, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_track_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
@@ -123,51 +145,61 @@ static const struct message_format polar_plot_format = {
     RHO_MESSAGE_POLAR_PLOT_FINGERPRINT, {{3, 1}, {8, 5}, {2, 1}, 24},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
+static const struct message_format sensor_format = {
+    RHO_MESSAGE_SENSOR_FINGERPRINT, {{4, 7}, {13, 2}, {3, 6}, 38},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
 static const struct message_format status_format = {
-    RHO_MESSAGE_STATUS_FINGERPRINT, {{4, 4}, {13, 1}, {3, 5}, 138},
+    RHO_MESSAGE_STATUS_FINGERPRINT, {{11, 4}, {15, 1}, {9, 5}, 138},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format track_format = {
-    RHO_MESSAGE_TRACK_FINGERPRINT, {{8, 4}, {14, 3}, {8, 4}, 145},
+    RHO_MESSAGE_TRACK_FINGERPRINT, {{15, 4}, {16, 3}, {14, 4}, 145},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format truth_format = {
-    RHO_MESSAGE_TRUTH_FINGERPRINT, {{12, 1}, {17, 2}, {12, 0}, 28},
+    RHO_MESSAGE_TRUTH_FINGERPRINT, {{19, 1}, {19, 2}, {18, 0}, 28},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format bearing_scan_format = {
-    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{13, 4}, {19, 2}, {12, 1}, 30},
-    {{17, 1}, {21, 1}, {0, 0}, 4},
+    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{20, 4}, {21, 2}, {18, 1}, 30},
+    {{24, 1}, {23, 1}, {0, 0}, 4},
     offsetof(struct rho_message_bearing_scan, num_bearings), offsetof(struct rho_message_bearing_scan, bearing_rad),
     sizeof(float), RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD};
 
 static const struct message_format peak_list_format = {
-    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{18, 2}, {22, 0}, {13, 1}, 12},
+    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{25, 2}, {24, 0}, {19, 1}, 12},
     {{0, 2}, {0, 4}, {0, 1}, 20},
     offsetof(struct rho_message_peak_list, num_peaks), offsetof(struct rho_message_peak_list, peaks),
     sizeof(struct rho_message_peak), RHO_MESSAGE_PEAK_LIST_MAX_PEAKS};
 
 static const struct message_format plot_scan_format = {
-    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{20, 6}, {22, 1}, {14, 4}, 31},
+    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{27, 6}, {24, 1}, {20, 4}, 31},
     {{2, 1}, {4, 4}, {1, 1}, 40},
     offsetof(struct rho_message_plot_scan, num_plots), offsetof(struct rho_message_plot_scan, plots),
     sizeof(struct rho_message_plot), RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
 
 static const struct message_format polar_scan_format = {
-    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{26, 6}, {23, 5}, {18, 4}, 60},
+    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{33, 6}, {25, 5}, {24, 4}, 60},
     {{3, 1}, {8, 5}, {2, 1}, 24},
     offsetof(struct rho_message_polar_scan, num_polar_plots), offsetof(struct rho_message_polar_scan, polar_plots),
     sizeof(struct rho_message_polar_plot), RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS};
 
+static const struct message_format sensor_list_format = {
+    RHO_MESSAGE_SENSOR_LIST_FINGERPRINT, {{39, 3}, {30, 0}, {28, 4}, 22},
+    {{4, 7}, {13, 2}, {3, 6}, 38},
+    offsetof(struct rho_message_sensor_list, num_sensors), offsetof(struct rho_message_sensor_list, sensors),
+    sizeof(struct rho_message_sensor), RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS};
+
 static const struct message_format track_list_format = {
-    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{32, 3}, {28, 0}, {22, 4}, 22},
-    {{8, 4}, {14, 3}, {8, 4}, 145},
+    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{42, 3}, {30, 0}, {32, 4}, 22},
+    {{15, 4}, {16, 3}, {14, 4}, 145},
     offsetof(struct rho_message_track_list, num_tracks), offsetof(struct rho_message_track_list, tracks),
     sizeof(struct rho_message_track), RHO_MESSAGE_TRACK_LIST_MAX_TRACKS};
 
 static const struct message_format truth_list_format = {
-    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{35, 3}, {28, 0}, {26, 3}, 16},
-    {{12, 1}, {17, 2}, {12, 0}, 28},
+    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{45, 3}, {30, 0}, {36, 3}, 16},
+    {{19, 1}, {19, 2}, {18, 0}, 28},
     offsetof(struct rho_message_truth_list, num_targets), offsetof(struct rho_message_truth_list, targets),
     sizeof(struct rho_message_truth), RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS};
 
@@ -179,6 +211,8 @@ typedef char plot_scan_head_fits[offsetof(struct rho_message_plot_scan, sector_t
     offsetof(struct rho_message_plot_scan_head, sector_to_rad) ? 1 : -1];
 typedef char polar_scan_head_fits[offsetof(struct rho_message_polar_scan, sector_to_rad) ==
     offsetof(struct rho_message_polar_scan_head, sector_to_rad) ? 1 : -1];
+typedef char sensor_list_head_fits[offsetof(struct rho_message_sensor_list, num_parts) ==
+    offsetof(struct rho_message_sensor_list_head, num_parts) ? 1 : -1];
 typedef char track_list_head_fits[offsetof(struct rho_message_track_list, num_parts) ==
     offsetof(struct rho_message_track_list_head, num_parts) ? 1 : -1];
 typedef char truth_list_head_fits[offsetof(struct rho_message_truth_list, num_parts) ==
@@ -190,6 +224,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_PEAK_FINGERPRINT,
         RHO_MESSAGE_PLOT_FINGERPRINT,
         RHO_MESSAGE_POLAR_PLOT_FINGERPRINT,
+        RHO_MESSAGE_SENSOR_FINGERPRINT,
         RHO_MESSAGE_STATUS_FINGERPRINT,
         RHO_MESSAGE_TRACK_FINGERPRINT,
         RHO_MESSAGE_TRUTH_FINGERPRINT,
@@ -197,6 +232,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
         RHO_MESSAGE_PLOT_SCAN_FINGERPRINT,
         RHO_MESSAGE_POLAR_SCAN_FINGERPRINT,
+        RHO_MESSAGE_SENSOR_LIST_FINGERPRINT,
         RHO_MESSAGE_TRACK_LIST_FINGERPRINT,
         RHO_MESSAGE_TRUTH_LIST_FINGERPRINT,
     };
@@ -256,6 +292,24 @@ enum rho_status rho_message_polar_plot_validate(
     const struct rho_message_polar_plot *message, struct rho_message_place *place)
 {
     return rho_message_validate(&polar_plot_format, message, place);
+}
+
+enum rho_status rho_message_sensor_encode(
+    const struct rho_message_sensor *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&sensor_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_sensor_decode(
+    const uint8_t *data, size_t size, struct rho_message_sensor *message)
+{
+    return rho_message_decode(&sensor_format, data, size, message);
+}
+
+enum rho_status rho_message_sensor_validate(
+    const struct rho_message_sensor *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&sensor_format, message, place);
 }
 
 enum rho_status rho_message_status_encode(
@@ -434,6 +488,37 @@ enum rho_status rho_message_polar_scan_add(
     struct rho_message_writer *writer, const struct rho_message_polar_plot *polar_plot)
 {
     return rho_message_add(&polar_scan_format, writer, polar_plot);
+}
+
+enum rho_status rho_message_sensor_list_encode(
+    const struct rho_message_sensor_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&sensor_list_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_sensor_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_sensor_list *message)
+{
+    return rho_message_decode(&sensor_list_format, data, size, message);
+}
+
+enum rho_status rho_message_sensor_list_validate(
+    const struct rho_message_sensor_list *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&sensor_list_format, message, place);
+}
+
+enum rho_status rho_message_sensor_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_sensor_list_head *head)
+{
+    return rho_message_begin(&sensor_list_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_sensor_list_add(
+    struct rho_message_writer *writer, const struct rho_message_sensor *sensor)
+{
+    return rho_message_add(&sensor_list_format, writer, sensor);
 }
 
 enum rho_status rho_message_track_list_encode(

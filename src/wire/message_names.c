@@ -52,6 +52,22 @@ static const struct name polar_plot_names[] = {
     {offsetof(struct rho_message_polar_plot, snr_db), "snr_db"},
 };
 
+static const struct name sensor_names[] = {
+    {offsetof(struct rho_message_sensor, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_sensor, kind), "kind"},
+    {offsetof(struct rho_message_sensor, is_silent), "is_silent"},
+    {offsetof(struct rho_message_sensor, is_off_clock), "is_off_clock"},
+    {offsetof(struct rho_message_sensor, is_doubted), "is_doubted"},
+    {offsetof(struct rho_message_sensor, scans), "scans"},
+    {offsetof(struct rho_message_sensor, scan_utime), "scan_utime"},
+    {offsetof(struct rho_message_sensor, heard_age_us), "heard_age_us"},
+    {offsetof(struct rho_message_sensor, interval_us), "interval_us"},
+    {offsetof(struct rho_message_sensor, watched), "watched"},
+    {offsetof(struct rho_message_sensor, watched_hits), "watched_hits"},
+    {offsetof(struct rho_message_sensor, seen_share), "seen_share"},
+    {offsetof(struct rho_message_sensor, innovation_factor), "innovation_factor"},
+};
+
 static const struct name status_names[] = {
     {offsetof(struct rho_message_status, utime), "utime"},
     {offsetof(struct rho_message_status, scan), "scan"},
@@ -177,6 +193,17 @@ static const struct name polar_scan_names[] = {
     {offsetof(struct rho_message_polar_scan, polar_plots), "polar_plots"},
 };
 
+static const struct name sensor_list_names[] = {
+    {offsetof(struct rho_message_sensor_list, utime), "utime"},
+    {offsetof(struct rho_message_sensor_list, scan), "scan"},
+    {offsetof(struct rho_message_sensor_list, epoch), "epoch"},
+    {offsetof(struct rho_message_sensor_list, num_sensors_total), "num_sensors_total"},
+    {offsetof(struct rho_message_sensor_list, part), "part"},
+    {offsetof(struct rho_message_sensor_list, num_parts), "num_parts"},
+    {offsetof(struct rho_message_sensor_list, num_sensors), "num_sensors"},
+    {offsetof(struct rho_message_sensor_list, sensors), "sensors"},
+};
+
 static const struct name track_list_names[] = {
     {offsetof(struct rho_message_track_list, utime), "utime"},
     {offsetof(struct rho_message_track_list, scan), "scan"},
@@ -203,6 +230,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "peak_t",
         "plot_t",
         "polar_plot_t",
+        "sensor_t",
         "status_t",
         "track_t",
         "truth_t",
@@ -210,6 +238,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "peak_list_t",
         "plot_scan_t",
         "polar_scan_t",
+        "sensor_list_t",
         "track_list_t",
         "truth_list_t",
     };
@@ -230,6 +259,11 @@ const char *rho_message_plot_field(const struct rho_message_place *place)
 const char *rho_message_polar_plot_field(const struct rho_message_place *place)
 {
     return place ? find(polar_plot_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_sensor_field(const struct rho_message_place *place)
+{
+    return place ? find(sensor_names, 13, place->offset) : "unknown";
 }
 
 const char *rho_message_status_field(const struct rho_message_place *place)
@@ -277,6 +311,14 @@ const char *rho_message_polar_scan_field(const struct rho_message_place *place)
         return find(polar_plot_names, 6, place->offset);
     }
     return place ? find(polar_scan_names, 19, place->offset) : "unknown";
+}
+
+const char *rho_message_sensor_list_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(sensor_names, 13, place->offset);
+    }
+    return place ? find(sensor_list_names, 8, place->offset) : "unknown";
 }
 
 const char *rho_message_track_list_field(const struct rho_message_place *place)

@@ -279,6 +279,8 @@ static int begin(struct script *script)
     config.follow_scans = (uint16_t)(2 + number(script, 1) % 6);
     config.flood_per_s = (uint32_t)(1 + number(script, 1) * 10);
     config.jump_max_us = (int64_t)(1000000 + number(script, 1) * 200000);
+    config.late_max_us =
+        (int64_t)(config.follow_scans % 3) * 20000000; /* no byte of its own: old inputs stay */
     given = 0;
     return rho_feed_init(&feed, sizeof feed, &config) == RHO_OK;
 }

@@ -12,7 +12,7 @@
 
 typedef __int128 wide;
 
-enum model_verdict { M_NEXT, M_FOLLOW, M_DOUBLE, M_LATE, M_NUMBER, M_TIME };
+enum model_verdict { M_NEXT, M_FOLLOW, M_DOUBLE, M_SKIPPED, M_LATE, M_NUMBER, M_TIME };
 enum model_state { M_FREE, M_OPEN, M_WHOLE, M_OUT };
 
 struct model_stray {
@@ -27,7 +27,8 @@ struct model_source {
     wide interval_us;
     uint32_t bucket;
     struct rho_feed_place place;
-    int32_t numbers[MODEL_NUMBERS]; /* believed since it began or was followed */
+    int32_t
+        numbers[MODEL_NUMBERS]; /* believed since it began or was followed, the first one first */
     unsigned num_numbers;
     struct model_stray strays[RHO_FEED_STRAYS]; /* the last one first */
     unsigned num_strays;
@@ -48,8 +49,8 @@ static struct {
     struct rho_feed_counters counters;
     struct model_source sources[RHO_MAX_SENSORS], stranger;
     struct model_scan scans[RHO_MAX_OPEN_SCANS];
-    int64_t clock_us;
-    int has_clock, is_restart, is_pressed;
+    int64_t clock_us, out_us; /* out: the newest one that went out, on this clock */
+    int has_clock, has_out, is_restart, is_pressed;
 } model;
 
 static inline void model_start(const struct rho_feed_config *config)
@@ -123,6 +124,34 @@ static inline enum model_verdict model_judge_ahead(const struct model_source *so
                                                                                     : M_NEXT;
 }
 
+/* Between the first number and the newest one, 31 back at most, and it has not come. */
+static inline int model_is_skipped(const struct model_source *source, int32_t scan)
+{
+    wide behind = model_ahead(source->place.scan, scan);
+
+    for (unsigned i = 0; i < source->num_numbers; i++) {
+        if (source->numbers[i] == scan) {
+            return 0;
+        }
+    }
+    return behind > 0 && behind <= 31 && source->num_numbers > 0 &&
+           model_ahead(scan, source->numbers[0]) > 0;
+}
+
+static inline int model_is_of_use(const struct model_source *source,
+                                  const struct rho_feed_place *place)
+{
+    wide behind = model_ahead(source->place.scan, place->scan);
+    wide before = (wide)source->place.time_us - place->time_us;
+    wide usual = behind * source->interval_us, late = model.has_out ? model.out_us : 0;
+    wide late_max = source->kind == RHO_FEED_BEARINGS ? 0 : model.config.late_max_us;
+
+    late -= model.has_out ? place->time_us : 0;
+    return source->off == 0 && model_is_skipped(source, place->scan) && before > 0 &&
+           before + 10000 >= usual - usual / 4 && before <= usual + usual / 2 + 10000 &&
+           late <= late_max;
+}
+
 static inline enum model_verdict model_judge(const struct model_source *source,
                                              const struct rho_feed_place *place, int64_t now_us)
 {
@@ -142,7 +171,7 @@ static inline enum model_verdict model_judge(const struct model_source *source,
     } else if (model_apart(place->time_us, source->place.time_us) > model.config.jump_max_us) {
         verdict = M_TIME;
     } else {
-        verdict = M_LATE;
+        verdict = model_is_of_use(source, place) ? M_SKIPPED : M_LATE;
         for (unsigned i = 0; i < source->num_numbers; i++) {
             verdict = source->numbers[i] == place->scan ? M_DOUBLE : verdict;
         }
@@ -291,6 +320,7 @@ static inline void model_set_clock(int64_t time_us, int64_t now_us)
         }
     }
     model.is_restart = 1;
+    model.has_out = 0;
 }
 
 static inline int model_keeps_clock(struct model_source *source, int64_t time_us,
@@ -350,14 +380,18 @@ static inline struct model_source *model_find(int kind, int id)
     return NULL;
 }
 
-static inline struct model_scan *model_open_of(const struct model_source *source)
+static inline int model_is_open_of(const struct model_scan *scan, const struct model_source *source)
 {
-    for (unsigned i = 0; source && i < RHO_MAX_OPEN_SCANS; i++) {
-        if (model.scans[i].state == M_OPEN && model.scans[i].source == source) {
-            return &model.scans[i];
+    return source && scan->state == M_OPEN && scan->source == source;
+}
+
+static inline void model_close_all_of(const struct model_source *source)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model_is_open_of(&model.scans[i], source)) {
+            model_close(&model.scans[i]);
         }
     }
-    return NULL;
 }
 
 static inline struct model_source *model_add(const struct look *look, int64_t now_us)
@@ -380,9 +414,7 @@ static inline struct model_source *model_add(const struct look *look, int64_t no
         model.counters.sensors_no_room++;
         return NULL;
     }
-    if (model_open_of(room)) {
-        model_close(model_open_of(room));
-    }
+    model_close_all_of(room);
     memset(room, 0, sizeof *room);
     room->used = 1;
     room->kind = look->kind;
@@ -414,14 +446,17 @@ static inline void model_begin(struct model_source *source, const struct look *l
                                enum model_verdict verdict, int64_t now_us)
 {
     struct rho_feed_place place = {look->time_us, look->scan, look->epoch};
-    struct model_scan *scan = model_open_of(source);
+    struct model_scan *scan;
 
-    if (scan) {
-        model_close(scan);
+    if (verdict == M_SKIPPED) {
+        source->numbers[source->num_numbers++] = look->scan;
+        model.counters.scans_late++;
+    } else {
+        model_close_all_of(source);
+        model_believe(source, &place, verdict, now_us);
     }
-    model_believe(source, &place, verdict, now_us);
     model.counters.sensor_restarts += verdict == M_FOLLOW;
-    if (!model_keeps_clock(source, look->time_us, verdict, now_us)) {
+    if (verdict != M_SKIPPED && !model_keeps_clock(source, look->time_us, verdict, now_us)) {
         model.counters.clock_jumps++;
         return;
     }
@@ -478,25 +513,31 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
 {
     struct model_source *source = model_find(look->kind, look->sensor_id);
     struct model_source *drawn = source ? source : &model.stranger;
-    struct model_scan *open = model_open_of(source);
     struct rho_feed_place place = {look->time_us, look->scan, look->epoch};
     enum model_verdict verdict;
 
     if (!model_draw(drawn, now_us)) {
         return RHO_OK;
     }
-    if (open && open->place.scan == look->scan && open->place.epoch == look->epoch) {
-        model_add_part(open, look, now_us);
-        return RHO_OK;
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct model_scan *scan = &model.scans[i];
+
+        if (model_is_open_of(scan, source) && scan->place.scan == look->scan &&
+            scan->place.epoch == look->epoch) {
+            model_add_part(scan, look, now_us);
+            return RHO_OK;
+        }
     }
     verdict = source ? model_judge(source, &place, now_us) : M_NEXT;
-    if (verdict != M_NEXT && verdict != M_FOLLOW) {
+    if (verdict != M_NEXT && verdict != M_FOLLOW && verdict != M_SKIPPED) {
         model_refuse(source, look, verdict);
         return RHO_OK;
     }
     if (!model_in_state(M_FREE)) {
-        if (!(source && model_is_proven(source)) && !model_in_state(M_OUT) &&
-            !model_in_state(M_WHOLE) && !model_weak_one()) {
+        int may_cut =
+            verdict != M_SKIPPED && ((source && model_is_proven(source)) || model_weak_one());
+
+        if (!may_cut && !model_in_state(M_OUT) && !model_in_state(M_WHOLE)) {
             model.counters.sensors_no_room++;
             return RHO_OK;
         }
@@ -557,7 +598,16 @@ static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
         }
     }
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        if (model.scans[i].state == M_OPEN && model.scans[i].place.time_us < scan->place.time_us) {
+        const struct model_scan *other = &model.scans[i];
+        wide ahead = (wide)other->place.time_us - scan->place.time_us;
+
+        if (other->state == M_OPEN && ahead < 0) {
+            return 0;
+        }
+        /* the number before it is missing, and one interval earlier is before this scan */
+        if ((other->state == M_OPEN || other->state == M_WHOLE) &&
+            model_is_skipped(other->source, (int32_t)((uint32_t)other->place.scan - 1u)) &&
+            (ahead < 0 ? 0 : ahead) < other->source->interval_us) {
             return 0;
         }
     }
@@ -597,6 +647,9 @@ static inline const struct model_scan *model_next(int64_t now_us, int *is_restar
     model.is_pressed = 0;
     if (scan) {
         scan->state = M_OUT;
+        model.out_us = model.has_out && model.out_us > scan->place.time_us ? model.out_us
+                                                                           : scan->place.time_us;
+        model.has_out = 1;
         *is_restart = model.is_restart;
         model.is_restart = 0;
     }

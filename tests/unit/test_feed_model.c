@@ -17,7 +17,7 @@ static struct sender senders[SENSORS];
 static struct look past[PAST];
 static unsigned num_past;
 static int64_t now_us;
-static unsigned given, taken, pressed, restarted;
+static unsigned given, taken, pressed, restarted, skipped;
 
 static void compare_counters(void)
 {
@@ -66,10 +66,17 @@ static int next(int64_t at_us)
     return is_there;
 }
 
+/* Some of them in another order: a scan is kept back until others have come. */
+static struct look kept[4];
+static unsigned num_kept;
+
 static void say(const struct look *look)
 {
     for (;;) {
+        uint32_t late = feed.counters.scans_late, accepted = feed.counters.scans_accepted;
         enum rho_status status = take_status(look, now_us);
+
+        skipped += feed.counters.scans_late > late && feed.counters.scans_accepted > accepted;
 
         assert_int_equal(status, model_take(look, now_us));
         compare_counters();
@@ -141,8 +148,13 @@ static void say_scan(struct sender *sender, unsigned faults)
             damage(&other);
             say(&other);
         }
-        if (random_below(1000) >= faults) {
+        if (random_below(400) < faults && num_kept < 4) {
+            kept[num_kept++] = look;
+        } else if (random_below(1000) >= faults) {
             say(&look);
+        }
+        if (num_kept > 0 && random_below(8) == 0) {
+            say(&kept[--num_kept]);
         }
         if (random_below(4) == 0) {
             now_us += any_of(3000);
@@ -190,7 +202,7 @@ static void run(uint32_t seed, unsigned steps, unsigned faults,
                                      .kind = (uint8_t)(i % 3),
                                      .parts = i % 3 == 2 ? 1 : 1 + (int)i % 4};
     }
-    num_past = 0;
+    num_past = num_kept = 0;
     for (unsigned step = 0; step < steps; step++) {
         struct sender *sender = &senders[0];
 
@@ -203,7 +215,7 @@ static void run(uint32_t seed, unsigned steps, unsigned faults,
         say_scan(sender, faults);
         sender->scan = sender->scan < INT32_MAX ? sender->scan + 1 : INT32_MIN;
         sender->next_us += sender->interval_us + any_of(sender->interval_us / 10);
-        if (random_below(1000) < faults) {
+        if (num_past > 0 && random_below(1000) < faults) {
             say(&past[random_below(num_past < PAST ? num_past : PAST)]);
         }
         if (random_below(3000) < faults) {
@@ -224,17 +236,20 @@ static void the_feed_does_what_the_model_does(void **state)
     struct rho_feed_config config = usual();
 
     (void)state;
-    given = taken = pressed = restarted = 0;
+    given = taken = pressed = restarted = skipped = 0;
     for (uint32_t seed = 1; seed <= 60; seed++) {
         config.hold_us = seed % 5 == 0 ? 0 : (int64_t)(seed % 7) * 15000;
         config.follow_scans = (uint16_t)(2 + seed % 3);
         config.flood_per_s = seed % 4 == 0 ? 12 : 10000;
+        config.late_max_us = (int64_t)(seed % 4) * 5000000;
         config.jump_max_us = seed % 2 ? 30000000 : 3000000;
         run(seed, 2000, seed % 3 == 0 ? 0 : seed * 5, &config);
     }
     assert_in_range(taken, 200000, 2000000);
     assert_in_range(given, 50000, 2000000);
     assert_in_range(restarted, 20, 100000);
+    assert_in_range(skipped, 200, 100000);
+    print_message("%u scans taken late\n", skipped);
     assert_true(pressed > 20 || RHO_MAX_OPEN_SCANS > 4);
 }
 

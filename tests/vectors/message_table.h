@@ -7,8 +7,8 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(status, STATUS) X(track, TRACK) X(truth, TRUTH)
-#define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH")
+#define MESSAGES_WITHOUT_LIST(X) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH)
+#define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH")
 #endif
 
 static const struct message_member MESSAGE_TABLE(peak)[] = {
@@ -40,6 +40,22 @@ static const struct message_member MESSAGE_TABLE(polar_plot)[] = {
     {"elevation_rad", offsetof(MESSAGE_STRUCT(polar_plot), elevation_rad), 0, 4, 1, .is_float = true, .low = (float)(-1.5707964), .high = (float)(1.5707964)},
     {"range_rate_mps", offsetof(MESSAGE_STRUCT(polar_plot), range_rate_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
     {"snr_db", offsetof(MESSAGE_STRUCT(polar_plot), snr_db), 0, 4, 1, .is_float = true, .low = (float)(-1000), .high = (float)(1000)},
+};
+
+static const struct message_member MESSAGE_TABLE(sensor)[] = {
+    {"sensor_id", offsetof(MESSAGE_STRUCT(sensor), sensor_id), 0, 2, 1, .rule = MEMBER_ANY},
+    {"kind", offsetof(MESSAGE_STRUCT(sensor), kind), 0, 1, 1, .rule = MEMBER_ONE_OF, .choices = {1, 2, 3}, .num_choices = 3},
+    {"is_silent", offsetof(MESSAGE_STRUCT(sensor), is_silent), 0, 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
+    {"is_off_clock", offsetof(MESSAGE_STRUCT(sensor), is_off_clock), 0, 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
+    {"is_doubted", offsetof(MESSAGE_STRUCT(sensor), is_doubted), 0, 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
+    {"scans", offsetof(MESSAGE_STRUCT(sensor), scans), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"scan_utime", offsetof(MESSAGE_STRUCT(sensor), scan_utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"heard_age_us", offsetof(MESSAGE_STRUCT(sensor), heard_age_us), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"interval_us", offsetof(MESSAGE_STRUCT(sensor), interval_us), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"watched", offsetof(MESSAGE_STRUCT(sensor), watched), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"watched_hits", offsetof(MESSAGE_STRUCT(sensor), watched_hits), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"seen_share", offsetof(MESSAGE_STRUCT(sensor), seen_share), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"innovation_factor", offsetof(MESSAGE_STRUCT(sensor), innovation_factor), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e12)},
 };
 
 static const struct message_member MESSAGE_TABLE(status)[] = {
@@ -162,6 +178,15 @@ static const struct message_member MESSAGE_TABLE(polar_scan)[] = {
     {"sector_to_rad", offsetof(MESSAGE_STRUCT(polar_scan), sector_to_rad), MESSAGE_HEAD(polar_scan, sector_to_rad), 4, 1, .is_float = true, .low = (float)(-6.2831855), .high = (float)(6.2831855)},
 };
 
+static const struct message_member MESSAGE_TABLE(sensor_list)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(sensor_list), utime), MESSAGE_HEAD(sensor_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(sensor_list), scan), MESSAGE_HEAD(sensor_list, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(sensor_list), epoch), MESSAGE_HEAD(sensor_list, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"num_sensors_total", offsetof(MESSAGE_STRUCT(sensor_list), num_sensors_total), MESSAGE_HEAD(sensor_list, num_sensors_total), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"part", offsetof(MESSAGE_STRUCT(sensor_list), part), MESSAGE_HEAD(sensor_list, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(sensor_list), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(sensor_list), num_parts), MESSAGE_HEAD(sensor_list, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+};
+
 static const struct message_member MESSAGE_TABLE(track_list)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(track_list), utime), MESSAGE_HEAD(track_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(track_list), scan), MESSAGE_HEAD(track_list, scan), 4, 1, .rule = MEMBER_ANY},
@@ -182,6 +207,7 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"peak_t", MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), .element_members = NULL},
     {"plot_t", MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), .element_members = NULL},
     {"polar_plot_t", MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), .element_members = NULL},
+    {"sensor_t", MESSAGE_TABLE(sensor), 13, sizeof(MESSAGE_STRUCT(sensor)), .element_members = NULL},
     {"status_t", MESSAGE_TABLE(status), 35, sizeof(MESSAGE_STRUCT(status)), .element_members = NULL},
     {"track_t", MESSAGE_TABLE(track), 19, sizeof(MESSAGE_STRUCT(track)), .element_members = NULL},
     {"truth_t", MESSAGE_TABLE(truth), 7, sizeof(MESSAGE_STRUCT(truth)), .element_members = NULL},
@@ -197,6 +223,9 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"polar_scan_t", MESSAGE_TABLE(polar_scan), 17, sizeof(MESSAGE_STRUCT(polar_scan)),
      {"num_polar_plots", offsetof(MESSAGE_STRUCT(polar_scan), num_polar_plots), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(polar_scan), polar_plots), MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), 24, 54, MESSAGE_LIST_IS_POINTER},
+    {"sensor_list_t", MESSAGE_TABLE(sensor_list), 6, sizeof(MESSAGE_STRUCT(sensor_list)),
+     {"num_sensors", offsetof(MESSAGE_STRUCT(sensor_list), num_sensors), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(sensor_list), sensors), MESSAGE_TABLE(sensor), 13, sizeof(MESSAGE_STRUCT(sensor)), 38, 36, MESSAGE_LIST_IS_POINTER},
     {"track_list_t", MESSAGE_TABLE(track_list), 6, sizeof(MESSAGE_STRUCT(track_list)),
      {"num_tracks", offsetof(MESSAGE_STRUCT(track_list), num_tracks), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(track_list), tracks), MESSAGE_TABLE(track), 19, sizeof(MESSAGE_STRUCT(track)), 145, 9, MESSAGE_LIST_IS_POINTER},

@@ -17,6 +17,7 @@
 #include "lcm_log.h"
 #include "node_core.h"
 #include "node_print.h"
+#include "node_sensors.h"
 #include "node_tally.h"
 #include "rhotrack/message.h"
 #include "transport.h"
@@ -36,6 +37,7 @@ struct node {
     struct lcm_log_writer log; /* file NULL: none */
     const char *log_path;
     struct complaint complaints[NODE_TALLIES];
+    struct node_sensors sensors;
     int signals;               /* descriptor */
     int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
     bool is_over, is_waiting;  /* waiting: nothing is left to receive */
@@ -100,11 +102,18 @@ static void on_send(void *context, const char *channel, const uint8_t *data, siz
     }
 }
 
+/* At each step, so that no change is missed however many of them come at once; and not into a table. */
+static void watch_sensors(struct node *node)
+{
+    node_sensors_watch(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
+}
+
 static void on_step(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
     node_print_step(&node->print, report);
+    watch_sensors(node);
 }
 
 /* ---- Complaints and the summary ---- */
@@ -148,6 +157,7 @@ static void print_summary(const struct node *node)
             fprintf(stderr, "rhotrack: %s: %" PRIu64 "\n", tallies[i].name, tallies[i].count);
         }
     }
+    node_sensors_print(node->core, stderr);
 }
 
 /* ---- The loop ---- */
@@ -215,7 +225,8 @@ static bool is_output(const char *channel)
 {
     return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_PEAK_LIST_CHANNEL) == 0 ||
-           strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0;
+           strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0;
 }
 
 /* Other programs' channels are left out of the log, and what was published is there as it was sent. */
@@ -282,6 +293,7 @@ static void keep_clocks(struct node *node)
     node->is_over = node->is_over || now_us >= node->end_us;
     show(node, false);
     complain(node);
+    watch_sensors(node);
     flush_log(node);
 }
 

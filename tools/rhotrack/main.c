@@ -110,8 +110,9 @@ static const struct command commands[] = {
     {"node", command_node, "[--lcm URL] [--print] [--log FILE] [--gate best|hough|nearest]", 0, 0,
      "lpLTgsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
-     "RHO_TRACKS and RHO_PEAKS at each scan and RHO_STATUS once a second. Bad, late and lost\n"
-     "messages are counted and end nothing. It ends on SIGINT and SIGTERM, or at the end of a log\n"
+     "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS and RHO_SENSORS once a second. Bad, late\n"
+     "and lost messages are counted and end nothing. Sensors that contradict the others or fall\n"
+     "silent are named. It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
      "udpm:// URLs have the options ttl=N (0: this machine, 1: this network) and\n"
      "recv_buf_size=BYTES.\n"},

@@ -391,6 +391,25 @@ static int32_t round_origin(const struct parameters *parameters, enum parameter_
     return parameters_is_set(parameters, id) ? (int32_t)lround(parameters->value[id] * scale) : 0;
 }
 
+static void send_sensors(const struct node_core *core)
+{
+    struct rho_message_sensor_list list;
+    uint8_t buffer[RHO_MESSAGE_SENSOR_LIST_MAX_SIZE];
+    size_t size;
+
+    for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&core->feed); part++) {
+        if (rho_publish_sensors(&core->feed, core->chain.tracker, core->now_us, part, &list) !=
+            RHO_OK) {
+            return;
+        }
+        list.scan = core->step;
+        list.epoch = core->epoch;
+        if (rho_message_sensor_list_encode(&list, buffer, sizeof buffer, &size) == RHO_OK) {
+            core->events.send(core->events.context, RHO_MESSAGE_SENSOR_LIST_CHANNEL, buffer, size);
+        }
+    }
+}
+
 void node_core_status(struct node_core *core, uint64_t refused)
 {
     struct rho_message_status status;
@@ -412,6 +431,24 @@ void node_core_status(struct node_core *core, uint64_t refused)
     if (rho_message_status_encode(&status, buffer, sizeof buffer, &size) == RHO_OK) {
         core->events.send(core->events.context, RHO_MESSAGE_STATUS_CHANNEL, buffer, size);
     }
+    send_sensors(core);
+}
+
+unsigned node_core_sensors(const struct node_core *core,
+                           struct rho_message_sensor sensors[RHO_MAX_SENSORS])
+{
+    unsigned count = 0;
+
+    for (unsigned place = 0; place < RHO_MAX_SENSORS; place++) {
+        count += rho_publish_sensor(&core->feed, core->chain.tracker, core->now_us, place,
+                                    &sensors[count]) != 0;
+    }
+    return count;
+}
+
+int node_core_follow_scans(const struct node_core *core)
+{
+    return core->feed.config.follow_scans;
 }
 
 const struct rho_report *node_core_report(const struct node_core *core)

@@ -19,6 +19,7 @@
 #include "parameters.h"
 #include "rhotrack/feed.h"
 #include "rhotrack/frames.h"
+#include "rhotrack/message.h"
 #include "rhotrack/tracker.h"
 
 struct node_core;
@@ -61,7 +62,7 @@ int64_t node_core_due_us(const struct node_core *core);
 /* The end: all that is there is stepped. */
 void node_core_flush(struct node_core *core);
 
-/* Publishes RHO_STATUS. refused: datagrams that the transport has refused so far. */
+/* Publishes RHO_STATUS and RHO_SENSORS. refused: datagrams that the transport has refused so far. */
 void node_core_status(struct node_core *core, uint64_t refused);
 
 const struct rho_report *node_core_report(const struct node_core *core); /* of the last step */
@@ -69,6 +70,13 @@ const struct rho_feed_counters *node_core_feed(const struct node_core *core);
 const struct rho_frames_counters *node_core_frames(const struct node_core *core);
 const struct rho_tracker_counters *node_core_tracker(const struct node_core *core);
 const struct node_core_counters *node_core_counters(const struct node_core *core);
+
+/* The sensors that are heard, as RHO_SENSORS says it, with the time of the last call that told it. Returns how many. */
+unsigned node_core_sensors(const struct node_core *core,
+                           struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
+
+/* Scans after which a sensor is believed. */
+int node_core_follow_scans(const struct node_core *core);
 
 /* Mean and longest step in us since the start. */
 double node_core_mean_us(const struct node_core *core);

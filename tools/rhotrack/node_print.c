@@ -61,6 +61,21 @@ static int count_status(const struct rho_report *report, enum rho_track_status s
     return count;
 }
 
+/* What stands on standard error where there is no table. */
+static void print_sensors(const struct node_core *core)
+{
+    struct rho_message_sensor sensors[RHO_MAX_SENSORS];
+    const unsigned count = node_core_sensors(core, sensors);
+
+    for (unsigned i = 0; i < count; i++) {
+        if (sensors[i].is_doubted) {
+            printf("sensor %d contradicts the others  ", sensors[i].sensor_id);
+        } else if (sensors[i].is_silent && sensors[i].scans >= node_core_follow_scans(core)) {
+            printf("sensor %d is silent  ", sensors[i].sensor_id);
+        }
+    }
+}
+
 static void print_head(const struct node_core *core, const char *url)
 {
     const struct rho_report *report = node_core_report(core);
@@ -73,6 +88,7 @@ static void print_head(const struct node_core *core, const char *url)
            count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
            count_status(report, RHO_TRACK_TENTATIVE), feed->scans_lost, feed->scans_late,
            feed->scans_bad, feed->messages_bad);
+    print_sensors(core);
     printf("\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status", "x km",
            "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");
 }

@@ -37,6 +37,7 @@ void parameters_to_feed(const struct parameters *parameters, struct rho_feed *fe
     struct rho_sensor any;
     struct rho_feed_config config = {
         .hold_us = llround(value[PARAMETER_HOLD_MS] * 1e3),
+        .late_max_us = llround(value[PARAMETER_LATE_MAX_S] * 1e6),
         .jump_max_us = llround(value[PARAMETER_JUMP_MAX_S] * 1e6),
         .flood_per_s = (uint32_t)value[PARAMETER_FLOOD_PER_S],
         .follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS],

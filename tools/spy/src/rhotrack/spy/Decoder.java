@@ -11,6 +11,8 @@ import rhotrack.bearing_scan_t;
 import rhotrack.peak_list_t;
 import rhotrack.plot_scan_t;
 import rhotrack.polar_scan_t;
+import rhotrack.sensor_list_t;
+import rhotrack.sensor_t;
 import rhotrack.status_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
@@ -32,7 +34,7 @@ final class Decoder {
         return fingerprint == plot_scan_t.LCM_FINGERPRINT || fingerprint == polar_scan_t.LCM_FINGERPRINT
                 || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
                 || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
-                || fingerprint == status_t.LCM_FINGERPRINT;
+                || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT;
     }
 
     void decode(String channel, byte[] data) {
@@ -65,6 +67,9 @@ final class Decoder {
         }
         if (fingerprint == peak_list_t.LCM_FINGERPRINT) {
             return take(new peak_list_t(in), in);
+        }
+        if (fingerprint == sensor_list_t.LCM_FINGERPRINT) {
+            return take(new sensor_list_t(in), in);
         }
         return fingerprint == status_t.LCM_FINGERPRINT && take(new status_t(in), in);
     }
@@ -192,6 +197,26 @@ final class Decoder {
         model.setStatus(new Scene.Status(status.scans_accepted, status.scans_lost, status.scans_late,
                 saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative, status.tracks_confirmed,
                 status.tracks_coasting, status.step_us, status.step_max_us, status.clutter_per_km2));
+        return true;
+    }
+
+    private boolean take(sensor_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_sensors > sensor_list_t.MAX_SENSORS
+                || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<String> faults = new ArrayList<>();
+        for (sensor_t sensor : list.sensors) {
+            if (sensor.is_doubted != 0) {
+                faults.add("S" + sensor.sensor_id + " doubted");
+            }
+            if (sensor.is_silent != 0) {
+                faults.add("S" + sensor.sensor_id + " silent");
+            } else if (sensor.is_off_clock != 0) {
+                faults.add("S" + sensor.sensor_id + " off the clock");
+            }
+        }
+        model.setSensorFaults(list.part, list.num_parts, faults);
         return true;
     }
 

@@ -23,6 +23,8 @@ final class Model {
     private TrackStore tracks = new TrackStore();
     private List<Scene.Truth> truth = List.of();
     private final Map<Integer, Place> sensors = new TreeMap<>();
+    /** RHO_SENSORS: what is wrong with sensors, of each part of the list. */
+    private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
     private Scene.Status status;
     private long statusNanos;
     private long tracksNanos;
@@ -70,6 +72,11 @@ final class Model {
         statusNanos = System.nanoTime();
     }
 
+    synchronized void setSensorFaults(int part, int numParts, List<String> faults) {
+        sensorFaults.put(part, List.copyOf(faults));
+        sensorFaults.tailMap(numParts).clear();
+    }
+
     synchronized void countMessage(boolean good) {
         received++;
         ignored += good ? 0 : 1;
@@ -99,8 +106,10 @@ final class Model {
         plots.values().forEach(history -> allPlots.addAll(history.fading()));
         List<LookHistory.Faded<Scene.Bearings>> allBearings = new ArrayList<>();
         bearings.values().forEach(history -> allBearings.addAll(history.fading()));
+        List<String> faults = new ArrayList<>();
+        sensorFaults.values().forEach(faults::addAll);
         Scene.Health health =
-                new Scene.Health(status, age(statusNanos), age(tracksNanos), received, ignored);
+                new Scene.Health(status, faults, age(statusNanos), age(tracksNanos), received, ignored);
         return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
                 new TreeMap<>(sensors), health);
     }

@@ -32,6 +32,7 @@ record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearin
     }
 
     /** How the messages themselves are doing; ages in seconds, negative where nothing came yet. */
-    record Health(Status status, double statusAge, double tracksAge, long received, long ignored) {
+    record Health(Status status, List<String> sensorFaults, double statusAge, double tracksAge, long received,
+            long ignored) {
     }
 }

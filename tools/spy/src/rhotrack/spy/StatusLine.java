@@ -51,6 +51,9 @@ final class StatusLine extends JComponent {
             x = text(g, x, fault(status.lost()), status.lost() + " lost");
             x = text(g, x, fault(status.late()), status.late() + " late");
             x = text(g, x, fault(status.bad()), status.bad() + " bad") + 14;
+            for (String sensor : health.sensorFaults()) {
+                x = text(g, x, Palette.WARNING, sensor) + 14;
+            }
             x = text(g, x, Palette.MUTED, "tracks");
             x = text(g, x, Palette.of(TrackMark.Status.CONFIRMED), status.confirmed() + " confirmed");
             x = text(g, x, Palette.of(TrackMark.Status.TENTATIVE), status.tentative() + " tentative");

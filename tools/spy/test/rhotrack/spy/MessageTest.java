@@ -14,6 +14,8 @@ import rhotrack.peak_list_t;
 import rhotrack.peak_t;
 import rhotrack.polar_plot_t;
 import rhotrack.polar_scan_t;
+import rhotrack.sensor_list_t;
+import rhotrack.sensor_t;
 import rhotrack.status_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
@@ -86,6 +88,20 @@ final class MessageTest {
         return list;
     }
 
+    private static sensor_list_t sensors(int part, int numParts, int id, int doubted, int silent) {
+        sensor_t sensor = new sensor_t();
+        sensor.sensor_id = (short) id;
+        sensor.kind = sensor_t.POLAR;
+        sensor.is_doubted = (byte) doubted;
+        sensor.is_silent = (byte) silent;
+        sensor_list_t list = new sensor_list_t();
+        list.part = (short) part;
+        list.num_parts = (short) numParts;
+        list.num_sensors = 1;
+        list.sensors = new sensor_t[] {sensor};
+        return list;
+    }
+
     private static void good(Checks check) throws IOException {
         Model model = new Model();
         Decoder decoder = new Decoder(model);
@@ -105,6 +121,12 @@ final class MessageTest {
         check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
         check.near("peaks", -300, scene.peaks().get(0).content().peaks().get(0).rho());
         check.equal("counters stay at their limit", Integer.MAX_VALUE, scene.health().status().bad());
+        decoder.decode("RHO_SENSORS", bytes(sensors(0, 2, 3, 1, 0)));
+        decoder.decode("RHO_SENSORS", bytes(sensors(1, 2, 4, 1, 1)));
+        check.equal("faults of sensors", List.of("S3 doubted", "S4 doubted", "S4 silent"),
+                model.scene().health().sensorFaults());
+        decoder.decode("RHO_SENSORS", bytes(sensors(0, 1, 3, 0, 0)));
+        check.equal("none any more", List.of(), model.scene().health().sensorFaults());
         check.equal("all taken", 0L, scene.health().ignored());
         decoder.decode("RHO_TRACKS", bytes(trackList(2, track_t.DELETED)));
         check.equal("deleted", 0, model.scene().tracks().size());
@@ -145,7 +167,8 @@ final class MessageTest {
         Model model = new Model();
         Decoder decoder = new Decoder(model);
         byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
-            bytes(peaks()), bytes(new status_t())};
+            bytes(peaks()), bytes(new status_t()),
+            bytes(sensors(0, 1, 3, 1, 0))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();

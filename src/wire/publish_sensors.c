@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+/* How each sensor is doing: whether it is heard, and whether the others bear it out. */
+#include "rhotrack/publish.h"
+
+#define PART_SENSORS RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS
+
+/* ---- One sensor ---- */
+
+static int8_t kind_of(const struct rho_feed_source *source)
+{
+    return source->kind == RHO_FEED_PLOTS   ? RHO_MESSAGE_SENSOR_PLOTS
+           : source->kind == RHO_FEED_POLAR ? RHO_MESSAGE_SENSOR_POLAR
+                                            : RHO_MESSAGE_SENSOR_BEARINGS;
+}
+
+static uint64_t age_us(const struct rho_feed_source *source, int64_t now_us)
+{
+    if (now_us <= source->heard_us) { /* a clock that goes back makes nothing old */
+        return 0;
+    }
+    if (source->heard_us < 0 && now_us >= 0) { /* the difference may be beyond int64_t */
+        return (uint64_t)now_us + (uint64_t)(-(source->heard_us + 1)) + 1u;
+    }
+    return (uint64_t)(now_us - source->heard_us);
+}
+
+static int32_t at_most_int32(uint64_t value)
+{
+    return (int32_t)(value < INT32_MAX ? value : INT32_MAX);
+}
+
+#if RHO_SECTORS
+static void add_look(const struct rho_tracker *tracker, struct rho_message_sensor *sensor)
+{
+    const struct rho_tracker_look *look = rho_tracker_look_of(tracker, sensor->sensor_id);
+
+    if (look) {
+        sensor->is_doubted = look->is_doubted != 0;
+        sensor->watched = (int16_t)look->watched;
+        sensor->watched_hits = (int16_t)look->watched_hits;
+        sensor->seen_share = look->seen_share;
+        sensor->innovation_factor = look->distance2;
+    }
+}
+#endif
+
+int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tracker,
+                       int64_t now_us, unsigned place, struct rho_message_sensor *sensor)
+{
+    const struct rho_feed_source *source =
+        feed && place < RHO_MAX_SENSORS ? &feed->sources[place] : NULL;
+
+    if (!sensor || !source || !source->is_used) {
+        return 0;
+    }
+    *sensor = (struct rho_message_sensor){
+        .sensor_id = source->sensor_id,
+        .kind = kind_of(source),
+        .is_silent = age_us(source, now_us) > (uint64_t)feed->config.jump_max_us,
+        .is_off_clock = source->off_clock > 0,
+        .scans = source->scans,
+        .scan_utime = source->place.time_us,
+        .heard_age_us = at_most_int32(age_us(source, now_us)),
+        .interval_us = at_most_int32(source->interval_us),
+    };
+#if RHO_SECTORS
+    if (tracker && source->kind != RHO_FEED_BEARINGS) {
+        add_look(tracker, sensor);
+    }
+#else
+    (void)tracker;
+#endif
+    return 1;
+}
+
+/* ---- All of them ---- */
+
+static unsigned count_sensors(const struct rho_feed *feed)
+{
+    unsigned count = 0;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        count += feed->sources[i].is_used != 0;
+    }
+    return count;
+}
+
+static unsigned num_parts(unsigned sensors)
+{
+    return sensors <= PART_SENSORS ? 1 : (sensors + PART_SENSORS - 1) / PART_SENSORS;
+}
+
+uint16_t rho_publish_num_sensor_parts(const struct rho_feed *feed)
+{
+    return (uint16_t)num_parts(feed ? count_sensors(feed) : 0);
+}
+
+enum rho_status rho_publish_sensors(const struct rho_feed *feed, const struct rho_tracker *tracker,
+                                    int64_t now_us, uint16_t part,
+                                    struct rho_message_sensor_list *list)
+{
+    struct rho_message_sensor sensor;
+    unsigned sensors, at = 0;
+
+    if (!feed || !list) {
+        return RHO_ERROR_NULL;
+    }
+    sensors = count_sensors(feed);
+    if (part >= num_parts(sensors)) {
+        return RHO_ERROR_VALUE;
+    }
+    list->utime = tracker ? tracker->time_us : 0;
+    list->scan = list->epoch = 0;
+    list->num_sensors_total = (int16_t)sensors;
+    list->part = (int16_t)part;
+    list->num_parts = (int16_t)num_parts(sensors);
+    list->num_sensors = 0;
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        if (rho_publish_sensor(feed, tracker, now_us, i, &sensor) && at++ / PART_SENSORS == part) {
+            list->sensors[list->num_sensors++] = sensor;
+        }
+    }
+    return RHO_OK;
+}
