@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "asterix_file.h"
+#include "asterix_text.h"
 #include "common.h"
 #include "hint.h"
 #include "method.h"
@@ -281,11 +282,9 @@ static void suggest_origin(struct command_line *line)
                     !parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
          i++) {
         place = asterix_file_place(line->arguments[i]);
-    }
-    if (place.is_given) {
-        parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place.lat_deg);
-        parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place.lon_deg);
-        parameters_suggest(parameters, PARAMETER_ORIGIN_ALT_M, place.alt_m);
+        if (place.is_given) {
+            asterix_text_suggest_origin(line->arguments[i], &place, parameters);
+        }
     }
 }
 
