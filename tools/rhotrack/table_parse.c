@@ -266,7 +266,7 @@ static void refuse_foreign(const struct table_stream *stream)
 
 static void check_line(const struct table_stream *stream, size_t length)
 {
-    if (!stream->table->names && !stream->row_is_open) {
+    if (length > 0 && !stream->table->names && !stream->row_is_open) {
         refuse_foreign(stream);
     }
     check_binary(stream, length);
