@@ -25,7 +25,8 @@
 #define RHO_MAX_SCANS RHO_CONFIG_PICK(7, 12)
 #endif
 
-/* Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. RAM: linear. 1 .. 16383. */
+/* Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. With RHO_SECTORS those held are of a
+ * whole turn, as its sectors are one scan of the window. RAM: linear. 1 .. 16383. */
 #ifndef RHO_MAX_PLOTS
 #define RHO_MAX_PLOTS RHO_CONFIG_PICK(256, 10000)
 #endif

@@ -68,6 +68,12 @@ run track whole.csv --config sim/scenario.ini
 check 'turns: 20 targets, 20 tracks' grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
 run initiate turns.ast --config sim/scenario.ini
 check 'initiate reads recordings' exits 0
+cp turns.ast SHOUTED.AST
+run track SHOUTED.AST --config sim/scenario.ini
+check 'a name in capitals is the same' writes_same_as turns.tracks.csv
+run convert turns.ast SHOUTED.LCM
+run track SHOUTED.LCM --config sim/scenario.ini
+check 'of outputs as well' grep -q '480 scans, 1791 plots, 20 tracks confirmed' stderr
 run plot scans turns.ast -o turns.svg
 check 'plot scans reads them' exits 0
 run track turns.ast --follow
@@ -79,6 +85,14 @@ run convert placed.ast placed.csv
 check 'the radar is at its place, and has its number' grep -q '^43200.000000,-14329,,,,,47.49999[0-9]*,8.50000[0-9]*,430,' placed.csv
 run track placed.ast --config sim/scenario.ini -o placed.tracks.csv
 check 'which is the origin where nobody sets one' grep -q '20 tracks confirmed' stderr
+origin='rhotrack: placed.ast: the origin is origin_lat_deg=47.4999905, origin_lon_deg=8.5000062, origin_alt_m=430'
+check 'and told' grep -qx "$origin" stderr
+run convert placed.ast placed.csv
+check 'by convert too' grep -qx "$origin" stderr
+run track placed.ast --config sim/scenario.ini --json
+check 'and in JSON' json stdout 'abs(o["origin"]["lat_deg"] - 47.5) < 2e-5 and abs(o["origin"]["lon_deg"] - 8.5) < 2e-5 and o["origin"]["alt_m"] == 430'
+run track turns.ast --config sim/scenario.ini --json
+check 'where there is one' json stdout 'o["origin"] is None'
 check 'so that tracks are where they were' python3 -c '
 import csv
 pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("turns.tracks.csv")), strict=True)
@@ -88,6 +102,21 @@ check 'another origin moves them by 55.6 km' python3 -c '
 import csv
 pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("south.tracks.csv")))
 assert all(abs(float(b["y_m"]) - float(a["y_m"]) - 55588) < 300 for a, b in pairs)'
+
+# A radar that does not say where it stands, beside one that does, in one file or two.
+python3 "$write" sim/polar.csv lost.ast --sac 200 --sic 8
+cat placed.ast lost.ast >pair.ast
+lost='sensor -14328 does not say where it stands, and is taken to be at the origin; sensor.-14328.lat_deg and lon_deg say it'
+for command in track register; do
+    run "$command" placed.ast lost.ast --config sim/scenario.ini
+    check "$command names a radar without a place" grep -qx "rhotrack: lost.ast: $lost" stderr
+done
+run convert pair.ast pair.csv --keep-going
+check 'so does convert' grep -qx "rhotrack: pair.ast: $lost" stderr
+run track placed.ast lost.ast --config sim/scenario.ini --set sensor.-14328.lat_deg=47.5 --set sensor.-14328.lon_deg=8.6
+check 'not where the parameters say it' bash -c '! grep -q "where it stands" stderr'
+run track lost.ast --config sim/scenario.ini
+check 'nor of one radar alone' bash -c '! grep -q "where it stands" stderr'
 
 # ---- Tracks as CAT062 ----
 run track turns.ast --config sim/scenario.ini -o tracks.ast --set asterix_sac=25 --set asterix_sic=9
@@ -148,6 +177,24 @@ if python3 -c 'import asterix.generated' 2>/dev/null; then
 else
     echo 'skipped: libasterix is not installed (its records are in tests/vectors/asterix_vectors.h)'
 fi
+for command in 'track turns.ast -o' 'convert covariance.csv'; do
+    run $command covariance.ast --covariance
+    check "$command: no covariances in CAT062" says 2 \
+        'rhotrack: covariance.ast: --covariance has no place in CAT062, which has standard deviations (I062/500) without it'
+    check "$command: no file" test ! -e covariance.ast
+done
+no_tracks='tracks (CAT062), which are written and not read: give their CSV file or LCM log'
+cp tracks.ast nameless
+for command in track 'evaluate sim/truth.csv' initiate 'publish --lcm file://no.lcm?mode=w'; do
+    run $command tracks.ast
+    check "$command: tracks are not read" says 2 "rhotrack: tracks.ast: $no_tracks"
+    run $command nameless
+    check "$command: by any name" says 2 "rhotrack: nameless:1: $no_tracks"
+done
+for output in csv lcm geojson; do
+    run convert tracks.ast "no.$output"
+    check "convert to $output neither" says 2 "rhotrack: tracks.ast: $no_tracks"
+done
 run convert sim/polar.csv polar.ast
 check 'plots are no tracks' says 2 'rhotrack: sim/polar.csv: not one list of tracks in it*'
 check 'and leave no file' test ! -e polar.ast
@@ -168,7 +215,24 @@ refused cut "$good\\x30\\x00\\x0e\\xf0" 'byte 14: a data block of category 48 ha
 refused length "$good\\x30\\x00\\x02" 'byte 15: a data block of category 48 says that it has 2 bytes'
 refused overrun "$good\\x30\\x00\\x06\\xf0\\x00\\x01" 'byte 20: I048/140 goes beyond its data block'
 refused beyond "$good\\x22\\x00\\x06\\x01\\x01\\x80" 'byte 17: the field specification of a record of CAT034 has 3 bytes'
-refused other '\x3e\x00\x04\x00' 'not one plot (CAT048), north marker or sector crossing (CAT034) in it'
+refused other '\x3f\x00\x04\x00' 'not one plot (CAT048), north marker or sector crossing (CAT034) in it'
+run_piped() { # file, arguments: as run, the file on standard input
+    status=0
+    "$program" "${@:2}" <"$1" >stdout 2>stderr || status=$?
+}
+piped='ASTERIX on standard input or through a pipe; it is looked at twice: give it as a file'
+run_piped turns.ast track -
+check 'on standard input' says 2 "rhotrack: standard input:1: $piped"
+mkfifo pipe
+cat turns.ast >pipe &
+run track pipe
+wait $!
+check 'through a pipe' says 2 "rhotrack: pipe:1: $piped"
+run_piped turns.lcm track -
+check 'a log' says 2 'rhotrack: standard input:1: an LCM log on standard input or through a pipe: give it as a file'
+head -c 8 turns.ast >cut
+run track cut
+check 'a bad first block and no ending' says 2 'rhotrack: cut:1: ASTERIX with a bad first block: named NAME.ast it is read, and says where'
 run track nowhere.ast
 check 'a file that is not there' says 2 'rhotrack: nowhere.ast: No such file or directory'
 
@@ -264,6 +328,15 @@ run track live.lcm --config sim/scenario.ini
 check 'and are tracked' grep -q '20 tracks confirmed' stderr
 run publish udp://127.0.0.1
 check 'a URL without a port' says 2 'rhotrack: udp://127.0.0.1: udp://ADDRESS:PORT is needed, with a port from 1 to 65535'
+run publish "udp://127.0.0.1:$port" --speed 2
+check 'another speed than that of now' says 2 "rhotrack: publish: udp://127.0.0.1:$port is heard live, and --speed is for files"
+cp turns.lcm kept.lcm
+run publish udp://radar:8600 --lcm 'file://kept.lcm?mode=w'
+check 'a bad URL leaves the log as it was' cmp turns.lcm kept.lcm
+run publish cut --lcm 'file://kept.lcm?mode=w'
+check 'so does a bad input' cmp turns.lcm kept.lcm
+run publish turns.csv --lcm 'file://kept.lcm?mode=w' --speed 0
+check 'a good one takes its place' bash -c '! cmp -s turns.lcm kept.lcm'
 run publish udp://radar:8600
 check 'a name' says 2 "rhotrack: udp://radar:8600: 'radar' is no IPv4 address"
 

@@ -22,6 +22,20 @@ for command in $commands; do
     run "$command" --help
     check "help of $command" grep -q "^Usage: rhotrack $command" stdout
 done
+for command in track maintain initiate publish; do
+    run "$command" --help
+    for word in 'LCM log' ASTERIX CAT048 lat_deg received_s; do
+        check "help of $command: $word" grep -q "$word" stdout
+    done
+done
+for command in track maintain; do
+    run "$command" --help
+    check "help of $command: its outputs" grep -q '\.ast ASTERIX (CAT062), \.geojson a map' stdout
+done
+printf 'pd = 0.7\nsigma_m = 3\n' >one.ini
+printf 'pd = 0.6\n' >two.ini
+run config --config one.ini --config two.ini --json
+check 'of several --config the last one counts' json stdout 'o["pd"]["value"] == 0.6 and o["sigma_m"]["value"] == 3'
 "$program" --help >/dev/full 2>stderr
 status=$?
 check 'help on a full disk is a failure' exits 1
@@ -103,6 +117,24 @@ check 'sensor in the config file' json stdout 'o["sensor.3.pd"]["value"] == 0.7'
 run config --json --set sigma_m=30 --config good.ini --set sensor.3.pd=0.6
 check 'set goes before the config file in any order' json stdout \
     'o["sigma_m"]["value"] == 30 and o["sigma_m"]["source"] == "set" and o["sensor.3.pd"]["value"] == 0.6'
+
+# ---- what a scenario does not use ----
+refuse 'a parameter of another scenario' 'simulate crossing: true_time_bias_s has no effect here; it is for two-radars' \
+    simulate crossing -o none --set true_time_bias_s=1
+refuse 'of several others' 'simulate parallel: targets has no effect here; it is for traffic, *' \
+    simulate parallel -o none --set targets=3
+refuse 'a whole word counts' 'simulate crossing: crossing_deg has no effect here; it is for crossing-angle, formation' \
+    simulate crossing -o none --set crossing_deg=3
+check 'nothing is written' test ! -e none
+printf 'late_ms = 5\nsigma_m = 20\nclutter_per_scan = 3\n' >shared.ini
+run simulate crossing -o some --config shared.ini
+check 'a file is for several scenarios: said' matches "$(cat stderr)" \
+    'rhotrack: simulate crossing: late_ms of --config has no effect here; it is for two-radars'
+check 'and done' test -s some/plots.csv
+for scenario in crossing-angle formation; do
+    run simulate "$scenario" -o "$scenario" --set num_scans=3 --set crossing_deg=3
+    check "its own: $scenario" exits 0
+done
 
 refuse_config() { # name, pattern, text of the file
     printf "$3" >bad.ini

@@ -165,6 +165,14 @@ check 'maintain writes one, too' json one.geojson '[f["properties"]["kind"] for 
 printf 't_s,sensor_id,lat_deg,lon_deg\n1,1,50,10\n2,1,,\n' >two.csv
 run track two.csv --config origin.ini -o none.geojson
 check 'without a track: a map without features' json none.geojson 'o["features"] == []'
+json='JSON, and CSV is needed; GeoJSON is written and not read: give the tracks'"'"' CSV file or LCM log'
+cp map.geojson nameless
+for file in map.geojson nameless; do
+    run track "$file"
+    check "$file is not read" says 2 "rhotrack: $file:1: $json"
+    run convert "$file" map.csv
+    check "$file: nor by convert" says 2 "rhotrack: $file:1: $json"
+done
 
 # ---- what is refused ----
 refuse() { # name, pattern of the message behind the file, file's text, options...

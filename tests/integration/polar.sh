@@ -307,4 +307,43 @@ run plot scans two.csv -o two.svg
 run plot scans two_range.csv --set sensor.1.range_bias_m=300 -o two_range.svg
 check 'plot scans: a bias is taken off' cmp two.svg two_range.svg
 
+# ---- rotating: sectors ----
+# What initiate finds at the start of the last turn is where the targets are then; and so of whole turns.
+cat >found.py <<'PYTHON'
+import csv, math, sys
+found = [[float(row[name]) for name in ("t_s", "x_m", "y_m")] for row in csv.DictReader(open(sys.argv[1]))]
+truth = [[float(row[name]) for name in ("t_s", "x_m", "y_m")] for row in csv.DictReader(open(sys.argv[2]))]
+for t, x, y in found:
+    near = min(math.hypot(x - u, y - v) for at, u, v in truth if abs(at - t) < 1e-3)
+    assert near < 300, (t, x, y, near)
+assert len(found) == 3, found
+PYTHON
+run simulate rotating -o sectors
+run initiate sectors/polar.csv --config sectors/scenario.ini --json -o found.csv
+check 'initiate: the sectors of a turn are one scan' grep -qx 'rhotrack: the last 7 of 15 scans are taken' stderr
+check 'initiate: JSON counts turns' json stdout 'o["scans"] == 7 and o["tracks"] == 3 and o["plots"] > 600'
+check 'initiate: three targets, where they are' python3 found.py found.csv sectors/truth.csv
+run simulate rotating -o turns --set sectors_per_turn=1
+run initiate turns/polar.csv --config turns/scenario.ini -o found.csv
+check 'initiate: as of whole turns' python3 found.py found.csv turns/truth.csv
+run initiate sectors/polar.csv --config sectors/scenario.ini --method iht --set d_rho_m=20 --json
+check 'methods of the literature: the same turns' json stdout 'o["scans"] == 7 and o["plots"] > 600'
+run simulate two-radars -o late --set num_scans=10 --set late_ms=3000
+run initiate late/polar.csv --config late/scenario.ini --set hold_ms=20
+check 'initiate: what comes late is left out and counted' grep -qx 'rhotrack: [0-9]* scans that came late are left out' stderr
+check 'initiate: and ends well' exits 0
+python3 - <<'PYTHON'
+rows = list(open("sectors/polar.csv"))
+keep = [row for row in rows[1:] if int(row.rstrip().rsplit(",", 1)[1]) > 3 * 32]
+open("last.csv", "w").writelines(rows[:1] + keep)
+PYTHON
+run plot parameter-space sectors/polar.csv --config sectors/scenario.ini -o space.svg
+check 'plot parameter-space: the last 12 turns of 15' grep -qx 'rhotrack: the last 12 of 15 scans are taken' stderr
+run plot parameter-space last.csv --config sectors/scenario.ini -o last.svg
+check 'plot parameter-space: of sectors' cmp space.svg last.svg
+run plot parameter-space /dev/stdin -o stdin.svg
+check 'plot parameter-space: not through a pipe' exits 2
+run plot parameter-space seed1-rate0/polar.csv --config seed1-rate0/scenario.ini -o space.svg
+check 'plot parameter-space: turns whose plots have their own times' grep -qx 'rhotrack: the last 12 of 15 scans are taken' stderr
+
 finish

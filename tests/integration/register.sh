@@ -116,4 +116,15 @@ run register one/polar.csv --config one/scenario.ini -o none.ini
 check 'one target for two minutes tells nothing' exits 1
 check 'each bias is said to be not known' test "$(grep -c 'not known' stdout)" -eq 5
 check 'no file then either' test ! -e none.ini
+ln -s sectors/polar.csv link.csv
+run register first.csv second.csv ./second.csv --config sectors/scenario.ini
+check 'a file twice' says 2 'rhotrack: register: ./second.csv is given twice, and its plots would count twice'
+run register sectors/polar.csv link.csv --config sectors/scenario.ini
+check 'by another name' says 2 'rhotrack: register: link.csv is given twice, *'
+for ending in csv lcm ast geojson svg JSON; do
+    run register sectors/polar.csv --config sectors/scenario.ini -o "none.$ending"
+    check "an INI file by the name of $ending" says 2 \
+        "rhotrack: none.$ending: register writes an INI file, and .${ending,,} is the ending of another"
+    check "and no file: $ending" test ! -e "none.$ending"
+done
 finish

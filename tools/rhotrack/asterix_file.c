@@ -218,6 +218,11 @@ uint64_t asterix_file_records(const struct asterix_file *file)
     return file->records;
 }
 
+uint64_t asterix_file_others(const struct asterix_file *file, uint8_t category)
+{
+    return file->others[category];
+}
+
 struct asterix_place asterix_file_place(const char *path)
 {
     struct asterix_service service = {.has_type = false};

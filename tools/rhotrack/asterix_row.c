@@ -111,6 +111,18 @@ struct asterix_rules asterix_text_rules(const struct parameters *parameters, dou
     };
 }
 
+void asterix_text_suggest_origin(const char *path, const struct asterix_place *place,
+                                 struct parameters *parameters)
+{
+    parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place->lat_deg);
+    parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place->lon_deg);
+    parameters_suggest(parameters, PARAMETER_ORIGIN_ALT_M, place->alt_m);
+    fprintf(stderr,
+            "rhotrack: %s: the origin is origin_lat_deg=%.7f, origin_lon_deg=%.7f, "
+            "origin_alt_m=%.0f\n",
+            path, place->lat_deg, place->lon_deg, place->alt_m);
+}
+
 /* ---- What became of records ---- */
 
 void asterix_text_report(const char *path, const struct asterix_counts *counts)

@@ -68,6 +68,17 @@ void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128)
     scans->start_128 = time_128;
 }
 
+size_t asterix_scans_num_sensors(const struct asterix_scans *scans)
+{
+    return scans->num_sensors;
+}
+
+bool asterix_scans_sensor(const struct asterix_scans *scans, size_t index, int32_t *sensor_id)
+{
+    *sensor_id = scans->sensors[index].sensor_id;
+    return scans->sensors[index].place.is_given;
+}
+
 const struct asterix_counts *asterix_scans_counts(const struct asterix_scans *scans)
 {
     return &scans->counts;

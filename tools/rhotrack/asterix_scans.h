@@ -82,6 +82,10 @@ void asterix_scans_close(struct asterix_scans *scans);
  */
 void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record *record);
 
+/* The radars that are known: how many, and of each its number and whether it said where it stands. */
+size_t asterix_scans_num_sensors(const struct asterix_scans *scans);
+bool asterix_scans_sensor(const struct asterix_scans *scans, size_t index, int32_t *sensor_id);
+
 /* The first record's time is the one of its time of day that is nearest to this one; without, of the first day. */
 void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128);
 

@@ -2,6 +2,7 @@
 #include "asterix_text.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,7 +29,12 @@ struct asterix_text {
     int64_t given_128; /* the newest row's that was given out */
     bool has_header, has_given, is_over;
     bool has_interval; /* plots of radars without crossings become scans here */
+    int32_t placeless[ASTERIX_MAX_SENSORS]; /* radars whose place nobody says, beside others */
+    size_t num_placeless;
 };
+
+const char asterix_text_no_tracks[] =
+    "tracks (CAT062), which are written and not read: give their CSV file or LCM log";
 
 /* ---- Looking at the file ---- */
 
@@ -59,12 +65,32 @@ static void look_through(struct asterix_text *text, bool keep_going)
     while (asterix_file_next(file, &record)) {
         has_any |= note(text, &record);
     }
+    if (!has_any && asterix_file_others(file, ASTERIX_TRACKS) > 0) {
+        fail(EXIT_USAGE, "%s: %s", text->path, asterix_text_no_tracks);
+    }
     if (!has_any) {
         fail(EXIT_USAGE,
              "%s: not one plot (CAT048), north marker or sector crossing (CAT034) in it",
              text->path);
     }
     asterix_file_close(file);
+}
+
+/* A radar whose place nobody says stands at the origin, which is right of one radar alone and without places on the earth. */
+static void find_placeless(struct asterix_text *text, const struct parameters *parameters)
+{
+    size_t count = asterix_scans_num_sensors(text->scans);
+    int32_t sensor_id;
+
+    if (count < 2 && !parameters_has_origin(parameters)) {
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!asterix_scans_sensor(text->scans, i, &sensor_id) &&
+            isnan(parameters_of_sensor(parameters, sensor_id, SENSOR_X_M, NAN))) {
+            text->placeless[text->num_placeless++] = sensor_id;
+        }
+    }
 }
 
 struct asterix_text *asterix_text_open(const char *path, const struct parameters *parameters,
@@ -81,6 +107,9 @@ struct asterix_text *asterix_text_open(const char *path, const struct parameters
     text->has_interval = rules.interval_s > 0;
     text->scans = asterix_scans_open(&rules);
     look_through(text, keep_going);
+    if (parameters) {
+        find_placeless(text, parameters);
+    }
     text->file = asterix_file_open(path, keep_going);
     return text;
 }
@@ -147,6 +176,12 @@ static void report(const struct asterix_text *text)
 
     asterix_file_report(text->file);
     asterix_text_report(text->path, counts);
+    for (size_t i = 0; i < text->num_placeless; i++) {
+        fprintf(stderr,
+                "rhotrack: %s: sensor %" PRId32 " does not say where it stands, and is taken to be "
+                "at the origin; sensor.%" PRId32 ".lat_deg and lon_deg say it\n",
+                text->path, text->placeless[i], text->placeless[i]);
+    }
     if (text->late > 0) {
         fprintf(stderr,
                 "rhotrack: %s: %" PRIu64 " rows of a radar whose clock is behind left out\n",

@@ -20,11 +20,15 @@
 struct asterix_text;
 
 /*
- * Looks at the whole file once. Of the parameters asterix_scans says what a scan is, scan_interval_s of radars without
+ * Looks at the whole file once. At the end a line each on standard error names radars that do not say where they stand, beside
+ * others or an origin that is set, and for which the parameters do not say it either. Of the parameters asterix_scans says what a scan is, scan_interval_s of radars without
  * crossings; NULL: their defaults. Errors: exit 2, as asterix_file.h has them, and a file without one plot or crossing.
  */
 struct asterix_text *asterix_text_open(const char *path, const struct parameters *parameters,
                                        bool keep_going);
+
+/* What is said of tracks that are given as input. */
+extern const char asterix_text_no_tracks[];
 
 /* The next line with its end; false: no more. What was left out goes to standard error then, once. */
 #define ASTERIX_LINE_BYTES 512
@@ -48,6 +52,10 @@ void asterix_text_row(const struct asterix_columns *columns, const struct asteri
 /* The rules for scans that the parameters say. */
 struct asterix_rules asterix_text_rules(const struct parameters *parameters, double hold_s,
                                         double wait_s);
+
+/* The place of a radar becomes the origin; a line on standard error says so. */
+void asterix_text_suggest_origin(const char *path, const struct asterix_place *place,
+                                 struct parameters *parameters);
 
 /* What became of records, where there is anything to say, on standard error in one line. */
 void asterix_text_report(const char *path, const struct asterix_counts *counts);

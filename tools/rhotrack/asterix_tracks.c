@@ -36,6 +36,16 @@ bool asterix_tracks_is_asterix(const char *path)
     return path && (path_ends_with(path, ".ast") || path_ends_with(path, ".asterix"));
 }
 
+void asterix_tracks_refuse_covariance(const char *path, bool with_covariance)
+{
+    if (with_covariance && asterix_tracks_is_asterix(path)) {
+        fail(EXIT_USAGE,
+             "%s: --covariance has no place in CAT062, which has standard deviations (I062/500) "
+             "without it",
+             path);
+    }
+}
+
 struct asterix_tracks *asterix_tracks_open(FILE *file, const struct parameters *parameters)
 {
     struct asterix_tracks *tracks = must_calloc(1, sizeof *tracks);

@@ -24,6 +24,9 @@ struct asterix_tracks;
 /* Whether an output of this name is such a recording: it ends with .ast or .asterix. */
 bool asterix_tracks_is_asterix(const char *path);
 
+/* Exit 2 where an output of this name is asked for with covariances, which it has no place for. */
+void asterix_tracks_refuse_covariance(const char *path, bool with_covariance);
+
 /* The file stays the caller's. */
 struct asterix_tracks *asterix_tracks_open(FILE *file, const struct parameters *parameters);
 

@@ -18,6 +18,7 @@
 #include "rows_collect.h"
 #include "rows_read.h"
 #include "rows_write.h"
+#include "table.h"
 
 /* ---- Which way ---- */
 
@@ -36,10 +37,19 @@ static bool input_is_log(const char *input, const char *output)
            (!is_regular(input) && !path_ends_with(input, ".csv") && path_ends_with(output, ".csv"));
 }
 
+/* What is neither a table nor a log says what it is. */
+static void check_table(const char *input)
+{
+    table_free(table_read_header(input));
+}
+
 /* An output with another name, as standard output, is what the input is not. */
-static void check_output(const char *output, bool from_log)
+static void check_output(const char *input, const char *output, bool from_log)
 {
     if (path_ends_with(output, from_log ? ".lcm" : ".csv")) {
+        if (!from_log) {
+            check_table(input);
+        }
         fail(EXIT_USAGE,
              "convert: %s would be %s, and so is the input; CSV files end with .csv, LCM logs with "
              ".lcm",
@@ -314,10 +324,12 @@ int command_convert(struct command_line *line)
 
     parameters_check(&line->parameters);
     if (asterix_tracks_is_asterix(line->arguments[1])) {
+        asterix_tracks_refuse_covariance(line->arguments[1], line->covariance);
         convert_to_asterix(line);
         return 0;
     }
     if (to_map && asterix_file_is_asterix(line->arguments[0])) {
+        check_table(line->arguments[0]);
         fail(EXIT_USAGE, "%s: a recording of radars; GeoJSON is made of tracks",
              line->arguments[0]);
     }
@@ -330,7 +342,7 @@ int command_convert(struct command_line *line)
         convert_from_asterix(line);
         return 0;
     }
-    check_output(line->arguments[1], from_log);
+    check_output(line->arguments[0], line->arguments[1], from_log);
     if (to_map) {
         check_map(line);
     }

@@ -13,6 +13,7 @@
 #include "initiate_passive_paper.h"
 #include "initiated_output.h"
 #include "scan_reader.h"
+#include "turns.h"
 
 struct batch {
     struct rho_initiator *initiator;
@@ -50,15 +51,17 @@ static void push(struct batch *batch, const struct rho_scan *scan, const struct 
     batch->plots_no_room += scan->num_plots - held.num_plots;
 }
 
-/* Pushes the last scans of the reader that fit the window. */
+/* Pushes the last scans of the reader that fit the window, turns of radars that look by sectors. */
 static void push_last(struct batch *batch, struct scan_reader *reader)
 {
-    const struct rho_scan *scan;
+    struct turns turns = turns_read(reader, batch->initiator->config.scans);
 
-    scan_reader_skip(reader, batch->initiator->config.scans);
-    while ((scan = scan_reader_next(reader))) {
-        push(batch, scan, scan_reader_sensor(reader));
+    for (size_t i = 0; i < turns.count; i++) {
+        const struct turn *turn = &turns.list[i];
+
+        push(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
     }
+    turns_free(&turns);
 }
 
 static void search(struct batch *batch, const struct command_line *line)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "asterix_file.h"
+#include "asterix_text.h"
 #include "common.h"
 #include "hint.h"
 #include "method.h"
@@ -33,7 +34,8 @@ static const struct {
     {'j', "json", NULL, "one JSON object with the results on standard output"},
     {'k', "keep-going", NULL, "skip and count bad rows instead of stopping at the first"},
     {'s', "set", "KEY=VALUE", "a parameter; may be repeated; `rhotrack config` lists them"},
-    {'C', "config", "FILE", "parameters from an INI file; --set goes before it"},
+    {'C', "config", "FILE",
+     "parameters from an INI file; may be repeated, the last one counts; --set goes before it"},
     {'l', "lcm", "URL",
      "LCM network; without it $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0"},
     {'p', "print", NULL, "tracks as they come: a table on a terminal, else as CSV"},
@@ -281,11 +283,9 @@ static void suggest_origin(struct command_line *line)
                     !parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
          i++) {
         place = asterix_file_place(line->arguments[i]);
-    }
-    if (place.is_given) {
-        parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place.lat_deg);
-        parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place.lon_deg);
-        parameters_suggest(parameters, PARAMETER_ORIGIN_ALT_M, place.alt_m);
+        if (place.is_given) {
+            asterix_text_suggest_origin(line->arguments[i], &place, parameters);
+        }
     }
 }
 

@@ -11,9 +11,8 @@
 #include "picture.h"
 #include "plot_bearings.h"
 #include "plot_data.h"
-#include "rhotrack/angle.h"
+#include "plot_parameter_space.h"
 
-#define PI 3.14159265358979323846
 #define LEGEND_TRACKS_MAX 8 /* more tracks than that get no line of their own in the legend */
 
 /* ---- maps ------------------------------------------------------------------------------------- */
@@ -123,127 +122,6 @@ static void draw_tracks(struct picture *picture, const struct plot_data *data)
     }
     plot_track_lines(&map, &data->tracks);
     fprintf(map.script, "\n");
-}
-
-/* ---- parameter space -------------------------------------------------------------------------- */
-
-#define RHO_CELLS 480
-#define THETA_CELLS 540
-/* the newest times of the file vote: as many as an initiation window can hold */
-#define SCANS_SHOWN 12
-
-struct votes {
-    double rho_min_m, rho_max_m;
-    uint16_t count[RHO_CELLS][THETA_CELLS];
-};
-
-static double theta_at(int cell)
-{
-    return (cell + 0.5) * PI / THETA_CELLS;
-}
-
-static double rho_of(const struct plot_point *plot, double theta)
-{
-    return plot->x_m * cos(theta) + plot->y_m * sin(theta);
-}
-
-/* First of the newest SCANS_SHOWN times' plots. */
-static size_t first_shown(const struct plot_points *plots)
-{
-    size_t first = plots->count;
-    for (int scans = 0; first > 0; first--) {
-        scans +=
-            first == plots->count || plots->list[first - 1].time_us != plots->list[first].time_us;
-        if (scans > SCANS_SHOWN) {
-            break;
-        }
-    }
-    return first;
-}
-
-static void find_range(struct votes *votes, const struct plot_points *plots, size_t first)
-{
-    votes->rho_min_m = INFINITY;
-    votes->rho_max_m = -INFINITY;
-    for (size_t i = first; i < plots->count; i++) {
-        for (int t = 0; t < THETA_CELLS; t++) {
-            votes->rho_min_m = fmin(votes->rho_min_m, rho_of(&plots->list[i], theta_at(t)) - 1.0);
-            votes->rho_max_m = fmax(votes->rho_max_m, rho_of(&plots->list[i], theta_at(t)) + 1.0);
-        }
-    }
-}
-
-static void cast_votes(struct votes *votes, const struct plot_points *plots)
-{
-    size_t first = first_shown(plots);
-    find_range(votes, plots, first);
-    double cells_per_m = RHO_CELLS / (votes->rho_max_m - votes->rho_min_m);
-    for (size_t i = first; i < plots->count; i++) {
-        for (int t = 0; t < THETA_CELLS; t++) {
-            int cell =
-                (int)((rho_of(&plots->list[i], theta_at(t)) - votes->rho_min_m) * cells_per_m);
-            votes->count[cell][t] = (uint16_t)(votes->count[cell][t] + 1u);
-        }
-    }
-}
-
-static void put_votes(FILE *script, const struct votes *votes, double unit_m)
-{
-    fprintf(script, "$votes << EOD\n");
-    for (int r = 0; r < RHO_CELLS; r++) {
-        double width_m = (votes->rho_max_m - votes->rho_min_m) / RHO_CELLS;
-        double rho = (votes->rho_min_m + (r + 0.5) * width_m) / unit_m;
-        for (int t = 0; t < THETA_CELLS; t++) {
-            fprintf(script, "%.5g %.5g %d\n", theta_at(t) * 180.0 / PI, rho, votes->count[r][t]);
-        }
-        fprintf(script, "\n");
-    }
-    fprintf(script, "EOD\n");
-}
-
-static void put_lines(FILE *script, const struct plot_points *tracks, double unit_m)
-{
-    struct plot_points one;
-    size_t at = 0;
-    fprintf(script, "$lines << EOD\n");
-    while (plot_data_next(tracks, &at, &one)) {
-        const struct plot_point *end = &one.list[one.count - 1];
-        struct rho_line line = rho_angle_line((float)end->x_m, (float)end->y_m, (float)end->vx_mps,
-                                              (float)end->vy_mps);
-        fprintf(script, "%.5g %.5g %d\n", line.theta_rad * 180.0 / PI, line.rho_m / unit_m,
-                end->id);
-    }
-    fprintf(script, "EOD\n");
-}
-
-static void draw_parameter_space(struct picture *picture, const struct plot_data *data)
-{
-    struct votes *votes = must_calloc(1, sizeof *votes);
-    cast_votes(votes, &data->plots);
-    double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
-    put_votes(picture->script, votes, unit_m);
-    put_lines(picture->script, &data->tracks, unit_m);
-    fprintf(
-        picture->script,
-        "set key outside top left horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
-        "set xtics 30\nset xlabel 'theta, direction of the normal (degrees)'\n"
-        "set ylabel 'rho, signed distance from the origin (%s)'\nset cblabel 'plots that voted'\n"
-        "set palette defined (0 '#ffffff', 0.15 '#d0dff0', 0.5 '#5a9bd0', 1 '#08306b')\nset "
-        "cbrange [0:*]\n"
-        "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.6,0.4\n"
-        "plot $votes using 1:2:3 with image notitle",
-        votes->rho_min_m / unit_m, votes->rho_max_m / unit_m, unit_m > 1.0 ? "km" : "m");
-    if (data->tracks.count) {
-        fprintf(
-            picture->script,
-            ", \\\n $lines using 1:2 with points pt 6 ps 2.4 lw 4 lc rgb '#ffffff' notitle, \\\n"
-            " $lines using 1:2 with points pt 6 ps 2.4 lw 2.5 lc rgb '#d55e00' title 'the tracks'' "
-            "lines', \\\n"
-            " $lines using 1:2:(sprintf('track %%d', $3)) with labels left boxed offset 1.8,1.1 "
-            "tc rgb '#000000' notitle");
-    }
-    fprintf(picture->script, "\n");
-    free(votes);
 }
 
 /* ---- errors ----------------------------------------------------------------------------------- */
@@ -393,7 +271,7 @@ static void check_content(const char *kind, const struct plot_data *data)
 }
 
 static void draw(const char *kind, struct picture *picture, const struct plot_data *data,
-                 double cutoff_m)
+                 const struct parameters *parameters)
 {
     if (strcmp(kind, "scans") == 0 && data->bearings.num_sensors) {
         plot_bearings(picture, data);
@@ -402,9 +280,9 @@ static void draw(const char *kind, struct picture *picture, const struct plot_da
     } else if (strcmp(kind, "tracks") == 0) {
         draw_tracks(picture, data);
     } else if (strcmp(kind, "errors") == 0) {
-        draw_errors(picture, data, cutoff_m);
+        draw_errors(picture, data, parameters->value[PARAMETER_GOSPA_CUTOFF_M]);
     } else {
-        draw_parameter_space(picture, data);
+        plot_parameter_space(picture, data, parameters);
     }
 }
 
@@ -419,7 +297,7 @@ int command_plot(struct command_line *line)
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_content(kind, &data);
     struct picture picture = picture_open(line->output, 1100, 680);
-    draw(kind, &picture, &data, line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);
+    draw(kind, &picture, &data, &line->parameters);
     picture_close(&picture);
     plot_data_free(&data);
     return 0;

@@ -222,11 +222,16 @@ static void send_event(struct player *player, const struct message_event *event)
         !publish_send(player->transport, event->channel, change(player, event), event->size);
 }
 
-static void play(struct player *player, const struct command_line *line)
+static struct message_source *open_source(const struct command_line *line)
+{
+    return message_source_open(line->arguments, line->num_arguments, &line->parameters,
+                               line->keep_going);
+}
+
+/* One pass; the source is closed. */
+static void play(struct player *player, struct message_source *source)
 {
     struct message_event event;
-    struct message_source *source = message_source_open(line->arguments, line->num_arguments,
-                                                        &line->parameters, line->keep_going);
 
     while (!is_stopped && message_source_next(source, &event)) {
         if (!player->start_ns) {
@@ -306,6 +311,7 @@ static void print_summary(const struct player *player)
 int command_publish(struct command_line *line)
 {
     struct player player = {.line = line, .epoch = own_epoch(line)};
+    struct message_source *source;
 
     if (asterix_udp_is_url(line->arguments[0])) {
         return publish_asterix(line);
@@ -316,10 +322,12 @@ int command_publish(struct command_line *line)
         }
     }
     publish_watch_signals();
+    source = open_source(line); /* what is wrong with it is said before a log is emptied */
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
-    do {
-        play(&player, line);
-    } while (line->loop && !is_stopped);
+    play(&player, source);
+    while (line->loop && !is_stopped) {
+        play(&player, open_source(line));
+    }
     print_summary(&player);
     transport_close(player.transport);
     free(player.channels);

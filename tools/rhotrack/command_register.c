@@ -10,6 +10,33 @@
 #include "register.h"
 #include "register_output.h"
 
+/* Its plots would count twice. */
+static void refuse_twins(const struct command_line *line)
+{
+    for (int i = 0; i < line->num_arguments; i++) {
+        for (int other = 0; other < i; other++) {
+            if (is_same_file(line->arguments[other], line->arguments[i])) {
+                fail(EXIT_USAGE, "register: %s is given twice, and its plots would count twice",
+                     line->arguments[i]);
+            }
+        }
+    }
+}
+
+/* A name that promises something else than biases. */
+static void refuse_other_format(const char *path)
+{
+    static const char *const endings[] = {".csv",     ".lcm",  ".ast", ".asterix",
+                                          ".geojson", ".json", ".svg"};
+
+    for (size_t i = 0; path && i < sizeof endings / sizeof *endings; i++) {
+        if (path_ends_with(path, endings[i])) {
+            fail(EXIT_USAGE, "%s: register writes an INI file, and %s is the ending of another",
+                 path, endings[i]);
+        }
+    }
+}
+
 /* What nobody described stands in the origin; that can be true of one radar alone. */
 struct unplaced {
     bool is_any;
@@ -96,6 +123,8 @@ int command_register(struct command_line *line)
     uint64_t rows_skipped;
 
     refuse_own_input(line);
+    refuse_twins(line);
+    refuse_other_format(line->output);
     chain_set_gate(&line->parameters, line->gate);
     rows_skipped = read_all(line, data);
     check_enough(data);

@@ -45,6 +45,7 @@ int command_simulate(struct command_line *line)
     }
     scenario_suggest(line->arguments[0], &line->parameters);
     parameters_check(&line->parameters);
+    scenario_check_uses(line->arguments[0], &line->parameters);
     if (line->runs > 1) {
         write_runs(line);
     } else {

@@ -280,6 +280,21 @@ static cJSON *sensors_json(const struct rho_tracker *tracker)
     return list;
 }
 
+/* null where the local frame is anywhere. */
+static cJSON *origin_json(const struct parameters *parameters)
+{
+    cJSON *object;
+
+    if (!parameters_has_origin(parameters)) {
+        return cJSON_CreateNull();
+    }
+    object = cJSON_CreateObject();
+    cJSON_AddNumberToObject(object, "lat_deg", parameters->value[PARAMETER_ORIGIN_LAT_DEG]);
+    cJSON_AddNumberToObject(object, "lon_deg", parameters->value[PARAMETER_ORIGIN_LON_DEG]);
+    cJSON_AddNumberToObject(object, "alt_m", parameters->value[PARAMETER_ORIGIN_ALT_M]);
+    return object;
+}
+
 static size_t count_bytes(const struct tracking *tracking, const struct inputs *inputs)
 {
     return sizeof *tracking->chain.tracker +
@@ -290,7 +305,7 @@ static size_t count_bytes(const struct tracking *tracking, const struct inputs *
 }
 
 static void print_json(const struct tracking *tracking, const struct inputs *inputs,
-                       const struct inputs_counts *counts)
+                       const struct inputs_counts *counts, const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
     cJSON *object = cJSON_CreateObject();
@@ -307,6 +322,7 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
     cJSON_AddItemToObject(object, "counters", counters_json(counters));
     cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->chain.tracker));
+    cJSON_AddItemToObject(object, "origin", origin_json(parameters));
     json_print(object);
 }
 
@@ -349,13 +365,14 @@ static struct tracks_output *open_tracks(const struct command_line *line)
                : tracks_output_open(line->output, &line->parameters, line->covariance);
 }
 
-static void print_results(const struct tracking *tracking, const struct inputs *inputs, bool json)
+static void print_results(const struct tracking *tracking, const struct inputs *inputs,
+                          const struct command_line *line)
 {
     struct inputs_counts counts = inputs_counts(inputs);
 
     print_summary(tracking, &counts);
-    if (json) {
-        print_json(tracking, inputs, &counts);
+    if (line->json) {
+        print_json(tracking, inputs, &counts, &line->parameters);
     }
 }
 
@@ -376,7 +393,7 @@ int command_track(struct command_line *line)
         step_all(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
     }
     tracks_output_close(tracks);
-    print_results(&tracking, inputs, line->json);
+    print_results(&tracking, inputs, line);
     inputs_close(inputs);
     chain_free(&tracking.chain);
     if (why) {

@@ -9,6 +9,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -292,7 +293,7 @@ bool path_ends_with(const char *path, const char *suffix)
 {
     size_t length = strlen(path), end = strlen(suffix);
 
-    return length >= end && strcmp(path + length - end, suffix) == 0;
+    return length >= end && strcasecmp(path + length - end, suffix) == 0;
 }
 
 char *path_join(const char *folder, const char *name)

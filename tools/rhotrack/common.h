@@ -72,7 +72,7 @@ struct cJSON *json_descending(int *values, int count);
 #define FLOAT_TEXT_BYTES 24
 const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);
 
-/* A name that ends so, "NAME.lcm" with ".lcm". */
+/* A name that ends so, in capitals or not: "NAME.lcm" and "NAME.LCM" with ".lcm". */
 bool path_ends_with(const char *path, const char *suffix);
 
 /* Length of a plain file; 0 of anything else. */

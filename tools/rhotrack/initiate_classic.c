@@ -10,6 +10,7 @@
 #include "common.h"
 #include "initiated_output.h"
 #include "scan_reader.h"
+#include "turns.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)
 #define PAIRS_MANY 1e7
@@ -80,14 +81,13 @@ static void read_batch(struct batch *batch, const struct command_line *line)
 {
     struct scan_reader *reader =
         scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
-    const struct rho_scan *scan;
-    int64_t first_us = 0;
+    struct turns turns = turns_read(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
+    int64_t first_us = turns.count > 0 ? turns.list[0].scan.time_us : 0;
 
-    scan_reader_skip(reader, (uint64_t)line->parameters.value[PARAMETER_SCANS]);
-    while ((scan = scan_reader_next(reader))) {
-        first_us = batch->num_scans > 0 ? first_us : scan->time_us;
-        add_scan(batch, scan, first_us);
+    for (size_t i = 0; i < turns.count; i++) {
+        add_scan(batch, &turns.list[i].scan, first_us);
     }
+    turns_free(&turns);
     for (uint32_t i = 0; i < batch->num_plots; i++) {
         batch->t_s[i] -= (float)(1e-6 * (double)(batch->time_us - first_us));
     }

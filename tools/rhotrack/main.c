@@ -14,18 +14,27 @@
 #define RHOTRACK_VERSION "0.1.0"
 #endif
 
+#define INPUT_FORMATS                                                                              \
+    "Plots in CSV have t_s,sensor_id and x_m,y_m[,z_m] or range_m,azimuth_rad; for places also\n"  \
+    "lat_deg,lon_deg[,alt_m] (with the parameters origin_lat_deg and origin_lon_deg); and\n"       \
+    "received_s, when a row came, where some come late. INPUT may be an LCM log (NAME.lcm)\n"      \
+    "or a recording in ASTERIX (NAME.ast: CAT048, CAT034), whose first radar is the origin if\n"   \
+    "none is set.\n"
+#define TRACK_FORMATS                                                                              \
+    "OUTPUT, by its name: .lcm an LCM log, .ast ASTERIX (CAT062), .geojson a map (needs the\n"     \
+    "origin), any other CSV.\n"
+
 static const struct command commands[] = {
     {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest] [--follow]", 1,
      INT_MAX, "ogfcjksC", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
-     "and writes one row a track and scan (CSV) to OUTPUT or standard output. Inputs may be LCM\n"
-     "logs, and OUTPUT is one where it is named NAME.lcm, or a map where NAME.geojson (with the\n"
-     "parameters origin_lat_deg and origin_lon_deg). A summary goes to standard error. With\n"
-     "--json the results go to standard output as one JSON object, and tracks only to OUTPUT.\n"
-     "INPUT - is standard input (CSV). Files may be of any length: memory does not grow with "
-     "them.\n"
+     "and writes one row a track and scan to OUTPUT or standard output (CSV).\n"
+     "\n" INPUT_FORMATS "\n" TRACK_FORMATS "\n"
+     "A summary goes to standard error. With --json the results go to standard output as one JSON\n"
+     "object, and tracks only to OUTPUT. INPUT - is standard input (CSV). Files may be of any\n"
+     "length: memory does not grow with them.\n"
      "\n"
      "With --follow one CSV file of plots (or a pipe) is tracked while it grows, as tail -f shows "
      "it.\n"
@@ -41,7 +50,9 @@ static const struct command commands[] = {
      "found\n"
      "in it (CSV), best first, at the time of the last scan. Methods: kernel and, for bearings,\n"
      "passive (the defaults), and those of the literature, for comparison: ht, mht, iht, nht, for\n"
-     "bearings passive-paper (score: votes; place and velocity are fitted through what voted).\n"},
+     "bearings passive-paper (score: votes; place and velocity are fitted through what voted).\n"
+     "Sectors of a turning radar are one scan a turn. OUTPUT is an LCM log where it is NAME.lcm.\n"
+     "\n" INPUT_FORMATS},
     {"maintain", command_maintain, "INPUT [-o OUTPUT] [--gate best|hough|nearest|none]", 1, 1,
      "ogicjkSsC", "one track alone, never dropped",
      "The first plot of the first scan starts a track; of each further scan it takes one plot, or "
@@ -51,7 +62,8 @@ static const struct command commands[] = {
      "needs\n"
      "columns vx_mps, vy_mps), nearest (the least Mahalanobis distance), none (any plot, drawn "
      "with\n"
-     "--seed). hough, nearest and none run a Kalman filter with input estimation.\n"},
+     "--seed). hough, nearest and none run a Kalman filter with input estimation.\n"
+     "\n" INPUT_FORMATS "\n" TRACK_FORMATS},
     {"simulate", command_simulate, "SCENARIO -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
      "made-up targets, noise, misses and clutter",
      "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and "
@@ -118,9 +130,12 @@ static const struct command commands[] = {
      "recv_buf_size=BYTES.\n"},
     {"publish", command_publish, "INPUT... [--lcm URL] [--speed X] [--loop]", 1, INT_MAX, "lxOTksC",
      "plays files as sensors, live",
-     "Sends the messages of LCM logs and CSV files (plots, polar plots, bearings, truth) in time, "
-     "the\n"
-     "first one at once. Messages are sent as they are. With --loop times and numbers of scans go "
+     "Sends the messages of LCM logs, CSV files (plots, polar plots, bearings, truth, tracks) and\n"
+     "recordings in ASTERIX (NAME.ast: CAT048, CAT034) in time, the first one at once. CSV files\n"
+     "may have lat_deg, lon_deg, alt_m for places (parameters origin_lat_deg and origin_lon_deg), "
+     "but\n"
+     "no received_s. Messages of logs are sent as they are. With --loop times and numbers of scans "
+     "go "
      "on\n"
      "from pass to pass, as of sensors that go on. A CSV file without a column epoch has the "
      "program's\n"

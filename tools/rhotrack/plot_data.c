@@ -295,6 +295,7 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
     struct plot_data data = {0};
     char **bearings = must_calloc((size_t)num_paths, sizeof bearings[0]);
     int num_bearings = 0;
+    data.plot_paths = must_calloc((size_t)num_paths, sizeof data.plot_paths[0]);
     for (int i = 0; i < num_paths; i++) {
         bool is_log = lcm_log_is_log(paths[i]);
         bool has_bearings = is_log ? (log_scans_kinds(paths[i]) & LOG_HAS_BEARINGS) != 0
@@ -302,9 +303,12 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
         if (has_bearings) {
             bearings[num_bearings++] = paths[i];
         }
-        size_t before = count_points(&data);
+        size_t before = count_points(&data), plots_before = data.plots.count;
         if (is_log || !has_bearings) {
             add_file(&data, paths[i], parameters);
+        }
+        if (data.plots.count > plots_before) {
+            data.plot_paths[data.num_plot_paths++] = paths[i];
         }
         data.bearings.has_own_file |= has_bearings && count_points(&data) == before;
     }
@@ -325,4 +329,5 @@ void plot_data_free(struct plot_data *data)
     free(data->truth.list);
     free(data->bearings.list);
     free(data->bearings.sensors);
+    free(data->plot_paths);
 }

@@ -41,6 +41,8 @@ struct plot_rays {
 struct plot_data {
     struct plot_points plots, tracks, truth;
     struct plot_rays bearings;
+    char **plot_paths; /* of the files with plots; the names are the caller's */
+    int num_plot_paths;
 };
 
 /* Reads the files; errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. A track's rows while tentative are kept, but

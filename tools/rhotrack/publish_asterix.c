@@ -68,13 +68,7 @@ static void suggest_origin(struct forwarding *forwarding, const struct asterix_p
     struct parameters *parameters = &forwarding->parameters;
 
     if (place->is_given && !parameters_has_origin(parameters)) {
-        parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place->lat_deg);
-        parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place->lon_deg);
-        parameters_suggest(parameters, PARAMETER_ORIGIN_ALT_M, place->alt_m);
-        fprintf(stderr,
-                "rhotrack: %s: the origin is origin_lat_deg=%.7f, origin_lon_deg=%.7f, "
-                "origin_alt_m=%.0f\n",
-                forwarding->url, place->lat_deg, place->lon_deg, place->alt_m);
+        asterix_text_suggest_origin(forwarding->url, place, parameters);
     }
 }
 
@@ -220,6 +214,9 @@ int publish_asterix(const struct command_line *line)
     if (line->num_arguments > 1 || line->loop) {
         fail(EXIT_USAGE, "publish: %s is listened to alone, and not in a loop", line->arguments[0]);
     }
+    if (line->speed < 1 || line->speed > 1) {
+        fail(EXIT_USAGE, "publish: %s is heard live, and --speed is for files", line->arguments[0]);
+    }
     parameters_check(&line->parameters);
     forwarding->line = line;
     forwarding->parameters = line->parameters;
@@ -230,8 +227,8 @@ int publish_asterix(const struct command_line *line)
     forwarding->scans = asterix_scans_open(&rules);
     start_today(forwarding->scans);
     publish_watch_signals();
+    receiver = asterix_udp_open(forwarding->url); /* may fail: before a log is emptied */
     forwarding->transport = transport_open(line->lcm, TRANSPORT_SEND);
-    receiver = asterix_udp_open(forwarding->url);
     listen_until_over(forwarding, receiver);
     report(forwarding);
     close(receiver);

@@ -16,9 +16,7 @@ struct input_file {
 struct scan_reader {
     struct input_file *files;
     int num_files;
-    struct plot_scan now;   /* handed out */
-    struct plot_scan *last; /* read ahead by scan_reader_skip: a ring */
-    size_t num_last, first_last, capacity_last;
+    struct plot_scan now; /* handed out */
     uint64_t scans, plots;
 };
 
@@ -89,12 +87,6 @@ static bool read_scan(struct scan_reader *reader, struct plot_scan *scan)
 const struct rho_scan *scan_reader_next(struct scan_reader *reader)
 {
     plot_scan_free(&reader->now);
-    if (reader->num_last > 0) {
-        reader->now = reader->last[reader->first_last];
-        reader->first_last = (reader->first_last + 1) % reader->capacity_last;
-        reader->num_last--;
-        return &reader->now.scan;
-    }
     return read_scan(reader, &reader->now) ? &reader->now.scan : NULL;
 }
 
@@ -121,32 +113,6 @@ void scan_reader_end(struct scan_reader *reader)
 const char *scan_reader_why_over(const struct scan_reader *reader)
 {
     return plot_source_why_over(reader->files[0].source);
-}
-
-/* Into the ring; where it is full the oldest one goes. */
-static void keep_scan(struct scan_reader *reader, const struct plot_scan *scan)
-{
-    size_t at = (reader->first_last + reader->num_last) % reader->capacity_last;
-
-    if (reader->num_last == reader->capacity_last) {
-        plot_scan_free(&reader->last[at]);
-        reader->first_last = (at + 1) % reader->capacity_last;
-        reader->num_last--;
-    }
-    reader->last[at] = *scan;
-    reader->num_last++;
-}
-
-void scan_reader_skip(struct scan_reader *reader, uint64_t scans)
-{
-    struct plot_scan scan;
-
-    reader->capacity_last = (size_t)scans;
-    reader->last = must_calloc(reader->capacity_last, sizeof *reader->last);
-    while (read_scan(reader, &scan)) {
-        keep_scan(reader, &scan);
-    }
-    say_last_taken(scans, reader->scans, "scans");
 }
 
 const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader)
@@ -184,10 +150,6 @@ void scan_reader_close(struct scan_reader *reader)
     if (!reader) {
         return;
     }
-    for (; reader->num_last > 0; reader->num_last--) {
-        plot_scan_free(
-            &reader->last[(reader->first_last + reader->num_last - 1) % reader->capacity_last]);
-    }
     for (int i = 0; i < reader->num_files; i++) {
         if (reader->files[i].has_next) {
             plot_scan_free(&reader->files[i].next);
@@ -195,7 +157,6 @@ void scan_reader_close(struct scan_reader *reader)
         plot_source_close(reader->files[i].source);
     }
     plot_scan_free(&reader->now);
-    free(reader->last);
     free(reader->files);
     free(reader);
 }

@@ -54,16 +54,13 @@ void scan_reader_end(struct scan_reader *reader);
 /* Why nothing more can come of a file that is followed ("has become shorter"), or NULL. */
 const char *scan_reader_why_over(const struct scan_reader *reader);
 
-/* Reads all and leaves out all but the last so many scans; says so on standard error where that leaves any out. */
-void scan_reader_skip(struct scan_reader *reader, uint64_t scans);
-
 /* Who saw the last scan that was handed out; NULL where nothing was said of the sensor. Valid as the scan is. */
 const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader);
 
 /* Bytes that were taken of all files (for progress bars). */
 uint64_t scan_reader_position(const struct scan_reader *reader);
 
-/* What was read so far, scans that were left out too. */
+/* What was read so far. */
 struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader);
 
 /* Bad rows that were skipped, if any, on standard error. */

@@ -116,6 +116,9 @@ const char *scenario_text(size_t index);
 /* The scenario's customary parameters (suggested, so that --set wins). Unknown name: exit 2 with the list. */
 void scenario_suggest(const char *name, struct parameters *parameters);
 
+/* Exit 2 where a parameter made for other scenarios is set by --set; one that --config sets is named on standard error. */
+void scenario_check_uses(const char *name, const struct parameters *parameters);
+
 /* One run: the data of (seed, run), the same whatever other runs are made. */
 struct simulation *scenario_simulate(const char *name, const struct parameters *parameters,
                                      uint64_t seed, uint64_t run);

@@ -224,8 +224,51 @@ static void parse_line(struct table_stream *stream, size_t length)
 
 /* ---- Lines ---- */
 
+/* Recordings and logs that come as plain files are read by others; block lengths have no text's bytes. */
+static const char *name_binary(const uint8_t *start, size_t bytes, bool is_file)
+{
+    static const uint8_t log_sync[] = {0xED, 0xA1, 0xDA, 0x01};
+
+    if (bytes >= sizeof log_sync && memcmp(start, log_sync, sizeof log_sync) == 0) {
+        return "an LCM log on standard input or through a pipe: give it as a file";
+    }
+    if (bytes < 2 || start[1] > 8) {
+        return NULL;
+    }
+    if (start[0] == ASTERIX_TRACKS) {
+        return asterix_text_no_tracks;
+    }
+    if (start[0] != ASTERIX_PLOTS && start[0] != ASTERIX_SERVICE) {
+        return NULL;
+    }
+    return is_file ? "ASTERIX with a bad first block: named NAME.ast it is read, and says where"
+                   : "ASTERIX on standard input or through a pipe; it is looked at twice: give it "
+                     "as a file";
+}
+
+/* A file of another format says what it is in place of what it is not. */
+static void refuse_foreign(const struct table_stream *stream)
+{
+    const char *start = stream->content + stream->position, *what = NULL;
+
+    if (stream->offset + stream->position == 0) {
+        what = name_binary((const uint8_t *)start, stream->bytes - stream->position,
+                           stream->own && stream->is_plain);
+    }
+    if (*start == '{') {
+        what = "JSON, and CSV is needed; GeoJSON is written and not read: give the tracks' CSV "
+               "file or LCM log";
+    }
+    if (what) {
+        table_parse_fail(stream, stream->line, what);
+    }
+}
+
 static void check_line(const struct table_stream *stream, size_t length)
 {
+    if (length > 0 && !stream->table->names && !stream->row_is_open) {
+        refuse_foreign(stream);
+    }
     check_binary(stream, length);
     if (!stream->is_whole && length > TABLE_STREAM_ROW_BYTES) {
         table_parse_fail(stream, stream->line, "a line of more than 1 MiB");

@@ -54,6 +54,7 @@ struct tracks_output *tracks_output_open(const char *path, const struct paramete
     if (geojson_is_wanted(path) && with_covariance) {
         fail(EXIT_USAGE, "%s: --covariance has no place in GeoJSON", path);
     }
+    asterix_tracks_refuse_covariance(path, with_covariance);
     tracks = open_output(path, output_open(path), parameters, with_covariance);
     tracks->map = geojson_is_wanted(path) ? geojson_open(tracks->output.file, parameters) : NULL;
     return tracks;
@@ -69,6 +70,7 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
              "makes it of a CSV file",
              path);
     }
+    asterix_tracks_refuse_covariance(path, with_covariance);
     return open_output(path, output_open_in_place(path), parameters, with_covariance);
 }
 

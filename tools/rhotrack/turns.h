@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * turns: the last scans of files as one batch, in which the sectors of a turn are one scan.
+ *
+ * Which sectors are one turn says the library's window (rho_window_goes_on), for each sensor by itself. The time of a turn is its
+ * first sector's, its plots' own times count from there. A scan of the whole circle is a turn. What comes behind a later scan
+ * of its sensor (files in the order of reception) is left out.
+ */
+#ifndef RHOTRACK_TOOL_TURNS_H
+#define RHOTRACK_TOOL_TURNS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/types.h"
+
+struct turn {
+    struct rho_scan scan;
+    struct rho_plot *plots; /* of the scan */
+    bool has_sensor;        /* something was said of it */
+    struct rho_sensor sensor;
+};
+
+struct turns {
+    struct turn *list; /* by time, the last `max` of all */
+    size_t count, max;
+    uint64_t total; /* of the files */
+    uint64_t late;  /* scans left out */
+};
+
+/*
+ * Reads all scans, and says on standard error if the files have more turns than max (1 and more), and what came late.
+ * Memory: that of the turns kept, and a struct rho_window for each sensor that looks by sectors.
+ */
+struct scan_reader;
+struct turns turns_read(struct scan_reader *reader, size_t max);
+void turns_free(struct turns *turns);
+
+#endif
