@@ -155,7 +155,7 @@ struct rho_message_sensor {
     int16_t sensor_id;
     int8_t kind; /* of its messages; one number may send several kinds; one of PLOTS, POLAR, BEARINGS */
     int8_t is_silent; /* 1: nothing was heard of it for so long (jump_max) that no scan waits for it any more; 0 .. 1 */
-    int8_t is_off_clock; /* 1: its last scan was refused, its time is not the other sensors'; 0 .. 1 */
+    int8_t is_off_clock; /* 1: its clock is not the common one: its scans are refused until enough of them agree; 0 .. 1 */
     int8_t is_doubted; /* 1: it contradicts the others: it starts no tracks, its misses say nothing, its plots count little; 0 .. 1 */
     int32_t scans; /* whose number was believed; stays at 65535; 0 .. 2147483647 */
     int64_t scan_utime; /* time of measurement of the newest of them, us; -4000000000000000000 .. 4000000000000000000 */

@@ -72,8 +72,11 @@ final class Model {
         statusNanos = System.nanoTime();
     }
 
+    /** Of a list with more parts than there are sensors, those beyond are not kept. */
     synchronized void setSensorFaults(int part, int numParts, List<String> faults) {
-        sensorFaults.put(part, List.copyOf(faults));
+        if (part < MAX_CHANNELS) {
+            sensorFaults.put(part, List.copyOf(faults));
+        }
         sensorFaults.tailMap(numParts).clear();
     }
 
@@ -93,6 +96,7 @@ final class Model {
         plots.clear();
         bearings.clear();
         sensors.clear();
+        sensorFaults.clear();
         peaks = new LookHistory<>(PEAK_LISTS);
         trackParts = new ListAssembler<>();
         truthParts = new ListAssembler<>();

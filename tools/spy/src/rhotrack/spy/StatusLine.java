@@ -5,6 +5,7 @@ import java.awt.Color;
 import java.awt.Dimension;
 import java.awt.Graphics;
 import java.awt.Graphics2D;
+import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
@@ -13,6 +14,7 @@ import javax.swing.JComponent;
 final class StatusLine extends JComponent {
     /** A tracker sends its status once a second. */
     private static final double STALE_S = 4;
+    private static final int MAX_FAULTS = 6;
 
     private Scene scene;
     private boolean paused;
@@ -51,9 +53,7 @@ final class StatusLine extends JComponent {
             x = text(g, x, fault(status.lost()), status.lost() + " lost");
             x = text(g, x, fault(status.late()), status.late() + " late");
             x = text(g, x, fault(status.bad()), status.bad() + " bad") + 14;
-            for (String sensor : health.sensorFaults()) {
-                x = text(g, x, Palette.WARNING, sensor) + 14;
-            }
+            x = paintFaults(g, x, health.sensorFaults());
             x = text(g, x, Palette.MUTED, "tracks");
             x = text(g, x, Palette.of(TrackMark.Status.CONFIRMED), status.confirmed() + " confirmed");
             x = text(g, x, Palette.of(TrackMark.Status.TENTATIVE), status.tentative() + " tentative");
@@ -65,6 +65,17 @@ final class StatusLine extends JComponent {
             x = text(g, x, Palette.TEXT, String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()));
         }
         paintFreshness(g, health, x);
+    }
+
+    private static float paintFaults(Graphics2D g, float from, List<String> faults) {
+        float x = from;
+        for (String fault : faults.subList(0, Math.min(faults.size(), MAX_FAULTS))) {
+            x = text(g, x, Palette.WARNING, fault) + 14;
+        }
+        if (faults.size() > MAX_FAULTS) {
+            x = text(g, x, Palette.WARNING, (faults.size() - MAX_FAULTS) + " more") + 14;
+        }
+        return x;
     }
 
     private void paintFreshness(Graphics2D g, Scene.Health health, float free) {

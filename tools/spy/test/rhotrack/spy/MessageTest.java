@@ -127,6 +127,8 @@ final class MessageTest {
                 model.scene().health().sensorFaults());
         decoder.decode("RHO_SENSORS", bytes(sensors(0, 1, 3, 0, 0)));
         check.equal("none any more", List.of(), model.scene().health().sensorFaults());
+        decoder.decode("RHO_SENSORS", bytes(sensors(64, 32767, 5, 1, 0)));
+        check.equal("no more parts than sensors", List.of(), model.scene().health().sensorFaults());
         check.equal("all taken", 0L, scene.health().ignored());
         decoder.decode("RHO_TRACKS", bytes(trackList(2, track_t.DELETED)));
         check.equal("deleted", 0, model.scene().tracks().size());
