@@ -39,19 +39,26 @@ fuzz() { # target, seconds
     BUILD=$folder FUZZ_SECONDS_EACH=$2 tests/fuzz/run.sh "$folder/$1" >"$folder/output" 2>&1
 }
 
+found() { # what
+    echo "ok   $1"
+    passed=$((passed + 1))
+}
+
+missed() { # what, and what the fuzzer said
+    echo "FAIL $1"
+    [ -f "$folder/output" ] && cat "$folder/output"
+    failed=$((failed + 1))
+}
+
 seeded() { # target, file, what is wrong, sed expression that makes it so
     local start=$SECONDS
     sed -E "$4" "$2" >"$folder/seeded.c"
     if cmp -s "$2" "$folder/seeded.c" || ! "build_${1#fuzz_}" "$folder/seeded.c"; then
-        echo "FAIL $3: not seeded"
-        failed=$((failed + 1))
+        missed "$3: not seeded"
     elif fuzz "$1" "$seconds" || ! grep -q "^FAIL $1" "$folder/output"; then
-        echo "FAIL $3: not found in $seconds s"
-        cat "$folder/output"
-        failed=$((failed + 1))
+        missed "$3: not found in $seconds s"
     else
-        echo "ok   $3: found after $((SECONDS - start)) s, build included"
-        passed=$((passed + 1))
+        found "$3: found after $((SECONDS - start)) s, build included"
     fi
     rm -rf "$folder/fuzz"
 }
@@ -70,12 +77,9 @@ must_find 'add goes beyond the buffer' 's/writer->capacity - writer->size < form
 
 must_pass() { # target, file
     if "build_${1#fuzz_}" "$2" && fuzz "$1" 5; then
-        echo "ok   $1: nothing found in $2 as it is, 5 s"
-        passed=$((passed + 1))
+        found "$1: nothing found in $2 as it is, 5 s"
     else
-        echo "FAIL $1, $2 as it is:"
-        cat "$folder/output"
-        failed=$((failed + 1))
+        missed "$1, $2 as it is"
     fi
     rm -rf "$folder/fuzz"
 }
@@ -83,12 +87,9 @@ must_pass() { # target, file
 printf '#!/bin/bash\ntrap "" TERM\nwhile :; do sleep 1; done\n' >"$folder/fuzz_hangs"
 chmod +x "$folder/fuzz_hangs"
 if FUZZ_GRACE_SECONDS=1 fuzz fuzz_hangs 1 || ! grep -q '^FAIL fuzz_hangs: exit 137' "$folder/output"; then
-    echo 'FAIL a target that hangs: not told'
-    cat "$folder/output"
-    failed=$((failed + 1))
+    missed 'a target that hangs: not told'
 else
-    echo 'ok   a target that hangs: told'
-    passed=$((passed + 1))
+    found 'a target that hangs: told'
 fi
 
 must_pass fuzz_message src/wire/message_codec.c
