@@ -53,7 +53,7 @@ struct rho_window_sector {
 /* One held scan. plots[bin_start[c]] .. plots[bin_start[c + 1] - 1] lie in bin c = row * bins_x + column. */
 struct rho_window_scan {
     int64_t time_us;
-    uint32_t measures; /* RHO_MEASURES_... */
+    uint32_t measures; /* RHO_MEASURES_...; of sectors: what all that have plots measure */
     float sector_from_rad, sector_to_rad;
     struct rho_sensor sensor; /* pd 0: not described; then at the origin, seeing everything */
     uint16_t num_plots;
@@ -79,7 +79,8 @@ struct rho_window {
     uint16_t first; /* ring place of the oldest */
     uint16_t area_is_fixed;
 #if RHO_SECTORS
-    uint32_t is_continued; /* the last push went into the newest scan */
+    uint16_t is_continued;  /* the last push went into the newest scan */
+    uint16_t is_remeasured; /* ... and changed what that scan measures */
 #endif
     float side_min_m; /* the area is taken at least this wide and high */
     struct rho_extent
@@ -143,8 +144,9 @@ RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t
 int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 
 /*
- * True where a scan would become part of the newest one held: a sector of the same sensor in the same place that measures the same, beside what
- * that one has seen so far, or an eighth of a turn on at most, and within RHO_LIMIT_OFFSET_US of its time. Constant cost.
+ * True where a scan would become part of the newest one held: a sector of the same sensor in the same place, beside what
+ * that one has seen so far, or an eighth of a turn on at most, and within RHO_LIMIT_OFFSET_US of its time. The scan then
+ * measures what all its sectors with plots do. Constant cost.
  */
 int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
                        const struct rho_sensor *sensor);

@@ -96,7 +96,8 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (status == RHO_OK) {
         initiator->num_candidates = 0;
 #if RHO_SECTORS
-        initiator->has_turn &= initiator->window.is_continued;
+        /* other dimensions have other thresholds */
+        initiator->has_turn &= initiator->window.is_continued && !initiator->window.is_remeasured;
 #endif
     }
     return status;

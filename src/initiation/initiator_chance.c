@@ -349,7 +349,8 @@ void rho_initiator_lay_chance(const struct search *search, struct chance *chance
     /* where only some scans measure them, chance is taken to need no heights or range rates: more than there is */
     uint32_t measures = ~0u;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        measures &= rho_window_scan_at(&search->initiator->window, m)->measures;
+        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+        measures &= scan->num_plots > 0 ? scan->measures : ~0u; /* no hit is in an empty one */
     }
     chance->search = search;
     chance->has_z = (measures & RHO_MEASURES_Z) != 0;

@@ -299,8 +299,8 @@ int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *s
         return 0;
     }
     const struct rho_window_scan *held = newest_of(window);
-    return held->sensor.sensor_id == scan->sensor_id && held->measures == scan->measures &&
-           !is_other_sensor(held, sensor) && held->newest.time_us <= scan->time_us &&
+    return held->sensor.sensor_id == scan->sensor_id && !is_other_sensor(held, sensor) &&
+           held->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
            rho_angle_sector_goes_on(held->sector_from_rad, held->sector_to_rad,
                                     scan->sector_from_rad, scan->sector_to_rad,
@@ -346,6 +346,19 @@ static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *sc
     }
 }
 
+/* A turn measures what all its plots do: a sector that saw nothing measures nothing, and takes nothing away. */
+static void even_measures(struct rho_window *window, struct rho_window_scan *slot,
+                          const struct rho_scan *scan, unsigned held)
+{
+    const uint32_t before = slot->measures;
+    if (slot->num_plots == 0) {
+        slot->measures = scan->measures;
+    } else if (held > slot->num_plots) {
+        slot->measures &= scan->measures;
+    }
+    window->is_remeasured = slot->measures != before;
+}
+
 static void add_sector(struct rho_window *window, const struct rho_scan *scan,
                        const struct rho_sensor *sensor, uint8_t *fates)
 {
@@ -357,6 +370,7 @@ static void add_sector(struct rho_window *window, const struct rho_scan *scan,
         guess_extent_once(window, scan, fates);
         lay_bins(slot, window, plots_of_turn(window, scan, held));
     }
+    even_measures(window, slot, scan, held);
     widen_sector(slot, scan);
     begin_sector(slot, scan);
     sort_into_bins(&entry);
@@ -471,7 +485,8 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
         return status;
     }
 #if RHO_SECTORS
-    window->is_continued = (uint32_t)rho_window_goes_on(window, scan, sensor);
+    window->is_continued = rho_window_goes_on(window, scan, sensor) != 0;
+    window->is_remeasured = 0;
     if (window->is_continued) {
         add_sector(window, scan, sensor, fates);
         return RHO_OK;

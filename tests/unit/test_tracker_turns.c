@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * What may happen within a turn of sectors: the radar is described anew, or forgotten; sectors are not searched, impossible, late,
- * or hold rows that belong to earlier ones; more radars than the table holds.
+ * hold rows that belong to earlier ones, or measure other things; more radars than the table holds.
  */
 #include "sectors_scene.h"
 
@@ -298,6 +298,49 @@ static void a_row_of_an_earlier_sector_counts_once(void **state)
     }
 }
 
+/* ---- what sectors measure --------------------------------------------------------------------- */
+
+/* Range rates are in every so many sectors with plots, heights in every so many others; 0: in none. */
+static void fly_measuring(struct scene *scene, int range_rates, int heights)
+{
+    scene->sectors = SECTORS;
+    start();
+    for (int turn = 0; turn < TURNS; turn++) {
+        for (int sector = 0; sector < SECTORS; sector++) {
+            struct rho_plot plots[TARGETS];
+            struct rho_scan scan = scan_of(scene, turn, sector, plots);
+
+            if (scan.num_plots > 0 && range_rates > 0 && sector / 4 % range_rates == 0) {
+                scan.measures |= RHO_MEASURES_RANGE_RATE;
+            }
+            if (scan.num_plots > 0 && heights > 0 && sector / 4 % heights == 0) {
+                scan.measures |= RHO_MEASURES_Z;
+            }
+            for (uint32_t i = 0; i < scan.num_plots; i++) {
+                plots[i].sigma_range_rate_mps =
+                    1.0f; /* they fly round the radar: their range rate is 0 */
+                plots[i].sigma_up_m = 100.0f;
+            }
+            step_scan(scene, &scan);
+        }
+    }
+}
+
+/* Sectors that saw nothing measure nothing, as rows of a file or an antenna's messages have it. */
+static void sectors_need_not_measure_the_same(void **state)
+{
+    static const struct {
+        int range_rates, heights;
+    } cases[] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}, {3, 2}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct scene scene = {.turning = i % 2 ? 1 : -1, .speed_mps = 80.0, .hidden = -1};
+
+        fly_measuring(&scene, cases[i].range_rates, cases[i].heights);
+        assert_tracked(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -309,6 +352,7 @@ int main(void)
         cmocka_unit_test(impossible_sectors_are_refused),
         cmocka_unit_test(a_late_sector_is_one_look_all_the_same),
         cmocka_unit_test(a_row_of_an_earlier_sector_counts_once),
+        cmocka_unit_test(sectors_need_not_measure_the_same),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -85,6 +85,8 @@ static void add_plots(struct turn *turn, const struct rho_scan *scan)
     if (scan->num_plots == 0) {
         return;
     }
+    turn->scan.measures =
+        turn->scan.num_plots == 0 ? scan->measures : turn->scan.measures & scan->measures;
     turn->plots = must_realloc(turn->plots, count * sizeof *turn->plots);
     memcpy(turn->plots + turn->scan.num_plots, scan->plots, scan->num_plots * sizeof *turn->plots);
     for (size_t i = turn->scan.num_plots; i < count; i++) {
