@@ -95,6 +95,30 @@ check 'clocks that are 10 s apart, in one file' same apart.csv
 run convert apart.csv apart.lcm
 check 'in a log' same apart.lcm
 
+# ---- each row received on its own: a radar that turns, whose plots are gathered over a turn ----
+run simulate doppler -o turning
+turning=(--config turning/scenario.ini)
+run track turning/polar.csv "${turning[@]}" -o expected.csv
+awk -F, 'NR == 1 { print $0 ",received_s"; next } { printf "%s,%.6f\n", $0, $1 + 0.05 }' turning/polar.csv >evenly.csv
+awk -F, 'BEGIN { srand(3) } NR == 1 { print $0 ",received_s"; next }
+    { received = $1 + 0.4 * rand(); last = received > last ? received : last; printf "%s,%.6f\n", $0, last }' \
+    turning/polar.csv >unevenly.csv
+for file in evenly unevenly; do
+    for option in '' --keep-going; do
+        run track $file.csv "${turning[@]}" $option -o found.csv
+        check "track, received $file $option: the same tracks" cmp found.csv expected.csv
+        check "track, received $file $option: nothing is skipped" bash -c '! grep -q skipped stderr'
+        run convert $file.csv $file.lcm "${turning[@]}" $option
+        check "convert, received $file $option: nothing is said" bash -c '! test -s stderr'
+        run track $file.lcm "${turning[@]}" --set sensor.1.pd=0.9 -o found.csv
+        check "convert, received $file $option: as many scans" grep -q "rhotrack: $(awk -F, 'NR > 1 && $3 == ""' turning/polar.csv | wc -l) scans" stderr
+    done
+    run initiate turning/polar.csv "${turning[@]}"
+    mv stdout expected_lines.csv
+    run initiate $file.csv "${turning[@]}"
+    check "initiate, received $file: the same" writes_same_as expected_lines.csv
+done
+
 # ---- refused ----
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,3.000,/' held.csv >bad.csv
 run track bad.csv -o out.csv
@@ -113,7 +137,8 @@ run track bad.csv -o out.csv
 check 'rows of a scan without a number have one received_s' says 2 \
     "*bad.csv:13: received_s is 20.500000 s, and 20.000000 s of the scan's other rows: *"
 run convert bad.csv out.lcm
-check 'convert says so, too' says 2 "*bad.csv:13: received_s is not that of the scan's first row: *"
+check 'convert says so, too' says 2 \
+    "*bad.csv:13: received_s is 20.500000 s, and 20.000000 s of the scan's other rows: *"
 awk -F, 'NR == 1 { print $0 ",scan" } NR > 1 { print $0 "," int(NR / 2) }' bad.csv >numbered.csv
 run track numbered.csv -o out.csv
 check 'those of one with a number may differ' exits 0

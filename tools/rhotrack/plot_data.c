@@ -48,7 +48,7 @@ static struct reading start_reading(const struct table *table, int id_column,
                               .vy = table_find(table, "vy_mps"),
                               .is_polar = table_find(table, "range_m") >= 0};
     if (reading.is_polar) {
-        reading.polar = plot_columns_find(table, parameters);
+        reading.polar = plot_columns_find(table, parameters, true);
     } else {
         find_place(&reading);
     }
