@@ -110,7 +110,7 @@ for file in evenly unevenly; do
         check "track, received $file $option: nothing is skipped" bash -c '! grep -q skipped stderr'
         run convert $file.csv $file.lcm "${turning[@]}" $option
         check "convert, received $file $option: nothing is said" bash -c '! test -s stderr'
-        run track $file.lcm "${turning[@]}" --set sensor.1.pd=0.9 -o found.csv
+        run track $file.lcm "${turning[@]}" -o found.csv
         check "convert, received $file $option: as many scans" grep -q "rhotrack: $(awk -F, 'NR > 1 && $3 == ""' turning/polar.csv | wc -l) scans" stderr
     done
     run initiate turning/polar.csv "${turning[@]}"

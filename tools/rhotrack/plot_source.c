@@ -97,7 +97,8 @@ static void find_columns(struct plot_source *source, const struct table *table)
     if (source->options.follow && bearing_columns_are_there(table)) {
         table_fail(table, TABLE_HEADER, "--follow takes plots, and these are bearings");
     }
-    source->columns = plot_columns_find(table, source->parameters, !source->options.may_lack_sensor);
+    source->columns =
+        plot_columns_find(table, source->parameters, !source->options.may_lack_sensor);
     source->has_columns = true;
     if (source->columns.received_s >= 0) {
         source->gather.begun_max = FOLLOW_BEGUN_MAX;
@@ -273,8 +274,8 @@ static void open_table(struct plot_source *source, const char *path)
 {
     int32_t least_us;
 
-    source->stream =
-        table_stream_open(path, source->parameters, source->options.keep_going, source->options.follow);
+    source->stream = table_stream_open(path, source->parameters, source->options.keep_going,
+                                       source->options.follow);
     gather_start(&source->gather, sizeof(struct rho_plot),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);

@@ -99,8 +99,8 @@ bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *tim
         return row_refuse_cell(check, t_s, why);
     }
     *sensor = 0;
-    why = sensor_id < 0 ? NULL
-                        : table_int32(table_cell(check->table, check->row, sensor_id), sensor);
+    why =
+        sensor_id < 0 ? NULL : table_int32(table_cell(check->table, check->row, sensor_id), sensor);
     return why ? row_refuse_cell(check, sensor_id, why) : true;
 }
 

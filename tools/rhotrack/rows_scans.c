@@ -154,8 +154,8 @@ static bool check_received(struct making *making, const struct rows_scan *scan,
     const struct row_check check = {.reason = reason};
 
     if (making->file->rows.has_received &&
-        !row_received_with(&check, row->received_us, scan->head.received_us,
-                           making->file->has_scan, making->interval_us)) {
+        !row_received_with(&check, row->received_us, scan->head.received_us, making->file->has_scan,
+                           making->interval_us)) {
         rows_refuse(making->file, row, "%s", reason);
         return false;
     }
