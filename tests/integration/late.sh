@@ -95,6 +95,19 @@ check 'clocks that are 10 s apart, in one file' same apart.csv
 run convert apart.csv apart.lcm
 check 'in a log' same apart.lcm
 
+# ---- more than a feed has room for: 11 sectors a second, some 3 s late ----
+run simulate two-radars --set late_ms=3000 --set num_scans=15 --seed 5 -o busy
+run convert busy/polar.csv busy.lcm --config busy/scenario.ini
+for late_max_s in 20 0; do
+    run track busy.lcm --config busy/scenario.ini --set late_max_s=$late_max_s --json
+    check "a log's scans wait for hold_ms, late_max_s $late_max_s" json stdout \
+        'o["fates"]["stale"] == 0 and o["counters"]["scans_retrodicted"] == 0 and o["scans"] > 1600'
+done
+run node --lcm 'file://busy.lcm?speed=0' --config busy/scenario.ini --log node.lcm
+check 'a node says how many could not' grep -q '^rhotrack: scans that did not wait for hold_ms (no room for more): [1-9]' stderr
+run node --lcm 'file://busy.lcm?speed=0' --config busy/scenario.ini --set hold_ms=500 --log node.lcm
+check 'and nothing where there is room' bash -c '! grep -q "no room for more" stderr'
+
 # ---- each row received on its own: a radar that turns, whose plots are gathered over a turn ----
 run simulate doppler -o turning
 turning=(--config turning/scenario.ini)

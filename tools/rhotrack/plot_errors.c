@@ -64,6 +64,18 @@ static void find_errors(struct error_finder *finder)
     }
 }
 
+/* Of none gnuplot makes no picture. */
+static void need_one(const struct error_finder *finder)
+{
+    for (size_t i = 0; i < finder->truth->count; i++) {
+        if (!isnan(finder->error_m[i])) {
+            return;
+        }
+    }
+    fail(EXIT_USAGE, "plot errors: no target has a track within gospa_cutoff_m (%g m) at any time",
+         finder->cutoff_m);
+}
+
 /* ---- tracks at the truth's times --------------------------------------------------------------- */
 
 static int by_time(const void *a, const void *b)
@@ -147,6 +159,7 @@ struct plot_errors plot_errors_find(const struct plot_data *data,
         .track_of = must_calloc(targets, sizeof(int)),
     };
     find_errors(&finder);
+    need_one(&finder);
     free(finder.led.list);
     free(finder.targets);
     free(finder.tracks);

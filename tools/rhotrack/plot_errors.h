@@ -13,7 +13,7 @@ struct plot_errors {
 
 /*
  * Pairs them, within gospa_cutoff_m, after tracks have been led to the truth's times (lead.h). Exit 2 where the truth has not such a
- * time. Cost: the truth's times, times the rows of both.
+ * time, and where no target has a track. Cost: the truth's times, times the rows of both.
  */
 struct plot_errors plot_errors_find(const struct plot_data *data,
                                     const struct parameters *parameters);

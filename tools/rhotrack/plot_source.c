@@ -220,7 +220,7 @@ static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
             *scan = next;
             return true;
         }
-        hold_put(&source->hold, &next, heard_us);
+        hold_put(&source->hold, &next, heard_us, heard_us);
     }
     return true;
 }
@@ -245,7 +245,8 @@ static bool take_of_log(struct plot_source *source, struct plot_scan *scan)
     return true;
 }
 
-/* Before a feed has heard of a sensor it does not wait for it: the first ones of clocks that are apart are put in order here. */
+/* A feed has room for RHO_MAX_OPEN_SCANS, and does not wait for a sensor of which it has not heard: what goes out of it too early is
+ * put in order here. */
 static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
 {
     struct plot_scan next;
@@ -258,7 +259,8 @@ static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
             *scan = next;
             return true;
         }
-        hold_put(&source->hold, &next, log_scans_clock_us(source->log));
+        hold_put(&source->hold, &next, log_scans_heard_us(source->log),
+                 log_scans_clock_us(source->log));
     }
     return true;
 }
@@ -296,10 +298,7 @@ struct plot_source *plot_source_open(const char *path, const struct parameters *
     } else if (options.follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is an LCM log", path);
     } else {
-        int32_t least_us, largest_us;
-
-        parameters_time_biases_us(parameters, &least_us, &largest_us);
-        source->hold.hold_us = (int64_t)largest_us - least_us;
+        source->hold.hold_us = log_scans_hold_us(parameters);
         source->log = log_scans_open(path, parameters, options.keep_going, true);
     }
     return source;
