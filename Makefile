@@ -262,7 +262,7 @@ sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 # they call. The rest of library and program is linked as it is. In src/wire an unsigned number that wraps is a finding,
 # too; elsewhere loops and the square root wrap on purpose.
 fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file asterix_items asterix_row asterix_scans \
-                asterix_sensor asterix_text asterix_udp asterix_values bearing_row bearing_source frame_reader gather geodetic hint hold lcm_log log_scans log_table parameters plot_data \
+                asterix_sensor asterix_text asterix_udp asterix_values bearing_row bearing_source frame_reader gather feed_room geodetic hint hold lcm_log log_scans log_table parameters plot_data \
                 plot_row plot_source row_check rows rows_bearings rows_collect rows_geodetic rows_plots rows_polar rows_read rows_scans rows_tracks \
                 rows_truth rows_write scan_numbers scan_reader table table_parse table_read
 fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c) tools/firmware/board/udp_frame.c

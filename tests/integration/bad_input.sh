@@ -255,6 +255,11 @@ check 'output is a folder' says 1 'rhotrack: a_folder: Is a directory'
 status=$?
 check 'standard output on a full disk' exits 1
 
+# ---- the first list of tracks, before which there is none: nothing is counted on from no memory (under sanitizers) ----
+printf 't_s,track_id,status,x_m,y_m,vx_mps,vy_mps,sigma_m,sigma_mps,hits,misses\n1,1,confirmed,1,2,3,4,5,6,7,0\n' >tracks.csv
+run convert tracks.csv tracks.ast
+check 'tracks as CAT062' bash -c '[ '"$status"' -eq 0 ] && test -s tracks.ast'
+
 # ---- noise: whatever the bytes, no crash ----
 survives() { # a header, pieces of rows
     local seed

@@ -95,6 +95,43 @@ check 'clocks that are 10 s apart, in one file' same apart.csv
 run convert apart.csv apart.lcm
 check 'in a log' same apart.lcm
 
+# ---- more than a feed has room for: 11 sectors a second, some 3 s late ----
+run simulate two-radars --set late_ms=3000 --set num_scans=15 --seed 5 -o busy
+run convert busy/polar.csv busy.lcm --config busy/scenario.ini
+for late_max_s in 20 0; do
+    run track busy.lcm --config busy/scenario.ini --set late_max_s=$late_max_s --json
+    check "a log's scans wait for hold_ms, late_max_s $late_max_s" json stdout \
+        'o["fates"]["stale"] == 0 and o["counters"]["scans_retrodicted"] == 0 and o["scans"] > 1600'
+done
+run node --lcm 'file://busy.lcm?speed=0' --config busy/scenario.ini --log node.lcm
+check 'a node says how many could not' grep -q '^rhotrack: scans that did not wait for hold_ms (no room for more): [1-9]' stderr
+run node --lcm 'file://busy.lcm?speed=0' --config busy/scenario.ini --set hold_ms=500 --log node.lcm
+check 'and nothing where there is room' bash -c '! grep -q "no room for more" stderr'
+
+# ---- each row received on its own: a radar that turns, whose plots are gathered over a turn ----
+run simulate doppler -o turning
+turning=(--config turning/scenario.ini)
+run track turning/polar.csv "${turning[@]}" -o expected.csv
+awk -F, 'NR == 1 { print $0 ",received_s"; next } { printf "%s,%.6f\n", $0, $1 + 0.05 }' turning/polar.csv >evenly.csv
+awk -F, 'BEGIN { srand(3) } NR == 1 { print $0 ",received_s"; next }
+    { received = $1 + 0.4 * rand(); last = received > last ? received : last; printf "%s,%.6f\n", $0, last }' \
+    turning/polar.csv >unevenly.csv
+for file in evenly unevenly; do
+    for option in '' --keep-going; do
+        run track $file.csv "${turning[@]}" $option -o found.csv
+        check "track, received $file $option: the same tracks" cmp found.csv expected.csv
+        check "track, received $file $option: nothing is skipped" bash -c '! grep -q skipped stderr'
+        run convert $file.csv $file.lcm "${turning[@]}" $option
+        check "convert, received $file $option: nothing is said" bash -c '! test -s stderr'
+        run track $file.lcm "${turning[@]}" -o found.csv
+        check "convert, received $file $option: as many scans" grep -q "rhotrack: $(awk -F, 'NR > 1 && $3 == ""' turning/polar.csv | wc -l) scans" stderr
+    done
+    run initiate turning/polar.csv "${turning[@]}"
+    mv stdout expected_lines.csv
+    run initiate $file.csv "${turning[@]}"
+    check "initiate, received $file: the same" writes_same_as expected_lines.csv
+done
+
 # ---- refused ----
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,3.000,/' held.csv >bad.csv
 run track bad.csv -o out.csv
@@ -113,7 +150,8 @@ run track bad.csv -o out.csv
 check 'rows of a scan without a number have one received_s' says 2 \
     "*bad.csv:13: received_s is 20.500000 s, and 20.000000 s of the scan's other rows: *"
 run convert bad.csv out.lcm
-check 'convert says so, too' says 2 "*bad.csv:13: received_s is not that of the scan's first row: *"
+check 'convert says so, too' says 2 \
+    "*bad.csv:13: received_s is 20.500000 s, and 20.000000 s of the scan's other rows: *"
 awk -F, 'NR == 1 { print $0 ",scan" } NR > 1 { print $0 "," int(NR / 2) }' bad.csv >numbered.csv
 run track numbered.csv -o out.csv
 check 'those of one with a number may differ' exits 0

@@ -345,5 +345,20 @@ run plot parameter-space /dev/stdin -o stdin.svg
 check 'plot parameter-space: not through a pipe' exits 2
 run plot parameter-space seed1-rate0/polar.csv --config seed1-rate0/scenario.ini -o space.svg
 check 'plot parameter-space: turns whose plots have their own times' grep -qx 'rhotrack: the last 12 of 15 scans are taken' stderr
+awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"; for (k = 0; k < 20; k++) print k ",0," 50 * k "," 900 - 20 * k }' >one.csv
+cut -d, -f1,3,4 one.csv >bare.csv
+run plot parameter-space one.csv -o one.svg
+run plot parameter-space bare.csv -o bare.svg
+check 'plot parameter-space: without sensor_id all is of one sensor' cmp one.svg bare.svg
+run track bare.csv
+check 'track needs it' says 2 "rhotrack: bare.csv:1: no column 'sensor_id'"
+# Such a file once left the script for gnuplot behind.
+{ cat bare.csv; echo 3,1,1; } >back.csv
+run plot parameter-space back.csv -o refused.svg
+check 'plot parameter-space: times do not go back' says 2 'rhotrack: back.csv:22: time goes back from 19.000000 s to 3.000000 s'
+sed '5s/^[^,]*,\(.*\)/3,\1e9/' bare.csv >far.csv
+run plot parameter-space far.csv -o refused.svg
+check 'plot parameter-space: places as track has them' says 2 'rhotrack: far.csv:5: y_m * is outside *'
+check 'plot parameter-space: nothing is left of those' bash -c '! ls refused.svg* 2>/dev/null'
 
 finish

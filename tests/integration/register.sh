@@ -63,6 +63,27 @@ run evaluate behind/truth.csv right.csv
 check 'tracks are at other times than the truth then' says 2 'rhotrack: right.csv:*: the truth has no such time within 1 ms *'
 run evaluate behind/truth.csv right.csv --set time_tolerance_s=0.1 --json
 check 'within time_tolerance_s they are judged' json stdout 'o["completeness"] > 0.95 and o["tracks"] == 20 and o["rmse_m"] < 120'
+for kind in truth exact shifted; do
+    awk -v kind=$kind 'BEGIN { print kind == "truth" ? "t_s,target_id,x_m,y_m" : "t_s,track_id,x_m,y_m,vx_mps,vy_mps"
+        by = kind == "shifted" ? 0.02 : 0
+        for (k = 0; k < 10; k++) {
+            if (kind == "truth") { printf "%d,1,%d,0\n", k, 100 * k }
+            else { printf "%.2f,1,%.3f,3,100,0\n", k + by, 100 * (k + by) + 5 * k }
+        } }' >$kind.csv
+done
+run plot errors truth.csv exact.csv -o exact.svg
+check 'plot errors draws them' test -s exact.svg
+sed 's/,3,100,0$/,4,100,0/' exact.csv >other.csv
+run plot errors truth.csv other.csv -o other.svg
+check 'plot errors: others look otherwise' bash -c 'test -s other.svg && ! cmp -s exact.svg other.svg'
+run plot errors truth.csv -o none.svg
+check 'plot errors: no track, no picture' says 2 'rhotrack: plot errors: no target has a track within *'
+run plot errors truth.csv shifted.csv -o shifted.svg --set time_tolerance_s=0.05
+check 'plot errors: tracks are led to the truth' cmp shifted.svg exact.svg
+rm shifted.svg
+run plot errors truth.csv shifted.csv -o shifted.svg
+check 'plot errors: or refused, as by evaluate' says 2 'rhotrack: shifted.csv:2: the truth has no such time within 1 ms (time_tolerance_s)'
+check 'plot errors: then nothing is left' bash -c '! ls shifted.svg* none.svg* 2>/dev/null'
 run convert behind/polar.csv behind.lcm --config behind/scenario.ini
 run track behind.lcm --config behind/scenario.ini --config behind.ini --json -o log.csv
 check 'and from a log' json stdout 'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["scans"] == 6688'

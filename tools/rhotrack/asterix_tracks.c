@@ -199,21 +199,23 @@ static void write_last(struct asterix_tracks *tracks, const struct entry *entry,
 /* By identity: tracks of this list, and those of the one before that it does not have. */
 static void write_list(struct asterix_tracks *tracks, uint32_t time_128)
 {
-    const struct entry *gone = tracks->before.entries, *end = gone + tracks->before.count;
+    const struct list *before = &tracks->before;
+    size_t gone = 0;
 
     for (size_t i = 0; i < tracks->now.count; i++) {
         struct entry *entry = &tracks->now.entries[i];
 
-        while (gone < end && gone->track_id < entry->track_id) {
-            write_last(tracks, gone++, time_128);
+        while (gone < before->count && before->entries[gone].track_id < entry->track_id) {
+            write_last(tracks, &before->entries[gone++], time_128);
         }
-        entry->track.is_first = gone == end || gone->track_id > entry->track_id;
+        entry->track.is_first =
+            gone == before->count || before->entries[gone].track_id > entry->track_id;
         gone += !entry->track.is_first;
         entry->track.is_monosensor = !tracks->is_multisensor;
         write_track(tracks, &entry->track);
     }
-    while (gone < end) {
-        write_last(tracks, gone++, time_128);
+    while (gone < before->count) {
+        write_last(tracks, &before->entries[gone++], time_128);
     }
     end_block(tracks);
 }

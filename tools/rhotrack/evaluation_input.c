@@ -9,8 +9,7 @@
 #include "common.h"
 #include "geodetic.h"
 #include "identities.h"
-
-#define TIME_TOLERANCE_US 1000
+#include "lead.h"
 
 struct timed_point {
     int64_t time_us;
@@ -168,57 +167,33 @@ static struct timed_point led(const struct timed_point *timed, int64_t to_us)
     return at;
 }
 
-/* The first point of the time that is nearest; from: of a time before it, or of its own. */
-static size_t nearest(const struct points *points, size_t from, int64_t time_us)
+static struct lead_times times_of(const struct points *points)
 {
-    size_t at = from;
-    for (size_t i = from; i < points->count; i++) {
-        int64_t off_us = llabs(points->list[i].time_us - time_us);
-        if (off_us < llabs(points->list[at].time_us - time_us)) {
-            at = i;
-        }
-        if (points->list[i].time_us > time_us) {
-            break;
-        }
+    int64_t *times_us = must_calloc(points->count + 1, sizeof *times_us);
+    for (size_t i = 0; i < points->count; i++) {
+        times_us[i] = points->list[i].time_us;
     }
-    return at;
+    return (struct lead_times){.list_us = times_us, .count = points->count};
 }
 
-static void check_near(const struct points *tracks, const struct points *truth, int64_t most_us)
+/* As lead.h has it. */
+static void lead_tracks(struct points *tracks, const struct points *truth, int64_t most_us)
 {
-    size_t at = 0;
-    for (size_t i = 0; i < tracks->count && truth->count > 0; i++) {
-        at = nearest(truth, at, tracks->list[i].time_us);
-        if (llabs(truth->list[at].time_us - tracks->list[i].time_us) > most_us) {
-            table_fail(tracks->table, tracks->list[i].row,
-                       "the truth has no such time within time_tolerance_s");
-        }
+    struct lead_times track_times = times_of(tracks), truth_times = times_of(truth);
+    size_t far = lead_find_far(track_times, truth_times, most_us);
+    if (far < tracks->count) {
+        lead_fail(tracks->table, tracks->list[far].row, most_us);
     }
-}
-
-/* At each of the truth's times the rows of the nearest time that tracks have, led there: a clock's bias that was taken off is
- * known to milliseconds, so that the times are others. */
-static void lead_to_truth(struct points *tracks, const struct points *truth, int64_t most_us)
-{
+    struct leads leads = lead_to_truth(track_times, truth_times, most_us);
     struct points leading = *tracks;
-    size_t capacity = 0, from = 0;
-    check_near(tracks, truth, most_us);
-    leading.list = NULL;
-    leading.count = 0;
-    for (size_t i = 0; i < truth->count && tracks->count > 0; i++) {
-        int64_t time_us = truth->list[i].time_us;
-        if (i > 0 && time_us == truth->list[i - 1].time_us) {
-            continue;
-        }
-        from = nearest(tracks, from, time_us);
-        int64_t at_us = tracks->list[from].time_us;
-        for (size_t k = from; k < tracks->count && tracks->list[k].time_us == at_us &&
-                              llabs(at_us - time_us) <= most_us;
-             k++) {
-            leading.list = must_grow(leading.list, leading.count, &capacity, sizeof *leading.list);
-            leading.list[leading.count++] = led(&tracks->list[k], time_us);
-        }
+    leading.list = must_calloc(leads.count + 1, sizeof *leading.list);
+    leading.count = leads.count;
+    for (size_t i = 0; i < leads.count; i++) {
+        leading.list[i] = led(&tracks->list[leads.list[i].row], leads.list[i].to_us);
     }
+    free(track_times.list_us);
+    free(truth_times.list_us);
+    free(leads.list);
     free(tracks->list);
     *tracks = leading;
 }
@@ -228,7 +203,7 @@ static void lead_to_truth(struct points *tracks, const struct points *truth, int
 /* End of the points from `from` that have its time, within the tolerance. */
 static size_t end_of_time(const struct points *points, size_t from, int64_t time_us)
 {
-    while (from < points->count && points->list[from].time_us <= time_us + TIME_TOLERANCE_US) {
+    while (from < points->count && points->list[from].time_us <= time_us + LEAD_LEAST_US) {
         from++;
     }
     return from;
@@ -236,9 +211,8 @@ static size_t end_of_time(const struct points *points, size_t from, int64_t time
 
 static void check_time(const struct points *tracks, size_t at, int64_t time_us)
 {
-    if (at < tracks->count && tracks->list[at].time_us < time_us - TIME_TOLERANCE_US) {
-        table_fail(tracks->table, tracks->list[at].row,
-                   "the truth has no such time within 1 ms (time_tolerance_s)");
+    if (at < tracks->count && tracks->list[at].time_us < time_us - LEAD_LEAST_US) {
+        lead_fail(tracks->table, tracks->list[at].row, LEAD_LEAST_US);
     }
 }
 
@@ -313,9 +287,9 @@ struct evaluation *evaluation_read(const struct table *truth_table,
     struct points tracks = read_points(tracks_table, "track_id", NULL);
     level(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     level(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
-    int64_t tolerance_us = llround(parameters->value[PARAMETER_TIME_TOLERANCE_S] * 1e6);
-    if (tolerance_us > TIME_TOLERANCE_US) {
-        lead_to_truth(&tracks, &truth, tolerance_us);
+    int64_t tolerance_us = lead_tolerance_us(parameters);
+    if (tolerance_us > LEAD_LEAST_US) {
+        lead_tracks(&tracks, &truth, tolerance_us);
     }
     evaluate_times(e, &truth, &tracks);
     free(truth.list);

@@ -137,10 +137,20 @@ void gather_add_nothing(struct gather *gather, struct gathered *scan, int64_t ti
 
 /* ---- Scans ---- */
 
+/* Not all rows take equally long to be received: a scan that is gathered over an interval has ended when its sensor's next one
+ * has begun, or as long after it. */
+static bool is_received(const struct gather *gather, const struct gathered *scan, int64_t since_us)
+{
+    return scan->begun_since > 0 || since_us >= 2 * gather->interval_us;
+}
+
 static bool is_complete(const struct gather *gather, const struct gathered *scan)
 {
     int64_t since_us = gather->last_us - scan->begun_us;
 
+    if (gather->has_clock && gather->interval_us > 0 && !scan->number.is_given) {
+        return is_received(gather, scan, since_us);
+    }
     if (scan->number.is_given && since_us <= RHO_LIMIT_OFFSET_US &&
         !(gather->begun_max && scan->begun_since >= gather->begun_max)) {
         return false;

@@ -10,7 +10,7 @@
  * order of the common one. They wait until no row to come can begin one that is before them, bias_max_us at most.
  *
  * Where rows say when they were received, these are the times that do not go back, and that complete scans; those are given out
- * as they were received.
+ * as they were received. A scan that is gathered over an interval is complete when its sensor's next one has begun, too.
  */
 #ifndef RHOTRACK_TOOL_GATHER_H
 #define RHOTRACK_TOOL_GATHER_H

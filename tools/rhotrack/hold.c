@@ -6,11 +6,11 @@
 
 #include "common.h"
 
-void hold_put(struct hold *hold, const struct plot_scan *scan, int64_t heard_us)
+void hold_put(struct hold *hold, const struct plot_scan *scan, int64_t heard_us, int64_t clock_us)
 {
     hold->scans = must_grow(hold->scans, hold->count, &hold->capacity, sizeof *hold->scans);
     hold->scans[hold->count++] = (struct held_scan){.scan = *scan, .heard_us = heard_us};
-    hold->clock_us = heard_us;
+    hold->clock_us = clock_us;
 }
 
 static size_t first_heard(const struct hold *hold)

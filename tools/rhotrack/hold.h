@@ -16,13 +16,13 @@ struct held_scan {
 /* All 0 but for the time to wait: empty. */
 struct hold {
     int64_t hold_us;
-    int64_t clock_us; /* when the newest one was received */
+    int64_t clock_us; /* now */
     struct held_scan *scans;
     size_t count, capacity;
 };
 
-/* A scan, received no earlier than those before; it is the hold's until it is taken. */
-void hold_put(struct hold *hold, const struct plot_scan *scan, int64_t heard_us);
+/* A scan and when it was received; it is the hold's until it is taken. clock_us: what was received since is in later scans alone. */
+void hold_put(struct hold *hold, const struct plot_scan *scan, int64_t heard_us, int64_t clock_us);
 
 /* Once one of them has waited long enough: takes out the scan of the earliest time of those that were there then, of equal times the
  * one that came first. With all, nothing more comes. */

@@ -9,10 +9,13 @@
 #include <sys/stat.h>
 
 #include "common.h"
+#include "feed_room.h"
 #include "lcm_log.h"
 #include "rhotrack/message.h"
 
-#define HOLD_MAX_MS 10000.0 /* of rho_feed_config */
+/* of rho_feed_config */
+#define HOLD_MAX_MS 10000.0
+#define LATE_MAX_S 60.0
 
 /* ---- Kinds ---- */
 
@@ -53,6 +56,7 @@ struct log_scans {
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
     int64_t clock_us;   /* the latest event's */
+    int64_t heard_us;   /* the last scan's last part's */
     bool has_event;     /* the feed has not taken it yet */
     bool is_over;       /* there are no more events */
     uint64_t num_given; /* by the feed */
@@ -63,13 +67,22 @@ struct log_scans {
  * A log's events may stand at the times that the sensors said, as `convert` writes them: a sensor whose time bias is taken
  * off comes so much too early or too late then, and is waited for. Nobody waits for a file.
  */
-static void wait_for_biases(struct parameters *parameters)
+int64_t log_scans_hold_us(const struct parameters *parameters)
 {
-    double *hold_ms = &parameters->value[PARAMETER_HOLD_MS];
     int32_t least_us, largest_us;
 
     parameters_time_biases_us(parameters, &least_us, &largest_us);
-    *hold_ms = fmin(*hold_ms + ((double)largest_us - (double)least_us) * 1e-3, HOLD_MAX_MS);
+    return llround(parameters->value[PARAMETER_HOLD_MS] * 1e3) + largest_us - least_us;
+}
+
+/* What the feed has no room to hold is held behind it (plot_source.c): it must not be dropped as late before that. */
+static void wait_long(struct parameters *parameters)
+{
+    double hold_s = (double)log_scans_hold_us(parameters) * 1e-6;
+
+    parameters->value[PARAMETER_HOLD_MS] = fmin(hold_s * 1e3, HOLD_MAX_MS);
+    parameters->value[PARAMETER_LATE_MAX_S] =
+        fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_s, LATE_MAX_S);
 }
 
 /* The feed as it was before the first event. */
@@ -77,7 +90,7 @@ static void start(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    wait_for_biases(&parameters);
+    wait_long(&parameters);
     parameters_to_feed(&parameters, scans->feed);
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
@@ -118,6 +131,7 @@ static bool take_next(struct log_scans *scans, struct rho_feed_item *item)
         }
         if (rho_feed_next(scans->feed, now_us(scans), item)) {
             scans->num_given++;
+            scans->heard_us = feed_room_heard_us(scans->feed, item);
             return true;
         }
         if (scans->is_over) {
@@ -249,6 +263,11 @@ void log_scans_rewind(struct log_scans *scans)
 int64_t log_scans_clock_us(const struct log_scans *scans)
 {
     return scans->clock_us;
+}
+
+int64_t log_scans_heard_us(const struct log_scans *scans)
+{
+    return scans->heard_us;
 }
 
 uint64_t log_scans_position(const struct log_scans *scans)

@@ -34,8 +34,12 @@ bool log_scans_next(struct log_scans *scans, struct rho_feed_item *item);
 /* The log from its beginning again. */
 void log_scans_rewind(struct log_scans *scans);
 
-/* The latest time of the events so far. */
+/* The latest time of the events so far, and when the last part of the scan that was given last was received. */
 int64_t log_scans_clock_us(const struct log_scans *scans);
+int64_t log_scans_heard_us(const struct log_scans *scans);
+
+/* hold_ms, and as long as sensors' clocks may be apart: so long scans wait for earlier ones. The feed's room may not last for it. */
+int64_t log_scans_hold_us(const struct parameters *parameters);
 
 /* How many bytes of the log are taken. */
 uint64_t log_scans_position(const struct log_scans *scans);

@@ -7,6 +7,7 @@
 
 #include "chain.h"
 #include "common.h"
+#include "feed_room.h"
 #include "node_passive.h"
 #include "rhotrack/message.h"
 #include "rhotrack/publish.h"
@@ -356,6 +357,7 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
     core->now_us = now_us;
     while (rho_feed_take(&core->feed, channel, data, size, now_us) == RHO_ERROR_CAPACITY) {
         if (rho_feed_next(&core->feed, now_us, &item)) {
+            core->counters.scans_early += feed_room_was_short(&core->feed, &item, now_us);
             take_item(core, &item, now_us);
         }
     }

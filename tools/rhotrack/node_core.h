@@ -36,6 +36,7 @@ struct node_core_events {
 /* Beside those of the feed, the frames and the tracker. */
 struct node_core_counters {
     uint64_t steps, restarts;
+    uint64_t scans_early;       /* did not wait for hold_ms: all RHO_MAX_OPEN_SCANS did */
     uint64_t sensors_forgotten; /* descriptions of sensors that are not heard any more */
     /* by the library, for what their values are together: scans, frames, bearings of a sensor that is too far from
      * the others or one too many, descriptions of sensors */

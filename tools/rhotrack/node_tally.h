@@ -9,7 +9,7 @@
 #include "node_core.h"
 #include "transport.h"
 
-#define NODE_TALLIES 31
+#define NODE_TALLIES 32
 
 struct node_tally {
     const char *name;

@@ -48,7 +48,7 @@ static struct reading start_reading(const struct table *table, int id_column,
                               .vy = table_find(table, "vy_mps"),
                               .is_polar = table_find(table, "range_m") >= 0};
     if (reading.is_polar) {
-        reading.polar = plot_columns_find(table, parameters);
+        reading.polar = plot_columns_find(table, parameters, true);
     } else {
         find_place(&reading);
     }
@@ -97,7 +97,7 @@ static void read_place(const struct reading *reading, size_t row, struct plot_po
 static struct plot_point read_cartesian(const struct reading *reading, size_t row)
 {
     const struct table *table = reading->table;
-    struct plot_point point = {0};
+    struct plot_point point = {.table = table, .row = row};
     const char *reason = table_time_us(table_cell(table, row, reading->time), &point.time_us);
     if (!reason && reading->id >= 0) {
         reason = table_int32(table_cell(table, row, reading->id), &point.id);
@@ -144,13 +144,24 @@ static void add_points(struct plot_points *points, const struct table *table, in
     end_reading(&reading);
 }
 
+/* Tables of tracks stay: what is wrong with a row may be seen only beside the truth. */
+static void keep_table(struct plot_data *data, struct table *table)
+{
+    data->track_tables = must_grow(data->track_tables, data->num_track_tables,
+                                   &data->track_tables_capacity, sizeof *data->track_tables);
+    data->track_tables[data->num_track_tables++] = table;
+}
+
 static void add_table(struct plot_data *data, struct table *table,
                       const struct parameters *parameters)
 {
     int track = table_find(table, "track_id"), target = table_find(table, "target_id");
     if (track >= 0) {
         add_points(&data->tracks, table, track, parameters);
-    } else if (target >= 0) {
+        keep_table(data, table);
+        return;
+    }
+    if (target >= 0) {
         add_points(&data->truth, table, target, parameters);
     } else {
         add_points(&data->plots, table, -1, parameters);
@@ -254,6 +265,16 @@ bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_po
     return true;
 }
 
+size_t plot_data_ids(const struct plot_points *points)
+{
+    struct plot_points one;
+    size_t at = 0, count = 0;
+    while (plot_data_next(points, &at, &one)) {
+        count++;
+    }
+    return count;
+}
+
 static bool was_confirmed(const struct plot_points *track)
 {
     for (size_t i = 0; i < track->count; i++) {
@@ -330,4 +351,8 @@ void plot_data_free(struct plot_data *data)
     free(data->bearings.list);
     free(data->bearings.sensors);
     free(data->plot_paths);
+    for (size_t i = 0; i < data->num_track_tables; i++) {
+        table_free(data->track_tables[i]);
+    }
+    free(data->track_tables);
 }

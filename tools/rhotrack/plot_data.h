@@ -8,6 +8,10 @@
 #include <stdint.h>
 
 #include "parameters.h"
+#include "table.h"
+
+#define PLOT_LEGEND_MAX                                                                            \
+    8 /* more tracks or targets than that get no line of their own in the legend */
 
 struct plot_point {
     int64_t time_us;
@@ -15,6 +19,8 @@ struct plot_point {
     double x_m, y_m;
     double vx_mps, vy_mps; /* 0 where not given */
     bool is_tentative;
+    const struct table *table; /* of a track's row; the data's */
+    size_t row;
 };
 
 /* By identity, then time (plots: as in the file). */
@@ -43,6 +49,8 @@ struct plot_data {
     struct plot_rays bearings;
     char **plot_paths; /* of the files with plots; the names are the caller's */
     int num_plot_paths;
+    struct table **track_tables;
+    size_t num_track_tables, track_tables_capacity;
 };
 
 /* Reads the files; errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. A track's rows while tentative are kept, but
@@ -54,5 +62,8 @@ void plot_data_free(struct plot_data *data);
 
 /* The rows of one identity: from *at on; moves *at behind them. False at the end. */
 bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_points *one);
+
+/* How many identities. */
+size_t plot_data_ids(const struct plot_points *points);
 
 #endif

@@ -9,7 +9,6 @@
 #include "rhotrack/angle.h"
 #include "rhotrack/config.h"
 #include "scan_reader.h"
-#include "turns.h"
 
 #define PI 3.14159265358979323846
 
@@ -95,7 +94,8 @@ static void put_lines(FILE *script, const struct plot_points *tracks, double uni
 }
 
 /* The plots of the last scans: in a table of plots nobody sees what a scan is. */
-static struct turns read_turns(const struct plot_data *data, const struct parameters *parameters)
+struct turns plot_parameter_space_read(const struct plot_data *data,
+                                       const struct parameters *parameters)
 {
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
@@ -105,7 +105,7 @@ static struct turns read_turns(const struct plot_data *data, const struct parame
         }
     }
     struct scan_reader *reader =
-        scan_reader_open(data->plot_paths, data->num_plot_paths, parameters, false);
+        scan_reader_open_any(data->plot_paths, data->num_plot_paths, parameters);
     struct turns turns = turns_read(reader, RHO_MAX_SCANS);
     for (size_t i = 0; i < turns.count; i++) {
         num_plots += turns.list[i].scan.num_plots;
@@ -118,12 +118,10 @@ static struct turns read_turns(const struct plot_data *data, const struct parame
 }
 
 void plot_parameter_space(struct picture *picture, const struct plot_data *data,
-                          const struct parameters *parameters)
+                          const struct turns *turns)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
-    struct turns turns = read_turns(data, parameters);
-    cast_votes(votes, &turns);
-    turns_free(&turns);
+    cast_votes(votes, turns);
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
     put_lines(picture->script, &data->tracks, unit_m);

@@ -6,12 +6,18 @@
 #include "parameters.h"
 #include "picture.h"
 #include "plot_data.h"
+#include "turns.h"
 
 /*
- * Draws it: the last RHO_MAX_SCANS scans vote, as many as an initiation window can hold, the sectors of a turn being one. The files
- * with plots are read once more, for their scans; exit 2 where these have no plots.
+ * The scans that vote: the last RHO_MAX_SCANS, as many as an initiation window can hold, the sectors of a turn being one. The files
+ * with plots are read once more; without a column sensor_id all is sensor 0's. Exit 2 where these have no plots, or are refused:
+ * before a picture is begun. To be freed by turns_free.
  */
+struct turns plot_parameter_space_read(const struct plot_data *data,
+                                       const struct parameters *parameters);
+
+/* Draws their votes, and the lines of the data's tracks. */
 void plot_parameter_space(struct picture *picture, const struct plot_data *data,
-                          const struct parameters *parameters);
+                          const struct turns *turns);
 
 #endif

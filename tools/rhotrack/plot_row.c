@@ -34,7 +34,7 @@ static void check_not_both(const struct table *table, int first, int second)
 }
 
 struct plot_columns plot_columns_find(const struct table *table,
-                                      const struct parameters *parameters)
+                                      const struct parameters *parameters, bool needs_sensor)
 {
     struct plot_columns columns;
     bool is_polar, has_no_xy;
@@ -45,7 +45,7 @@ struct plot_columns plot_columns_find(const struct table *table,
     columns = (struct plot_columns){
         .t_s = table_need(table, "t_s"),
         .received_s = table_find(table, "received_s"),
-        .sensor_id = table_need(table, "sensor_id"),
+        .sensor_id = needs_sensor ? table_need(table, "sensor_id") : table_find(table, "sensor_id"),
         .x_m = has_no_xy ? table_find(table, "x_m") : table_need(table, "x_m"),
         .y_m = has_no_xy ? -1 : table_need(table, "y_m"),
         .z_m = is_polar ? -1 : table_find(table, "z_m"),

@@ -45,11 +45,11 @@ struct plot_columns {
 };
 
 /*
- * Finds the columns; exit 2 where one is missing that is needed, or the file holds bearings. To be freed before the
- * parameters go.
+ * Finds the columns; exit 2 where one is missing that is needed, or the file holds bearings; sensor_id is where needs_sensor, else all
+ * is sensor 0's. To be freed before the parameters go.
  */
 struct plot_columns plot_columns_find(const struct table *table,
-                                      const struct parameters *parameters);
+                                      const struct parameters *parameters, bool needs_sensor);
 void plot_columns_free(struct plot_columns *columns);
 
 /* Reads a row. Returns false and the reason where it is bad. */

@@ -18,7 +18,7 @@
 
 struct plot_source {
     const struct parameters *parameters;
-    bool keep_going, follow;
+    struct plot_source_options options;
     struct log_scans *log;       /* or NULL, and */
     struct table_stream *stream; /* or NULL */
     bool has_columns, has_good, is_over, waits, is_complete;
@@ -56,16 +56,12 @@ static bool check_scan(const struct gathered *scan, const struct plot_row *row,
                              "or in none");
 }
 
-/* A scan that has no number is complete when a row is received after it. */
 static bool check_received(const struct gather *gather, const struct gathered *scan,
                            const struct plot_row *row, const struct row_check *check)
 {
-    return !scan || !gather->has_clock || (row->number.is_given && scan->number.is_given) ||
-           row->received_us == scan->heard_us ||
-           row_refuse(check,
-                      "received_s is %.6f s, and %.6f s of the scan's other rows: without a "
-                      "number (column 'scan') rows of a scan have one",
-                      (double)row->received_us * 1e-6, (double)scan->heard_us * 1e-6);
+    return !scan || !gather->has_clock ||
+           row_received_with(check, row->received_us, scan->heard_us,
+                             row->number.is_given && scan->number.is_given, gather->interval_us);
 }
 
 static struct gathered *begin_scan(struct plot_source *source, const struct plot_row *row)
@@ -98,10 +94,11 @@ static void find_columns(struct plot_source *source, const struct table *table)
     if (source->has_columns || !table->names) {
         return;
     }
-    if (source->follow && bearing_columns_are_there(table)) {
+    if (source->options.follow && bearing_columns_are_there(table)) {
         table_fail(table, TABLE_HEADER, "--follow takes plots, and these are bearings");
     }
-    source->columns = plot_columns_find(table, source->parameters);
+    source->columns =
+        plot_columns_find(table, source->parameters, !source->options.may_lack_sensor);
     source->has_columns = true;
     if (source->columns.received_s >= 0) {
         source->gather.begun_max = FOLLOW_BEGUN_MAX;
@@ -133,7 +130,7 @@ static void take_row(struct plot_source *source, const struct table *table)
         add_row(source, scan, &row);
         return;
     }
-    if (!source->keep_going) {
+    if (!source->options.keep_going) {
         table_fail(table, 0, "%s", reason);
     }
     source->rows_skipped++;
@@ -142,7 +139,7 @@ static void take_row(struct plot_source *source, const struct table *table)
 /* A file that ends without a good row; of one that is followed there may have been no time for any. */
 static void check_end(const struct plot_source *source, const struct table *table)
 {
-    if (source->has_good || source->follow) {
+    if (source->has_good || source->options.follow) {
         return;
     }
     if (!plot_source_rows_skipped(source)) {
@@ -223,7 +220,7 @@ static bool next_of_table(struct plot_source *source, struct plot_scan *scan)
             *scan = next;
             return true;
         }
-        hold_put(&source->hold, &next, heard_us);
+        hold_put(&source->hold, &next, heard_us, heard_us);
     }
     return true;
 }
@@ -248,7 +245,8 @@ static bool take_of_log(struct plot_source *source, struct plot_scan *scan)
     return true;
 }
 
-/* Before a feed has heard of a sensor it does not wait for it: the first ones of clocks that are apart are put in order here. */
+/* A feed has room for RHO_MAX_OPEN_SCANS, and does not wait for a sensor of which it has not heard: what goes out of it too early is
+ * put in order here. */
 static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
 {
     struct plot_scan next;
@@ -261,7 +259,8 @@ static bool next_of_log(struct plot_source *source, struct plot_scan *scan)
             *scan = next;
             return true;
         }
-        hold_put(&source->hold, &next, log_scans_clock_us(source->log));
+        hold_put(&source->hold, &next, log_scans_heard_us(source->log),
+                 log_scans_clock_us(source->log));
     }
     return true;
 }
@@ -277,34 +276,30 @@ static void open_table(struct plot_source *source, const char *path)
 {
     int32_t least_us;
 
-    source->stream =
-        table_stream_open(path, source->parameters, source->keep_going, source->follow);
+    source->stream = table_stream_open(path, source->parameters, source->options.keep_going,
+                                       source->options.follow);
     gather_start(&source->gather, sizeof(struct rho_plot),
                  llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
-    source->gather.begun_max = source->follow ? FOLLOW_BEGUN_MAX : 0;
+    source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
     source->hold.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
     find_columns(source, table_stream_table(source->stream));
 }
 
 struct plot_source *plot_source_open(const char *path, const struct parameters *parameters,
-                                     bool keep_going, bool follow)
+                                     struct plot_source_options options)
 {
     struct plot_source *source = must_calloc(1, sizeof *source);
 
     source->parameters = parameters;
-    source->keep_going = keep_going;
-    source->follow = follow;
+    source->options = options;
     if (!lcm_log_is_log(path)) {
         open_table(source, path);
-    } else if (follow) {
+    } else if (options.follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is an LCM log", path);
     } else {
-        int32_t least_us, largest_us;
-
-        parameters_time_biases_us(parameters, &least_us, &largest_us);
-        source->hold.hold_us = (int64_t)largest_us - least_us;
-        source->log = log_scans_open(path, parameters, keep_going, true);
+        source->hold.hold_us = log_scans_hold_us(parameters);
+        source->log = log_scans_open(path, parameters, options.keep_going, true);
     }
     return source;
 }

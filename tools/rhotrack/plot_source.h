@@ -18,12 +18,15 @@ struct plot_scan {
 };
 void plot_scan_free(struct plot_scan *scan);
 
-/*
- * Opens a file (scan_reader.h says what may be in it). Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2; with
- * keep_going bad rows are skipped and counted instead. With follow the file may grow: no log, and no bearings (exit 2).
- */
+struct plot_source_options {
+    bool keep_going;      /* bad rows are skipped and counted */
+    bool follow;          /* the file may grow: no log, and no bearings (exit 2) */
+    bool may_lack_sensor; /* without a column sensor_id all is sensor 0's */
+};
+
+/* Opens a file (scan_reader.h says what may be in it). Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. */
 struct plot_source *plot_source_open(const char *path, const struct parameters *parameters,
-                                     bool keep_going, bool follow);
+                                     struct plot_source_options options);
 
 /* The next scan. Returns false after the last, and where a file that is followed has no more yet. */
 bool plot_source_next(struct plot_source *source, struct plot_scan *scan);

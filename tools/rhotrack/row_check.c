@@ -98,7 +98,9 @@ bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *tim
     if (why) {
         return row_refuse_cell(check, t_s, why);
     }
-    why = table_int32(table_cell(check->table, check->row, sensor_id), sensor);
+    *sensor = 0;
+    why =
+        sensor_id < 0 ? NULL : table_int32(table_cell(check->table, check->row, sensor_id), sensor);
     return why ? row_refuse_cell(check, sensor_id, why) : true;
 }
 
@@ -117,6 +119,16 @@ bool row_received(const struct row_check *check, int column, int64_t *received_u
                    : table_time_us(table_cell(check->table, check->row, column), received_us);
 
     return why ? row_refuse_cell(check, column, why) : true;
+}
+
+bool row_received_with(const struct row_check *check, int64_t received_us, int64_t scan_us,
+                       bool has_number, int64_t interval_us)
+{
+    return has_number || interval_us > 0 || received_us == scan_us ||
+           row_refuse(check,
+                      "received_s is %.6f s, and %.6f s of the scan's other rows: rows of a scan "
+                      "have one, but of one with a number (column 'scan'), or with scan_interval_s",
+                      (double)received_us * 1e-6, (double)scan_us * 1e-6);
 }
 
 bool row_number(const struct row_check *check, int scan, int epoch, struct row_number *number)

@@ -40,7 +40,7 @@ bool row_sigma_rad(const struct row_check *check, int column, double otherwise, 
 bool row_sector(const struct row_check *check, int from, int to, float *from_rad, float *to_rad);
 bool row_snr(const struct row_check *check, int column, float *snr_db);
 
-/* Time and sensor. */
+/* Time and sensor; 0 where the file has no such column (-1). */
 bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
              int32_t *sensor);
 
@@ -49,6 +49,13 @@ bool row_right_time(const struct row_check *check, int64_t time_us, int32_t bias
 
 /* When the row was received; *received_us is left alone where the file does not say. */
 bool row_received(const struct row_check *check, int column, int64_t *received_us);
+
+/*
+ * Whether a row may have been received apart from the other rows of its scan, at scan_us: where the scan has a number, or is
+ * gathered over an interval. Else rows of a scan are received together: one that is not would be a scan of its own.
+ */
+bool row_received_with(const struct row_check *check, int64_t received_us, int64_t scan_us,
+                       bool has_number, int64_t interval_us);
 
 /* The scan's number, where the file says it: rows of one sensor with the same are one scan, whatever their own times. */
 struct row_number {

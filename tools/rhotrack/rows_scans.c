@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "common.h"
+#include "row_check.h"
 
 #define OWN_TIME_MAX_US 60000000 /* dt_us of the messages; no scan_interval_s is longer */
 
@@ -146,6 +147,21 @@ static bool check_plot(struct making *making, const struct rows_scan *scan, cons
     return true;
 }
 
+static bool check_received(struct making *making, const struct rows_scan *scan,
+                           const struct row *row)
+{
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.reason = reason};
+
+    if (making->file->rows.has_received &&
+        !row_received_with(&check, row->received_us, scan->head.received_us, making->file->has_scan,
+                           making->interval_us)) {
+        rows_refuse(making->file, row, "%s", reason);
+        return false;
+    }
+    return true;
+}
+
 static bool check_row(struct making *making, const struct rows_scan *scan, const struct row *row)
 {
     const char *name = difference(making, rows_cells(&making->file->rows, row),
@@ -155,11 +171,7 @@ static bool check_row(struct making *making, const struct rows_scan *scan, const
         rows_refuse(making->file, row, "%s is not that of the scan's first row", name);
         return false;
     }
-    if (making->file->rows.has_received && !making->file->has_scan &&
-        row->received_us != scan->head.received_us) {
-        rows_refuse(making->file, row,
-                    "received_s is not that of the scan's first row: without a number (column "
-                    "'scan') rows of a scan have one");
+    if (!check_received(making, scan, row)) {
         return false;
     }
     if (making->kind->has_one_time && row->time_us != scan->utime) {

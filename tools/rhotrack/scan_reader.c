@@ -21,15 +21,15 @@ struct scan_reader {
 };
 
 static struct scan_reader *open_files(char *const *paths, int num_paths,
-                                      const struct parameters *parameters, bool keep_going,
-                                      bool follow)
+                                      const struct parameters *parameters,
+                                      struct plot_source_options options)
 {
     struct scan_reader *reader = must_calloc(1, sizeof *reader);
 
     reader->files = must_calloc((size_t)num_paths, sizeof *reader->files);
     reader->num_files = num_paths;
     for (int i = 0; i < num_paths; i++) {
-        reader->files[i].source = plot_source_open(paths[i], parameters, keep_going, follow);
+        reader->files[i].source = plot_source_open(paths[i], parameters, options);
     }
     return reader;
 }
@@ -37,13 +37,22 @@ static struct scan_reader *open_files(char *const *paths, int num_paths,
 struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
                                      const struct parameters *parameters, bool keep_going)
 {
-    return open_files(paths, num_paths, parameters, keep_going, false);
+    return open_files(paths, num_paths, parameters,
+                      (struct plot_source_options){.keep_going = keep_going});
 }
 
 struct scan_reader *scan_reader_follow(char *path, const struct parameters *parameters,
                                        bool keep_going)
 {
-    return open_files(&path, 1, parameters, keep_going, true);
+    return open_files(&path, 1, parameters,
+                      (struct plot_source_options){.keep_going = keep_going, .follow = true});
+}
+
+struct scan_reader *scan_reader_open_any(char *const *paths, int num_paths,
+                                         const struct parameters *parameters)
+{
+    return open_files(paths, num_paths, parameters,
+                      (struct plot_source_options){.may_lack_sensor = true});
 }
 
 /* ---- Scans in order ---- */

@@ -35,6 +35,10 @@ struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
 struct scan_reader *scan_reader_follow(char *path, const struct parameters *parameters,
                                        bool keep_going);
 
+/* The same of files that may lack a column sensor_id: all is sensor 0's then. For pictures, which track nothing. */
+struct scan_reader *scan_reader_open_any(char *const *paths, int num_paths,
+                                         const struct parameters *parameters);
+
 /*
  * The next scan, or NULL after the last; valid until the next call. Scans come in the order of
  * time. Of a file that is followed NULL is no end as long as scan_reader_waits.
