@@ -29,7 +29,7 @@ enum { TURN_MESSAGES = 256, STATUS_US = 1000000, COMPLAINT_US = 1000000, MISSING
 struct complaint {
     uint64_t said;
     int64_t said_us;
-    bool is_more; /* than was said, at every look */
+    bool is_more;   /* than was said, at every look */
     uint64_t least; /* since more_us */
     int64_t more_us;
 };

@@ -215,8 +215,8 @@ static const char *advice_on_late(const struct parameters *parameters, uint32_t 
     if (parameters->value[PARAMETER_HOLD_MS] < parameters_text(PARAMETER_HOLD_MS).max) {
         return "; hold_ms waits longer";
     }
-    return num_too_late > 0 &&
-                   parameters->value[PARAMETER_LATE_MAX_S] < parameters_text(PARAMETER_LATE_MAX_S).max
+    return num_too_late > 0 && parameters->value[PARAMETER_LATE_MAX_S] <
+                                   parameters_text(PARAMETER_LATE_MAX_S).max
                ? "; late_max_s takes older ones"
                : "";
 }
@@ -233,9 +233,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
             counters->fates[RHO_FATE_INVALID], counters->fates[RHO_FATE_STALE],
             counters->fates[RHO_FATE_NO_ROOM]);
     if (counters->scans_late + counters->scans_retrodicted > 0) {
-        fprintf(stderr,
-                " (scans: %" PRIu32 " late, used for tracks alone, %" PRIu32
-                " too late%s)",
+        fprintf(stderr, " (scans: %" PRIu32 " late, used for tracks alone, %" PRIu32 " too late%s)",
                 counters->scans_retrodicted, counters->scans_late,
                 advice_on_late(parameters, counters->scans_late));
     }

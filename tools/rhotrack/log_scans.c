@@ -223,8 +223,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     start(scans);
     look_through(scans, file_bytes(path), keep_going);
     if (is_told) {
-        const struct feed_losses losses =
-            feed_order_losses(&scans->order, &scans->feed->counters);
+        const struct feed_losses losses = feed_order_losses(&scans->order, &scans->feed->counters);
 
         lcm_log_report(scans->reader);
         say_counters(path, &scans->feed->counters, &losses);

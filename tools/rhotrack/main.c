@@ -135,7 +135,8 @@ static const struct command commands[] = {
      "Sends the messages of LCM logs, CSV files (plots, polar plots, bearings, truth, tracks) and\n"
      "recordings in ASTERIX (NAME.ast: CAT048, CAT034) in time, the first one at once. CSV files\n"
      "may have lat_deg, lon_deg, alt_m for places (parameters origin_lat_deg and origin_lon_deg);\n"
-     "received_s sets when rows are sent. Messages of logs are sent as they are. With --loop times\n"
+     "received_s sets when rows are sent. Messages of logs are sent as they are. With --loop "
+     "times\n"
      "and numbers of scans "
      "go "
      "on\n"
@@ -161,7 +162,8 @@ static const struct command commands[] = {
      "all with what --set and --config say already. Time: one radar's counts as right (parameter\n"
      "reference_sensor). What the plots do not tell is said to be not known. -o writes the biases "
      "as an\n"
-     "INI file for --config.\n"},
+     "INI file for --config; with -o - it is on standard output, and the table on standard "
+     "error.\n"},
 };
 
 enum { NUM_COMMANDS = sizeof commands / sizeof *commands };
@@ -233,5 +235,9 @@ int main(int argc, char **argv)
     }
     command = find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);
+    if (command->run == command_convert) {
+        command_convert_refuse(&line);
+    }
+    command_line_locate(&line);
     return command->run(&line);
 }

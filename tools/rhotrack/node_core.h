@@ -37,7 +37,7 @@ struct node_core_events {
 /* Beside those of the feed, the frames and the tracker. */
 struct node_core_counters {
     uint64_t steps, restarts;
-    struct feed_order order; /* of scans that came out of order */
+    struct feed_order order;    /* of scans that came out of order */
     uint64_t sensors_forgotten; /* descriptions of sensors that are not heard any more */
     /* by the library, for what their values are together: scans, frames, bearings of a sensor that is too far from
      * the others or one too many, descriptions of sensors */

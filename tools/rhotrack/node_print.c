@@ -81,8 +81,7 @@ static void print_head(const struct node_core *core, const char *url)
 {
     const struct rho_report *report = node_core_report(core);
     const struct rho_feed_counters *feed = node_core_feed(core);
-    const struct feed_losses losses = 
-        feed_order_losses(&node_core_counters(core)->order, feed);
+    const struct feed_losses losses = feed_order_losses(&node_core_counters(core)->order, feed);
 
     printf("\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     printf("%" PRIu64 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; scans: "
