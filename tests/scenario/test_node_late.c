@@ -239,8 +239,8 @@ static void add(struct figures *figures, const struct live *live, const struct l
     figures->lost += live->lost;
     figures->scans += live->num_events;
     figures->late += node_core_feed(live->core)->scans_late;
-    figures->losses = feed_order_losses(&node_core_counters(live->core)->order,
-                                        node_core_feed(live->core));
+    figures->losses =
+        feed_order_losses(&node_core_counters(live->core)->order, node_core_feed(live->core));
     figures->retrodicted += tracker->scans_retrodicted;
     figures->stale += tracker->fates[RHO_FATE_STALE];
 }

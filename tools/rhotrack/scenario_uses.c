@@ -15,6 +15,7 @@
 #define BEAM "popup, weave, hard-turn"
 
 #define RADARS "two-radars"
+#define WITH_AREA ON_PLANE ", radar, " TURNING ", " PASSIVE
 
 struct use {
     enum parameter_id id;
@@ -76,6 +77,10 @@ static const struct use trackers_uses[] = {
     {PARAMETER_PD, "air-traffic, formation", RADARS},
     {PARAMETER_RANGE_MIN_M, TURNING, RADARS},
     {PARAMETER_RANGE_MAX_M, TURNING, RADARS},
+    {PARAMETER_AREA_X_MIN_M, WITH_AREA, NULL},
+    {PARAMETER_AREA_X_MAX_M, WITH_AREA, NULL},
+    {PARAMETER_AREA_Y_MIN_M, WITH_AREA, NULL},
+    {PARAMETER_AREA_Y_MAX_M, WITH_AREA, NULL},
 };
 
 static bool is_among(const char *names, const char *name)
