@@ -94,6 +94,10 @@ run track placed.ast --config sim/scenario.ini -o placed.tracks.csv
 check 'which is the origin where nobody sets one' grep -q '20 tracks confirmed' stderr
 origin='rhotrack: placed.ast: the origin is origin_lat_deg=47.4999905, origin_lon_deg=8.5000062, origin_alt_m=430'
 check 'and told' grep -qx "$origin" stderr
+for name in y.ast y.geojson; do
+    run convert placed.ast $name
+    check "it is no list of tracks: $name" says 2 'rhotrack: placed.ast: a recording of radars, and no list of tracks; *'
+done
 run convert placed.ast placed.csv
 check 'by convert too' grep -qx "$origin" stderr
 run track placed.ast --config sim/scenario.ini --json

@@ -22,12 +22,14 @@ for command in $commands; do
     run "$command" --help
     check "help of $command" grep -q "^Usage: rhotrack $command" stdout
 done
-for command in track maintain initiate publish; do
+for command in track maintain initiate publish convert; do
     run "$command" --help
     for word in 'LCM log' ASTERIX CAT048 lat_deg received_s; do
         check "help of $command: $word" grep -q "$word" stdout
     done
 done
+run publish --help
+check 'publish takes received_s' bash -c '! grep -q "no received_s" stdout'
 for command in track maintain; do
     run "$command" --help
     check "help of $command: its outputs" grep -q '\.ast ASTERIX (CAT062), \.geojson a map' stdout
@@ -125,7 +127,23 @@ refuse 'of several others' 'simulate parallel: targets has no effect here; it is
     simulate parallel -o none --set targets=3
 refuse 'a whole word counts' 'simulate crossing: crossing_deg has no effect here; it is for crossing-angle, formation' \
     simulate crossing -o none --set crossing_deg=3
+scenario_refuses() { # SCENARIO KEY PATTERN
+    refuse "$1: $2" "simulate $1: $2 has no effect here; $3" simulate "$1" -o none --set "$2=0.1"
+}
+scenario_refuses clutter true_pd 'it is for *'
+scenario_refuses clutter true_sigma_m 'it is for *'
+for scenario in polar doppler rotating two-radars passive-two; do
+    scenario_refuses $scenario sigma_m 'it is for *'
+done
+for key in sigma_range_m sigma_azimuth_rad pd range_min_m; do
+    scenario_refuses two-radars $key "set sensor.N.$key"
+done
+refuse 'two-radars: range_max_m' 'simulate two-radars: range_max_m has no effect here; set sensor.N.range_max_m' \
+    simulate two-radars -o none --set range_max_m=90000
 check 'nothing is written' test ! -e none
+printf 'sigma_m = 20\npd = 0.8\n' >trackers.ini
+run simulate polar -o trackers --config trackers.ini
+check "a tracker's file is not complained of" test "$status" -eq 0 -a ! -s stderr
 printf 'late_ms = 5\nsigma_m = 20\nclutter_per_scan = 3\n' >shared.ini
 run simulate crossing -o some --config shared.ini
 check 'a file is for several scenarios: said' matches "$(cat stderr)" \

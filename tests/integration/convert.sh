@@ -58,6 +58,34 @@ for scenario in crossing radar clutter polar passive-two passive-three passive-c
 done
 run simulate polar -o rates --set range_rate=1
 check 'range rates: the log is the same' there_and_back rates/polar.csv --config rates/scenario.ini
+
+# ---- scans of one plot ----
+run convert rates/polar.csv rates.lcm
+check 'plots with times of their own, without scan_interval_s' matches "$status $(cat stderr)" \
+    '0 rhotrack: rates/polar.csv: [0-9]* of [0-9]* scans have one plot each: is scan_interval_s meant?'
+run convert rates/polar.csv rates.lcm --config rates/scenario.ini
+check 'with it nothing is asked' test "$status" -eq 0 -a ! -s stderr
+for scenario in two-radars rotating; do
+    run simulate $scenario -o $scenario
+    run convert $scenario/polar.csv one.lcm
+    check "nor of sectors: $scenario" test "$status" -eq 0 -a ! -s stderr
+done
+awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"; for (k = 0; k < 40; k++) print 4 * k ",1," 100 * k ",0" }' >slow.csv
+run convert slow.csv one.lcm
+check 'nor of a plot every 4 s' test "$status" -eq 0 -a ! -s stderr
+awk 'BEGIN { print "t_s,sensor_id,x_m,y_m,scan"; for (k = 0; k < 40; k++) print k / 4 ",1," 100 * k ",0," k }' >fast.csv
+run convert fast.csv one.lcm
+check 'nor of scans with numbers' test "$status" -eq 0 -a ! -s stderr
+
+# ---- a log is for no terminal ----
+check 'a terminal as standard output is refused' python3 - "$program" <<'END'
+import os, pty, subprocess, sys
+master, terminal = pty.openpty()
+done = subprocess.run([sys.argv[1], "convert", "slow.csv", "-"], stdout=terminal, stderr=subprocess.PIPE, text=True)
+assert done.returncode == 2 and done.stderr.startswith("rhotrack: convert: an LCM log is not written on a terminal"), done
+END
+run convert slow.csv slow.lcm
+check 'a pipe will do' bash -c "'$program' convert slow.csv - | cmp - slow.lcm"
 check 'range rates: the values are the same' same_values rates/polar.csv back.csv
 run simulate popup -o fast --set velocity=1
 check 'velocities: the log is the same' there_and_back fast/plots.csv

@@ -112,6 +112,24 @@ check 'numbered scans: two behind' until_it ends_at out.csv 90.000000
 finish_job TERM
 check 'and the same rows in the end' cmp expected_numbered.csv out.csv
 
+# A clock that is 6 s ahead: what the other radar sends comes after a pause that is longer than follow_quiet_s.
+{
+    echo t_s,sensor_id,x_m,y_m
+    awk -F, 'NR > 1 { print 4 * $1 / 10 "," $1 ",1," $3 "," $4; print 4 * $1 / 10 + 6.1 "," $1 ",2," $3 "," $4 }' plots.csv |
+        sort -s -t, -n -k 1,1 | cut -d, -f1,3-
+} >ahead.csv
+ahead=(--set sensor.2.time_bias_s=6 --set sigma_m=50)
+run track ahead.csv "${ahead[@]}" -o expected_ahead.csv
+check 'clocks that are apart' has_rows expected_ahead.csv 20
+middle=$(($(wc -l <ahead.csv) / 2 + 1))
+head -n "$middle" ahead.csv >grow.csv
+follow grow.csv -o out.csv "${ahead[@]}" --set follow_quiet_s=0.2
+sleep 1.2
+sed "1,${middle}d" ahead.csv >>grow.csv
+sleep 0.5
+finish_job TERM
+check 'a pause does not undo the order of their times' cmp expected_ahead.csv out.csv
+
 # ---- nothing, or little ----
 : >empty.csv
 follow empty.csv -o out.csv --set follow_quiet_s=60

@@ -131,6 +131,34 @@ for file in evenly unevenly; do
     run initiate $file.csv "${turning[@]}"
     check "initiate, received $file: the same" writes_same_as expected_lines.csv
 done
+# ---- what is said of it ----
+# Two radars by sectors, a fifth of the scans 300 ms late: all are used, none is lost.
+run simulate two-radars --set num_scans=6 -o two
+run convert two/polar.csv two.lcm
+run track two.lcm --config two/scenario.ini -o two_tracks.csv
+check 'a log out of order: all is used' grep -Eqx 'rhotrack: two.lcm: [0-9]{2,} scans out of order' stderr
+check 'nothing is said to be lost or late' bash -c '! grep -Eq "lost$|dropped|scans late" stderr'
+# The 40th scan of radar 2 is lost.
+lost=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } $at["sensor_id"] == 2 { print $at["scan"] }' two/polar.csv |
+    sort -nu | sed -n 40p)
+awk -F, -v lost="$lost" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; print; next }
+    !($at["sensor_id"] == 2 && $at["scan"] == lost)' two/polar.csv >gap.csv
+run convert gap.csv gap.lcm
+run track gap.lcm --config two/scenario.ini -o two_tracks.csv
+check 'one that is lost is counted once' grep -Eqx 'rhotrack: gap.lcm: [0-9]+ scans out of order, 1 scans lost' stderr
+run node --lcm 'file://gap.lcm?speed=10' --config two/scenario.ini
+check 'a node says the same at its end' bash -c 'grep -qx "rhotrack: scans lost: 1" stderr && grep -q "^rhotrack: scans out of order: [0-9]" stderr'
+check 'and before that what is lost, once, and nothing of what is late' \
+    matches "$(grep 'scans .*so far' stderr)" 'rhotrack: scans lost: 1 so far'
+run track gap.lcm --config two/scenario.ini --set late_max_s=0 --set hold_ms=0 -o two_tracks.csv
+check 'what is not used is dropped' grep -Eq '^rhotrack: gap.lcm: .*[0-9]+ scans late, dropped, [0-9]+ scans lost' stderr
+
+run track later.csv
+check 'more can be held' matches "$(cat stderr)" '*too late; hold_ms waits longer)*'
+run track too_late.csv --set hold_ms=10000 --set late_max_s=10
+check 'not where hold_ms is at its largest' matches "$(cat stderr)" '*too late; late_max_s takes older ones)*'
+run track too_late.csv --set hold_ms=10000 --set late_max_s=60
+check 'nor more where late_max_s is, too' matches "$(cat stderr)" '*, 0 too late); *'
 
 # ---- refused ----
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,3.000,/' held.csv >bad.csv

@@ -129,6 +129,13 @@ cut -d, -f1-4,7-9 sectors/polar.csv >placeless.csv
 run register placeless.csv
 check 'radars without places' says 2 'rhotrack: register: where do radars * and * stand? *'
 run simulate two-radars --set late_share=0 --set targets=0 -o empty
+run register sectors/polar.csv --config sectors/scenario.ini -o sectors_again.ini
+mv stdout table
+run register sectors/polar.csv --config sectors/scenario.ini -o -
+check 'with -o - the INI file is standard output' writes_same_as sectors_again.ini
+check 'and the table standard error' cmp table stderr
+run register sectors/polar.csv --config sectors/scenario.ini -o - --json
+check 'JSON has no room there' says 2 'rhotrack: register: --json and -o - both write on standard output'
 run register empty/polar.csv --config empty/scenario.ini -o none.ini
 check 'no common target' says 1 'rhotrack: register: no target was tracked by two radars *'
 check 'no file then' test ! -e none.ini

@@ -55,6 +55,7 @@ struct figures {
     double sum_m2, rmse_m;
     unsigned found, rounds, lost, scans;
     uint32_t late, retrodicted, stale;
+    struct feed_losses losses; /* of the last run */
 };
 
 /* ---- truth and scans -------------------------------------------------------------------------- */
@@ -238,6 +239,8 @@ static void add(struct figures *figures, const struct live *live, const struct l
     figures->lost += live->lost;
     figures->scans += live->num_events;
     figures->late += node_core_feed(live->core)->scans_late;
+    figures->losses =
+        feed_order_losses(&node_core_counters(live->core)->order, node_core_feed(live->core));
     figures->retrodicted += tracker->scans_retrodicted;
     figures->stale += tracker->fates[RHO_FATE_STALE];
 }
@@ -273,6 +276,14 @@ static void a_fifth_is_late(const struct figures *figures)
     assert_in_range(100 * figures->late / figures->scans, 17, 23);
 }
 
+/* As people read it: late ones that are used are neither lost nor dropped. Of the last run. */
+static void all_came_after_all(const struct figures *figures)
+{
+    assert_true(figures->losses.out_of_order > 0);
+    assert_int_equal(figures->losses.dropped, 0);
+    assert_int_equal(figures->losses.lost, 0);
+}
+
 static void held_they_change_nothing(int16_t sensors, int64_t lag_us, const char *hold_ms)
 {
     struct figures in_order, out_of_order;
@@ -283,6 +294,7 @@ static void held_they_change_nothing(int16_t sensors, int64_t lag_us, const char
     print("in order", &in_order);
     print("out of order", &out_of_order);
     a_fifth_is_late(&out_of_order);
+    all_came_after_all(&out_of_order);
     assert_int_equal(out_of_order.retrodicted, 0);
     assert_int_equal(out_of_order.found, in_order.found);
     assert_int_equal(out_of_order.lost, in_order.lost);
@@ -308,6 +320,10 @@ static void later_they_update_tracks(int16_t sensors)
     print("out of order", &out_of_order);
     print("out of order, late_max_s 0", &dropped);
     a_fifth_is_late(&out_of_order);
+    all_came_after_all(&out_of_order);
+    assert_int_equal(dropped.losses.out_of_order, 0);
+    assert_true(dropped.losses.dropped > 0);
+    assert_true(dropped.losses.lost >= dropped.losses.dropped);
     assert_in_range(out_of_order.retrodicted, out_of_order.late, out_of_order.late + 10);
     assert_int_equal(dropped.retrodicted, 0);
     assert_true(out_of_order.lost <= in_order.lost);

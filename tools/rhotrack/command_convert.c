@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "asterix_file.h"
 #include "asterix_text.h"
@@ -14,6 +15,7 @@
 #include "geojson.h"
 #include "geojson_rows.h"
 #include "lcm_log.h"
+#include "lone_plots.h"
 #include "message_source.h"
 #include "rows_collect.h"
 #include "rows_read.h"
@@ -59,16 +61,33 @@ static void check_output(const char *input, const char *output, bool from_log)
 
 /* ---- CSV to log ---- */
 
-static void write_log(struct message_source *source, const char *path)
+/* Who numbers the scans, or says how long they are, means them as they are. */
+static bool guesses_scans(const struct message_source *source, const struct parameters *parameters)
 {
+    return !message_source_has_numbers(source) &&
+           !(parameters->value[PARAMETER_SCAN_INTERVAL_S] > 0.0);
+}
+
+static void write_log(struct message_source *source, const struct command_line *line)
+{
+    const char *path = line->arguments[1];
     struct output output = output_open(path);
     struct lcm_log_writer writer = {.file = output.file};
+    struct lone_plots plots = {.scans = 0};
     struct message_event event;
 
+    if (isatty(fileno(output.file))) {
+        fail(EXIT_USAGE, "convert: an LCM log is not written on a terminal; name a file NAME.lcm");
+    }
     while (message_source_next(source, &event)) {
         lcm_log_must_write(&writer, path, event.utime, event.channel, event.data, event.size);
+        lone_plots_add(&plots, &event);
     }
     output_close(&output);
+    if (guesses_scans(source, &line->parameters)) {
+        lone_plots_report(&plots, line->arguments[0]);
+    }
+    lone_plots_free(&plots);
 }
 
 static void convert_to_log(const struct command_line *line)
@@ -80,7 +99,7 @@ static void convert_to_log(const struct command_line *line)
         fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is a CSV file",
              line->arguments[0]);
     }
-    write_log(source, line->arguments[1]);
+    write_log(source, line);
     message_source_report(source);
     message_source_close(source);
 }
@@ -317,6 +336,18 @@ static void check_map(struct command_line *line)
     line->kind = rows_kind_tracks.name;
 }
 
+void command_convert_refuse(const struct command_line *line)
+{
+    const char *input = line->arguments[0], *output = line->arguments[1];
+    bool to_map = geojson_is_wanted(output);
+
+    if ((to_map || asterix_tracks_is_asterix(output)) && asterix_file_is_asterix(input)) {
+        check_table(input);
+        fail(EXIT_USAGE, "%s: a recording of radars, and no list of tracks; %s is made of tracks",
+             input, to_map ? "GeoJSON" : "CAT062");
+    }
+}
+
 int command_convert(struct command_line *line)
 {
     bool from_log = input_is_log(line->arguments[0], line->arguments[1]);
@@ -327,11 +358,6 @@ int command_convert(struct command_line *line)
         asterix_tracks_refuse_covariance(line->arguments[1], line->covariance);
         convert_to_asterix(line);
         return 0;
-    }
-    if (to_map && asterix_file_is_asterix(line->arguments[0])) {
-        check_table(line->arguments[0]);
-        fail(EXIT_USAGE, "%s: a recording of radars; GeoJSON is made of tracks",
-             line->arguments[0]);
     }
     if (asterix_file_is_asterix(line->arguments[0]) &&
         !path_ends_with(line->arguments[1], ".lcm")) {

@@ -297,8 +297,6 @@ void command_line_read(struct command_line *line, const struct command *command,
     read_options(line, command, argc, argv);
     line->arguments = argv + optind;
     line->num_arguments = argc - optind;
-    suggest_origin(line);
-    parameters_locate(&line->parameters);
     if (line->num_arguments < command->min_arguments) {
         fail(EXIT_USAGE, "%s: too few arguments; usage: rhotrack %s %s", command->name,
              command->name, command->usage);
@@ -316,4 +314,10 @@ void refuse_own_input(const struct command_line *line)
             fail(EXIT_USAGE, "%s: the output cannot be an input", line->arguments[i]);
         }
     }
+}
+
+void command_line_locate(struct command_line *line)
+{
+    suggest_origin(line);
+    parameters_locate(&line->parameters);
 }

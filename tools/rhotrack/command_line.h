@@ -25,6 +25,9 @@ struct command {
 void command_line_read(struct command_line *line, const struct command *command, int argc,
                        char **argv);
 
+/* Then: the origin of a recording, where none was set, and what is placed on the earth. */
+void command_line_locate(struct command_line *line);
+
 /* Help of one command. */
 void command_line_help(const struct command *command, FILE *file);
 

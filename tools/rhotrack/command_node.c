@@ -23,11 +23,15 @@
 #include "transport.h"
 
 /* Messages that are taken before signals and clocks are looked at again. */
-enum { TURN_MESSAGES = 256, STATUS_US = 1000000, COMPLAINT_US = 1000000 };
+/* And how long what may come after all must be missing before it is said. */
+enum { TURN_MESSAGES = 256, STATUS_US = 1000000, COMPLAINT_US = 1000000, MISSING_US = 3000000 };
 
 struct complaint {
     uint64_t said;
     int64_t said_us;
+    bool is_more;   /* than was said, at every look */
+    uint64_t least; /* since more_us */
+    int64_t more_us;
 };
 
 struct node {
@@ -118,6 +122,38 @@ static void on_step(void *context, const struct rho_report *report)
 
 /* ---- Complaints and the summary ---- */
 
+/*
+ * What is to be said of it by now: of what may fall again the least that it was for MISSING_US. A number that was skipped is
+ * lost only where its scan does not come a moment later.
+ */
+static uint64_t count_of(struct complaint *complaint, const struct node_tally *tally,
+                         int64_t now_us)
+{
+    bool was_more = complaint->is_more;
+
+    complaint->is_more = tally->count > complaint->said;
+    if (tally->kind != NODE_TALLY_MAY_FALL || !complaint->is_more) {
+        return tally->count;
+    }
+    if (!was_more) {
+        complaint->more_us = now_us;
+    }
+    complaint->least =
+        was_more && complaint->least < tally->count ? complaint->least : tally->count;
+    return now_us >= complaint->more_us + MISSING_US ? complaint->least : complaint->said;
+}
+
+static void complain_of(struct complaint *complaint, const struct node_tally *tally, int64_t now_us)
+{
+    uint64_t count = count_of(complaint, tally, now_us);
+
+    if (tally->kind != NODE_TALLY_USUAL && count > complaint->said &&
+        now_us >= complaint->said_us + COMPLAINT_US) {
+        *complaint = (struct complaint){.said = count, .said_us = now_us};
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " so far\n", tally->name, count);
+    }
+}
+
 /* A cause speaks at most once a second, and not into a table. */
 static void complain(struct node *node)
 {
@@ -129,14 +165,7 @@ static void complain(struct node *node)
     }
     node_tally(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
-        struct complaint *complaint = &node->complaints[i];
-
-        if (tallies[i].is_fault && tallies[i].count > complaint->said &&
-            now_us >= complaint->said_us + COMPLAINT_US) {
-            *complaint = (struct complaint){tallies[i].count, now_us};
-            fprintf(stderr, "rhotrack: %s: %" PRIu64 " so far\n", tallies[i].name,
-                    tallies[i].count);
-        }
+        complain_of(&node->complaints[i], &tallies[i], now_us);
     }
 }
 

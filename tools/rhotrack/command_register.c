@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* register: the biases of radars from the targets that several of them see. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "chain.h"
 #include "command_line.h"
@@ -35,6 +36,12 @@ static void refuse_other_format(const char *path)
                  path, endings[i]);
         }
     }
+}
+
+/* Then standard output has the INI file and nothing else. */
+static bool is_ini_on_output(const struct command_line *line)
+{
+    return line->output && strcmp(line->output, "-") == 0;
 }
 
 /* What nobody described stands in the origin; that can be true of one radar alone. */
@@ -107,6 +114,8 @@ static void print(const struct command_line *line, const struct register_result 
 
     if (line->json) {
         register_print_json(result, rows_skipped);
+    } else if (is_ini_on_output(line)) {
+        register_print(result, stderr);
     } else {
         output = output_open(NULL);
         register_print(result, output.file);
@@ -125,6 +134,9 @@ int command_register(struct command_line *line)
     refuse_own_input(line);
     refuse_twins(line);
     refuse_other_format(line->output);
+    if (line->json && is_ini_on_output(line)) {
+        fail(EXIT_USAGE, "register: --json and -o - both write on standard output");
+    }
     chain_set_gate(&line->parameters, line->gate);
     rows_skipped = read_all(line, data);
     check_enough(data);

@@ -172,11 +172,20 @@ static const char *follow_until_over(struct tracking *tracking, struct inputs *i
     return why;
 }
 
+/* Scans wait for clocks that are behind: time_bias_s. Rows of these may come so much later. */
+static int64_t quiet_time_us(const struct parameters *parameters)
+{
+    int32_t least_us, largest_us;
+
+    parameters_time_biases_us(parameters, &least_us, &largest_us);
+    return llround(parameters->value[PARAMETER_FOLLOW_QUIET_S] * 1e6) +
+           ((int64_t)largest_us - least_us);
+}
+
 /* What is there when it ends is tracked. */
 static const char *follow(struct tracking *tracking, struct inputs *inputs,
                           struct tracks_output *tracks, const struct parameters *parameters)
 {
-    int64_t quiet_us = llround(parameters->value[PARAMETER_FOLLOW_QUIET_S] * 1e6);
     struct input input;
     const char *why;
 
@@ -185,7 +194,7 @@ static const char *follow(struct tracking *tracking, struct inputs *inputs,
     if (tracks) {
         tracks_output_flush(tracks);
     }
-    why = follow_until_over(tracking, inputs, tracks, quiet_us);
+    why = follow_until_over(tracking, inputs, tracks, quiet_time_us(parameters));
     scan_reader_end(inputs_scan_reader(inputs));
     while ((input = inputs_next(inputs)).scan) {
         step_and_report(tracking, &input, tracks);
@@ -200,7 +209,20 @@ static double mean_us(const struct tracking *tracking, const struct inputs_count
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
 
-static void print_summary(const struct tracking *tracking, const struct inputs_counts *counts)
+/* What would have them in time, where there is more of it to be had. */
+static const char *advice_on_late(const struct parameters *parameters, uint32_t num_too_late)
+{
+    if (parameters->value[PARAMETER_HOLD_MS] < parameters_text(PARAMETER_HOLD_MS).max) {
+        return "; hold_ms waits longer";
+    }
+    return num_too_late > 0 && parameters->value[PARAMETER_LATE_MAX_S] <
+                                   parameters_text(PARAMETER_LATE_MAX_S).max
+               ? "; late_max_s takes older ones"
+               : "";
+}
+
+static void print_summary(const struct tracking *tracking, const struct inputs_counts *counts,
+                          const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
 
@@ -211,10 +233,9 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
             counters->fates[RHO_FATE_INVALID], counters->fates[RHO_FATE_STALE],
             counters->fates[RHO_FATE_NO_ROOM]);
     if (counters->scans_late + counters->scans_retrodicted > 0) {
-        fprintf(stderr,
-                " (scans: %" PRIu32 " late, used for tracks alone, %" PRIu32
-                " too late; hold_ms waits longer)",
-                counters->scans_retrodicted, counters->scans_late);
+        fprintf(stderr, " (scans: %" PRIu32 " late, used for tracks alone, %" PRIu32 " too late%s)",
+                counters->scans_retrodicted, counters->scans_late,
+                advice_on_late(parameters, counters->scans_late));
     }
     if (counts->frames_incomplete) {
         fprintf(stderr, ", %" PRIu64 " frames miss a sensor%s", counts->frames_incomplete,
@@ -370,7 +391,7 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 {
     struct inputs_counts counts = inputs_counts(inputs);
 
-    print_summary(tracking, &counts);
+    print_summary(tracking, &counts, &line->parameters);
     if (line->json) {
         print_json(tracking, inputs, &counts, &line->parameters);
     }

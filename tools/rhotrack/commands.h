@@ -40,6 +40,10 @@ int command_experiment(struct command_line *line);
 int command_plot(struct command_line *line);
 int command_bench(struct command_line *line);
 int command_convert(struct command_line *line);
+
+/* What no origin helps: before one is looked for, and told. Exit 2. */
+void command_convert_refuse(const struct command_line *line);
+
 int command_node(struct command_line *line);
 int command_publish(struct command_line *line);
 int command_register(struct command_line *line);

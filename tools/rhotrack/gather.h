@@ -7,7 +7,8 @@
  * that cannot be its own: of a numbered one RHO_LIMIT_OFFSET_US after its first row.
  *
  * A sensor's time bias, where it has one, is taken off its scan's time: rows come by the sensors' clocks, scans go out in the
- * order of the common one. They wait until no row to come can begin one that is before them, bias_max_us at most.
+ * order of the common one. They wait until no row to come can begin one that is before them, bias_max_us at most: the
+ * largest of all sensors that are described, for one that has not come yet may still come.
  *
  * Where rows say when they were received, these are the times that do not go back, and that complete scans; those are given out
  * as they were received. A scan that is gathered over an interval is complete when its sensor's next one has begun, too.

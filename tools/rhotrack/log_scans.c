@@ -10,6 +10,7 @@
 
 #include "common.h"
 #include "feed_room.h"
+#include "feed_order.h"
 #include "lcm_log.h"
 #include "rhotrack/message.h"
 
@@ -53,6 +54,7 @@ struct log_scans {
     const char *path;
     const struct parameters *parameters;
     struct rho_feed *feed;
+    struct feed_order order;
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
     int64_t clock_us;   /* the latest event's */
@@ -92,6 +94,7 @@ static void start(struct log_scans *scans)
 
     wait_long(&parameters);
     parameters_to_feed(&parameters, scans->feed);
+    scans->order = (struct feed_order){0};
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
     scans->clock_us = INT64_MIN;
@@ -103,8 +106,8 @@ static void offer(struct log_scans *scans)
 {
     const struct lcm_log_event *event = &scans->event;
 
-    scans->has_event = rho_feed_take(scans->feed, event->channel, event->data, event->size,
-                                     event->utime) == RHO_ERROR_CAPACITY;
+    scans->has_event = feed_order_take(&scans->order, scans->feed, event->channel, event->data,
+                                       event->size, event->utime) == RHO_ERROR_CAPACITY;
 }
 
 static void next_event(struct log_scans *scans)
@@ -186,7 +189,8 @@ static void look_through(struct log_scans *scans, uint64_t bytes, bool keep_goin
 
 /* ---- What was wrong ---- */
 
-static void say_counters(const char *path, const struct rho_feed_counters *counters)
+static void say_counters(const char *path, const struct rho_feed_counters *counters,
+                         const struct feed_losses *losses)
 {
     const struct {
         uint32_t count;
@@ -197,9 +201,10 @@ static void say_counters(const char *path, const struct rho_feed_counters *count
         {counters->messages_flooded, "messages beyond flood_per_s"},
         {counters->scans_bad, "scans with bad numbers"},
         {counters->clock_jumps, "scans with bad times"},
-        {counters->scans_late, "scans late"},
+        {losses->out_of_order, "scans out of order"},
+        {losses->dropped, "scans late, dropped"},
         {counters->scans_duplicate, "scans or parts double"},
-        {counters->scans_lost, "scans lost"},
+        {losses->lost, "scans lost"},
         {counters->scans_incomplete, "scans incomplete"},
         {counters->sensor_restarts, "restarts of sensors"},
         {counters->sensors_no_room, "messages of too many sensors"},
@@ -232,8 +237,10 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     start(scans);
     look_through(scans, file_bytes(path), keep_going);
     if (is_told) {
+        const struct feed_losses losses = feed_order_losses(&scans->order, &scans->feed->counters);
+
         lcm_log_report(scans->reader);
-        say_counters(path, &scans->feed->counters);
+        say_counters(path, &scans->feed->counters, &losses);
     }
     if (scans->num_given == 0) {
         fail(EXIT_USAGE, "%s: not one scan of a sensor (channels %s<n>, %s<n>, %s<n>)", path,

@@ -114,7 +114,9 @@ static const struct command commands[] = {
      "Tracks of either become a map where OUT is NAME.geojson; that needs the parameters\n"
      "origin_lat_deg and origin_lon_deg.\n"
      "Values keep float32 and times microseconds. Rows of one sensor are one scan where they have\n"
-     "the same scan and epoch (columns), else the same t_s, or are within scan_interval_s. "
+     "the same scan and epoch (columns), else the same t_s, or are within scan_interval_s; "
+     "received_s\n"
+     "(plots) becomes the times of the events, and lat_deg,lon_deg places in the local frame. "
      "Damaged\n"
      "places of a log are skipped and reported; bad messages are refused, or with --keep-going\n"
      "skipped and counted. Recordings in ASTERIX (.ast: CAT048 and CAT034) become either; tracks\n"
@@ -132,9 +134,10 @@ static const struct command commands[] = {
      "plays files as sensors, live",
      "Sends the messages of LCM logs, CSV files (plots, polar plots, bearings, truth, tracks) and\n"
      "recordings in ASTERIX (NAME.ast: CAT048, CAT034) in time, the first one at once. CSV files\n"
-     "may have lat_deg, lon_deg, alt_m for places (parameters origin_lat_deg and origin_lon_deg), "
-     "but\n"
-     "no received_s. Messages of logs are sent as they are. With --loop times and numbers of scans "
+     "may have lat_deg, lon_deg, alt_m for places (parameters origin_lat_deg and origin_lon_deg);\n"
+     "received_s sets when rows are sent. Messages of logs are sent as they are. With --loop "
+     "times\n"
+     "and numbers of scans "
      "go "
      "on\n"
      "from pass to pass, as of sensors that go on. A CSV file without a column epoch has the "
@@ -159,7 +162,8 @@ static const struct command commands[] = {
      "all with what --set and --config say already. Time: one radar's counts as right (parameter\n"
      "reference_sensor). What the plots do not tell is said to be not known. -o writes the biases "
      "as an\n"
-     "INI file for --config.\n"},
+     "INI file for --config; with -o - it is on standard output, and the table on standard "
+     "error.\n"},
 };
 
 enum { NUM_COMMANDS = sizeof commands / sizeof *commands };
@@ -231,5 +235,9 @@ int main(int argc, char **argv)
     }
     command = find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);
+    if (command->run == command_convert) {
+        command_convert_refuse(&line);
+    }
+    command_line_locate(&line);
     return command->run(&line);
 }

@@ -107,6 +107,16 @@ bool message_source_next(struct message_source *source, struct message_event *ev
     return true;
 }
 
+bool message_source_has_numbers(const struct message_source *source)
+{
+    for (int i = 0; i < source->num_inputs; i++) {
+        if (source->inputs[i].file.has_scan) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void message_source_report(const struct message_source *source)
 {
     uint64_t rows_skipped = 0;

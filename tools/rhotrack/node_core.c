@@ -355,7 +355,8 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
     struct rho_feed_item item;
 
     core->now_us = now_us;
-    while (rho_feed_take(&core->feed, channel, data, size, now_us) == RHO_ERROR_CAPACITY) {
+    while (feed_order_take(&core->counters.order, &core->feed, channel, data, size, now_us) ==
+           RHO_ERROR_CAPACITY) {
         if (rho_feed_next(&core->feed, now_us, &item)) {
             core->counters.scans_early += feed_room_was_short(&core->feed, &item, now_us);
             take_item(core, &item, now_us);

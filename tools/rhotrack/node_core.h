@@ -16,6 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "feed_order.h"
 #include "parameters.h"
 #include "rhotrack/feed.h"
 #include "rhotrack/frames.h"
@@ -37,6 +38,7 @@ struct node_core_events {
 struct node_core_counters {
     uint64_t steps, restarts;
     uint64_t scans_early;       /* did not wait for hold_ms: all RHO_MAX_OPEN_SCANS did */
+    struct feed_order order;    /* of scans that came out of order */
     uint64_t sensors_forgotten; /* descriptions of sensors that are not heard any more */
     /* by the library, for what their values are together: scans, frames, bearings of a sensor that is too far from
      * the others or one too many, descriptions of sensors */

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "common.h"
+#include "node_sensors.h"
 #include "tracks_writer.h"
 
 #define DEG_PER_RAD 57.29577951308232
@@ -65,12 +66,12 @@ static int count_status(const struct rho_report *report, enum rho_track_status s
 static void print_sensors(const struct node_core *core)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
-    const unsigned count = node_core_sensors(core, sensors);
+    const unsigned count = node_sensors_spoken_of(core, sensors);
 
     for (unsigned i = 0; i < count; i++) {
         if (sensors[i].is_doubted) {
             printf("sensor %d contradicts the others  ", sensors[i].sensor_id);
-        } else if (sensors[i].is_silent && sensors[i].scans >= node_core_follow_scans(core)) {
+        } else if (sensors[i].is_silent) {
             printf("sensor %d is silent  ", sensors[i].sensor_id);
         }
     }
@@ -80,14 +81,16 @@ static void print_head(const struct node_core *core, const char *url)
 {
     const struct rho_report *report = node_core_report(core);
     const struct rho_feed_counters *feed = node_core_feed(core);
+    const struct feed_losses losses = feed_order_losses(&node_core_counters(core)->order, feed);
 
     printf("\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     printf("%" PRIu64 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; scans: "
-           "%" PRIu32 " lost, %" PRIu32 " late, %" PRIu32 " bad; %" PRIu32 " bad messages\033[K\n",
+           "%" PRIu32 " lost, %" PRIu32 " out of order, %" PRIu32 " dropped, %" PRIu32
+           " bad; %" PRIu32 " bad messages\033[K\n",
            node_core_counters(core)->steps, node_core_mean_us(core),
            count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
-           count_status(report, RHO_TRACK_TENTATIVE), feed->scans_lost, feed->scans_late,
-           feed->scans_bad, feed->messages_bad);
+           count_status(report, RHO_TRACK_TENTATIVE), losses.lost, losses.out_of_order,
+           losses.dropped, feed->scans_bad, feed->messages_bad);
     print_sensors(core);
     printf("\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status", "x km",
            "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");

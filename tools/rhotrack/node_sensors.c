@@ -17,6 +17,20 @@ static const char *channel_of(const struct rho_message_sensor *sensor)
                                                       : RHO_MESSAGE_BEARING_SCAN_CHANNEL;
 }
 
+unsigned node_sensors_spoken_of(const struct node_core *core,
+                                struct rho_message_sensor sensors[RHO_MAX_SENSORS])
+{
+    const unsigned count = node_core_sensors(core, sensors);
+    unsigned kept = 0;
+
+    for (unsigned i = 0; i < count; i++) {
+        if (sensors[i].scans >= node_core_follow_scans(core)) {
+            sensors[kept++] = sensors[i];
+        }
+    }
+    return kept;
+}
+
 /* ---- What is said ---- */
 
 static void say_doubted(const struct rho_message_sensor *sensor, FILE *to)
@@ -56,11 +70,6 @@ static void say_changes(const struct node_sensor *before, const struct rho_messa
 
 /* ---- What has changed ---- */
 
-static bool is_spoken_of(const struct node_core *core, const struct rho_message_sensor *sensor)
-{
-    return sensor->scans >= node_core_follow_scans(core);
-}
-
 static struct node_sensor find(const struct node_sensors *sensors,
                                const struct rho_message_sensor *sensor)
 {
@@ -76,12 +85,9 @@ void node_sensors_watch(struct node_sensors *sensors, const struct node_core *co
 {
     struct rho_message_sensor now[RHO_MAX_SENSORS];
     struct node_sensors next = {.count = 0};
-    const unsigned count = node_core_sensors(core, now);
+    const unsigned count = node_sensors_spoken_of(core, now);
 
     for (unsigned i = 0; i < count; i++) {
-        if (!is_spoken_of(core, &now[i])) {
-            continue;
-        }
         if (to) {
             struct node_sensor before = find(sensors, &now[i]);
 
@@ -96,13 +102,13 @@ void node_sensors_watch(struct node_sensors *sensors, const struct node_core *co
 void node_sensors_print(const struct node_core *core, FILE *to)
 {
     struct rho_message_sensor now[RHO_MAX_SENSORS];
-    const unsigned count = node_core_sensors(core, now);
+    const unsigned count = node_sensors_spoken_of(core, now);
 
     for (unsigned i = 0; i < count; i++) {
         if (now[i].is_doubted) {
             fprintf(to, "rhotrack: sensor %d contradicts the others\n", now[i].sensor_id);
         }
-        if (now[i].is_silent && is_spoken_of(core, &now[i])) {
+        if (now[i].is_silent) {
             say_silent(&now[i], to);
         }
     }

@@ -23,6 +23,10 @@ struct node_sensors {
     struct node_sensor of[RHO_MAX_SENSORS];
 };
 
+/* Those of node_core_sensors that have sent follow_scans scans. Returns how many. */
+unsigned node_sensors_spoken_of(const struct node_core *core,
+                                struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
+
 /* One line a change since the last call; NULL: nothing is written. */
 void node_sensors_watch(struct node_sensors *sensors, const struct node_core *core, FILE *to);
 

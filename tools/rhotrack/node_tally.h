@@ -11,10 +11,16 @@
 
 #define NODE_TALLIES 32
 
+enum node_tally_kind {
+    NODE_TALLY_USUAL = 0, /* of the tracker's usual work */
+    NODE_TALLY_FAULT,     /* of messages or the network */
+    NODE_TALLY_MAY_FALL   /* the same, but what it counts may come after all */
+};
+
 struct node_tally {
     const char *name;
     uint64_t count;
-    bool is_fault; /* of messages or the network; else of the tracker's usual work */
+    enum node_tally_kind kind;
 };
 
 /* All of them, always in the same order. */

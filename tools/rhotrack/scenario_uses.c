@@ -7,54 +7,80 @@
 #include "scenario.h"
 
 #define SKY "air-traffic, parallel, crossing-angle, formation" /* with merge_m a sky of their own */
-#define ON_PLANE                                                                                   \
-    "crossing, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, air-traffic, "    \
-    "formation"
+#define TARGETS_ON_PLANE                                                                           \
+    "crossing, parallel, crossing-angle, same-line, slow-turn, traffic, air-traffic, formation"
+#define ON_PLANE TARGETS_ON_PLANE ", clutter"
 #define TURNING "polar, doppler, rotating"
 #define PASSIVE "passive-two, passive-three, passive-clutter"
 #define BEAM "popup, weave, hard-turn"
 
-/* All use num_scans and interval_s. What trackers use, too, is not here: it goes to scenario.ini, or may come from there. */
-static const struct {
+#define RADARS "two-radars"
+#define WITH_AREA ON_PLANE ", radar, " TURNING ", " PASSIVE
+
+struct use {
     enum parameter_id id;
     const char *scenarios; /* by ", " */
-} uses[] = {
-    {PARAMETER_CLUTTER_PER_KM2, ON_PLANE ", radar, polar, doppler, " BEAM},
-    {PARAMETER_CLUTTER_PER_SCAN, ON_PLANE ", radar, two-radars, " TURNING ", " BEAM},
-    {PARAMETER_TRUE_PD, ON_PLANE ", radar, " TURNING ", " PASSIVE ", " BEAM},
-    {PARAMETER_TRUE_SIGMA_M, ON_PLANE ", " BEAM},
-    {PARAMETER_FADES_PER_HOUR, SKY},
-    {PARAMETER_FADE_SCANS, SKY},
-    {PARAMETER_SPOTS, SKY},
-    {PARAMETER_SPOT_CLUTTER, SKY},
-    {PARAMETER_PERSISTENT_SOURCES, SKY},
-    {PARAMETER_MERGE_M, SKY},
-    {PARAMETER_CROSSING_SHARE, "air-traffic"},
-    {PARAMETER_RANGE_RATE, TURNING},
-    {PARAMETER_STATIC_CLUTTER, "doppler"},
-    {PARAMETER_TARGETS, "traffic, air-traffic, two-radars, " TURNING ", " PASSIVE},
-    {PARAMETER_SENSORS, PASSIVE},
-    {PARAMETER_FALSE_ALARMS, PASSIVE},
-    {PARAMETER_SPACING_M, "parallel, same-line, formation, two-radars"},
-    {PARAMETER_CROSSING_DEG, "crossing-angle, formation"},
-    {PARAMETER_TURN_DEG, "slow-turn"},
-    {PARAMETER_SPEED_MPS, "parallel, crossing-angle, same-line, slow-turn, formation"},
-    {PARAMETER_SECOND_SPEED_MPS, "same-line"},
-    {PARAMETER_ACCEL_G, BEAM},
-    {PARAMETER_VELOCITY, BEAM},
-    {PARAMETER_BEAM_DEG, BEAM},
-    {PARAMETER_CLEAN_SCANS, BEAM},
-    {PARAMETER_TRUE_MODEL, BEAM},
-    {PARAMETER_TRUE_NOISE_MPS2, BEAM},
-    {PARAMETER_TRUE_NOISE_M, BEAM},
-    {PARAMETER_TRUE_NOISE_MPS, BEAM},
-    {PARAMETER_SECTORS_PER_TURN, "rotating, two-radars"},
-    {PARAMETER_SECOND_INTERVAL_S, "two-radars"},
-    {PARAMETER_TRUE_RANGE_BIAS_M, "two-radars"},
-    {PARAMETER_TRUE_AZIMUTH_BIAS_RAD, "two-radars"},
-    {PARAMETER_TRUE_TIME_BIAS_S, "two-radars"},
-    {PARAMETER_LATE_SHARE, "two-radars"},
-    {PARAMETER_LATE_MS, "two-radars"},
+    const char *by_sensor; /* where it is set for each sensor alone */
+};
+
+/* All use num_scans and interval_s. */
+static const struct use uses[] = {
+    {PARAMETER_CLUTTER_PER_KM2, ON_PLANE ", radar, polar, doppler, " BEAM, NULL},
+    {PARAMETER_CLUTTER_PER_SCAN, ON_PLANE ", radar, two-radars, " TURNING ", " BEAM, NULL},
+    {PARAMETER_TRUE_PD, TARGETS_ON_PLANE ", radar, " TURNING ", " PASSIVE ", " BEAM, NULL},
+    {PARAMETER_TRUE_SIGMA_M, TARGETS_ON_PLANE ", " BEAM, NULL},
+    {PARAMETER_FADES_PER_HOUR, SKY, NULL},
+    {PARAMETER_FADE_SCANS, SKY, NULL},
+    {PARAMETER_SPOTS, SKY, NULL},
+    {PARAMETER_SPOT_CLUTTER, SKY, NULL},
+    {PARAMETER_PERSISTENT_SOURCES, SKY, NULL},
+    {PARAMETER_MERGE_M, SKY, NULL},
+    {PARAMETER_CROSSING_SHARE, "air-traffic", NULL},
+    {PARAMETER_RANGE_RATE, TURNING, NULL},
+    {PARAMETER_STATIC_CLUTTER, "doppler", NULL},
+    {PARAMETER_TARGETS, "traffic, air-traffic, two-radars, " TURNING ", " PASSIVE, NULL},
+    {PARAMETER_SENSORS, PASSIVE, NULL},
+    {PARAMETER_FALSE_ALARMS, PASSIVE, NULL},
+    {PARAMETER_SPACING_M, "parallel, same-line, formation, two-radars", NULL},
+    {PARAMETER_CROSSING_DEG, "crossing-angle, formation", NULL},
+    {PARAMETER_TURN_DEG, "slow-turn", NULL},
+    {PARAMETER_SPEED_MPS, "parallel, crossing-angle, same-line, slow-turn, formation", NULL},
+    {PARAMETER_SECOND_SPEED_MPS, "same-line", NULL},
+    {PARAMETER_ACCEL_G, BEAM, NULL},
+    {PARAMETER_VELOCITY, BEAM, NULL},
+    {PARAMETER_BEAM_DEG, BEAM, NULL},
+    {PARAMETER_CLEAN_SCANS, BEAM, NULL},
+    {PARAMETER_TRUE_MODEL, BEAM, NULL},
+    {PARAMETER_TRUE_NOISE_MPS2, BEAM, NULL},
+    {PARAMETER_TRUE_NOISE_M, BEAM, NULL},
+    {PARAMETER_TRUE_NOISE_MPS, BEAM, NULL},
+    {PARAMETER_SECTORS_PER_TURN, "rotating, two-radars", NULL},
+    {PARAMETER_SECOND_INTERVAL_S, "two-radars", NULL},
+    {PARAMETER_TRUE_RANGE_BIAS_M, "two-radars", NULL},
+    {PARAMETER_TRUE_AZIMUTH_BIAS_RAD, "two-radars", NULL},
+    {PARAMETER_TRUE_TIME_BIAS_S, "two-radars", NULL},
+    {PARAMETER_LATE_SHARE, "two-radars", NULL},
+    {PARAMETER_LATE_MS, "two-radars", NULL},
+};
+
+/*
+ * What trackers use, too, may come from a file that is theirs; by --set it is meant here. Others of theirs are not here: they
+ * go to scenario.ini.
+ */
+static const struct use trackers_uses[] = {
+    {PARAMETER_SIGMA_M, ON_PLANE ", radar, " BEAM, NULL},
+    {PARAMETER_SIGMA_MPS, BEAM, NULL},
+    {PARAMETER_SIGMA_RANGE_M, TURNING, RADARS},
+    {PARAMETER_SIGMA_AZIMUTH_RAD, TURNING, RADARS},
+    {PARAMETER_SIGMA_RANGE_RATE_MPS, TURNING, NULL},
+    {PARAMETER_SIGMA_RAD, PASSIVE, NULL},
+    {PARAMETER_PD, "air-traffic, formation", RADARS},
+    {PARAMETER_RANGE_MIN_M, TURNING, RADARS},
+    {PARAMETER_RANGE_MAX_M, TURNING, RADARS},
+    {PARAMETER_AREA_X_MIN_M, WITH_AREA, NULL},
+    {PARAMETER_AREA_X_MAX_M, WITH_AREA, NULL},
+    {PARAMETER_AREA_Y_MIN_M, WITH_AREA, NULL},
+    {PARAMETER_AREA_Y_MAX_M, WITH_AREA, NULL},
 };
 
 static bool is_among(const char *names, const char *name)
@@ -72,17 +98,36 @@ static bool is_among(const char *names, const char *name)
     return false;
 }
 
+static bool has_effect(const struct use *use, const char *name, const struct parameters *parameters)
+{
+    return parameters->source[use->id] <= SOURCE_METHOD || is_among(use->scenarios, name);
+}
+
+static _Noreturn void refuse(const struct use *use, const char *name)
+{
+    const char *key = parameters_name(use->id);
+
+    if (use->by_sensor && is_among(use->by_sensor, name)) {
+        fail(EXIT_USAGE, "simulate %s: %s has no effect here; set sensor.N.%s", name, key, key);
+    }
+    fail(EXIT_USAGE, "simulate %s: %s has no effect here; it is for %s", name, key, use->scenarios);
+}
+
 void scenario_check_uses(const char *name, const struct parameters *parameters)
 {
-    for (size_t i = 0; i < sizeof uses / sizeof uses[0]; i++) {
-        enum parameter_source source = parameters->source[uses[i].id];
+    for (size_t i = 0; i < sizeof trackers_uses / sizeof trackers_uses[0]; i++) {
+        const struct use *use = &trackers_uses[i];
 
-        if (source <= SOURCE_METHOD || is_among(uses[i].scenarios, name)) {
+        if (parameters->source[use->id] == SOURCE_SET && !has_effect(use, name, parameters)) {
+            refuse(use, name);
+        }
+    }
+    for (size_t i = 0; i < sizeof uses / sizeof uses[0]; i++) {
+        if (has_effect(&uses[i], name, parameters)) {
             continue;
         }
-        if (source == SOURCE_SET) {
-            fail(EXIT_USAGE, "simulate %s: %s has no effect here; it is for %s", name,
-                 parameters_name(uses[i].id), uses[i].scenarios);
+        if (parameters->source[uses[i].id] == SOURCE_SET) {
+            refuse(&uses[i], name);
         }
         fprintf(stderr, "rhotrack: simulate %s: %s of --config has no effect here; it is for %s\n",
                 name, parameters_name(uses[i].id), uses[i].scenarios);
