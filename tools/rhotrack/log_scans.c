@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 
 #include "common.h"
-#include "feed_room.h"
 #include "feed_order.h"
+#include "feed_room.h"
 #include "lcm_log.h"
 #include "rhotrack/message.h"
 
