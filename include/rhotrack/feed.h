@@ -167,7 +167,7 @@ struct rho_feed_slot {
     uint8_t state;       /* private */
     uint8_t kind;        /* enum rho_feed_kind */
     uint8_t has_sensor;
-    uint8_t reserved; /* 0 */
+    uint8_t order; /* private */
     uint16_t
         parts[RHO_MAX_PARTS]; /* of each part that is here, 1 more than its inputs; 0: missing */
     struct rho_bearing bearings[RHO_MAX_BEARINGS];

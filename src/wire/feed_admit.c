@@ -148,6 +148,13 @@ static const struct rho_feed_stray *find_stray(const struct rho_feed_config *con
     return most;
 }
 
+int rho_feed_is_in_time(const struct rho_feed *feed, enum rho_feed_kind kind, int64_t time_us)
+{
+    int64_t late_max_us = kind == RHO_FEED_BEARINGS ? 0 : feed->config.late_max_us;
+
+    return rho_feed_elapsed_us(feed->out_us, time_us) <= (uint64_t)late_max_us;
+}
+
 /*
  * A late scan is of use where its number was skipped, its time goes with the number, and the tracker still takes it.
  * Otherwise it is not remembered: the real one may still come.
@@ -158,12 +165,11 @@ static int is_of_use(const struct rho_feed *feed, const struct rho_feed_source *
     uint32_t behind = (uint32_t)steps(source->place.scan, place->scan); /* 1 .. SEEN_SCANS - 1 */
     uint64_t before_us = rho_feed_elapsed_us(source->place.time_us, place->time_us);
     uint64_t usual_us = (uint64_t)behind * source->interval_us;
-    int64_t late_max_us = source->kind == RHO_FEED_BEARINGS ? 0 : feed->config.late_max_us;
 
     return source->off_clock == 0 && (source->skipped >> behind & 1u) && before_us > 0 &&
            before_us + JITTER_US >= usual_us - usual_us / 4 &&
            !(before_us > JITTER_US && is_half_as_long_again(before_us - JITTER_US, usual_us)) &&
-           rho_feed_elapsed_us(feed->out_us, place->time_us) <= (uint64_t)late_max_us;
+           rho_feed_is_in_time(feed, (enum rho_feed_kind)source->kind, place->time_us);
 }
 
 enum feed_verdict rho_feed_judge(const struct rho_feed *feed, const struct rho_feed_source *source,

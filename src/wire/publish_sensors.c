@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* How each sensor is doing: whether it is heard, and whether the others bear it out. */
+#include "feed_parts.h"
 #include "rhotrack/publish.h"
 
 #define PART_SENSORS RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS
@@ -15,13 +16,7 @@ static int8_t kind_of(const struct rho_feed_source *source)
 
 static uint64_t age_us(const struct rho_feed_source *source, int64_t now_us)
 {
-    if (now_us <= source->heard_us) { /* a clock that goes back makes nothing old */
-        return 0;
-    }
-    if (source->heard_us < 0 && now_us >= 0) { /* the difference may be beyond int64_t */
-        return (uint64_t)now_us + (uint64_t)(-(source->heard_us + 1)) + 1u;
-    }
-    return (uint64_t)(now_us - source->heard_us);
+    return rho_feed_elapsed_us(now_us, source->heard_us);
 }
 
 static int32_t at_most_int32(uint64_t value)
