@@ -259,13 +259,12 @@ static void begin_skipped(struct rho_feed *feed, struct rho_feed_source *source,
                           const struct feed_heading *heading, const union feed_message *message,
                           int64_t now_us)
 {
+    rho_feed_count_one(&feed->counters.scans_late);
     if (!rho_feed_find_state(feed, FEED_SLOT_FREE) ||
         (heading->num_parts > 1 && rho_feed_has_late_open(feed, source))) {
-        rho_feed_count_one(&feed->counters.sensors_no_room);
         return;
     }
     rho_feed_note_skipped(source, heading->place.scan);
-    rho_feed_count_one(&feed->counters.scans_late);
     open_scan(feed, source, heading, message, FEED_ORDER_LATE, now_us);
 }
 
@@ -282,8 +281,8 @@ static void begin_source(struct rho_feed *feed, struct rho_feed_source *source,
 }
 
 /*
- * True where room may be made for another scan. A sensor that is not proven must neither cut short nor make late a scan of
- * one that is while its parts are still coming.
+ * True where room may be made for another scan. A sensor that is not proven must neither cut short nor make late a scan
+ * of one that is while its parts are still coming.
  */
 static int may_press(struct rho_feed *feed, const struct rho_feed_source *source)
 {

@@ -106,8 +106,8 @@ struct rho_feed_slot *rho_feed_find_scan(struct rho_feed *feed,
 int rho_feed_has_late_open(const struct rho_feed *feed, const struct rho_feed_source *source);
 
 /*
- * What makes room, and neither makes a proven sensor's scan late whose parts are still coming, nor cuts it short: the first
- * complete scan, or an open one of a sensor that is not proven.
+ * What makes room, and neither makes a proven sensor's scan late whose parts are still coming, nor cuts it short: the
+ * first complete scan, or else an open one of a sensor that is not proven.
  */
 struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed);
 
@@ -146,7 +146,7 @@ void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *
 enum rho_status rho_feed_open_message(enum rho_feed_kind kind, const uint8_t *data, size_t size,
                                       union feed_message *message, struct feed_heading *heading);
 
-/* Takes the sensor's time bias off the scan's time: from here on it is the common clock's. 0: it is beyond its limit then. */
+/* Takes the sensor's time bias off the scan's time: it is the common clock's then. 0: and beyond its limit. */
 int rho_feed_right_time(const struct rho_feed *feed, struct feed_heading *heading);
 
 /* Puts a part's plots or bearings in their place in the slot, and counts what finds no room. */

@@ -86,8 +86,7 @@ struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed)
         struct rho_feed_slot *slot = &feed->slots[i];
 
         if (is_waiting(slot) && slot->order == FEED_ORDER_LATE) {
-            rho_feed_count_one(&feed->counters.sensors_no_room);
-            slot->state = FEED_SLOT_FREE;
+            slot->state = FEED_SLOT_FREE; /* it was counted when it came */
             free = slot;
         }
     }

@@ -465,7 +465,6 @@ static inline void model_begin(struct model_source *source, const struct look *l
 
     if (verdict == M_SKIPPED) {
         source->numbers[source->num_numbers++] = look->scan;
-        model.counters.scans_late++;
     } else {
         model_close_all_of(source);
         if (verdict == M_FOLLOW) {
@@ -582,7 +581,6 @@ static inline void model_drop_late_one(void)
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (model_is_late_one(&model.scans[i])) {
             model.scans[i].state = M_FREE;
-            model.counters.sensors_no_room++;
             return;
         }
     }
@@ -624,11 +622,10 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         return RHO_OK;
     }
     if (verdict == M_SKIPPED) {
-        if (!model_in_state(M_FREE) || (parts_of(look) > 1 && model_open_late_one_of(source))) {
-            model.counters.sensors_no_room++;
-            return RHO_OK;
+        model.counters.scans_late++;
+        if (model_in_state(M_FREE) && (parts_of(look) == 1 || !model_open_late_one_of(source))) {
+            model_begin(source, look, verdict, now_us);
         }
-        model_begin(source, look, verdict, now_us);
         return RHO_OK;
     }
     if (!source && !model_find_room(now_us)) {
