@@ -336,6 +336,29 @@ static void a_sensor_that_gives_way_is_not_waited_for(void **state)
     next_is(6 * SECOND_US, 0, 5250000);
 }
 
+/* Nor is a number of the old ones waited for, where a sensor began anew and skips one of the same value. */
+static void what_was_sent_before_a_restart_is_not_waited_for(void **state)
+{
+    static const int32_t scans[] = {3, 4, 5, 8};
+
+    (void)state;
+    if (RHO_MAX_OPEN_SCANS < 3) {
+        skip();
+    }
+    begin(5);
+    late(7, 7 * SECOND_US);
+    for (unsigned i = 0; i < 4; i++) {
+        struct look look = {
+            .time_us = (5 + scans[i]) * SECOND_US, .scan = scans[i], .epoch = 1, .sensor_id = 1};
+
+        take(&look, 7 * SECOND_US);
+    }
+    next_is(7 * SECOND_US, 1, 7 * SECOND_US);
+    next_is(7 * SECOND_US, 1, 10 * SECOND_US);
+    next_is_none(7 * SECOND_US); /* 7 of the new ones may come */
+    COUNTERS_ARE(.scans_accepted = 8, .scans_lost = 3, .scans_bad = 2, .sensor_restarts = 1);
+}
+
 /* ---- each counts once ------------------------------------------------------------------------- */
 
 static void one_that_waits_until_it_is_too_late_is_dropped(void **state)
@@ -401,6 +424,7 @@ int main(void)
         cmocka_unit_test(nothing_waits_for_what_is_before_a_late_one),
         cmocka_unit_test(numbers_far_behind_are_not_waited_for),
         cmocka_unit_test(a_sensor_that_gives_way_is_not_waited_for),
+        cmocka_unit_test(what_was_sent_before_a_restart_is_not_waited_for),
         cmocka_unit_test(one_that_waits_until_it_is_too_late_is_dropped),
         cmocka_unit_test(one_that_another_clock_drops_counts_once),
     };

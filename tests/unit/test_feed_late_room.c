@@ -87,6 +87,29 @@ static void late_ones_of_a_liar_cut_no_scan_short(void **state)
     assert_int_equal(item.parts_missing, 0);
 }
 
+static void one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it(void **state)
+{
+    struct look first = part_of(8, 0), second = part_of(7, 0);
+
+    (void)state;
+    begin(5);
+    late(9, 9 * SECOND_US);
+    next_is(10 * SECOND_US, 1, 9 * SECOND_US);
+    next_is_none(10 * SECOND_US);
+    take(&first, 10 * SECOND_US);
+    take(&second, 10 * SECOND_US);
+    COUNTERS_ARE(.scans_accepted = 7, .scans_late = 2, .scans_lost = 3);
+    late(6, 10 * SECOND_US);
+    next_is(10 * SECOND_US, 1, 6 * SECOND_US);
+    first.part = second.part = 1;
+    take(&first, 10 * SECOND_US);
+    next_is(10 * SECOND_US, 1, 8 * SECOND_US);
+    second.num_parts = 1; /* it was not remembered */
+    second.part = 0;
+    take(&second, 10 * SECOND_US);
+    COUNTERS_ARE(.scans_accepted = 9, .scans_late = 4, .scans_lost = 3);
+}
+
 static void late_ones_of_a_liar_shut_nobody_out(void **state)
 {
     struct rho_feed_config config = usual();
@@ -176,6 +199,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_late_one_takes_nobodys_room),
         cmocka_unit_test(late_ones_of_a_liar_cut_no_scan_short),
+        cmocka_unit_test(one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it),
         cmocka_unit_test(late_ones_of_a_liar_shut_nobody_out),
         cmocka_unit_test(late_ones_give_way),
         cmocka_unit_test(a_late_one_makes_nobody_late),
