@@ -184,7 +184,7 @@ static int gives_way(const struct rho_feed *feed, const struct rho_feed_source *
                      int64_t now_us)
 {
     return !rho_feed_is_proven(&feed->config, source) || source->off_clock > 0 ||
-           rho_feed_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us;
+           rho_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us;
 }
 
 /* A free place, or that of the one heard longest ago that may give way; NULL: none. */

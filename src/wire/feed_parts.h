@@ -41,9 +41,6 @@ enum feed_verdict {
 
 /* ---- feed_admit.c: numbers and clocks ---- */
 
-/* Microseconds from one time to another of the reception clock; 0 where that goes back. */
-uint64_t rho_feed_elapsed_us(int64_t now_us, int64_t then_us);
-
 enum feed_verdict rho_feed_judge(const struct rho_feed *feed, const struct rho_feed_source *source,
                                  const struct rho_feed_place *place, int64_t now_us);
 

@@ -196,7 +196,7 @@ static int awaits_older(const struct rho_feed *feed, const struct rho_feed_slot 
     const struct rho_feed_source *source = &feed->sources[slot->source];
 
     return is_waiting(slot) && slot->order == FEED_ORDER_NEXT &&
-           rho_feed_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
+           rho_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
            rho_feed_awaits(source, slot->place.scan);
 }
 
@@ -211,7 +211,7 @@ static int is_turn(const struct rho_feed *feed, const struct rho_feed_slot *slot
 
         if (source->is_used && source->off_clock == 0 &&
             source->place.time_us < slot->place.time_us &&
-            rho_feed_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us) {
+            rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us) {
             return 0;
         }
     }
@@ -231,8 +231,8 @@ static int has_waited(const struct rho_feed *feed, const struct rho_feed_slot *s
     uint64_t hold_us = (uint64_t)feed->config.hold_us;
 
     /* Nothing waits for a reception clock that was set back to come to where it was. */
-    return now_us == INT64_MAX || rho_feed_elapsed_us(now_us, slot->heard_us) >= hold_us ||
-           rho_feed_elapsed_us(slot->heard_us, now_us) > hold_us;
+    return now_us == INT64_MAX || rho_elapsed_us(now_us, slot->heard_us) >= hold_us ||
+           rho_elapsed_us(slot->heard_us, now_us) > hold_us;
 }
 
 /* What was held goes out, and what is older before it, however long that has waited. */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* How each sensor is doing: whether it is heard, and whether the others bear it out. */
-#include "feed_parts.h"
 #include "rhotrack/publish.h"
 
 #define PART_SENSORS RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS
@@ -12,11 +11,6 @@ static int8_t kind_of(const struct rho_feed_source *source)
     return source->kind == RHO_FEED_PLOTS   ? RHO_MESSAGE_SENSOR_PLOTS
            : source->kind == RHO_FEED_POLAR ? RHO_MESSAGE_SENSOR_POLAR
                                             : RHO_MESSAGE_SENSOR_BEARINGS;
-}
-
-static uint64_t age_us(const struct rho_feed_source *source, int64_t now_us)
-{
-    return rho_feed_elapsed_us(now_us, source->heard_us);
 }
 
 static int32_t at_most_int32(uint64_t value)
@@ -51,11 +45,11 @@ int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tr
     *sensor = (struct rho_message_sensor){
         .sensor_id = source->sensor_id,
         .kind = kind_of(source),
-        .is_silent = age_us(source, now_us) > (uint64_t)feed->config.jump_max_us,
+        .is_silent = rho_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us,
         .is_off_clock = source->off_clock > 0,
         .scans = source->scans,
         .scan_utime = source->place.time_us,
-        .heard_age_us = at_most_int32(age_us(source, now_us)),
+        .heard_age_us = at_most_int32(rho_elapsed_us(now_us, source->heard_us)),
         .interval_us = at_most_int32(source->interval_us),
     };
 #if RHO_SECTORS
