@@ -19,16 +19,20 @@
  *            held that long (but with hold_us 0). Plots are in the order of the parts. The part that comes first
  *            counts: those that say something else of the scan are refused.
  * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans
- *            of different sensors go out in the order of time. A scan behind a number that was skipped waits for that one,
- *            hold_us at most, too; else with one sensor nothing waits. A sensor is live for jump_max_us after its last scan.
- * Late       A number that was skipped may come after all, out of order, up to 31 numbers behind the newest and with a time
- *            that goes with it. Where nothing newer has gone out it takes its place in the order of time. Else it goes out
- *            behind what is newer by late_max_us at most, for a tracker that takes late scans; bearings, whose frames are
- *            over, do not. It does not move its sensor on, makes no other scan wait but for its parts, and cuts none short.
+ *            of different sensors go out in the order of time. A scan behind a number that was skipped waits for that
+ *            one, hold_us at most, too, and so does what comes less than an interval before it; else with one sensor
+ *            nothing waits. A sensor is live for jump_max_us after its last scan.
+ * Late       A number that was skipped may come after all, behind newer ones. Where nothing newer has gone out it takes
+ *            its place in the order of time. Else it goes out behind what is newer by late_max_us at most, for a
+ *            tracker that takes late scans; bearings, whose frames are over, do not. It does not move its sensor on,
+ *            and makes no other scan wait but for its parts, nor for the number before it. It takes room that is free,
+ *            of a sensor one at a time to wait for parts, and gives way to whatever is not late: then it is dropped.
  * Numbers    A scan is the next one of its sensor where its number is 1 .. RHO_FEED_SKIP_MAX higher (it wraps), its
  *            time later, and both go together: it took no longer than half as long again as its numbers usually take,
  *            or as nothing was heard of the sensor, and where it skips numbers no shorter than three quarters of that.
- *            Numbers that were skipped are lost; 0 or up to 31 lower is double or late. Anything else, and another
+ *            Numbers that were skipped are lost; 0 or up to 31 lower is double or late. Of the late ones those are
+ *            taken that were skipped, and whose time is as far before the newest as their numbers usually take: no
+ *            shorter than three quarters of that, no longer than half as long again. Anything else, and another
  *            epoch, is refused until follow_scans such scans agree with one another: the sensor restarted, or goes
  *            another pace. So one damaged message, or one that was not the sensor's, does not make those that follow it
  *            look old.
@@ -42,8 +46,8 @@
  *            that is ahead by less makes the other sensors late in the tracker for as long as it goes on.
  * Flood      More than flood_per_s messages of one sensor in a second are not looked at. Sensors that are not known
  *            share one such measure. A new sensor takes the place of one that was not heard for longest, never that of
- *            one that is heard, tells the common time and has proved itself by follow_scans scans; nor does it cut
- *            short a scan of such a one for want of room.
+ *            one that is heard, tells the common time and has proved itself by follow_scans scans; nor does it, for
+ *            want of room, cut short a scan of such a one, or make it late while its parts are still coming.
  *
  * Which sensor sent a message is told by its channel: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n>, with n the
  * message's sensor_id. The reception clock: microseconds, any epoch. It has to go on, and should go as fast as the
@@ -78,8 +82,8 @@ struct rho_feed_noise {
 /*
  * What is known of a sensor beforehand. A polar message or bearing says the sensor's place itself; the place here
  * counts for plots, and for polar messages that say 0, 0, 0. Biases of range and azimuth are taken off polar plots and
- * bearings. time_bias_s is taken off each scan's time before it is looked at in any way: order, numbers, clock; plots keep
- * their time after their scan's. One that is changed while the sensor sends looks as if its clock was set.
+ * bearings. time_bias_s is taken off each scan's time before it is looked at in any way: order, numbers, clock; plots
+ * keep their time after their scan's. One that is changed while the sensor sends looks as if its clock was set.
  */
 struct rho_feed_sensor {
     struct rho_sensor sensor;
@@ -105,7 +109,8 @@ struct rho_feed_counters {
     uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
     uint32_t messages_flooded;
     uint32_t scans_accepted; /* of which a first part came */
-    /* older than one of the same sensor that was accepted; those that are of use all the same are accepted, too */
+    /* older than one of the same sensor that was accepted, whatever becomes of them (those that found room are
+     * accepted, too); and those of a clock that was given up */
     uint32_t scans_late;
     /* scans, or parts of one, that were there before; parts that come when the scan is closed */
     uint32_t scans_duplicate;
@@ -167,7 +172,7 @@ struct rho_feed_slot {
     uint8_t state;       /* private */
     uint8_t kind;        /* enum rho_feed_kind */
     uint8_t has_sensor;
-    uint8_t reserved; /* 0 */
+    uint8_t order; /* private */
     uint16_t
         parts[RHO_MAX_PARTS]; /* of each part that is here, 1 more than its inputs; 0: missing */
     struct rho_bearing bearings[RHO_MAX_BEARINGS];
@@ -204,8 +209,9 @@ struct rho_feed_item {
 };
 
 /*
- * hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30 s, flood 10 000 a second, follow_scans 3; other sensors: at the origin, looking everywhere,
- * pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3 mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0. Constant cost.
+ * hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30 s, flood 10 000 a second,
+ * follow_scans 3; other sensors: at the origin, looking everywhere, pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3 mrad,
+ * 3 mrad, 1 m/s, 1.75 mrad; is_told 0. Constant cost.
  */
 void rho_feed_config_default(struct rho_feed_config *config);
 

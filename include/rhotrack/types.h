@@ -166,6 +166,9 @@ unsigned rho_count_bits(uint32_t mask);
 /* Seconds from one time to another, any two: rounded once for spans to 2^24 us, relative error 1.2e-7 beyond. */
 float rho_seconds_between(int64_t from_us, int64_t to_us);
 
+/* Microseconds that have gone by since then, any two times; 0 where then is not before now. */
+uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us);
+
 /* True where v is finite and lo <= v <= hi; false for NaN. */
 int rho_is_within(float v, float lo, float hi);
 

@@ -57,6 +57,11 @@ float rho_seconds_between(int64_t from_us, int64_t to_us)
     return from_us <= to_us ? seconds_of(to - from) : -seconds_of(from - to);
 }
 
+uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us)
+{
+    return now_us <= then_us ? 0 : (uint64_t)now_us - (uint64_t)then_us;
+}
+
 int rho_is_within(float v, float lo, float hi)
 {
     return v >= lo && v <= hi && v >= -FLT_MAX && v <= FLT_MAX;

@@ -184,7 +184,7 @@ static int gives_way(const struct rho_feed *feed, const struct rho_feed_source *
                      int64_t now_us)
 {
     return !rho_feed_is_proven(&feed->config, source) || source->off_clock > 0 ||
-           rho_feed_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us;
+           rho_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us;
 }
 
 /* A free place, or that of the one heard longest ago that may give way; NULL: none. */
@@ -226,12 +226,12 @@ static void refuse(struct rho_feed *feed, struct rho_feed_source *source, enum f
 
 static void open_scan(struct rho_feed *feed, const struct rho_feed_source *source,
                       const struct feed_heading *heading, const union feed_message *message,
-                      int64_t now_us)
+                      enum feed_slot_order order, int64_t now_us)
 {
     struct rho_feed_slot *slot = rho_feed_find_state(feed, FEED_SLOT_FREE);
 
     rho_feed_count_one(&feed->counters.scans_accepted);
-    rho_feed_open_slot(feed, slot, source, heading);
+    rho_feed_open_slot(feed, slot, source, heading, order);
     rho_feed_add_part(feed, slot, heading, message, now_us);
 }
 
@@ -240,7 +240,7 @@ static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
                        enum feed_verdict verdict, const struct feed_heading *heading,
                        const union feed_message *message, int64_t now_us)
 {
-    rho_feed_close_open(feed, source);
+    rho_feed_close_open(feed, source, verdict == FEED_FOLLOW);
     feed->counters.scans_lost =
         rho_count(feed->counters.scans_lost,
                   rho_feed_note_place(&feed->config, source, &heading->place, verdict, now_us));
@@ -251,47 +251,43 @@ static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
         rho_feed_count_one(&feed->counters.clock_jumps);
         return;
     }
-    open_scan(feed, source, heading, message, now_us);
+    open_scan(feed, source, heading, message, FEED_ORDER_NEXT, now_us);
 }
 
-/* A number that was skipped comes after all. */
+/* A number that was skipped comes after all. Of a sensor's one at a time waits for its parts, where there is room. */
 static void begin_skipped(struct rho_feed *feed, struct rho_feed_source *source,
                           const struct feed_heading *heading, const union feed_message *message,
                           int64_t now_us)
 {
-    rho_feed_note_skipped(source, heading->place.scan);
     rho_feed_count_one(&feed->counters.scans_late);
-    open_scan(feed, source, heading, message, now_us);
+    if (!rho_feed_find_state(feed, FEED_SLOT_FREE) ||
+        (heading->num_parts > 1 && rho_feed_has_late_open(feed, source))) {
+        return;
+    }
+    rho_feed_note_skipped(source, heading->place.scan);
+    open_scan(feed, source, heading, message, FEED_ORDER_LATE, now_us);
 }
 
-static struct rho_feed_source *new_source(struct rho_feed *feed, const struct feed_heading *heading,
-                                          const struct rho_feed_source *stranger, int64_t now_us)
+/* Takes the place that find_room found. */
+static void begin_source(struct rho_feed *feed, struct rho_feed_source *source,
+                         const struct feed_heading *heading)
 {
-    struct rho_feed_source *source = find_room(feed, now_us);
-
-    if (!source) {
-        rho_feed_count_one(&feed->counters.sensors_no_room);
-        return NULL;
-    }
-    rho_feed_close_open(feed, source);
-    *source = (struct rho_feed_source){.bucket_us = stranger->bucket_us,
+    rho_feed_close_open(feed, source, 1);
+    *source = (struct rho_feed_source){.bucket_us = feed->stranger.bucket_us,
                                        .bucket = feed->config.flood_per_s,
                                        .sensor_id = heading->sensor_id,
                                        .kind = heading->kind,
                                        .is_used = 1};
-    return source;
 }
 
 /*
- * True where room may be made for another scan. A sensor that is not proven must not cut short a scan of one that is
- * while its parts are still coming, and a late scan must not cut short any.
+ * True where room may be made for another scan. A sensor that is not proven must neither cut short nor make late a scan
+ * of one that is while its parts are still coming.
  */
-static int may_press(struct rho_feed *feed, const struct rho_feed_source *source, int is_late)
+static int may_press(struct rho_feed *feed, const struct rho_feed_source *source)
 {
-    return rho_feed_find_state(feed, FEED_SLOT_GIVEN) ||
-           rho_feed_find_state(feed, FEED_SLOT_COMPLETE) ||
-           (!is_late &&
-            ((source && rho_feed_is_proven(&feed->config, source)) || rho_feed_find_weak(feed)));
+    return (source && rho_feed_is_proven(&feed->config, source)) ||
+           rho_feed_find_state(feed, FEED_SLOT_GIVEN) || rho_feed_find_spare(feed);
 }
 
 /* Errors: CAPACITY. */
@@ -300,7 +296,9 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
 {
     struct rho_feed_source *source = find_source(feed, heading->kind, heading->sensor_id);
     struct rho_feed_slot *slot = source ? rho_feed_find_scan(feed, source, heading) : NULL;
+    struct rho_feed_source *place;
     enum feed_verdict verdict;
+    int is_free;
 
     if (slot) {
         rho_feed_add_part(feed, slot, heading, message, now_us);
@@ -311,20 +309,24 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
         refuse(feed, source, verdict, heading);
         return RHO_OK;
     }
-    if (!rho_feed_find_state(feed, FEED_SLOT_FREE)) {
-        if (!may_press(feed, source, verdict == FEED_SKIPPED)) {
-            rho_feed_count_one(&feed->counters.sensors_no_room);
-            return RHO_OK;
-        }
+    if (verdict == FEED_SKIPPED) {
+        begin_skipped(feed, source, heading, message, now_us);
+        return RHO_OK;
+    }
+    place = source ? source : find_room(feed, now_us);
+    is_free = place && rho_feed_make_free(feed);
+    if (!place || (!is_free && !may_press(feed, source))) {
+        rho_feed_count_one(&feed->counters.sensors_no_room);
+        return RHO_OK;
+    }
+    if (!is_free) {
         feed->is_pressed = 1;
         return RHO_ERROR_CAPACITY;
     }
-    source = source ? source : new_source(feed, heading, &feed->stranger, now_us);
-    if (verdict == FEED_SKIPPED) {
-        begin_skipped(feed, source, heading, message, now_us);
-    } else if (source) {
-        begin_scan(feed, source, verdict, heading, message, now_us);
+    if (!source) {
+        begin_source(feed, place, heading);
     }
+    begin_scan(feed, place, verdict, heading, message, now_us);
     return RHO_OK;
 }
 

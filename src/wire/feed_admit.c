@@ -11,21 +11,10 @@
 
 /* ---- Times ---- */
 
-uint64_t rho_feed_elapsed_us(int64_t now_us, int64_t then_us)
-{
-    if (now_us <= then_us) {
-        return 0;
-    }
-    if (then_us < 0 && now_us >= 0) { /* the difference may be beyond int64_t */
-        return (uint64_t)now_us + (uint64_t)(-(then_us + 1)) + 1u;
-    }
-    return (uint64_t)(now_us - then_us);
-}
-
 static int is_near(int64_t a_us, int64_t b_us, int64_t most_us)
 {
-    return rho_feed_elapsed_us(a_us, b_us) <= (uint64_t)most_us &&
-           rho_feed_elapsed_us(b_us, a_us) <= (uint64_t)most_us;
+    return rho_elapsed_us(a_us, b_us) <= (uint64_t)most_us &&
+           rho_elapsed_us(b_us, a_us) <= (uint64_t)most_us;
 }
 
 /* ---- Flood ---- */
@@ -33,7 +22,7 @@ static int is_near(int64_t a_us, int64_t b_us, int64_t most_us)
 int rho_feed_draw(struct rho_feed_source *source, uint32_t flood_per_s, int64_t now_us)
 {
     /* A clock that went back must not leave the bucket empty until it has caught up. */
-    if (rho_feed_elapsed_us(now_us, source->bucket_us) >= SECOND_US || now_us < source->bucket_us) {
+    if (rho_elapsed_us(now_us, source->bucket_us) >= SECOND_US || now_us < source->bucket_us) {
         source->bucket_us = now_us;
         source->bucket = flood_per_s;
     }
@@ -90,9 +79,9 @@ static enum feed_verdict judge_pace(const struct rho_feed_config *config,
                                     const struct rho_feed_place *place, int64_t now_us)
 {
     int32_t ahead = steps(place->scan, source->place.scan);
-    uint64_t took_us = rho_feed_elapsed_us(place->time_us, source->place.time_us);
+    uint64_t took_us = rho_elapsed_us(place->time_us, source->place.time_us);
     uint64_t usual_us = (uint64_t)ahead * source->interval_us;
-    uint64_t silent_us = rho_feed_elapsed_us(now_us, source->heard_us);
+    uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
     uint64_t longest_us = usual_us > silent_us ? usual_us : silent_us;
 
     if (!is_later(config, place->time_us, source->place.time_us)) {
@@ -148,6 +137,13 @@ static const struct rho_feed_stray *find_stray(const struct rho_feed_config *con
     return most;
 }
 
+int rho_feed_is_in_time(const struct rho_feed *feed, enum rho_feed_kind kind, int64_t time_us)
+{
+    int64_t late_max_us = kind == RHO_FEED_BEARINGS ? 0 : feed->config.late_max_us;
+
+    return rho_elapsed_us(feed->out_us, time_us) <= (uint64_t)late_max_us;
+}
+
 /*
  * A late scan is of use where its number was skipped, its time goes with the number, and the tracker still takes it.
  * Otherwise it is not remembered: the real one may still come.
@@ -156,14 +152,13 @@ static int is_of_use(const struct rho_feed *feed, const struct rho_feed_source *
                      const struct rho_feed_place *place)
 {
     uint32_t behind = (uint32_t)steps(source->place.scan, place->scan); /* 1 .. SEEN_SCANS - 1 */
-    uint64_t before_us = rho_feed_elapsed_us(source->place.time_us, place->time_us);
+    uint64_t before_us = rho_elapsed_us(source->place.time_us, place->time_us);
     uint64_t usual_us = (uint64_t)behind * source->interval_us;
-    int64_t late_max_us = source->kind == RHO_FEED_BEARINGS ? 0 : feed->config.late_max_us;
 
     return source->off_clock == 0 && (source->skipped >> behind & 1u) && before_us > 0 &&
            before_us + JITTER_US >= usual_us - usual_us / 4 &&
            !(before_us > JITTER_US && is_half_as_long_again(before_us - JITTER_US, usual_us)) &&
-           rho_feed_elapsed_us(feed->out_us, place->time_us) <= (uint64_t)late_max_us;
+           rho_feed_is_in_time(feed, (enum rho_feed_kind)source->kind, place->time_us);
 }
 
 enum feed_verdict rho_feed_judge(const struct rho_feed *feed, const struct rho_feed_source *source,
@@ -297,19 +292,19 @@ static int is_elsewhere(const struct rho_feed_config *config, const struct rho_f
     int64_t share_us =
         other->interval_us > 0 ? config->jump_max_us / LEAD_SHARE : config->jump_max_us;
     uint64_t lead_us = (uint64_t)(config->hold_us + share_us);
-    uint64_t ahead_us = rho_feed_elapsed_us(time_us, other->place.time_us);
-    uint64_t old_us = rho_feed_elapsed_us(now_us, other->heard_us);
+    uint64_t ahead_us = rho_elapsed_us(time_us, other->place.time_us);
+    uint64_t old_us = rho_elapsed_us(now_us, other->heard_us);
 
     old_us = old_us > 2ull * other->interval_us ? old_us : 2ull * other->interval_us;
     return (ahead_us > lead_us && ahead_us - lead_us > old_us) ||
-           rho_feed_elapsed_us(other->place.time_us, time_us) > lead_us;
+           rho_elapsed_us(other->place.time_us, time_us) > lead_us;
 }
 
 static int is_live(const struct rho_feed *feed, const struct rho_feed_source *source,
                    int64_t now_us)
 {
     return source->is_used && source->scans > 0 &&
-           rho_feed_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us;
+           rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us;
 }
 
 /* Most live sensors on the clock say that the time is another one. Where none is proven the others have a say. */

@@ -41,9 +41,6 @@ enum feed_verdict {
 
 /* ---- feed_admit.c: numbers and clocks ---- */
 
-/* Microseconds from one time to another of the reception clock; 0 where that goes back. */
-uint64_t rho_feed_elapsed_us(int64_t now_us, int64_t then_us);
-
 enum feed_verdict rho_feed_judge(const struct rho_feed *feed, const struct rho_feed_source *source,
                                  const struct rho_feed_place *place, int64_t now_us);
 
@@ -55,6 +52,9 @@ void rho_feed_note_stray(const struct rho_feed_config *config, struct rho_feed_s
 uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_feed_source *source,
                              const struct rho_feed_place *place, enum feed_verdict verdict,
                              int64_t now_us);
+
+/* A late scan of this time is of use: nothing newer has gone out, or a tracker still takes it. */
+int rho_feed_is_in_time(const struct rho_feed *feed, enum rho_feed_kind kind, int64_t time_us);
 
 /* A skipped number has come: its sensor stays where it was. */
 void rho_feed_note_skipped(struct rho_feed_source *source, int32_t scan);
@@ -84,6 +84,13 @@ enum feed_slot_state {
     FEED_SLOT_GIVEN     /* the caller reads it */
 };
 
+/* How a scan came, among those of its sensor. */
+enum feed_slot_order {
+    FEED_ORDER_NEXT = 0, /* behind all others: the number before it may be waited for */
+    FEED_ORDER_LATE,     /* before a newer one, which had skipped it */
+    FEED_ORDER_OLD /* with other numbers than its sensor has now, or its sensor is no longer known */
+};
+
 void rho_feed_count_one(uint32_t *counter);
 
 /* NULL: none. */
@@ -92,18 +99,30 @@ struct rho_feed_slot *rho_feed_find_scan(struct rho_feed *feed,
                                          const struct rho_feed_source *source,
                                          const struct feed_heading *heading);
 
-/* An open scan of a sensor that is not proven. */
-struct rho_feed_slot *rho_feed_find_weak(struct rho_feed *feed);
+/* The sensor has a late scan whose parts are still coming. */
+int rho_feed_has_late_open(const struct rho_feed *feed, const struct rho_feed_source *source);
+
+/*
+ * What makes room, and neither makes a proven sensor's scan late whose parts are still coming, nor cuts it short: the
+ * first complete scan, or else an open one of a sensor that is not proven.
+ */
+struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed);
 
 /* The slot begins with this scan. */
 void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
-                        const struct rho_feed_source *source, const struct feed_heading *heading);
+                        const struct rho_feed_source *source, const struct feed_heading *heading,
+                        enum feed_slot_order order);
 
 /* Nothing more is waited for. */
 void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot);
 
-/* The same of all open scans of a sensor. */
-void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *source);
+/* The same of all open scans of a sensor. Where its numbers hold no more, none of its scans waits for one. */
+void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *source, int is_over);
+
+/*
+ * A free slot. A late scan gives way to it, and is not sent out then: that could make others late. NULL: there is none.
+ */
+struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed);
 
 /* Of the clock that held before: what cannot be stepped any more. */
 void rho_feed_drop_slots(struct rho_feed *feed);
@@ -124,7 +143,7 @@ void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *
 enum rho_status rho_feed_open_message(enum rho_feed_kind kind, const uint8_t *data, size_t size,
                                       union feed_message *message, struct feed_heading *heading);
 
-/* Takes the sensor's time bias off the scan's time: from here on it is the common clock's. 0: it is beyond its limit then. */
+/* Takes the sensor's time bias off the scan's time: it is the common clock's then. 0: and beyond its limit. */
 int rho_feed_right_time(const struct rho_feed *feed, struct feed_heading *heading);
 
 /* Puts a part's plots or bearings in their place in the slot, and counts what finds no room. */

@@ -40,17 +40,20 @@ struct rho_feed_slot *rho_feed_find_scan(struct rho_feed *feed,
     return NULL;
 }
 
-struct rho_feed_slot *rho_feed_find_weak(struct rho_feed *feed)
+int rho_feed_has_late_open(const struct rho_feed *feed, const struct rho_feed_source *source)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        struct rho_feed_slot *slot = &feed->slots[i];
-
-        if (slot->state == FEED_SLOT_OPEN &&
-            !rho_feed_is_proven(&feed->config, &feed->sources[slot->source])) {
-            return slot;
+        if (is_open_of(feed, &feed->slots[i], source) && feed->slots[i].order == FEED_ORDER_LATE) {
+            return 1;
         }
     }
-    return NULL;
+    return 0;
+}
+
+/* It waits for its parts or its turn. */
+static int is_waiting(const struct rho_feed_slot *slot)
+{
+    return slot->state == FEED_SLOT_OPEN || slot->state == FEED_SLOT_COMPLETE;
 }
 
 void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot)
@@ -61,13 +64,33 @@ void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot)
     slot->state = FEED_SLOT_COMPLETE;
 }
 
-void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *source)
+void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *source, int is_over)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        if (is_open_of(feed, &feed->slots[i], source)) {
-            rho_feed_close_slot(feed, &feed->slots[i]);
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (is_open_of(feed, slot, source)) {
+            rho_feed_close_slot(feed, slot);
+        }
+        if (is_over && slot->order == FEED_ORDER_NEXT && &feed->sources[slot->source] == source) {
+            slot->order = FEED_ORDER_OLD;
         }
     }
+}
+
+struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed)
+{
+    struct rho_feed_slot *free = rho_feed_find_state(feed, FEED_SLOT_FREE);
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !free; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (is_waiting(slot) && slot->order == FEED_ORDER_LATE) {
+            slot->state = FEED_SLOT_FREE; /* it was counted when it came */
+            free = slot;
+        }
+    }
+    return free;
 }
 
 /* What belongs to the clock that held before cannot be stepped any more. */
@@ -76,8 +99,10 @@ void rho_feed_drop_slots(struct rho_feed *feed)
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_feed_slot *slot = &feed->slots[i];
 
-        if (slot->state == FEED_SLOT_OPEN || slot->state == FEED_SLOT_COMPLETE) {
-            rho_feed_count_one(&feed->counters.scans_late);
+        if (is_waiting(slot)) {
+            /* a late one was counted when it came */
+            feed->counters.scans_late =
+                rho_count(feed->counters.scans_late, slot->order != FEED_ORDER_LATE);
             slot->state = FEED_SLOT_FREE;
         }
     }
@@ -102,7 +127,8 @@ static void describe(const struct rho_feed *feed, struct rho_feed_slot *slot,
 }
 
 void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
-                        const struct rho_feed_source *source, const struct feed_heading *heading)
+                        const struct rho_feed_source *source, const struct feed_heading *heading,
+                        enum feed_slot_order order)
 {
     slot->place = heading->place;
     slot->measures = heading->measures;
@@ -113,6 +139,7 @@ void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
     slot->parts_here = 0;
     slot->num_inputs = 0;
     slot->kind = heading->kind;
+    slot->order = (uint8_t)order;
     memset(slot->parts, 0, sizeof slot->parts);
     describe(feed, slot, heading);
     slot->state = FEED_SLOT_OPEN;
@@ -168,14 +195,14 @@ static int awaits_older(const struct rho_feed *feed, const struct rho_feed_slot 
 {
     const struct rho_feed_source *source = &feed->sources[slot->source];
 
-    return (slot->state == FEED_SLOT_OPEN || slot->state == FEED_SLOT_COMPLETE) &&
-           rho_feed_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
+    return is_waiting(slot) && slot->order == FEED_ORDER_NEXT &&
+           rho_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
            rho_feed_awaits(source, slot->place.scan);
 }
 
 /*
- * Every other live sensor has sent what is not older, none has skipped a number that may be, and nothing older is still being
- * put together.
+ * Every other live sensor has sent what is not older, none has skipped a number that may be, and nothing older is still
+ * being put together.
  */
 static int is_turn(const struct rho_feed *feed, const struct rho_feed_slot *slot, int64_t now_us)
 {
@@ -184,7 +211,7 @@ static int is_turn(const struct rho_feed *feed, const struct rho_feed_slot *slot
 
         if (source->is_used && source->off_clock == 0 &&
             source->place.time_us < slot->place.time_us &&
-            rho_feed_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us) {
+            rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us) {
             return 0;
         }
     }
@@ -204,8 +231,8 @@ static int has_waited(const struct rho_feed *feed, const struct rho_feed_slot *s
     uint64_t hold_us = (uint64_t)feed->config.hold_us;
 
     /* Nothing waits for a reception clock that was set back to come to where it was. */
-    return now_us == INT64_MAX || rho_feed_elapsed_us(now_us, slot->heard_us) >= hold_us ||
-           rho_feed_elapsed_us(slot->heard_us, now_us) > hold_us;
+    return now_us == INT64_MAX || rho_elapsed_us(now_us, slot->heard_us) >= hold_us ||
+           rho_elapsed_us(slot->heard_us, now_us) > hold_us;
 }
 
 /* What was held goes out, and what is older before it, however long that has waited. */
@@ -268,24 +295,55 @@ static struct rho_feed_slot *or_older_open(struct rho_feed *feed, struct rho_fee
     return open;
 }
 
-static struct rho_feed_slot *press(struct rho_feed *feed)
+struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed)
 {
-    struct rho_feed_slot *slot = find_first(feed, FEED_SLOT_COMPLETE);
+    struct rho_feed_slot *spare = find_first(feed, FEED_SLOT_COMPLETE), *weak = NULL;
 
-    if (!slot) {
-        slot = rho_feed_find_weak(feed);
-        slot = slot ? slot : find_first(feed, FEED_SLOT_OPEN);
-        if (slot) {
-            rho_feed_close_slot(feed, slot);
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (slot->state != FEED_SLOT_OPEN) {
+            continue;
+        }
+        if (!rho_feed_is_proven(&feed->config, &feed->sources[slot->source])) {
+            weak = weak ? weak : slot;
+        } else if (spare && slot->place.time_us < spare->place.time_us) {
+            spare = NULL;
         }
     }
+    return spare ? spare : weak;
+}
+
+static struct rho_feed_slot *press(struct rho_feed *feed)
+{
+    struct rho_feed_slot *slot = rho_feed_find_spare(feed);
+
+    slot = slot ? slot : find_first(feed, FEED_SLOT_COMPLETE);
+    slot = slot ? slot : find_first(feed, FEED_SLOT_OPEN);
+    if (slot && slot->state == FEED_SLOT_OPEN) {
+        rho_feed_close_slot(feed, slot);
+    }
     return slot;
+}
+
+/* Late scans that have waited until they are of no use any more. */
+static void drop_useless(struct rho_feed *feed)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_feed_slot *slot = &feed->slots[i];
+
+        if (is_waiting(slot) && slot->order == FEED_ORDER_LATE &&
+            !rho_feed_is_in_time(feed, (enum rho_feed_kind)slot->kind, slot->place.time_us)) {
+            slot->state = FEED_SLOT_FREE; /* it was counted when it came */
+        }
+    }
 }
 
 struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
 {
     struct rho_feed_slot *slot;
 
+    drop_useless(feed);
     close_overdue(feed, now_us);
     if (feed->is_pressed) {
         return press(feed);

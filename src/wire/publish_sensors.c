@@ -13,17 +13,6 @@ static int8_t kind_of(const struct rho_feed_source *source)
                                             : RHO_MESSAGE_SENSOR_BEARINGS;
 }
 
-static uint64_t age_us(const struct rho_feed_source *source, int64_t now_us)
-{
-    if (now_us <= source->heard_us) { /* a clock that goes back makes nothing old */
-        return 0;
-    }
-    if (source->heard_us < 0 && now_us >= 0) { /* the difference may be beyond int64_t */
-        return (uint64_t)now_us + (uint64_t)(-(source->heard_us + 1)) + 1u;
-    }
-    return (uint64_t)(now_us - source->heard_us);
-}
-
 static int32_t at_most_int32(uint64_t value)
 {
     return (int32_t)(value < INT32_MAX ? value : INT32_MAX);
@@ -56,11 +45,11 @@ int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tr
     *sensor = (struct rho_message_sensor){
         .sensor_id = source->sensor_id,
         .kind = kind_of(source),
-        .is_silent = age_us(source, now_us) > (uint64_t)feed->config.jump_max_us,
+        .is_silent = rho_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us,
         .is_off_clock = source->off_clock > 0,
         .scans = source->scans,
         .scan_utime = source->place.time_us,
-        .heard_age_us = at_most_int32(age_us(source, now_us)),
+        .heard_age_us = at_most_int32(rho_elapsed_us(now_us, source->heard_us)),
         .interval_us = at_most_int32(source->interval_us),
     };
 #if RHO_SECTORS

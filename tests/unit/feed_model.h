@@ -38,6 +38,7 @@ struct model_scan {
     enum model_state state;
     struct model_source *source;
     int kind, id, num_parts;
+    int is_late, is_alone; /* came behind a newer one; its sensor's numbers hold no more */
     struct rho_feed_place place;
     int64_t heard_us;
     int is_here[8];
@@ -138,18 +139,24 @@ static inline int model_is_skipped(const struct model_source *source, int32_t sc
            model_ahead(scan, source->numbers[0]) > 0;
 }
 
+/* Not behind what has gone out by more than a tracker takes. */
+static inline int model_is_in_time(int kind, int64_t time_us)
+{
+    wide late_max = kind == RHO_FEED_BEARINGS ? 0 : model.config.late_max_us;
+
+    return !model.has_out || (wide)model.out_us - time_us <= late_max;
+}
+
 static inline int model_is_of_use(const struct model_source *source,
                                   const struct rho_feed_place *place)
 {
     wide behind = model_ahead(source->place.scan, place->scan);
     wide before = (wide)source->place.time_us - place->time_us;
-    wide usual = behind * source->interval_us, late = model.has_out ? model.out_us : 0;
-    wide late_max = source->kind == RHO_FEED_BEARINGS ? 0 : model.config.late_max_us;
+    wide usual = behind * source->interval_us;
 
-    late -= model.has_out ? place->time_us : 0;
     return source->off == 0 && model_is_skipped(source, place->scan) && before > 0 &&
            before + 10000 >= usual - usual / 4 && before <= usual + usual / 2 + 10000 &&
-           late <= late_max;
+           model_is_in_time(source->kind, place->time_us);
 }
 
 static inline enum model_verdict model_judge(const struct model_source *source,
@@ -316,7 +323,7 @@ static inline void model_set_clock(int64_t time_us, int64_t now_us)
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (model.scans[i].state == M_OPEN || model.scans[i].state == M_WHOLE) {
             model.scans[i].state = M_FREE;
-            model.counters.scans_late++;
+            model.counters.scans_late += !model.scans[i].is_late; /* else it was counted */
         }
     }
     model.is_restart = 1;
@@ -394,7 +401,14 @@ static inline void model_close_all_of(const struct model_source *source)
     }
 }
 
-static inline struct model_source *model_add(const struct look *look, int64_t now_us)
+static inline void model_forget_numbers_of(const struct model_source *source)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        model.scans[i].is_alone |= model.scans[i].source == source;
+    }
+}
+
+static inline struct model_source *model_find_room(int64_t now_us)
 {
     struct model_source *room = NULL;
 
@@ -410,18 +424,19 @@ static inline struct model_source *model_add(const struct look *look, int64_t no
             room = source;
         }
     }
-    if (!room) {
-        model.counters.sensors_no_room++;
-        return NULL;
-    }
+    return room;
+}
+
+static inline void model_add(struct model_source *room, const struct look *look)
+{
     model_close_all_of(room);
+    model_forget_numbers_of(room);
     memset(room, 0, sizeof *room);
     room->used = 1;
     room->kind = look->kind;
     room->id = look->sensor_id;
     room->bucket = model.config.flood_per_s;
     room->bucket_us = model.stranger.bucket_us;
-    return room;
 }
 
 static inline void model_add_part(struct model_scan *scan, const struct look *look, int64_t now_us)
@@ -450,9 +465,11 @@ static inline void model_begin(struct model_source *source, const struct look *l
 
     if (verdict == M_SKIPPED) {
         source->numbers[source->num_numbers++] = look->scan;
-        model.counters.scans_late++;
     } else {
         model_close_all_of(source);
+        if (verdict == M_FOLLOW) {
+            model_forget_numbers_of(source);
+        }
         model_believe(source, &place, verdict, now_us);
     }
     model.counters.sensor_restarts += verdict == M_FOLLOW;
@@ -467,6 +484,7 @@ static inline void model_begin(struct model_source *source, const struct look *l
                                 .kind = look->kind,
                                 .id = look->sensor_id,
                                 .num_parts = parts_of(look),
+                                .is_late = verdict == M_SKIPPED,
                                 .place = place};
     model_add_part(scan, look, now_us);
 }
@@ -509,6 +527,76 @@ static inline struct model_scan *model_weak_one(void)
     return NULL;
 }
 
+static inline struct model_scan *model_first(enum model_state state)
+{
+    struct model_scan *first = NULL;
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct model_scan *scan = &model.scans[i];
+        if (scan->state != state) {
+            continue;
+        }
+        if (!first || scan->place.time_us < first->place.time_us ||
+            (scan->place.time_us == first->place.time_us &&
+             (scan->id < first->id || (scan->id == first->id && scan->kind < first->kind)))) {
+            first = scan;
+        }
+    }
+    return first;
+}
+
+/* It goes out where another needs room; no proven sensor's scan is made late or cut short by that. */
+static inline struct model_scan *model_spare_one(void)
+{
+    struct model_scan *whole = model_first(M_WHOLE);
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && whole; i++) {
+        struct model_scan *scan = &model.scans[i];
+
+        if (scan->state == M_OPEN && model_is_proven(scan->source) &&
+            scan->place.time_us < whole->place.time_us) {
+            return model_weak_one();
+        }
+    }
+    return whole ? whole : model_weak_one();
+}
+
+static inline int model_is_late_one(const struct model_scan *scan)
+{
+    return (scan->state == M_OPEN || scan->state == M_WHOLE) && scan->is_late;
+}
+
+static inline int model_open_late_one_of(const struct model_source *source)
+{
+    int count = 0;
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        count += model_is_open_of(&model.scans[i], source) && model.scans[i].is_late;
+    }
+    return count > 0;
+}
+
+static inline void model_drop_late_one(void)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (model_is_late_one(&model.scans[i])) {
+            model.scans[i].state = M_FREE;
+            return;
+        }
+    }
+}
+
+static inline void model_drop_useless(void)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct model_scan *scan = &model.scans[i];
+
+        if (model_is_late_one(scan) && !model_is_in_time(scan->kind, scan->place.time_us)) {
+            scan->state = M_FREE;
+        }
+    }
+}
+
 static inline enum rho_status model_take(const struct look *look, int64_t now_us)
 {
     struct model_source *source = model_find(look->kind, look->sensor_id);
@@ -533,11 +621,24 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         model_refuse(source, look, verdict);
         return RHO_OK;
     }
+    if (verdict == M_SKIPPED) {
+        model.counters.scans_late++;
+        if (model_in_state(M_FREE) && (parts_of(look) == 1 || !model_open_late_one_of(source))) {
+            model_begin(source, look, verdict, now_us);
+        }
+        return RHO_OK;
+    }
+    if (!source && !model_find_room(now_us)) {
+        model.counters.sensors_no_room++;
+        return RHO_OK;
+    }
     if (!model_in_state(M_FREE)) {
-        int may_cut =
-            verdict != M_SKIPPED && ((source && model_is_proven(source)) || model_weak_one());
+        model_drop_late_one();
+    }
+    if (!model_in_state(M_FREE)) {
+        int may_cut = (source && model_is_proven(source)) || model_spare_one();
 
-        if (!may_cut && !model_in_state(M_OUT) && !model_in_state(M_WHOLE)) {
+        if (!may_cut && !model_in_state(M_OUT)) {
             model.counters.sensors_no_room++;
             return RHO_OK;
         }
@@ -545,10 +646,11 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         drawn->bucket++;
         return RHO_ERROR_CAPACITY;
     }
-    source = source ? source : model_add(look, now_us);
-    if (source) {
-        model_begin(source, look, verdict, now_us);
+    if (!source) {
+        source = model_find_room(now_us);
+        model_add(source, look);
     }
+    model_begin(source, look, verdict, now_us);
     return RHO_OK;
 }
 
@@ -570,24 +672,6 @@ static inline int model_one_was_held(int64_t now_us)
     return count > 0;
 }
 
-static inline struct model_scan *model_first(enum model_state state)
-{
-    struct model_scan *first = NULL;
-
-    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        struct model_scan *scan = &model.scans[i];
-        if (scan->state != state) {
-            continue;
-        }
-        if (!first || scan->place.time_us < first->place.time_us ||
-            (scan->place.time_us == first->place.time_us &&
-             (scan->id < first->id || (scan->id == first->id && scan->kind < first->kind)))) {
-            first = scan;
-        }
-    }
-    return first;
-}
-
 static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -605,7 +689,8 @@ static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
             return 0;
         }
         /* the number before it is missing, and one interval earlier is before this scan */
-        if ((other->state == M_OPEN || other->state == M_WHOLE) &&
+        if ((other->state == M_OPEN || other->state == M_WHOLE) && !other->is_late &&
+            !other->is_alone &&
             model_is_skipped(other->source, (int32_t)((uint32_t)other->place.scan - 1u)) &&
             (ahead < 0 ? 0 : ahead) < other->source->interval_us) {
             return 0;
@@ -623,6 +708,7 @@ static inline const struct model_scan *model_next(int64_t now_us, int *is_restar
         scan->state = M_FREE;
     }
     model.is_pressed = model.is_pressed && !model_in_state(M_FREE);
+    model_drop_useless();
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (model.scans[i].state == M_OPEN && model_was_held(&model.scans[i], now_us) &&
             (model.config.hold_us > 0 || now_us == INT64_MAX)) {
@@ -631,17 +717,16 @@ static inline const struct model_scan *model_next(int64_t now_us, int *is_restar
     }
     scan = model_first(M_WHOLE);
     open = model_first(M_OPEN);
-    if (!scan && model.is_pressed) {
-        scan = model_weak_one() ? model_weak_one() : open;
-        if (scan) {
+    if (model.is_pressed) {
+        scan = model_spare_one() ? model_spare_one() : scan ? scan : open;
+        if (scan && scan->state == M_OPEN) {
             model_close(scan);
         }
-    } else if (scan && !model.is_pressed && model.config.hold_us > 0 &&
-               model_one_was_held(now_us) && open && open->place.time_us < scan->place.time_us) {
+    } else if (scan && model.config.hold_us > 0 && model_one_was_held(now_us) && open &&
+               open->place.time_us < scan->place.time_us) {
         model_close(open); /* it would be late */
         scan = open;
-    } else if (scan && !model.is_pressed && !model_one_was_held(now_us) &&
-               !model_has_turn(scan, now_us)) {
+    } else if (scan && !model_one_was_held(now_us) && !model_has_turn(scan, now_us)) {
         return NULL;
     }
     model.is_pressed = 0;

@@ -275,6 +275,31 @@ static void strangers_do_not_cut_short_the_scans_of_proven_sensors(void **state)
     next_is_none(3 * SECOND_US);
 }
 
+/* Nor do they make them late by scans that are whole and newer: they would go out first, for want of room. */
+static void strangers_do_not_make_the_scans_of_proven_sensors_late(void **state)
+{
+    struct look open = {.sensor_id = 1, .scan = 4, .time_us = 4 * SECOND_US, .num_parts = 2};
+
+    (void)state;
+    start();
+    for (int32_t scan = 1; scan < 4; scan++) {
+        take_scan(1, scan, scan * SECOND_US);
+        assert_int_equal(drain(scan * SECOND_US), 1);
+    }
+    take(&open, 4 * SECOND_US);
+    for (int16_t id = 100; id < 120; id++) {
+        struct look look = {.sensor_id = id, .time_us = 4 * SECOND_US + id};
+
+        take(&look, 4 * SECOND_US);
+        next_is_none(4 * SECOND_US);
+    }
+    open.part = 1;
+    take(&open, 4 * SECOND_US);
+    next_is(4 * SECOND_US, 1, 4 * SECOND_US);
+    COUNTERS_ARE(.scans_accepted = 3 + RHO_MAX_OPEN_SCANS,
+                 .sensors_no_room = 20 - (RHO_MAX_OPEN_SCANS - 1));
+}
+
 /* Whatever comes, two calls make room. */
 static void there_is_always_progress(void **state)
 {
@@ -564,6 +589,7 @@ int main(void)
         cmocka_unit_test(without_room_the_oldest_goes_out_and_the_message_is_taken),
         cmocka_unit_test(complete_scans_make_room_before_open_ones),
         cmocka_unit_test(strangers_do_not_cut_short_the_scans_of_proven_sensors),
+        cmocka_unit_test(strangers_do_not_make_the_scans_of_proven_sensors_late),
         cmocka_unit_test(there_is_always_progress),
         cmocka_unit_test(of_too_many_plots_the_first_stay),
         cmocka_unit_test(of_too_many_bearings_the_first_stay),

@@ -99,6 +99,9 @@ static void long_spans_are_rounded_once(void **state)
         assert_true(rho_seconds_between(0, (int64_t)span) == (float)span / 1.0e6f);
     }
     assert_true(rho_seconds_between(INT64_MIN, INT64_MAX) == (float)UINT64_MAX / 1.0e6f);
+    assert_true(rho_elapsed_us(INT64_MAX, INT64_MIN) == UINT64_MAX);
+    assert_true(rho_elapsed_us(INT64_MIN, INT64_MAX) == 0 && rho_elapsed_us(7, 7) == 0);
+    assert_true(rho_elapsed_us(8, -7) == 15);
 }
 
 static void assert_span(int64_t from_us, int64_t to_us)
