@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * tracker_doubt: a sensor that fails or lies. Each is watched by the tracks that another one saw before it: does it see
- * them where it looks, and where they are expected? One that does not, while another does, is doubted: it starts no tracks,
- * its misses say nothing, and its plots count with the noise that they show. It is watched on, and believed again when it
- * agrees.
+ * them where it looks, and where they are expected? One that does not, while another does, is doubted: it starts no
+ * tracks, its misses say nothing, and its plots count with the noise that they show. It is watched on, and believed
+ * again when it agrees.
  */
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
@@ -97,8 +97,8 @@ static int agrees(const struct rho_tracker *tracker, const struct rho_tracker_lo
     return sees_enough(tracker, look) && look->distance2 < DISTANCE2_GOOD;
 }
 
-/* Distances are in each one's own sigmas: a coarse one agrees with anything, a fine one that lies pulls the tracks until
- * it does. */
+/* Distances are in each one's own sigmas: a coarse one agrees with anything, a fine one that lies pulls the tracks
+ * until it does. */
 static int is_coarser(const struct rho_tracker_look *look, const struct rho_tracker_look *than)
 {
     return look->sigma_m > COARSER * than->sigma_m;
