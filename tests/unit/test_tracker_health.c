@@ -247,6 +247,7 @@ static void of_three_that_are_not_alike_no_good_one_is_doubted(void **state)
         {.sigma_m = {0.0, 30.0, 30.0, 60.0}, .claim_m = 10.0, .shift_m = 80.0},
         {.sigma_m = {0.0, 10.0, 30.0, 100.0}, .claim_m = 10.0, .shift_m = 120.0},
         {.sigma_m = {0.0, 30.0, 100.0, 100.0}, .claim_m = 30.0, .shift_m = 240.0},
+        {.sigma_m = {0.0, 30.0, 10.0, 100.0}, .claim_m = 30.0, .shift_m = 120.0},
     };
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
