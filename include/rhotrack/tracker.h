@@ -117,6 +117,7 @@ struct rho_tracker_look {
     /* of confirmed tracks that another sensor had seen before: share of those that it saw where it looked, and the plots' squared
      * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 16 at most */
     float seen_share, distance2;
+    float sigma_m; /* that the newest of these plots claims, the larger one in the plane */
     uint16_t watched, watched_hits;
     uint16_t count; /* its scans so far, 1 .. 65535 round and round */
     /* it contradicts what the others see: its plots' noise counts for more, its misses not at all, and it starts no tracks */

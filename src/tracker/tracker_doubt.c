@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker_doubt: a sensor that fails or lies. Each is watched by the tracks that another one saw before it: does it see them where
- * it looks, and where they are expected? One that does not, while another does, is doubted: it starts no tracks, its misses say
- * nothing, and its plots count with the noise that they show. It is watched on, and believed again when it agrees.
+ * tracker_doubt: a sensor that fails or lies. Each is watched by the tracks that another one saw before it: does it see
+ * them where it looks, and where they are expected? One that does not, while another does, is doubted: it starts no
+ * tracks, its misses say nothing, and its plots count with the noise that they show. It is watched on, and believed
+ * again when it agrees.
  */
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
@@ -20,8 +21,11 @@
 #define DISTANCE2_GOOD 2.5f
 /* Of what a manoeuvre model claims beyond the plain gate. */
 #define DISTANCE2_OUTSIDE 9.0f
-/* Of the squared distances of one that is off: these are less off. */
+/* Of the squared distances of one that is off: these are less off. One that lies pulls the tracks, so that the others
+ * look off to them as well: but less than it is itself. */
 #define RIGHTER 0.7f
+/* Of one's sigma: beyond that the other one's distances in sigmas are too small to compare. */
+#define COARSER 1.9f
 #define FACTOR_MAX 400.0f
 
 static void average(float *mean, float value, uint16_t *count)
@@ -56,6 +60,7 @@ static void watch(const struct step *step, struct rho_tracker_look *look, unsign
     const int plot = rho_assignment_column(&tracker->assignment, row);
     if (plot != RHO_ASSIGNMENT_NONE) {
         average(&look->seen_share, 1.0f, &look->watched);
+        look->sigma_m = rho_plot_sigma_m(&step->scan->plots[plot]);
         average(&look->distance2, distance2_of(step, track, plot), &look->watched_hits);
     } else if (!step->has_more_parts && rho_tracker_has_passed(step, track)) {
         average(&look->seen_share, 0.0f, &look->watched);
@@ -92,36 +97,65 @@ static int agrees(const struct rho_tracker *tracker, const struct rho_tracker_lo
     return sees_enough(tracker, look) && look->distance2 < DISTANCE2_GOOD;
 }
 
-/* One that lies pulls the tracks, so that the others look off to them as well: but less than it is itself. */
-static int is_witness(const struct rho_tracker *tracker, const struct rho_tracker_look *look,
-                      const struct rho_tracker_look *against)
+/* Distances are in each one's own sigmas: a coarse one agrees with anything, a fine one that lies pulls the tracks
+ * until it does. */
+static int is_coarser(const struct rho_tracker_look *look, const struct rho_tracker_look *than)
 {
-    return agrees(tracker, look) ||
-           (sees_enough(tracker, look) && look->distance2 < RIGHTER * against->distance2);
+    return look->sigma_m > COARSER * than->sigma_m;
 }
 
 /* Others that are heard, and have nothing against them. */
-static unsigned count_witnesses(const struct step *step, const struct rho_tracker_look *look)
+struct witnesses {
+    unsigned num;
+    /* against one that is off: that agree, and are no coarser; less off, too, and as fine as it is; and coarser */
+    unsigned agreeing, equal, coarser;
+};
+
+static void hear(struct witnesses *witnesses, const struct rho_tracker_look *other,
+                 const struct rho_tracker_look *look, int does_agree)
+{
+    if (is_coarser(other, look)) {
+        witnesses->coarser++;
+    } else {
+        witnesses->agreeing += does_agree ? 1u : 0u;
+        witnesses->equal += !is_coarser(look, other) ? 1u : 0u;
+    }
+}
+
+static struct witnesses find_witnesses(const struct step *step, const struct rho_tracker_look *look)
 {
     const struct rho_tracker *tracker = step->tracker;
-    unsigned count = 0;
+    struct witnesses witnesses = {0, 0, 0, 0};
     for (unsigned i = 0; i < tracker->num_looks; i++) {
         const struct rho_tracker_look *other = &tracker->looks[i];
-        count += other != look && !other->is_doubted && is_witness(tracker, other, look) &&
-                 step->time_us - other->time_us <= RHO_TRACKER_SILENT_US;
+        if (other == look || other->is_doubted || !sees_enough(tracker, other) ||
+            step->time_us - other->time_us > RHO_TRACKER_SILENT_US) {
+            continue;
+        }
+        const int does_agree = other->distance2 < DISTANCE2_GOOD;
+        witnesses.num += does_agree ? 1u : 0u;
+        if (does_agree || other->distance2 < RIGHTER * look->distance2) {
+            hear(&witnesses, other, look, does_agree);
+        }
     }
-    return count;
+    return witnesses;
+}
+
+/* One finer and one coarser are no two: the one may have pulled the tracks, and the other cannot tell. */
+static int are_enough(const struct witnesses *witnesses)
+{
+    return witnesses->agreeing >= 2 || witnesses->equal >= 2 || witnesses->coarser >= 2;
 }
 
 /* Of two that see the same things in other places nobody can tell who is wrong: that takes a third one. */
 static void judge(struct step *step, struct rho_tracker_look *look)
 {
     struct rho_tracker *tracker = step->tracker;
-    const unsigned witnesses = count_witnesses(step, look);
-    if (look->is_doubted && (agrees(tracker, look) || witnesses == 0)) {
+    const struct witnesses witnesses = find_witnesses(step, look);
+    if (look->is_doubted && (agrees(tracker, look) || witnesses.num == 0)) {
         look->is_doubted = 0;
-    } else if (!look->is_doubted &&
-               ((is_blind(tracker, look) && witnesses >= 1) || (is_off(look) && witnesses >= 2))) {
+    } else if (!look->is_doubted && ((is_blind(tracker, look) && witnesses.num >= 1) ||
+                                     (is_off(look) && are_enough(&witnesses)))) {
         look->is_doubted = 1;
         tracker->counters.sensors_doubted = rho_count(tracker->counters.sensors_doubted, 1);
     }

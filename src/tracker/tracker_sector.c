@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker_sector: a radar that is stepped sector by sector sees each target once a turn, also one at the edge of two sectors.
+ * tracker_sector: a radar that is stepped sector by sector sees each target once a turn, also one at the edge of two
+ * sectors.
  *
  *      previous sector  |  this sector          the antenna turns this way ->
  *            .--------. |
@@ -109,7 +110,8 @@ void rho_tracker_note_look(struct step *step)
     step->look = look->count;
 }
 
-/* A track of one radar's plots is judged at another one's scans, too: it falls by the lower threshold and rises by the higher. */
+/* A track of one radar's plots is judged at another one's scans, too: it falls by the lower threshold and rises by the
+ * higher. */
 void rho_tracker_note_thresholds(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -179,13 +181,18 @@ static int holds_end(const struct step *step, const struct rho_track *track, flo
                                     track->kalman.state[1] + turn * dx_m);
 }
 
+static int is_sector(const struct rho_scan *scan)
+{
+    return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
+}
+
 int rho_tracker_has_passed(const struct step *step, const struct rho_track *track)
 {
     const struct rho_scan *scan = step->scan;
     if (is_turning(step)) {
         return holds_end(step, track, step->turning); /* the far one */
     }
-    if (step->is_late) {
+    if (step->is_late && is_sector(scan)) {
         /* either neighbour may have had its plot */
         return holds_end(step, track, 1.0f) && holds_end(step, track, -1.0f);
     }

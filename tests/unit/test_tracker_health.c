@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Radars over the same targets, one of which fails or lies from some time on: it is doubted, the tracks stay the others', and it is
- * believed again when it agrees.
+ * Radars over the same targets, one of which fails or lies from some time on: it is doubted, the tracks stay the
+ * others', and it is believed again when it agrees. No good one is ever doubted, however fine the one that lies claims to be.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -20,8 +20,8 @@
 #define SENSORS_MAX 3
 #define SIGMA_M 30.0
 #define ROUND_S 4.0
-#define LOST_MAX 2 /* misses in a row, by chance */
-#define CLUTTER (RHO_MAX_PLOTS + 40)
+#define LOST_MAX 2                       /* misses in a row, by chance */
+#define CLUTTER (2 * RHO_MAX_PLOTS + 40) /* the targets are in the second part */
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiators[SENSORS_MAX];
@@ -37,6 +37,8 @@ struct scene {
     int from, to; /* rounds in which it does so */
     double turn_radps;
     int clutter; /* plots of the other radar far and wide: half before the targets', half behind */
+    /* of the radars by their identities; 0: SIGMA_M. What the other claims while it lies; 0: that, too. 0: 4 SIGMA_M */
+    double sigma_m[SENSORS_MAX + 1], claim_m, shift_m;
     /* what came of it, from round 20 on */
     double sum_m2;
     int judged, lost, tracks_most, first_doubted, last_doubted;
@@ -94,26 +96,33 @@ static uint32_t add_clutter(struct rho_plot *plots, uint32_t count, int more)
     return count;
 }
 
+static double or_else(double value, double otherwise)
+{
+    return value > 0.0 ? value : otherwise;
+}
+
 static void step(const struct scene *scene, int32_t sensor_id, double t_s, int is_faulty)
 {
     static struct rho_plot plots[TARGETS + CLUTTER];
     const int clutter = sensor_id == OTHER ? scene->clutter / 2 : 0;
     struct rho_scan scan = {.time_us = (int64_t)llround(1e6 * t_s), .sensor_id = sensor_id};
+    const double sigma_m = or_else(scene->sigma_m[sensor_id], SIGMA_M),
+                 claim_m = is_faulty ? or_else(scene->claim_m, sigma_m) : sigma_m;
     double shift_m = !is_faulty                ? 0.0
-                     : scene->fault == SHIFTED ? 4.0 * SIGMA_M
+                     : scene->fault == SHIFTED ? or_else(scene->shift_m, 4.0 * SIGMA_M)
                      : scene->fault == FAR_OFF ? 3000.0
                                                : 0.0;
 
     scan.num_plots = add_clutter(plots, 0, clutter);
     for (int i = 0; i < TARGETS; i++) {
-        double place_m[2], dx_m = SIGMA_M * normal(), dy_m = SIGMA_M * normal();
+        double place_m[2], dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
 
         truth_of(scene, i, t_s, place_m);
         if (uniform(0.0, 1.0) < 0.9 && !(is_faulty && scene->fault == DEAD)) {
             plots[scan.num_plots++] = (struct rho_plot){.x_m = (float)(place_m[0] + dx_m + shift_m),
                                                         .y_m = (float)(place_m[1] + dy_m + shift_m),
-                                                        .sigma_range_m = (float)SIGMA_M,
-                                                        .sigma_cross_m = (float)SIGMA_M};
+                                                        .sigma_range_m = (float)claim_m,
+                                                        .sigma_cross_m = (float)claim_m};
         }
     }
     scan.num_plots = add_clutter(plots, scan.num_plots, clutter);
@@ -227,6 +236,51 @@ static void whoever_lies_is_found_out_whatever_the_noise(void **state)
     seed = 5;
 }
 
+/* Two others as fine as it is, or two coarser ones that are less off; what it claims to be is no proof. */
+static void of_three_that_are_not_alike_no_good_one_is_doubted(void **state)
+{
+    const struct scene scenes[] = {
+        {.sigma_m = {0.0, 50.0, 30.0, 100.0}, .claim_m = 15.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 100.0, 30.0, 100.0}, .claim_m = 10.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 30.0, 100.0}, .claim_m = 5.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 30.0, 100.0}, .claim_m = 30.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 30.0, 60.0}, .claim_m = 10.0, .shift_m = 80.0},
+        {.sigma_m = {0.0, 10.0, 30.0, 100.0}, .claim_m = 10.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 100.0, 100.0}, .claim_m = 30.0, .shift_m = 240.0},
+        {.sigma_m = {0.0, 30.0, 10.0, 100.0}, .claim_m = 30.0, .shift_m = 120.0},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        for (seed = 1; seed <= 10; seed++) {
+            struct scene scene = scenes[i];
+
+            scene.sensors = 3;
+            scene.fault = SHIFTED;
+            scene.from = 30;
+            scene.to = 1000;
+            fly(&scene, 100); /* looks at the good ones after each step */
+        }
+    }
+    seed = 5;
+}
+
+/* It pulls the tracks most, and is more off than two coarser ones all the same. */
+static void one_that_claims_to_be_finer_is_found_out_often(void **state)
+{
+    int found = 0;
+    (void)state;
+    for (seed = 1; seed <= 20; seed++) {
+        struct scene scene = {
+            .sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000, .claim_m = 10.0};
+
+        fly(&scene, 60);
+        found += scene.first_doubted >= 0;
+    }
+    seed = 5;
+    print_message("30 m that claims 10 m, off by 170 m: doubted in %d runs of 20\n", found);
+    assert_true(found >= 10);
+}
+
 /* Beyond all gates: its plots are no second tracks. */
 static void one_that_is_far_off_starts_no_tracks(void **state)
 {
@@ -277,7 +331,11 @@ static void one_of_very_many_plots_is_watched_too(void **state)
         fly(&scene, 100);
         assert_in_range(scene.lost, 0, LOST_MAX);
         if (faults[i] == NONE) {
+            const struct rho_tracker_look *look = rho_tracker_look_of(&tracker, OTHER);
+
             assert_int_equal(scene.first_doubted, -1);
+            assert_true(look->seen_share > 0.7f); /* of 0.9: the last 16 looks */
+            assert_int_equal(look->watched, 16);
         } else {
             assert_in_range(scene.first_doubted, 30, 36);
             assert_in_range(scene.last_doubted, 59, 75);
@@ -318,6 +376,8 @@ int main(void)
         cmocka_unit_test(sensors_that_agree_are_not_doubted),
         cmocka_unit_test(one_that_lies_is_doubted_and_counts_little),
         cmocka_unit_test(whoever_lies_is_found_out_whatever_the_noise),
+        cmocka_unit_test(of_three_that_are_not_alike_no_good_one_is_doubted),
+        cmocka_unit_test(one_that_claims_to_be_finer_is_found_out_often),
         cmocka_unit_test(one_that_is_far_off_starts_no_tracks),
         cmocka_unit_test(one_that_is_dead_ends_no_track),
         cmocka_unit_test(one_that_agrees_again_is_believed),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scans that are older than what was stepped: by late_max_s at most they update tracks as if they had come in time, nearly; beyond
- * that they are stale.
+ * Scans that are older than what was stepped: by late_max_s at most they update tracks as if they had come in time,
+ * nearly; beyond that they are stale.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -111,6 +111,31 @@ static void a_miss_counts_late_as_well(void **state)
     assert_true(report.tracks[0].score_nat < before.score_nat - 2.0f);
     assert_float_equal(report.tracks[0].state[0], before.state[0], 0.5f);
     assert_float_equal(report.tracks[0].sigma_m, before.sigma_m, 0.05f * before.sigma_m);
+}
+
+/* A whole turn has no neighbours: a miss counts where the radar looks, though its edge cuts the track's gate. */
+static void a_miss_in_a_whole_turn_counts_at_the_edge_too(void **state)
+{
+    const struct rho_sensor sensor = {.pd = 0.95f,
+                                      .range_max_m = 1e5f,
+                                      .x_m = 4000.0f,
+                                      .y_m = 999.0f, /* the target flies 1 m within the edge */
+                                      .sector_from_rad = 0.0f,
+                                      .sector_to_rad = 1.0f};
+    (void)state;
+    for (int is_late = 0; is_late < 2; is_late++) {
+        start(RHO_TRACKER_BEST, 20.0f);
+        fly_until(9);
+        assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+        if (is_late) {
+            step_one(11, 1, 0);
+        }
+        const struct rho_track_report before = report.tracks[0];
+
+        step_one(10, 0, 1);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].misses, before.misses + 1);
+    }
 }
 
 static void beyond_the_limit_all_is_stale_and_nothing_changes(void **state)
@@ -339,6 +364,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_late_scan_updates_tracks_and_starts_none),
         cmocka_unit_test(a_miss_counts_late_as_well),
+        cmocka_unit_test(a_miss_in_a_whole_turn_counts_at_the_edge_too),
         cmocka_unit_test(beyond_the_limit_all_is_stale_and_nothing_changes),
         cmocka_unit_test(a_late_scan_elsewhere_moves_no_track),
         cmocka_unit_test(an_initiator_that_is_none_is_refused),
