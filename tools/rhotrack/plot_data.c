@@ -148,7 +148,7 @@ static void add_points(struct plot_points *points, const struct table *table, in
 static void keep_table(struct plot_data *data, struct table *table)
 {
     data->track_tables = must_grow(data->track_tables, data->num_track_tables,
-                                   &data->track_tables_capacity, sizeof *data->track_tables);
+                                   &data->track_tables_capacity, sizeof(struct table *));
     data->track_tables[data->num_track_tables++] = table;
 }
 
