@@ -20,8 +20,8 @@
  *            counts: those that say something else of the scan are refused.
  * Order      A complete scan waits until every other live sensor has sent one that is not older, hold_us at most: scans
  *            of different sensors go out in the order of time. A scan behind a number that was skipped waits for that
- *            one, hold_us at most, too, and so does what comes less than an interval before it; else with one sensor
- *            nothing waits. A sensor is live for jump_max_us after its last scan.
+ *            one, not for those before it, hold_us at most, too, and so does what comes less than an interval before
+ *            it; else with one sensor nothing waits. A sensor is live for jump_max_us after its last scan.
  * Late       A number that was skipped may come after all, behind newer ones. Where nothing newer has gone out it takes
  *            its place in the order of time. Else it goes out behind what is newer by late_max_us at most, for a
  *            tracker that takes late scans; bearings, whose frames are over, do not. It does not move its sensor on,
