@@ -300,8 +300,8 @@ struct bearing_source *bearing_source_open(const char *path, const struct parame
     *source = (struct bearing_source){
         .path = path, .parameters = parameters, .keep_going = keep_going, .known = known};
     if (lcm_log_is_log(path)) {
-        source->log =
-            log_scans_open(path, parameters, keep_going, log_scans_kinds(path) == LOG_HAS_BEARINGS);
+        source->log = log_scans_open(path, parameters, keep_going,
+                                     log_scans_kinds(path) == LOG_HAS_BEARINGS, false);
     } else {
         open_table(source);
     }

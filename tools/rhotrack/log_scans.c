@@ -53,6 +53,7 @@ unsigned log_scans_kinds(const char *path)
 struct log_scans {
     const char *path;
     const struct parameters *parameters;
+    bool is_held; /* by the caller */
     struct rho_feed *feed;
     struct feed_order order;
     struct lcm_log_reader *reader;
@@ -77,14 +78,18 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
     return llround(parameters->value[PARAMETER_HOLD_MS] * 1e3) + largest_us - least_us;
 }
 
-/* What the feed has no room to hold is held behind it (plot_source.c): it must not be dropped as late before that. */
-static void wait_long(struct parameters *parameters)
+/*
+ * What is held behind the feed, with all the room there is, need not take the feed's for hold_ms: there late scans would be
+ * dropped for want of it. Nor are they late before that.
+ */
+static void wait_long(struct parameters *parameters, bool is_held)
 {
-    double hold_s = (double)log_scans_hold_us(parameters) * 1e-6;
+    double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
+    double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
 
-    parameters->value[PARAMETER_HOLD_MS] = fmin(hold_s * 1e3, HOLD_MAX_MS);
+    parameters->value[PARAMETER_HOLD_MS] = fmin(is_held ? clocks_ms : hold_ms, HOLD_MAX_MS);
     parameters->value[PARAMETER_LATE_MAX_S] =
-        fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_s, LATE_MAX_S);
+        fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
 }
 
 /* The feed as it was before the first event. */
@@ -92,7 +97,7 @@ static void start(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    wait_long(&parameters);
+    wait_long(&parameters, scans->is_held);
     parameters_to_feed(&parameters, scans->feed);
     scans->order = (struct feed_order){0};
     scans->reader = lcm_log_open(scans->path);
@@ -227,12 +232,13 @@ static void say_counters(const char *path, const struct rho_feed_counters *count
 }
 
 struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
-                                 bool keep_going, bool is_told)
+                                 bool keep_going, bool is_told, bool is_held)
 {
     struct log_scans *scans = must_calloc(1, sizeof *scans);
 
     scans->path = path;
     scans->parameters = parameters;
+    scans->is_held = is_held;
     scans->feed = must_alloc(sizeof *scans->feed);
     start(scans);
     look_through(scans, file_bytes(path), keep_going);

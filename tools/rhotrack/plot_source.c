@@ -299,7 +299,7 @@ struct plot_source *plot_source_open(const char *path, const struct parameters *
         fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is an LCM log", path);
     } else {
         source->hold.hold_us = log_scans_hold_us(parameters);
-        source->log = log_scans_open(path, parameters, options.keep_going, true);
+        source->log = log_scans_open(path, parameters, options.keep_going, true, true);
     }
     return source;
 }
