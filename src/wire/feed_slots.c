@@ -80,17 +80,17 @@ void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *so
 
 struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed)
 {
-    struct rho_feed_slot *free = rho_feed_find_state(feed, FEED_SLOT_FREE);
+    struct rho_feed_slot *room = rho_feed_find_state(feed, FEED_SLOT_FREE);
 
-    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !free; i++) {
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !room; i++) {
         struct rho_feed_slot *slot = &feed->slots[i];
 
         if (is_waiting(slot) && slot->order == FEED_ORDER_LATE) {
             slot->state = FEED_SLOT_FREE; /* it was counted when it came */
-            free = slot;
+            room = slot;
         }
     }
-    return free;
+    return room;
 }
 
 /* What belongs to the clock that held before cannot be stepped any more. */
