@@ -67,7 +67,7 @@ final class StatusLine extends JComponent {
         paintFreshness(g, health, x);
     }
 
-    private static float paintFaults(Graphics2D g, float from, List<String> faults) {
+    private float paintFaults(Graphics2D g, float from, List<String> faults) {
         float x = from;
         for (String fault : faults.subList(0, Math.min(faults.size(), MAX_FAULTS))) {
             x = text(g, x, Palette.WARNING, fault) + 14;
