@@ -18,7 +18,7 @@
 
 bool asterix_udp_is_url(const char *text)
 {
-    return strncmp(text, SCHEME, strlen(SCHEME)) == 0;
+    return text_begins_with(text, SCHEME);
 }
 
 /* ---- Records ---- */

@@ -289,6 +289,11 @@ bool is_same_file(const char *path, const char *other)
            one.st_dev == two.st_dev && one.st_ino == two.st_ino;
 }
 
+bool text_begins_with(const char *text, const char *prefix)
+{
+    return strncmp(text, prefix, strlen(prefix)) == 0;
+}
+
 bool path_ends_with(const char *path, const char *suffix)
 {
     size_t length = strlen(path), end = strlen(suffix);

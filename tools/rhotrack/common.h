@@ -72,6 +72,8 @@ struct cJSON *json_descending(int *values, int count);
 #define FLOAT_TEXT_BYTES 24
 const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);
 
+bool text_begins_with(const char *text, const char *prefix);
+
 /* A name that ends so, in capitals or not: "NAME.lcm" and "NAME.LCM" with ".lcm". */
 bool path_ends_with(const char *path, const char *suffix);
 

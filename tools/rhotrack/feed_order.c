@@ -1,12 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "feed_order.h"
 
-/* A clock that is set anew makes all that waits late, in the same call as its own scan is accepted. */
-static int is_restart(const struct rho_feed *feed)
-{
-    return feed->is_restart;
-}
-
 enum rho_status feed_order_take(struct feed_order *order, struct rho_feed *feed,
                                 const char *channel, const uint8_t *data, size_t size,
                                 int64_t now_us)
@@ -14,8 +8,9 @@ enum rho_status feed_order_take(struct feed_order *order, struct rho_feed *feed,
     const struct rho_feed_counters before = feed->counters;
     enum rho_status status = rho_feed_take(feed, channel, data, size, now_us);
 
+    /* a clock that is set anew makes all that waits late, in the same call as its own scan is accepted */
     order->out_of_order += feed->counters.scans_accepted > before.scans_accepted &&
-                           feed->counters.scans_late > before.scans_late && !is_restart(feed);
+                           feed->counters.scans_late > before.scans_late && !feed->is_restart;
     return status;
 }
 

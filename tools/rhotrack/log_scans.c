@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "common.h"
@@ -20,11 +19,6 @@
 
 /* ---- Kinds ---- */
 
-static bool begins_with(const char *channel, const char *prefix)
-{
-    return strncmp(channel, prefix, strlen(prefix)) == 0;
-}
-
 unsigned log_scans_kinds(const char *path)
 {
     struct lcm_log_reader *reader;
@@ -37,10 +31,10 @@ unsigned log_scans_kinds(const char *path)
     }
     reader = lcm_log_open(path);
     while (lcm_log_next(reader, &event)) {
-        if (begins_with(event.channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) ||
-            begins_with(event.channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL)) {
+        if (text_begins_with(event.channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) ||
+            text_begins_with(event.channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL)) {
             kinds |= LOG_HAS_PLOTS;
-        } else if (begins_with(event.channel, RHO_MESSAGE_BEARING_SCAN_CHANNEL)) {
+        } else if (text_begins_with(event.channel, RHO_MESSAGE_BEARING_SCAN_CHANNEL)) {
             kinds |= LOG_HAS_BEARINGS;
         }
     }

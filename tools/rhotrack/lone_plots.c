@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "common.h"
 #include "rhotrack/message.h"
@@ -25,24 +24,19 @@ struct look {
     int64_t time_us;
 };
 
-static bool is_on(const struct message_event *event, const char *prefix)
-{
-    return strncmp(event->channel, prefix, strlen(prefix)) == 0;
-}
-
 static bool read_look(const struct message_event *event, struct look *look)
 {
     static struct rho_message_plot_scan plots;
     static struct rho_message_polar_scan polar;
 
-    if (is_on(event, RHO_MESSAGE_POLAR_SCAN_CHANNEL) &&
+    if (text_begins_with(event->channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL) &&
         rho_message_polar_scan_decode(event->data, event->size, &polar) == RHO_OK) {
         *look = (struct look){polar.sensor_id, polar.num_parts, polar.num_polar_plots,
                               polar.sector_from_rad != 0.0f || polar.sector_to_rad != 0.0f,
                               polar.utime};
         return polar.part == 0;
     }
-    if (is_on(event, RHO_MESSAGE_PLOT_SCAN_CHANNEL) &&
+    if (text_begins_with(event->channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) &&
         rho_message_plot_scan_decode(event->data, event->size, &plots) == RHO_OK) {
         *look = (struct look){plots.sensor_id, plots.num_parts, plots.num_plots,
                               plots.sector_from_rad != 0.0f || plots.sector_to_rad != 0.0f,
