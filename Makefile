@@ -217,7 +217,7 @@ test:
 test-programs: $(unit_programs) $(scenario_programs)
 
 $(BUILD)/tests/embedded/%: tests/%.c $(library) Makefile
-	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
+	$(call compile,$(test_flags)) $(TEST_CFLAGS) -MF $@.d $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
 
 $(BUILD)/tests/workstation/%: tests/%.c $(workstation_library) Makefile
 	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \
@@ -245,13 +245,22 @@ $(BUILD)/stonesoup/bin/stonesoup.installed: tests/bench/requirements.txt
 	@mkdir -p $(BUILD) && python3 -m venv $(BUILD)/stonesoup && \
 	$(BUILD)/stonesoup/bin/python3 -m pip install -q --disable-pip-version-check -r $< && touch $@
 
-## Unit, scenario and bad-input tests with address and undefined-behaviour sanitizers (clang)
-sanitize:
+## Unit, scenario and bad-input tests with address and undefined-behaviour, unit tests with the memory sanitizer (clang)
+sanitize: defined-memory
 	@$(MAKE) --no-print-directory $(jobs) sanitized-tests BUILD=$(BUILD)/sanitize CC=clang \
 	    OPT='-O1 -g' CFLAGS='-fsanitize=address,undefined -fno-sanitize-recover=all' \
 	    LIBRARY_CFLAGS=-fsanitize=float-cast-overflow
 
-.PHONY: sanitized-tests
+# What is not compiled with it is unknown to the memory sanitizer: the library alone is looked at.
+.PHONY: defined-memory sanitized-tests embedded-tests
+defined-memory:
+	@$(MAKE) --no-print-directory $(jobs) embedded-tests BUILD=$(BUILD)/memory CC=clang OPT='-O1 -g' \
+	    CFLAGS='-fsanitize=memory -fno-sanitize-recover=all' TEST_CFLAGS='-include tests/unit/defined_memory.h'
+
+embedded_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs))
+embedded-tests: $(embedded_programs)
+	@BUILD=$(BUILD) tests/run.sh $(embedded_programs)
+
 sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
 	    $(sort $(wildcard tests/integration/bad*.sh))

@@ -97,8 +97,8 @@ struct rho_feed_config {
         late_max_us; /* 0 .. 60 s; 0: what comes behind a newer scan that has gone out is dropped */
     int64_t jump_max_us;   /* 1 s .. 1 h */
     uint32_t flood_per_s;  /* 1 .. 1e6 */
-    uint16_t follow_scans; /* 2 .. 255 */
-    uint16_t is_told; /* 1: items have a sensor also where `other` is all that is known of it */
+    uint32_t follow_scans; /* 2 .. 255 */
+    uint32_t is_told; /* 1: items have a sensor also where `other` is all that is known of it */
     struct rho_feed_sensor
         other; /* holds for sensors that are not described; its sensor_id is not looked at */
 };

@@ -55,12 +55,12 @@ struct rho_initiator_config {
 struct rho_candidate {
     uint16_t mask; /* bit m: the scan of age order m voted */
     uint16_t hits; /* number of votes */
-    /* by age order: index into that scan's plots where the bit is set, else 0 */
-    uint16_t plot[RHO_MAX_SCANS];
+    /* by age order: index into that scan's plots where the bit is set, else 0; an even number, so that nothing is padded */
+    uint16_t plot[(RHO_MAX_SCANS + 1) / 2 * 2];
     int32_t score_mnat;
     float x_m, y_m, vx_mps, vy_mps;
     float z_m, vz_mps; /* 0 unless has_z */
-    uint8_t has_z;     /* two plots or more have heights */
+    int32_t has_z;     /* two plots or more have heights */
 };
 
 /* Work of the last search, and what its capacities cut. All saturate. */

@@ -33,7 +33,7 @@
 #include "rhotrack/types.h"
 
 struct rho_passive_config {
-    uint16_t scans; /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
+    uint32_t scans; /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
     /* no sensor sees farther: 1000 .. 500000. Too small, targets beyond are not to be had, and ghosts explain their
      * bearings with a margin */
     float range_max_m;
@@ -94,7 +94,7 @@ struct rho_passive_fitted {
 struct rho_passive_candidate {
     float state_m[4];
     float score_nat;
-    uint16_t hits;
+    uint32_t hits;
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 

@@ -58,7 +58,7 @@ static int make_candidate(struct search *search, struct plot_set *set,
         .vy_mps = fit.vy_mps,
         .z_m = fit.z_m,
         .vz_mps = fit.vz_mps,
-        .has_z = (uint8_t)fit.has_z,
+        .has_z = fit.has_z != 0,
     };
     for (unsigned m = 0; m < search->num_scans; m++) {
         candidate->plot[m] = set->plot[m];

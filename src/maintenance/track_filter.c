@@ -2,6 +2,8 @@
 /*
  * track_filter: a track's estimate, by the filter that it was started with.
  */
+#include <string.h>
+
 #include "rhotrack/approx.h"
 #include "track_parts.h"
 
@@ -225,6 +227,16 @@ static enum rho_status run_filter(struct rho_track *track, const struct rho_trac
     return status;
 }
 
+/* Its padding, too: what the same plots start has the same bytes. */
+static void clear_track(struct rho_track *track, uint32_t track_id, int32_t score_mnat)
+{
+    memset(track, 0, sizeof *track);
+    track->track_id = track_id;
+    track->status = RHO_TRACK_FREE;
+    track->score_mnat = score_mnat;
+    track->score_max_mnat = score_mnat;
+}
+
 enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
                                 const struct rho_track_plot *plots, unsigned num_plots,
                                 const struct rho_track_model *model, int32_t score_mnat)
@@ -236,17 +248,13 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
         return RHO_ERROR_VALUE;
     }
     const struct rho_track_plot *last = &plots[num_plots - 1];
-    struct rho_track start = {
-        .track_id = track_id,
-        .status = RHO_TRACK_FREE,
-        .hits = (uint16_t)num_plots,
-        .plot = last->row,
-        .sensor_id = last->sensor_id,
-        .score_mnat = score_mnat,
-        .score_max_mnat = score_mnat,
-        .time_us = plots[0].time_us,
-        .updated_us = last->time_us,
-    };
+    struct rho_track start;
+    clear_track(&start, track_id, score_mnat);
+    start.hits = (uint16_t)num_plots;
+    start.plot = last->row;
+    start.sensor_id = last->sensor_id;
+    start.time_us = plots[0].time_us;
+    start.updated_us = last->time_us;
     rho_kalman_init(&start.kalman);
     enum rho_status status = measure(&start.kalman, &plots[0], model);
     if (status == RHO_OK) {
@@ -283,18 +291,14 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     if (hits < 1 || !rho_kalman_is_open(estimate, 0) || !rho_kalman_is_open(estimate, 1)) {
         return RHO_ERROR_VALUE;
     }
-    struct rho_track start = {
-        .track_id = track_id,
-        .status = RHO_TRACK_FREE,
-        .hits = hits,
-        .plot = -1,
-        .sensor_id = sensor_id,
-        .score_mnat = score_mnat,
-        .score_max_mnat = score_mnat,
-        .time_us = time_us,
-        .updated_us = time_us,
-        .kalman = *estimate,
-    };
+    struct rho_track start;
+    clear_track(&start, track_id, score_mnat);
+    start.hits = hits;
+    start.plot = -1;
+    start.sensor_id = sensor_id;
+    start.time_us = time_us;
+    start.updated_us = time_us;
+    start.kalman = *estimate;
     note_velocity(&start, 1);
     rho_track_apply(&start, RHO_TRACK_START);
     *track = start;

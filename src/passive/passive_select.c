@@ -120,7 +120,7 @@ static void add_track(struct rho_passive_search *search, unsigned number, float 
     track->score_mnat = mnat_of(from->score_nat);
     track->margin_mnat = mnat_of(margin_nat);
     track->chi2 = passive->best.chi2[number];
-    track->hits = from->hits;
+    track->hits = (uint16_t)from->hits;
     set_scans(passive, track);
     passive->num_tracks++;
 }

@@ -372,7 +372,7 @@ int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, 
                             is_contradicted(feed, source, time_us, now_us))) {
         /* The scans that a sensor's new numbers were followed for have shown its new time as well. */
         if (verdict == FEED_FOLLOW && source->off_clock < feed->config.follow_scans) {
-            source->off_clock = feed->config.follow_scans;
+            source->off_clock = (uint16_t)feed->config.follow_scans;
         } else if (source->off_clock < UINT16_MAX) {
             source->off_clock++;
         }

@@ -451,7 +451,7 @@ unsigned node_core_sensors(const struct node_core *core,
 
 int node_core_follow_scans(const struct node_core *core)
 {
-    return core->feed.config.follow_scans;
+    return (int)core->feed.config.follow_scans;
 }
 
 const struct rho_report *node_core_report(const struct node_core *core)
