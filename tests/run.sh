@@ -7,7 +7,7 @@
 # the order given.
 # A check passes where it exits with 0. CMocka programs count each of their tests, scripts that end with a line
 # `N passed, N failed` count as it says, all others as one. A check that is not there (it did not build) is a failure.
-# What a check leaves out is a line `skipped: ...` of its own, which is shown, and counts neither way.
+# What a check leaves out is a line `skipped: ...` of its own, which is shown, once more at the end, and counts neither way.
 # Output goes to $BUILD/log/; of a failure its end is shown, and what stands around the word FAIL or ERROR before.
 # The last line is `N passed, N failed`; exit 1 where anything failed.
 set -u
@@ -23,6 +23,7 @@ seconds_max=600 # of one check
 passed=0
 failed=0
 failures=()
+skipped=()
 
 # Sum of the numbers after a CMocka line's tag, as in `[  PASSED  ] 12 test(s).`
 cmocka_sum() {
@@ -51,7 +52,7 @@ execute() {
 }
 
 report() {
-    local check=$1 name=${1#"$BUILD"/} log status good bad counts='' seconds
+    local check=$1 name=${1#"$BUILD"/} log status good bad counts='' seconds line
     log=$(log_of "$check")
     read -r status seconds <"$log.result"
     good=$(cmocka_sum PASSED "$log")
@@ -71,7 +72,10 @@ report() {
     failed=$((failed + bad))
     if [ "$status" -eq 0 ] && [ "$bad" -eq 0 ]; then
         printf 'ok      %-52s %4d  %6s s\n' "$name" "$good" "$seconds"
-        sed -n 's/^skipped: /        | &/p' "$log"
+        while read -r line; do
+            printf '        | %s\n' "$line"
+            skipped+=("$name: ${line#skipped: }")
+        done < <(grep '^skipped: ' "$log")
         return
     fi
     failures+=("$name")
@@ -111,6 +115,10 @@ for check in "${scripts[@]+"${scripts[@]}"}"; do
     report "$check"
 done
 
+if [ "${#skipped[@]}" -gt 0 ]; then
+    echo
+    printf 'skipped in %s\n' "${skipped[@]}"
+fi
 if [ "${#failures[@]}" -gt 0 ]; then
     echo
     printf 'failed: %s\n' "${failures[@]}"

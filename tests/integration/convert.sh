@@ -4,6 +4,7 @@
 types=$(realpath "$(dirname "$0")/../../lcm_types")
 vectors=$(realpath "$(dirname "$0")/../vectors")
 # shellcheck source=tests/integration/checks.bash
+python=$("$(dirname "$0")/../python.sh") # that has the package lcm
 . "$(dirname "$0")/checks.bash"
 
 # Each value of the first file is in the second, as the same float32; rows that saw nothing may be fewer. Columns that
@@ -389,12 +390,12 @@ else:
         log.write_event(99000000 + i, "SOMETHING_ELSE", b"anything")
     log.close()
 END
-if python3 -c 'import lcm' 2>/dev/null && [ -x /usr/bin/lcm-gen ]; then
+if [ -n "$python" ] && [ -x /usr/bin/lcm-gen ]; then
     /usr/bin/lcm-gen -p --ppath . "$types"/*.lcm >/dev/null
     run convert crossing/plots.csv one.lcm
-    python3 others.py read one.lcm >read.csv
+    "$python" others.py read one.lcm >read.csv
     check "Python's EventLog reads our log" cmp crossing/plots.csv read.csv
-    python3 others.py write python.lcm
+    "$python" others.py write python.lcm
     run convert python.lcm out.csv
     check "we read a log by Python's EventLog" says 0 'rhotrack: python.lcm: 3 messages on other channels left out'
     printf '%s\n' t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,scan,epoch 0.000000,4,10,-20,,0.125,8,2 \

@@ -64,6 +64,7 @@ else
     if [ -z "$python" ]; then
         echo 'skipped: interop with Python: the package lcm is not installed (tools/python.sh)'
     else
+        check 'the interpreter is found from any folder' test "$(cd "$folder" && "$OLDPWD/tests/python.sh")" = "$python"
         mkdir "$folder/out"
         "$folder/interop" write "$folder/out" "$messages"
         with_bindings_of "$lcm_gen"

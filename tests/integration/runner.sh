@@ -40,4 +40,5 @@ must_say '7 passed, 4 failed' 1 cmocka wrong cmocka_wrong plain
 check skipping 'echo "skipped: no such tool"; echo "0 passed, 0 failed"'
 must_say '0 passed, 0 failed' 0 skipping
 grep -qF '| skipped: no such tool' "$folder/output" || { echo 'run.sh does not show what was skipped'; exit 1; }
+tail -n 4 "$folder/output" | grep -q '^skipped in .*: no such tool$' || { echo 'run.sh does not sum up what was skipped'; exit 1; }
 echo 'run.sh counts what it must'

@@ -44,7 +44,7 @@ firmware-test:
 	@tools/setup.sh
 	@tools/setup.sh firmware
 	@BUILD=$(BUILD) tools/python.sh
-	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(replay) $(firmware_tests)
+	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(replay) $(replay_radar) $(firmware_tests)
 	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 
 firmware_tests := $(BUILD)/tests/firmware/test_udp_frame
@@ -89,15 +89,23 @@ $(foreach core,m4 m7,$(eval $(call job_core,$(core))))
 
 # --- the replay on this machine --------------------------------------------------------------
 
+# Many sources at once leave no list of the headers that each needs.
+replay_needs := $(firmware_node) $(firmware_folder)/replay.c $(board)/host/files_host.c
+replay_headers := $(wildcard include/rhotrack/*.h src/*/*.h $(firmware_folder)/*.h $(board)/*.h)
+
 replay := $(BUILD)/firmware/replay
-$(replay): $(firmware_node) $(firmware_folder)/replay.c $(board)/host/files_host.c $(library)
-	$(call compile,-std=c99 $(common_flags) $(warnings) -I$(firmware_folder) -DNODE_BEARINGS=1) $(LDFLAGS) -MF $@.d -o $@ \
-	    $(filter %.c %.a,$^)
+$(replay): $(replay_needs) $(library) $(replay_headers) Makefile
+	$(call compile,$(replay_flags)) $(LDFLAGS) -MF /dev/null -o $@ $(filter %.c %.a,$^)
+
+# With the capacities of the radar: what its image must send.
+replay_radar := $(BUILD)/firmware/replay-radar
+$(replay_radar): $(replay_needs) $(library_sources) $(replay_headers) Makefile
+	$(call compile,$(radar_flags)) $(LDFLAGS) -MF /dev/null -o $@ $(filter %.c,$^)
 
 .PHONY: firmware firmware-test job-images
 job-images: $(job_images)
 .SECONDARY: $(foreach core,m4 m7,$(job_sources:%.c=$(firmware)/$(core)/jobs/%.o) $(job_parts:%.c=$(firmware)/$(core)/jobs/%.o))
 
--include $(replay).d $(firmware_tests:=.d) $(foreach core,m4 m7,$(radar_sources:%.c=$(firmware)/$(core)/radar/%.d) \
+-include $(firmware_tests:=.d) $(foreach core,m4 m7,$(radar_sources:%.c=$(firmware)/$(core)/radar/%.d) \
            $(replay_sources:%.c=$(firmware)/$(core)/replay/%.d) \
            $(foreach source,$(library_sources) $(job_sources) $(job_parts),$(source:%.c=$(firmware)/$(core)/jobs/%.d)))
