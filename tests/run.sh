@@ -3,8 +3,9 @@
 #
 # Runs test programs and scripts, and counts: tests/run.sh CHECK...
 #
-# Programs run beside one another, as many as there are processors, scripts one after the other behind them; both are told in
-# the order given.
+# Programs run beside one another, as many as there are processors, and so do scripts that have a line `# Runs beside others`:
+# those need no network, no build and no time of their own. The other scripts run one after the other behind them. All are told
+# in the order given, those beside one another first.
 # A check passes where it exits with 0. CMocka programs count each of their tests, scripts that end with a line
 # `N passed, N failed` count as it says, all others as one. A check that is not there (it did not build) is a failure.
 # What a check leaves out is a line `skipped: ...` of its own, which is shown, once more at the end, and counts neither way.
@@ -88,11 +89,20 @@ report() {
 
 mkdir -p "$BUILD/log"
 programs=()
+early=() # they take longer than most programs
 scripts=()
 for check in "$@"; do
     rm -f "$(log_of "$check").result"
-    if [[ $check == *.sh ]]; then scripts+=("$check"); else programs+=("$check"); fi
+    if [[ $check != *.sh ]]; then
+        programs+=("$check")
+    elif grep -qs '^# Runs beside others' "$check"; then
+        early+=("$check")
+    else
+        scripts+=("$check")
+    fi
 done
+
+programs=("${early[@]+"${early[@]}"}" "${programs[@]+"${programs[@]}"}")
 
 told=0
 tell_done() { # those next in order

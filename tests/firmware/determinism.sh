@@ -32,12 +32,23 @@ build_all() {
 }
 check 'all variants build' build_all
 
+# start NAME COMMAND...: all records by it, beside the others, into out-NAME and sums-NAME.
+start() {
+    local name=$1
+    shift
+    while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do wait -n; done
+    replay_all "out-$name" "$@" >"sums-$name" &
+}
+
 # same_as_first SUMS NAME: the sums of the first variant that ran are what all others are compared with.
 same_as_first() { diff "$reference" "$1"; }
 
 reference=sums-gcc-O0
 first_runs() { replay_all out-gcc-O0 ./gcc-O0 >"$reference" && [ "$(wc -l <"$reference")" -eq "$(runs | wc -l)" ]; }
 check 'gcc-O0 plays all of them' first_runs
+for core in m4 m7; do
+    start "$core" "$root/tools/firmware/emulate.sh" "$core" "$images/$core/replay.elf"
+done
 for variant in $(cut -d' ' -f1 variants); do
     [ "sums-$variant" != "$reference" ] || continue
     case $variant in
@@ -46,11 +57,14 @@ for variant in $(cut -d' ' -f1 variants); do
     powerpc-*) run=(qemu-ppc "./$variant") ;;
     *) run=("./$variant") ;;
     esac
-    replay_all "out-$variant" "${run[@]}" >"sums-$variant"
+    start "$variant" "${run[@]}"
+done
+wait
+for variant in $(cut -d' ' -f1 variants); do
+    [ "sums-$variant" != "$reference" ] || continue
     check "$variant: $(wc -l <"sums-$variant") logs, the bytes of gcc-O0" same_as_first "sums-$variant"
 done
 for core in m4 m7; do
-    replay_all "out-$core" "$root/tools/firmware/emulate.sh" "$core" "$images/$core/replay.elf" >"sums-$core"
     check "Cortex-${core^}: the bytes of gcc-O0" same_as_first "sums-$core"
 done
 

@@ -3,6 +3,7 @@
 #
 # `simulate air-traffic` and `formation` as files, `track` with what they tell, and parts of `experiment air-traffic`; Stone
 # Soup's part by a script that stands in for it.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # tools/codegen: what is checked in is what it writes, a change of either is named, and each of its rules is kept.
+# Runs beside others.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 top=$(pwd)

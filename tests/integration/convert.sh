@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # `convert`: CSV files to LCM logs and back, each kind, real plots; what it refuses, damaged logs, other LCM programs.
+# Runs beside others.
 types=$(realpath "$(dirname "$0")/../../lcm_types")
 vectors=$(realpath "$(dirname "$0")/../vectors")
-# shellcheck source=tests/integration/checks.bash
 python=$("$(dirname "$0")/../python.sh") # that has the package lcm
+# shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
 # Each value of the first file is in the second, as the same float32; rows that saw nothing may be fewer. Columns that

@@ -3,6 +3,7 @@
 #
 # `evaluate` as a user types it: figures, JSON, the table of targets, rows over time, the picture, what it refuses, large files.
 # Program in $RHOTRACK.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # tools/extract_example.sh runs the C blocks of a document, and goes red for one that is wrong.
+# Runs beside others.
 set -eu
 cd "$(dirname "$0")/../.."
 folder=$(mktemp -d)

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # RHO_FILTERS: a build with some filters refuses what asks for the others, and gives the full build's bytes of what it has.
+# Runs beside others.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build}

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Latitudes, longitudes and heights: plots, truth and radars on the earth, slant ranges with heights, maps.
+# Runs beside others.
 scene=$(realpath "$(dirname "$0")/geodetic.py")
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # initiate by the papers' methods: facts of the paper's data, what is refused, and what is said of limits.
+# Runs beside others.
 table3=$(realpath "$(dirname "$0")/../vectors/radar-table3.csv")
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"

@@ -3,6 +3,7 @@
 #
 # The codec beside stock LCM: the C and the Python that lcm-gen makes of lcm_types/, and the Python package lcm, with
 # random messages of each type, both ways. What is not installed is skipped, and said to be.
+# Runs beside others.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 lcm_gen=${LCM_GEN:-/usr/bin/lcm-gen}

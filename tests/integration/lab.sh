@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # simulate, evaluate, plot, experiment, bench and the demo, as a user types them. Program in $RHOTRACK.
+# Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 root=$(realpath "$(dirname "$0")/../..")
 . "$(dirname "$0")/checks.bash"

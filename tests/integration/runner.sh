@@ -41,4 +41,20 @@ check skipping 'echo "skipped: no such tool"; echo "0 passed, 0 failed"'
 must_say '0 passed, 0 failed' 0 skipping
 grep -qF '| skipped: no such tool' "$folder/output" || { echo 'run.sh does not show what was skipped'; exit 1; }
 tail -n 4 "$folder/output" | grep -q '^skipped in .*: no such tool$' || { echo 'run.sh does not sum up what was skipped'; exit 1; }
+
+# Two that wait for one another pass beside one another alone.
+meet() { # own name, the other's
+    printf 'touch %s/met-%s\nfor _ in $(seq 30); do\n    [ -e %s/met-%s ] && exit 0\n    sleep 0.1\ndone\nexit 1\n' "$folder" "$1" "$folder" "$2"
+}
+if [ "$(nproc)" -gt 1 ]; then
+    check one.sh "# Runs beside others.
+$(meet one other)"
+    check other.sh "# Runs beside others.
+$(meet other one)"
+    must_say '2 passed, 0 failed' 0 one.sh other.sh
+    rm "$folder"/met-*
+    check one.sh "$(meet one other)"
+    check other.sh "$(meet other one)"
+    must_say '1 passed, 1 failed' 1 one.sh other.sh
+fi
 echo 'run.sh counts what it must'
