@@ -279,17 +279,48 @@ static float wider(float log_sigma_m, float bend_m2)
     return 0.5f * rho_log(rho_exp(2.0f * log_sigma_m) + bend_m2);
 }
 
-/* Process noise widens what a plot says of a straight track: by what it bends tracks from `first` on, on average over the
- * dimensions of the residual. */
+/* How much of a bent track's residual is in its j-th shape, the longest bow being the first: as in a free beam's. */
+static float shape(unsigned j)
+{
+    const float waves = 3.0f / (float)(2u * j + 1u);
+    return waves * waves * waves * waves;
+}
+
+/*
+ * ln of a sigma with which the plots' determinant is that of the score: the residual's dimensions have very different
+ * variances, sigma^2 and their shape's part of the bend, and it is their product that counts (src/DESIGN.md).
+ */
+static float wider_by_shapes(float log_sigma_m, float bend_m2, unsigned dimensions)
+{
+    float all = 0.0f, sum = 0.0f;
+    for (unsigned j = 1; j <= dimensions; j++) {
+        all += shape(j);
+    }
+    for (unsigned j = 1; j <= dimensions; j++) {
+        sum += wider(log_sigma_m, bend_m2 * shape(j) / all);
+    }
+    return sum / (float)dimensions;
+}
+
+/* Process noise widens what a plot says of a straight track, by what it bends tracks of so many hits from `first` on. Where
+ * noise has its directions, the score takes process noise as independent from plot to plot: all dimensions are alike. */
 static struct place_class widened(const struct chance *chance, const struct place_class *place,
-                                  unsigned first)
+                                  unsigned first, unsigned hits)
 {
     struct place_class wide = *place;
-    if (chance->search->fit_process_m2 > 0.0f) {
-        const float bend_m2 = chance->bend_m2[first];
-        wide.log_range = wider(place->log_range, bend_m2);
-        wide.log_cross = wider(place->log_cross, bend_m2);
-        wide.log_up = wider(place->log_up, bend_m2);
+    const float bend_m2 = chance->bend_m2[first];
+    const float scans = (float)(chance->search->num_scans - first);
+    if (!(chance->search->fit_process_m2 > 0.0f)) {
+        return wide;
+    }
+    if (chance->search->is_isotropic) {
+        wide.log_range =
+            wider_by_shapes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
+        wide.log_cross = wide.log_range;
+    } else {
+        wide.log_range = wider(place->log_range, bend_m2 / (scans - 2.0f));
+        wide.log_cross = wider(place->log_cross, bend_m2 / (scans - 2.0f));
+        wide.log_up = wider(place->log_up, bend_m2 / (scans - 2.0f));
     }
     return wide;
 }
@@ -299,7 +330,7 @@ static struct reach reach_of(const struct chance *chance, const struct place_cla
 {
     const struct search *search = chance->search;
     unsigned first = pattern->first, hits = pattern->hits;
-    struct place_class wide = widened(chance, place, first);
+    struct place_class wide = widened(chance, place, first, hits);
     struct reach reach = {.best_nat = best_score(chance, &wide, first, hits, pattern->spread_s2)};
     reach.weight = 0.5f * place->share * pattern->inside *
                    rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
@@ -316,7 +347,6 @@ static void lay_patterns(struct chance *chance)
     for (unsigned first = 0; first + 3u <= num_scans; first++) {
         if (chance->search->fit_process_m2 > 0.0f) {
             (void)rho_initiator_bend_m2(chance->search, first, &chance->bend_m2[first]);
-            chance->bend_m2[first] /= (float)(num_scans - first - 2u);
         }
         for (unsigned hits = 3; hits <= num_scans - first; hits++) {
             add_pattern(chance, first, hits);
@@ -452,7 +482,7 @@ float rho_initiator_gain_of_hit(const struct chance *chance)
     float least = GAIN_MAX_NAT;
     for (unsigned i = 0; i < chance->num_classes; i++) {
         const struct place_class wide =
-            widened(chance, &chance->classes[i], search->num_scans - 3u);
+            widened(chance, &chance->classes[i], search->num_scans - 3u, 3);
         float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
                      0.5f * dimensions_of_hit(chance) * LOG_TWO_PI - log_noise(chance, &wide) -
                      rho_log(PREDICTION_SPREAD) +

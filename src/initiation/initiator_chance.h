@@ -53,7 +53,7 @@ struct chance {
         log_aliases; /* ln of how many range rates are taken for one, mean over the scans; 0: none are ambiguous */
 #endif
     float bend_m2
-        [RHO_MAX_SCANS]; /* by process noise, of tracks from this scan on: mean over the residual's dimensions */
+        [RHO_MAX_SCANS]; /* by process noise, of tracks from this scan on: sum over the scans */
     unsigned num_classes, num_patterns;
     unsigned least_hits; /* patterns with fewer do not count */
     struct place_class classes[CLASSES_MAX];

@@ -344,6 +344,39 @@ static void clutter_makes_about_as_many_tracks_as_wanted(void **state)
     }
 }
 
+/*
+ * Process noise that bends tracks by many sigmas, 100 plots a scan on 95 x 95 km, 10 s: clutter may start 0.1 tracks a search.
+ * It starts 0.02, since what bends so much may be made up of the same plots in several ways. The variances of the bends
+ * differ by a hundred: with their mean in place of each it would be 0.003.
+ */
+static void clutter_starts_tracks_that_process_noise_bends(void **state)
+{
+    const int searches = 600;
+    struct rho_initiator_config config = usual(20.0f);
+    unsigned starts = 0;
+    (void)state;
+    random_state = 5;
+    config.v_min_mps = 50.0f;
+    config.v_max_mps = 300.0f;
+    config.pd = 0.95f;
+    config.process_noise_mps2 = 10.0f;
+    config.area = (struct rho_extent){-47500.0f, 47500.0f, -47500.0f, 47500.0f};
+    start(&config);
+    for (int k = 0; k < searches; k++) {
+        for (int i = poisson(100.0); i > 0; i--) {
+            add(uniform(-47500.0, 47500.0), uniform(-47500.0, 47500.0), 50.0, 50.0);
+        }
+        push(10.0 * k);
+        search(RHO_SEARCH_NEWEST);
+        starts += initiator.num_candidates;
+        for (unsigned i = 0; i < initiator.num_candidates; i++) {
+            (void)rho_initiator_consume(&initiator, &initiator.candidates[i]);
+        }
+    }
+    print_message("starts a search: 0.1 allowed, %.3f\n", (double)starts / searches);
+    assert_true(starts > 0.01 * searches && starts < 0.2 * searches);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -359,6 +392,7 @@ int main(void)
         cmocka_unit_test(a_larger_area_confirms_as_a_smaller_rate_does),
         cmocka_unit_test(range_rates_ask_for_fewer_votes_in_the_same_clutter),
         cmocka_unit_test(clutter_makes_about_as_many_tracks_as_wanted),
+        cmocka_unit_test(clutter_starts_tracks_that_process_noise_bends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
