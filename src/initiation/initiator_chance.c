@@ -308,11 +308,11 @@ static struct place_class widened(const struct chance *chance, const struct plac
                                   unsigned first, unsigned hits)
 {
     struct place_class wide = *place;
-    const float bend_m2 = chance->bend_m2[first];
-    const float scans = (float)(chance->search->num_scans - first);
     if (!(chance->search->fit_process_m2 > 0.0f)) {
         return wide;
     }
+    const float bend_m2 = chance->bend_m2[first];
+    const float scans = (float)(chance->search->num_scans - first);
     if (chance->search->is_isotropic) {
         wide.log_range =
             wider_by_shapes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
