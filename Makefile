@@ -63,7 +63,7 @@ library_flags := -std=c99 $(common_flags) $(warnings) -Wpedantic -Wconversion -W
                  -Wfloat-equal -Wundef -Wcast-qual -Wvla -Wswitch-enum
 program_flags := -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) \
                  -Wconversion -pthread
-test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itools/rhotrack $(warnings)
+test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itools/rhotrack $(warnings) $(TEST_CFLAGS)
 capacities := $(if $(RHO_CONFIG_FILE),-DRHO_CONFIG_FILE='"$(abspath $(RHO_CONFIG_FILE))"')
 program_libraries := -llcm -lcsv -linih -lcjson -lproj -pthread -lm
 
@@ -217,7 +217,7 @@ test:
 test-programs: $(unit_programs) $(scenario_programs)
 
 $(BUILD)/tests/embedded/%: tests/%.c $(library) Makefile
-	$(call compile,$(test_flags)) $(TEST_CFLAGS) -MF $@.d $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
+	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
 
 $(BUILD)/tests/workstation/%: tests/%.c $(workstation_library) Makefile
 	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \

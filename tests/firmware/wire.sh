@@ -11,6 +11,7 @@ need_bindings
 
 if ! { ip tuntap add dev node mode tap && add_host radar 1 && add_host logger 2; } 2>error; then
     echo "skipped: $(basename "$0"): no tap device here: $(cat error)"
+    [ "${CI:-}" != true ] || check 'a tap device' false # where all of it has to run
     finish
 fi
 ip link set node master bridge up
@@ -98,20 +99,6 @@ same_tracks() {
         [ -s stock.tracks ] && cmp stock.tracks expected.tracks
 }
 
-# A state tells of its own second alone, and the last may be an idle one.
-measures_steps() {
-    "$python" - <<'PYTHON'
-import sys
-import lcm
-sys.path.insert(0, "bindings")
-import rhotrack
-states = (rhotrack.status_t.decode(event.data) for event in lcm.EventLog("stock.lcm") if event.channel == "RHO_STATUS")
-longest_us = max(state.step_max_us for state in states)
-print(f"longest step: {longest_us} us")
-sys.exit(longest_us < 1)
-PYTHON
-}
-
 heard_all() { # lists of tracks as many as in the log, peaks as scans, states of the node; up to the last scan
     local tracks peaks states last
     read -r tracks peaks states last < <(tail -n 1 heard)
@@ -128,6 +115,6 @@ for core in m4 m7; do
         "$(status_of scans_accepted) $(status_of messages_bad) $(status_of scans_lost) $(status_of scan)" = "$scans 0 0 $scans"
     check "Cortex-${core^^}: its stack is at most $stack_most bytes, as it says itself" test \
         "$(sed -n 's/^stack *\([0-9]*\).*/\1/p' console | tail -n 1)" -le "$stack_most"
-    check "Cortex-${core^^}: it measures its steps" measures_steps
+    check "Cortex-${core^^}: it measures its steps" test "$(status_of longest_step_us | cut -d. -f1)" -gt 0
 done
 finish

@@ -63,19 +63,22 @@ need_bindings() {
     done
 }
 
-# The newest RHO_STATUS of a log as NAME=VALUE lines in the file status, by the Python bindings of lcm-gen.
+# The newest RHO_STATUS of a log as NAME=VALUE lines in the file status, by the Python bindings of lcm-gen. A step_max_us is of
+# one second, and the newest may be idle: longest_step_us is that of all.
 read_status() { # log
     "$python" - "$1" >status <<'PYTHON'
 import sys
 import lcm
 sys.path.insert(0, "bindings")
 import rhotrack
-last = None
+last, longest_us = None, 0.0
 for event in lcm.EventLog(sys.argv[1]):
     if event.channel == "RHO_STATUS":
         last = rhotrack.status_t.decode(event.data)
+        longest_us = max(longest_us, last.step_max_us)
 for name in last.__slots__:
     print(f"{name}={getattr(last, name)}")
+print(f"longest_step_us={longest_us}")
 PYTHON
 }
 
