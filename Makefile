@@ -12,6 +12,7 @@
 #   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local); BINDIR=, LIBDIR=, INCLUDEDIR=, DOCDIR=
 #                     single folders
 #   PROFILE=workstation  installs the library of that profile (default embedded)
+#   LAB='--runs 5'    options of `make experiments` (tools/lab/README.md)
 
 VERSION := 0.1.0
 BUILD := build
@@ -31,12 +32,13 @@ OPT := -O2
 # --- what there is ---------------------------------------------------------------------------
 
 library_sources := $(sort $(wildcard src/*/*.c))
-program_sources := $(sort $(wildcard tools/rhotrack/*.c))
+program_sources := $(sort $(wildcard tools/rhotrack/*.c tools/rhotrack/*/*.c))
+scenes := $(sort $(wildcard tools/scenes/*.json))
 unit_sources := $(sort $(wildcard tests/unit/test_*.c))
 scenario_sources := $(sort $(wildcard tests/scenario/test_*.c))
 # Laid out by .clang-format: all but the tables that scripts write.
 sources := $(library_sources) $(program_sources) \
-           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tools/instructions/*.[ch] \
+           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tools/rhotrack/*/*.h tools/instructions/*.[ch] \
                       tools/firmware/*.[ch] tools/firmware/board/*.[ch] tools/firmware/board/*/*.[ch] \
                       tools/examples/*.[ch] tests/*/*.[ch])
 sources := $(filter-out tests/vectors/%,$(sources))
@@ -47,7 +49,7 @@ program := $(BUILD)/rhotrack
 
 embedded_objects := $(library_sources:%.c=$(BUILD)/embedded/%.o)
 workstation_objects := $(library_sources:%.c=$(BUILD)/workstation/%.o)
-program_objects := $(program_sources:%.c=$(BUILD)/program/%.o)
+program_objects := $(program_sources:%.c=$(BUILD)/program/%.o) $(BUILD)/program/scenes.o
 
 # Unit tests are built and run for both profiles; scenario tests use the program's own parts.
 unit_programs := $(unit_sources:tests/%.c=$(BUILD)/tests/embedded/%) \
@@ -75,7 +77,7 @@ jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .PHONY: all lib codegen bench-opencv bench-stonesoup test-programs test fuzz demo demo-live layers poison gates size \
-        size-update instructions examples determinism lint format format-check tidy cppcheck sanitize install clean help
+        size-update instructions examples determinism experiments lint format format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
 
@@ -122,6 +124,18 @@ endif
 $(BUILD)/program/%.o: %.c Makefile
 	$(call compile,$(program_flags) -DRHOTRACK_VERSION='"$(VERSION)"') -c -o $@ $<
 
+# The shipped scenes as texts in the program.
+$(BUILD)/program/scenes.c: $(scenes) Makefile
+	@mkdir -p $(@D) && { echo '#include "tools/rhotrack/scene/scene_shipped.h"'; \
+	  echo 'const struct shipped_scene shipped_scenes[] = {'; \
+	  for file in $(scenes); do \
+	    echo "{\"$$(basename $$file .json)\","; \
+	    sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/.*/"&\\n"/' $$file; echo '},'; \
+	  done; echo '{0, 0}};'; } > $@
+
+$(BUILD)/program/scenes.o: $(BUILD)/program/scenes.c
+	$(call compile,$(program_flags) -I.) -c -o $@ $<
+
 ## Set up what is missing, build, track real radar plots and show the result (build/demo)
 demo:
 	@tools/setup.sh
@@ -133,6 +147,13 @@ demo-live:
 	@tools/setup.sh
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
+
+## Set up what is missing, build, and run the lab's experiments: real skies (build/experiment/real-skies; LAB=options)
+experiments:
+	@tools/setup.sh
+	@tools/setup.sh lab
+	@$(MAKE) --no-print-directory $(jobs) all
+	@tools/lab/real_skies.py --program $(program) -o $(BUILD)/experiment/real-skies $(LAB)
 
 # --- what packagers use ----------------------------------------------------------------------
 
@@ -211,7 +232,7 @@ test:
 	@BUILD=$(BUILD) tools/python.sh
 	@$(MAKE) --no-print-directory -k $(jobs) all test-programs || echo "  ...  the build has failures"
 	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
-	    $(sort $(wildcard tests/integration/*.sh tests/regression/*.sh)) \
+	    $(sort $(wildcard tests/integration/*.sh tests/regression/*.sh)) $(sort $(wildcard tests/lab/test_*.py)) \
 	    tools/layers.py tools/poison.sh tools/gates.py tools/extract_example.sh tools/determinism.sh
 
 test-programs: $(unit_programs) $(scenario_programs)
@@ -305,6 +326,17 @@ $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a:
 $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a $(workstation_library) Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -MF $@.d -fsanitize=fuzzer \
 	    $(shell grep -o '__wrap_[a-z_]*' $< | sort -u | sed 's/__wrap_/-Wl,--wrap=/') -o $@ $< $(filter %.a,$^) $(program_libraries)
+
+# What an image of any contents leads to: all of the library, in the smaller profile.
+embedded_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/embedded/%.o)
+$(BUILD)/fuzz/embedded/%.o: %.c Makefile
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \
+	    -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
+
+$(BUILD)/fuzz/fuzz_snapshot: tests/fuzz/fuzz_snapshot.c $(embedded_fuzz_objects) Makefile
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -MF $@.d \
+	    -fno-sanitize=unsigned-integer-overflow,implicit-conversion -fsanitize=fuzzer -o $@ $< \
+	    $(embedded_fuzz_objects) -lm
 
 # --- gates -----------------------------------------------------------------------------------
 
@@ -439,4 +471,4 @@ help:
 	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-15s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
 
 -include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
-         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(fuzz_programs:=.d)
+         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) $(fuzz_programs:=.d)

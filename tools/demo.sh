@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 #
 # The main job on real data: the radar plots of three aircraft (tests/vectors/radar-table3.csv) among 100 clutter plots a
-# scan, through the tracker. Prints the tracks beside the truth, and writes OUTPUT/index.html with pictures.
+# scan, and two recordings of a harbour (tools/scenes/harbour), through the tracker. Prints the tracks beside the truth, and
+# writes OUTPUT/index.html with pictures.
 # Usage: RHOTRACK=program demo.sh OUTPUT
 set -euo pipefail
 program=${RHOTRACK:-build/rhotrack}
@@ -16,6 +17,16 @@ out=${1:-build/demo}
 "$program" plot parameter-space "$out/plots.csv" "$out/tracks.csv" -o "$out/parameter-space.svg"
 "$program" plot scans "$out/plots.csv" -o "$out/scans.svg"
 "$program" plot errors "$out/truth.csv" "$out/tracks.csv" -o "$out/errors.svg"
+
+# What is known of that radar and of boats, before anything was tracked; a track farther from a vessel than 40 m is not its.
+scenes=$(dirname "$0")/scenes/harbour
+for scene in 2 16; do
+    name=harbour-$scene
+    "$program" track "$scenes/$scene/plots.csv" --set sigma_m=7 --set v_max_mps=15 --set accel_max_mps2=1 \
+        -o "$out/$name-tracks.csv" --json >"$out/$name.json"
+    "$program" evaluate "$scenes/$scene/truth.csv" "$out/$name-tracks.csv" --set gospa_cutoff_m=40 >"$out/$name.txt"
+    "$program" plot tracks "$scenes/$scene/plots.csv" "$scenes/$scene/truth.csv" "$out/$name-tracks.csv" -o "$out/$name.svg"
+done
 
 # One line a track of the last scan: the target nearest to it, both states, and the error.
 compare() {
@@ -43,9 +54,22 @@ compare() {
         }' "$out/truth.csv" "$out/tracks.csv"
 }
 
-figure() { awk -v name="$1" '$1 == name { printf "%.3g", $2 }' "$out/evaluation.txt"; }
-mean_us=$(sed -n 's/.*"mean_us":[^0-9]*\([0-9]*\).*/\1/p' "$out/track.json")
-plots=$(sed -n 's/.*"plots":[^0-9]*\([0-9]*\).*/\1/p' "$out/track.json")
+figure() { awk -v name="$1" '$1 == name { printf "%.3g", $2 }' "$out/${2:-evaluation}.txt"; }
+number() { sed -n "s/.*\"$1\":[^0-9]*\([0-9]*\).*/\1/p" "$out/$2.json" | head -n 1; }
+
+# One line a scene of the harbour.
+harbour() {
+    local scene name
+    for scene in 2 16; do
+        name=harbour-$scene
+        # shellcheck disable=SC2059
+        printf "$1" "$scene" "$(number scans "$name")" "$(number plots "$name")" "$(figure targets_found "$name")" \
+            "$(figure completeness "$name")" "$(figure switches "$name")" "$(figure rmse_m "$name")" \
+            "$(figure false_per_scan "$name")"
+    done
+}
+mean_us=$(number mean_us track)
+plots=$(number plots track)
 
 table() {
     printf '\n%s\n' "Three aircraft, 7 scans 10 s apart, $plots plots of which 21 are theirs:"
@@ -54,11 +78,16 @@ table() {
         m/s heading target 'x km' 'y km' m/s heading 'error m'
     compare ' %5d %6d %5d %8.2f %8.2f %6.0f %7.0f° | %6d %8.2f %8.2f %6.0f %7.0f° %8.0f\n'
     printf 'Errors contain the slight turns that a straight truth line leaves out. %s us a scan.\n' "$mean_us"
-    printf 'Pictures and figures: %s/index.html\n' "$out"
+    printf '\n%s\n\n' "Two vessels in a harbour, each with a satellite receiver, seen by a small ferry's radar, 1.68 s a turn:"
+    printf '%6s %6s %6s %8s %8s %9s %8s %13s\n' scene turns plots tracked 'of time' switches 'error m' 'others a turn'
+    harbour '%6d %6d %6d %3d of 2 %8.2f %9d %8.1f %13.1f\n'
+    printf 'Others are boats, quays and buoys without truth, and clutter.\n'
+    printf '\nPictures and figures: %s/index.html\n' "$out"
 }
 
 row='<tr><td>%d</td><td>%d</td><td>%d</td><td>%.2f</td><td>%.2f</td><td>%.0f</td><td>%.0f</td><td>%d</td>'
 row+='<td>%.2f</td><td>%.2f</td><td>%.0f</td><td>%.0f</td><td>%.0f</td></tr>\n'
+harbour_row='<tr><td>%d</td><td>%d</td><td>%d</td><td>%d of 2</td><td>%.2f</td><td>%d</td><td>%.1f</td><td>%.1f</td></tr>\n'
 page() {
     cat <<HTML
 <!DOCTYPE html>
@@ -90,6 +119,20 @@ scan's time.</figcaption></figure>
 <h2>Errors</h2>
 <figure><img src="errors.svg" alt="Position errors over time"><figcaption>Distance from each aircraft's plot to its track,
 from confirmation on.</figcaption></figure>
+<h1>Two vessels in a harbour</h1>
+<p>Two recordings of a turning marine radar on a small ferry, 1.68 s a turn, in a harbour of quays, buoys, wakes and other boats: scenarios 2
+and 16 of the <a href="https://github.com/Autoferry/sensor_fusion_dataset">Autoferry sensor fusion data set</a> of NTNU (CC0). Two
+vessels carried a satellite receiver, which is the truth here. The tracker is told that plots err by 7 m and that
+boats go up to 15 m/s and pull 1 m/s²; a track within 40 m of a vessel counts as its.</p>
+<table><tr><th>scene</th><th>turns</th><th>plots</th><th>vessels tracked</th><th>of their time</th><th>switches</th>
+<th>error m (rms)</th><th>other tracks a turn</th></tr>
+$(harbour "$harbour_row")</table>
+<p>Other tracks are those of boats, quays and buoys without truth, and of clutter: the recording does not tell them apart.</p>
+<figure><img src="harbour-2.svg" alt="Map of plots, truth and tracks in the harbour, scene 2"><figcaption>Scene 2: a research vessel and
+a leisure craft cross before the ferry, one in the other's shadow. Truth is drawn as black circles under
+their tracks; the ferry lies at (-400, -30). Of what is seen beyond them there is no truth.</figcaption></figure>
+<figure><img src="harbour-16.svg" alt="Map of plots, truth and tracks in the harbour, scene 16"><figcaption>Scene 16: two boats come from
+both sides and pass round the ferry, close to each other.</figcaption></figure>
 </body></html>
 HTML
 }

@@ -3,8 +3,8 @@
 """Checks every #include of the library against the module table of src/DESIGN.md.
 
 A module owns include/rhotrack/<module>.h, src/*/<module>.c and, where it has parts, src/*/<module>_<part>.[ch]. It may
-include itself, the modules its row lists (`all above`: every earlier row), from the fourth row on status, config and
-types, and the system headers below. Modules of the table that have no files yet are fine; files without a module are not.
+include itself, the modules its row lists (`all above`: every earlier row; in its own folder their private headers, too),
+from the fourth row on status, config and types, and the system headers below. Modules of the table that have no files yet are fine; files without a module are not.
 
 Usage: layers.py [ROOT]. Prints FILE:LINE: what is wrong; exit 1 where anything is.
 """
@@ -59,6 +59,12 @@ def includes_of(text):
             yield number, found.group(1), found.group(2)
 
 
+def is_private_of(path, target, module, allowed):
+    """The module's own private header, or that of a module it may include, in the same folder."""
+    owner = module_of(target.stem, allowed)
+    return owner == module or (owner in allowed[module] and (path.parent / target).is_file())
+
+
 def check_file(path, root, allowed):
     """What is wrong with one file, as (path, line, text)."""
     module = module_of(path.stem, allowed)
@@ -79,7 +85,7 @@ def check_file(path, root, allowed):
         elif str(target.parent) == "rhotrack":
             if target.stem != module and target.stem not in allowed[module]:
                 yield path, number, f"{module} may not include {target.stem}"
-        elif is_public or module_of(target.stem, allowed) != module:
+        elif is_public or not is_private_of(path, target, module, allowed):
             yield path, number, f"private header \"{name}\""
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick when none is.
 # `setup.sh firmware`: the compilers and emulators for other processors instead; `setup.sh spy`: what the viewer for lcm-spy
-# (make spy) needs.
+# (make spy) needs; `setup.sh lab`: what the experiments in Python (make experiments) import.
 set -eu
 
 packages='
@@ -52,12 +52,19 @@ liblcm-bin          # lcm-gen -j
 liblcm-java         # LCM and lcm-spy
 libjchart2d-java    # ... which draws with it
 '
+lab_packages='
+python3             # tools/lab
+python3-numpy       # ... arrays
+python3-scipy       # ... pairing of tracks and targets
+python3-matplotlib  # ... pictures
+'
 case ${1:-} in
 '') ;;
 firmware) packages=$firmware_packages ;;
 spy) packages=$spy_packages ;;
+lab) packages=$lab_packages ;;
 *)
-    echo "setup: unknown: $1 (there is: firmware, spy)" >&2
+    echo "setup: unknown: $1 (there is: firmware, spy, lab)" >&2
     exit 2
     ;;
 esac

@@ -71,4 +71,7 @@ void rho_assignment_solve(struct rho_assignment *assignment);
 /* The column of a row by the last solve, or RHO_ASSIGNMENT_NONE. Constant cost. */
 int rho_assignment_column(const struct rho_assignment *assignment, unsigned row);
 
+/* True of an initialised object. Constant cost. */
+int rho_assignment_is_ready(const struct rho_assignment *assignment);
+
 #endif

@@ -83,4 +83,10 @@ uint32_t rho_batch_remove(struct rho_batch *batch,
 /* The others move up. Cost: the bearings. */
 void rho_batch_close_ranks(struct rho_batch *batch);
 
+/*
+ * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
+ * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: all bearings held.
+ */
+int rho_batch_is_sound(const struct rho_batch *batch);
+
 #endif

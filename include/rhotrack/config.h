@@ -52,6 +52,24 @@
 #define RHO_MAX_CLUTTER_CELLS RHO_CONFIG_PICK(16, 256)
 #endif
 
+/* Echoes of clutter that comes back (rhotrack/clutter_map.h), of all sensors together. 0: left out of the program. RAM: 64 bytes
+ * each. 0 .. 32767. */
+#ifndef RHO_MAX_ECHOES
+#define RHO_MAX_ECHOES RHO_CONFIG_PICK(128, 8192)
+#endif
+
+/* Regions of range, and as many of azimuth, in which it is learned apart how often they come back. RAM: 480 bytes a region of
+ * both. 1 .. 15. */
+#ifndef RHO_ECHO_REGIONS
+#define RHO_ECHO_REGIONS RHO_CONFIG_PICK(2, 8)
+#endif
+
+/* Directions in which a scan's plots are counted, to find jammers' strobes: a strobe is at least as wide as one. RAM: 3 bytes each.
+ * 8 .. 4096. */
+#ifndef RHO_STROBE_BINS
+#define RHO_STROBE_BINS RHO_CONFIG_PICK(360, 720)
+#endif
+
 /* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
 #ifndef RHO_MAX_RHO_CELLS
 #define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
@@ -308,6 +326,15 @@
 #if RHO_MAX_CLUTTER_CELLS < 0 || RHO_MAX_CLUTTER_CELLS > 1024
 #error "RHO_MAX_CLUTTER_CELLS must be 0 .. 1024"
 #endif
+#if RHO_MAX_ECHOES < 0 || RHO_MAX_ECHOES > 32767
+#error "RHO_MAX_ECHOES must be 0 .. 32767"
+#endif
+#if RHO_ECHO_REGIONS < 1 || RHO_ECHO_REGIONS > 15
+#error "RHO_ECHO_REGIONS must be 1 .. 15"
+#endif
+#if RHO_STROBE_BINS < 8 || RHO_STROBE_BINS > 4096
+#error "RHO_STROBE_BINS must be 8 .. 4096"
+#endif
 #if RHO_SECTORS != 0 && RHO_SECTORS != 1
 #error "RHO_SECTORS must be 0 or 1"
 #endif
@@ -330,10 +357,10 @@
 /*
  * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c,
  * classic.c, initiator.c, tracker.c).
- * Embedded: initiator 64 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
+ * Embedded: initiator 66 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \
-    (RHO_MAX_SCANS * (30 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160 + 36 * RHO_SECTORS) + 96)
+    (RHO_MAX_SCANS * (31 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160 + 36 * RHO_SECTORS) + 96)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS +                                           \
@@ -352,10 +379,15 @@
      128)
 #define RHO_RAM_HYPOTHESES_BYTES (410 * RHO_MAX_HYPOTHESES + 17 * (RHO_MAX_TRACKS + 1) + 2048)
 #define RHO_RAM_STRIPS_BYTES (RHO_PLOT_STRIPS > 1 ? 2 * (RHO_PLOT_STRIPS + RHO_MAX_PLOTS) + 16 : 0)
+#define RHO_RAM_CLUTTER_MAP_BYTES                                                                  \
+    (RHO_MAX_ECHOES > 0 ? 64 * RHO_MAX_ECHOES + 10 * RHO_MAX_PLOTS + 3 * RHO_STROBE_BINS +         \
+                              480 * (RHO_ECHO_REGIONS * RHO_ECHO_REGIONS + 1) + 40                 \
+                        : 0)
+#define RHO_RAM_SECOND_PLOTS_BYTES (RHO_MAX_ECHOES > 0 ? 76 * RHO_MAX_SENSORS : 0)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
-    (RHO_MAX_TRACKS * (480 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
-     (68 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES + RHO_RAM_STRIPS_BYTES + \
-     640)
+    (RHO_MAX_TRACKS * (520 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
+     (100 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
+     RHO_RAM_STRIPS_BYTES + RHO_RAM_CLUTTER_MAP_BYTES + RHO_RAM_SECOND_PLOTS_BYTES + 640)
 #define RHO_RAM_FEED_BYTES                                                                         \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      248 * RHO_MAX_SENSORS + 520)

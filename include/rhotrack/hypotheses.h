@@ -230,4 +230,10 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *po
                                                        int64_t time_us,
                                                        struct rho_hypotheses_estimate *estimate);
 
+/*
+ * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
+ * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: all nodes. Stack: 500 bytes.
+ */
+int rho_hypotheses_is_sound(const struct rho_hypotheses *pool);
+
 #endif

@@ -42,6 +42,8 @@ struct rho_imm_model {
     float steady_s, maneuver_s; /* mean times that a target keeps to either model: > 0 */
     float speed_sigma_mps;      /* of the velocity of an axis that was measured once */
     float accel_sigma_mps2;     /* of the acceleration at the start */
+    float
+        speed_max_mps; /* hypotheses that are surely faster lose weight; 0, as by default: none does */
 };
 
 /* What one interval does to every estimate, computed once. */

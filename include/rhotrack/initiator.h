@@ -177,4 +177,10 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m);
 
+/*
+ * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
+ * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: all plots held. Stack: 250 bytes.
+ */
+int rho_initiator_is_sound(const struct rho_initiator *initiator);
+
 #endif

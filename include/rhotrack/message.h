@@ -35,7 +35,8 @@
 #include "rhotrack/status.h"
 
 enum rho_message_type {
-    RHO_MESSAGE_TYPE_PEAK = 0,
+    RHO_MESSAGE_TYPE_ECHO = 0,
+    RHO_MESSAGE_TYPE_PEAK,
     RHO_MESSAGE_TYPE_PLOT,
     RHO_MESSAGE_TYPE_POLAR_PLOT,
     RHO_MESSAGE_TYPE_SENSOR,
@@ -43,6 +44,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_TRACK,
     RHO_MESSAGE_TYPE_TRUTH,
     RHO_MESSAGE_TYPE_BEARING_SCAN,
+    RHO_MESSAGE_TYPE_CLUTTER_MAP,
     RHO_MESSAGE_TYPE_PEAK_LIST,
     RHO_MESSAGE_TYPE_PLOT_SCAN,
     RHO_MESSAGE_TYPE_POLAR_SCAN,
@@ -75,6 +77,31 @@ const char *rho_message_type_name(enum rho_message_type type);
 
 /* The length of what was begun and added. Errors: NULL, STATE (not begun). Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
+
+/* ---- echo_t: One echo of a clutter_map_t: something that gave clutter plots again and again in its place. ---- */
+
+#define RHO_MESSAGE_ECHO_FINGERPRINT UINT64_C(0xd5072401d660f823)
+#define RHO_MESSAGE_ECHO_MAX_SIZE 42u
+
+struct rho_message_echo {
+    int16_t sensor_id; /* whose echo it is; -1: beyond int16_t */
+    int16_t hits; /* plots of it; stays at 32767; 1 .. 32767 */
+    int16_t unseen; /* scans of the sensor that looked there since the last one; 0 .. 32767 */
+    float x_m; /* east, m, when the sensor looked there last; -2e6 .. 2e6 */
+    float y_m; /* north, m; -2e6 .. 2e6 */
+    float vx_mps; /* velocity, m/s; 0: it stands; -2e4 .. 2e4 */
+    float vy_mps; /* m/s; -2e4 .. 2e4 */
+    float sigma_range_m; /* standard deviation of the place along the sensor's line of sight, m; 0 .. 1e6 */
+    float sigma_cross_m; /* across it, m; 0 .. 1e6 */
+    float chance; /* that the sensor's next look there sees it; 0 .. 1 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_echo_encode(
+    const struct rho_message_echo *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_echo_decode(
+    const uint8_t *data, size_t size, struct rho_message_echo *message);
+RHO_MUST_CHECK enum rho_status rho_message_echo_validate(
+    const struct rho_message_echo *message, struct rho_message_place *place);
+const char *rho_message_echo_field(const struct rho_message_place *place);
 
 /* ---- peak_t: One line that initiation found: x cos(theta) + y sin(theta) = rho. ---- */
 
@@ -326,6 +353,45 @@ RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_begin(
     const struct rho_message_bearing_scan_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
     struct rho_message_writer *writer, const float *bearing_rad);
+
+/* ---- clutter_map_t: Echoes that a tracker knows: clutter that comes back to its place; or a part of them, every few seconds. Channel RHO_CLUTTER. ---- */
+
+#define RHO_MESSAGE_CLUTTER_MAP_CHANNEL "RHO_CLUTTER"
+#define RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT UINT64_C(0x62c5de2aae95967f)
+#define RHO_MESSAGE_CLUTTER_MAP_MAX_SIZE 1392u
+#define RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES 40
+
+struct rho_message_clutter_map {
+    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int16_t num_echoes_total; /* of all parts; 0 .. 32767 */
+    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
+    int16_t num_echoes; /* in this part */
+    struct rho_message_echo echoes[RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES];
+};
+
+struct rho_message_clutter_map_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t num_echoes_total;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_clutter_map_encode(
+    const struct rho_message_clutter_map *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_clutter_map_decode(
+    const uint8_t *data, size_t size, struct rho_message_clutter_map *message);
+RHO_MUST_CHECK enum rho_status rho_message_clutter_map_validate(
+    const struct rho_message_clutter_map *message, struct rho_message_place *place);
+const char *rho_message_clutter_map_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_clutter_map_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_clutter_map_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
+    struct rho_message_writer *writer, const struct rho_message_echo *echoe);
 
 /* ---- peak_list_t: The best candidates of the last search for new tracks, best first. Channel RHO_PEAKS. ---- */
 

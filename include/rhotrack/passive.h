@@ -172,4 +172,10 @@ RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 /* Pairs of sensors that both gave the track a bearing. Cost: RHO_MAX_PASSIVE_SCANS x RHO_MAX_PASSIVE_SENSORS. */
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track);
 
+/*
+ * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
+ * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: all bearings held. Stack: 250 bytes.
+ */
+int rho_passive_is_sound(const struct rho_passive *passive);
+
 #endif

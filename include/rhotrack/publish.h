@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS and RHO_SENSORS.
+ * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS, RHO_SENSORS and RHO_CLUTTER.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
@@ -83,5 +83,17 @@ RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_feed *feed,
                                                    const struct rho_tracker *tracker,
                                                    int64_t now_us, uint16_t part,
                                                    struct rho_message_sensor_list *list);
+
+/* Messages that the known echoes of the tracker's clutter map take; 1 where there are none. Cost: RHO_MAX_ECHOES. */
+uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker);
+
+/*
+ * Fills one part of the list of known echoes (clutter_map_t). `utime` is the tracker's time; scan and epoch are 0: they are the
+ * caller's. sensor_id beyond int16_t becomes -1, hits stay at 32767.
+ *   part  0 .. rho_publish_num_clutter_parts - 1
+ * Errors: NULL, VALUE (no such part); *list is unchanged. Cost: RHO_MAX_ECHOES. Stack: 120 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t part,
+                                                   struct rho_message_clutter_map *list);
 
 #endif

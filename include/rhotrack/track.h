@@ -21,6 +21,7 @@
 
 #include <stdint.h>
 
+#include "rhotrack/clutter_map.h"
 #include "rhotrack/gate.h"
 #include "rhotrack/hypotheses.h"
 #include "rhotrack/input.h"
@@ -72,6 +73,8 @@ struct rho_track {
     int32_t score_max_mnat; /* highest since the start */
     int64_t time_us;        /* of the estimate: a scan's, or the last claimed plot's own */
     int64_t updated_us;     /* of the last claimed plot, its own */
+    int64_t seen_us;        /* of the last step in which it claimed a plot or bearing */
+    float seen_every_s;     /* time between such steps: the shorter ones; 0: not known yet */
     uint8_t filter;         /* enum rho_track_filter */
     uint8_t
         is_undecided; /* input: bearings were taken since it was decided which inputs there are */
@@ -84,12 +87,27 @@ struct rho_track {
     float newest_mps[3], before_mps[3];
     uint8_t num_velocities;
     uint8_t is_believed; /* has been confirmed */
+    uint8_t fast_in_row; /* updates in a row with a speed beyond the fastest target's; saturates */
 #if RHO_SECTORS
     uint8_t is_shared; /* two sensors have seen it */
     /* of the two sensors that saw it last, the newer first: the tracker's count of their scans then */
     int32_t look_sensor_id[2];
     uint16_t look[2];
     int64_t ahead_us; /* while a late scan is stepped: the time from which it was moved back */
+#endif
+#if RHO_MAX_ECHOES > 0
+    /* by class of hits: how far echoes of the clutter map explained its plots, until the map has been told that they are a
+     * target's */
+    float returns[RHO_ECHO_HIT_CLASSES];
+    uint8_t has_taken_back; /* it has been told */
+    uint8_t has_moved;      /* the track was surely elsewhere than where it started */
+    float start_m[2], start_sigma_m;
+    /* its second plots: scans in which it had a plot, and others near it; both fade */
+    float second_looks, second_plots;
+    /* an elder track that it started beside, 0: none; ln of how much likelier both are one target than two */
+    uint32_t twin_id;
+    float twin_nat;
+    float second_share; /* scratch of a step: how far the track has all its second plots itself */
 #endif
     struct rho_input input;
 };
@@ -177,7 +195,7 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
 /*
  * A track of hypotheses takes a scan whose plots it has weighed (rho_hypotheses_commit): its best hypothesis' plot is
  * claimed, if it has one, and the score changes by what all say. Then, or where the plot is refused, `plot` is -1.
- * Errors: NULL, STATE (another filter). Stack: 850 bytes.
+ * Errors: NULL, STATE (another filter). Stack: 880 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
                                                 const struct rho_hypotheses_scan *scan,
@@ -206,7 +224,7 @@ struct rho_track_bearing {
 /*
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans have made; sensor_id
  * is one of those that saw it. Errors: NULL, CONFIG (RHO_FILTERS has no Kalman filter), VALUE (x or y not open, no hits);
- * *track is unchanged. Constant cost. Stack: 550 bytes.
+ * *track is unchanged. Constant cost. Stack: 620 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
                                                         const struct rho_kalman *estimate,

@@ -19,12 +19,17 @@
  * round, are one turn. A target at the edge of two has one hit or one miss a turn; tracks start as from whole turns.
  * A sensor that does not see the tracks that others see, or sees them elsewhere, is doubted (struct rho_tracker_look, of which
  * rho_tracker_look_of gives a sensor's); the noise of its plots counts for more where it was described.
+ * What a sensor was said to see (rho_tracker_set_sensor) bounds its plots, its misses, and how long tracks live without either:
+ * one that no sensor can see ends after coast_scans_max scans' time, one that a sensor sees but does not look at after four times
+ * that, or at its first miss; seen again after so long, amid clutter, it is tentative until it is seen once more. A track whose
+ * place is known to no better than its sensor's range ends, too. Time is that of the scans: a silent sensor's tracks end at
+ * the others' steps, or at its own next one.
  * Who steps a scan twice has it counted twice, but for the newest one of a sensor: rho_feed tells them apart.
  * Several radars: each scan is stepped by itself, in the order of time, with the initiator of its sensor or a common one.
  * Sectors of several need an initiator each.
  * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on every machine: there
  * is no clock, no random number and no global variable inside. Calls on one tracker must not overlap; several
- * trackers are independent. The objects hold no pointers: a memcpy is a snapshot.
+ * trackers are independent. The objects hold no pointers: a memcpy is a snapshot (rhotrack/snapshot.h: one for flash or a file).
  *
  * Stack: 104 bytes at most where nothing else is said.
  */
@@ -35,12 +40,14 @@
 #include <stdint.h>
 
 #include "rhotrack/assignment.h"
+#include "rhotrack/clutter_map.h"
 #include "rhotrack/config.h"
 #include "rhotrack/gate.h"
 #include "rhotrack/hypotheses.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/input.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/second_plots.h"
 #include "rhotrack/status.h"
 #include "rhotrack/track.h"
 #include "rhotrack/types.h"
@@ -59,7 +66,8 @@ struct rho_tracker_config {
     /* slowest target: a track that is surely slower follows something that stands, and is dropped; 0: none. 0 .. v_max_mps.
      * The initiator is to have the same, or it starts one after the other there. */
     float v_min_mps;
-    /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS */
+    /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS. A track ends that three updates in a row leave
+     * faster by a tenth, and by two standard deviations */
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /* best: mean time between manoeuvres, 0 .. 1e5; where that is less than they last, as long as these */
@@ -68,9 +76,11 @@ struct rho_tracker_config {
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
     float late_max_s;
 #endif
-    uint16_t coast_scans_max; /* misses in a row that end a track: 1 .. 255 */
-    uint8_t gate;             /* enum rho_tracker_gate */
-    uint8_t planes;           /* hough: RHO_GATE_PLANE_... */
+    /* misses in a row that end a track: 1 .. 255; and scans, in the time that the sensors that saw it last take for them, for which a
+     * track coasts that no sensor can see */
+    uint16_t coast_scans_max;
+    uint8_t gate;   /* enum rho_tracker_gate */
+    uint8_t planes; /* hough: RHO_GATE_PLANE_... */
     /* gates hough and nearest: is_estimated 0 is a Kalman filter with white acceleration of half accel_max for 1 s; not
      * looked at where RHO_FILTERS has no input estimation */
     struct rho_input_config input;
@@ -82,9 +92,12 @@ struct rho_tracker_counters {
     uint32_t scans_accepted, scans_late;
     uint32_t plots_in;
     uint32_t fates[RHO_NUM_FATES];
+    uint32_t plots_outside;   /* of the invalid: beyond what their sensor was said to see */
     uint32_t plots_initiated; /* of the held: started a track */
     uint32_t plots_clutter;   /* of the held: left the window unused */
     uint32_t tracks_started, tracks_confirmed, tracks_ended;
+    /* of the ended: not looked at for longer than coasting allows, or nowhere; too fast */
+    uint32_t tracks_unseen, tracks_too_fast;
     /* starts refused, or tentative tracks that gave way: RHO_MAX_TRACKS */
     uint32_t tracks_no_room;
     uint32_t gate_plots_dropped; /* RHO_MAX_GATE_PLOTS */
@@ -125,6 +138,15 @@ struct rho_tracker_look {
 };
 #endif
 
+/* How often a sensor looks at a place. */
+struct rho_tracker_pace {
+    int32_t sensor_id;
+    float azimuth_rad; /* a direction: the scans that hold it are counted */
+    float interval_s;  /* from one to the next, smoothed; 0: not known yet */
+    float x_m, y_m;    /* its place */
+    int64_t time_us;   /* of the last of them */
+};
+
 struct rho_tracker {
     uint32_t magic;
     uint32_t next_track_id;
@@ -141,6 +163,8 @@ struct rho_tracker {
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
+    uint32_t num_paces;
+    struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
 #if RHO_SECTORS
     uint32_t num_looks;
     struct rho_tracker_look looks[RHO_MAX_SENSORS]; /* of the sensors that came first */
@@ -150,6 +174,10 @@ struct rho_tracker {
     struct rho_hypotheses hypotheses; /* of the gate best */
 #if RHO_PLOT_STRIPS > 1
     struct rho_tracker_strips strips;
+#endif
+#if RHO_MAX_ECHOES > 0
+    struct rho_clutter_map clutter_map;
+    struct rho_second_plots second_plots[RHO_MAX_SENSORS]; /* of the sensors that came first */
 #endif
 };
 
@@ -196,7 +224,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 340 bytes.
+ * bytes cleared. Stack: 360 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
@@ -263,5 +291,11 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracke
                                                       struct rho_passive *passive,
                                                       const struct rho_frame *frame,
                                                       struct rho_report *report);
+
+/*
+ * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
+ * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: tracks and hypotheses. Stack: 850 bytes.
+ */
+int rho_tracker_is_sound(const struct rho_tracker *tracker);
 
 #endif

@@ -16,6 +16,7 @@
 #ifndef RHOTRACK_TYPES_H
 #define RHOTRACK_TYPES_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "rhotrack/config.h"
@@ -110,14 +111,15 @@ struct rho_frame {
     const struct rho_bearing_scan *scans; /* one a sensor at most */
 };
 
-/* What is known of a sensor. Scans of a sensor that was never described use the tracker's defaults. */
+/* What is known of a sensor. Scans of a sensor that was never described use the tracker's defaults: it may see any place. */
 struct rho_sensor {
     int32_t sensor_id;
     float x_m, y_m, z_m;
     /* probability that a target in the sensor's reach yields a plot, 0 < pd < 1 */
     float pd;
-    float range_min_m; /* no plots are expected below; 0: none */
-    float range_max_m; /* nor beyond */
+    /* plots farther than 4 standard deviations outside of these are INVALID, targets there neither seen nor missed */
+    float range_min_m; /* 0: none */
+    float range_max_m;
     /* where the sensor can look at all; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
     /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said. Feeds take
@@ -141,8 +143,8 @@ enum rho_fate {
     RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */
     RHO_FATE_GHOST, /* a bearing whose crossings are all false; kept all the same, for it may be a target's
                              that the other sensors missed */
-    RHO_FATE_STALE,   /* its scan is older than what was already stepped */
-    RHO_FATE_INVALID, /* not finite, or outside the limits above */
+    RHO_FATE_STALE, /* its scan is older than what was already stepped */
+    RHO_FATE_INVALID, /* not finite, outside the limits above, or of its sensor's range limits or sector */
     RHO_FATE_NO_ROOM, /* beyond a capacity */
     RHO_NUM_FATES     /* count of the values above, not a fate */
 };
@@ -171,6 +173,12 @@ uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us);
 
 /* True where v is finite and lo <= v <= hi; false for NaN. */
 int rho_is_within(float v, float lo, float hi);
+
+/* True where `count` numbers are finite. */
+int rho_are_finite(const float *values, size_t count);
+
+/* True of what an object can hold as a time: within RHO_LIMIT_TIME_US either way, and some own times of plots beyond. */
+int rho_is_stored_time(int64_t time_us);
 
 /* True where a coordinate is finite and within RHO_LIMIT_POSITION_M either way. */
 int rho_is_coordinate(float v_m);

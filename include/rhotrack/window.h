@@ -40,6 +40,9 @@ struct rho_window_plot {
 #define RHO_WINDOW_INITIATED 0x4000u /* started a track: no longer there for look-ups */
 #define RHO_WINDOW_ROW 0x3fffu
 
+/* Held plots know how much denser clutter is in their place than the density map says, ln, in units of 1/12 nat. */
+#define RHO_WINDOW_REPEATS_PER_NAT 12.0f
+
 #if RHO_SECTORS
 /* What came last of a scan that is held: all of it, or the sector that was added to it. */
 struct rho_window_sector {
@@ -69,6 +72,10 @@ struct rho_window_scan {
 #endif
     uint16_t bin_start[RHO_MAX_BINS + 1];
     uint16_t marks[RHO_MAX_PLOTS]; /* row and flags of each plot */
+#if RHO_MAX_ECHOES > 0
+    uint8_t repeats
+        [RHO_MAX_PLOTS]; /* ln of how much denser clutter is at the plot, by the clutter map */
+#endif
     struct rho_window_plot plots[RHO_MAX_PLOTS];
 };
 
@@ -250,5 +257,11 @@ float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m);
 
 /* Grows an extent to hold the point. Constant cost. */
 void rho_extent_add(struct rho_extent *extent, float x_m, float y_m);
+
+/*
+ * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
+ * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: all plots held. Stack: 150 bytes.
+ */
+int rho_window_is_sound(const struct rho_window *window);
 
 #endif

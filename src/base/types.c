@@ -67,6 +67,22 @@ int rho_is_within(float v, float lo, float hi)
     return v >= lo && v <= hi && v >= -FLT_MAX && v <= FLT_MAX;
 }
 
+int rho_are_finite(const float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!rho_is_within(values[i], -FLT_MAX, FLT_MAX)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int rho_is_stored_time(int64_t time_us)
+{
+    const int64_t most_us = RHO_LIMIT_TIME_US + 4 * (int64_t)RHO_LIMIT_OFFSET_US;
+    return time_us >= -most_us && time_us <= most_us;
+}
+
 float rho_plot_sigma_m(const struct rho_plot *plot)
 {
     return plot->sigma_range_m > plot->sigma_cross_m ? plot->sigma_range_m : plot->sigma_cross_m;

@@ -30,7 +30,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config)
     };
 }
 
-static int is_usable(const struct rho_initiator_config *config)
+int rho_initiator_is_usable(const struct rho_initiator_config *config)
 {
     return config->scans >= 3 && config->scans <= RHO_MAX_SCANS &&
            (config->min_scans == 0 ||
@@ -53,7 +53,7 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     if (size != sizeof *initiator) {
         return RHO_ERROR_SIZE;
     }
-    if (!is_usable(config)) {
+    if (!rho_initiator_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
     const struct rho_extent *area = config->area_is_fixed ? &config->area : 0;

@@ -423,5 +423,10 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
     unsigned count = map->count[cell];
     float density = density_of(search->initiator, (float)(count > own ? count - own : 0u)) * per_m2;
     density = rho_initiator_remembered(search->initiator, plot->x_m, plot->y_m, density);
-    return rho_log(density) + search->log_ratio[m];
+    float log_density = rho_log(density) + search->log_ratio[m];
+#if RHO_MAX_ECHOES > 0
+    log_density += (float)rho_window_scan_at(&search->initiator->window, m)->repeats[set->plot[m]] /
+                   RHO_WINDOW_REPEATS_PER_NAT;
+#endif
+    return log_density;
 }

@@ -13,7 +13,7 @@
 #define STARTS_A_SEARCH 0.1f
 
 /* Scores between which a threshold is looked for; below the lower one every track in the gates is good enough. */
-#define THRESHOLD_MIN_NAT (-20.0f)
+#define THRESHOLD_MIN_NAT (-10.0f)
 #define THRESHOLD_MAX_NAT 60.0f
 #define BISECTIONS 16
 

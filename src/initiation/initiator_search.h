@@ -187,6 +187,9 @@ void rho_initiator_take_alias(const struct aliases *aliases, int i,
 int rho_initiator_own_end(const struct span *span, const struct kernel *kernel);
 #endif
 
+/* initiator.c: every field within its range */
+int rho_initiator_is_usable(const struct rho_initiator_config *config);
+
 /* initiator_kernels.c: offers what enough scans vote for */
 void rho_initiator_try_kernels(struct search *search);
 

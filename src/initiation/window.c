@@ -215,6 +215,9 @@ static void move_up(struct rho_window_scan *slot)
         unsigned to = slot->bin_start[bin];
         memmove(&slot->plots[to], &slot->plots[first], (end - first) * sizeof slot->plots[0]);
         memmove(&slot->marks[to], &slot->marks[first], (end - first) * sizeof slot->marks[0]);
+#if RHO_MAX_ECHOES > 0
+        memmove(&slot->repeats[to], &slot->repeats[first], end - first);
+#endif
         slot->bin_start[bin] = (uint16_t)(to + end - first);
         end = first;
     }
@@ -237,6 +240,9 @@ static void sort_into_bins(const struct entry *entry)
             unsigned place = start[bin_of(slot, plot.x_m, plot.y_m)]++;
             slot->plots[place] = plot;
             slot->marks[place] = (uint16_t)i;
+#if RHO_MAX_ECHOES > 0
+            slot->repeats[place] = 0;
+#endif
             widen_ranges(slot, &plot);
         }
     }

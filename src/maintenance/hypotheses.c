@@ -9,8 +9,6 @@
 #include "hypotheses_pool.h"
 #include "rhotrack/approx.h"
 
-#define POOL_MAGIC 0x4859504fu /* "HYPO" */
-
 /* Less likely ones, e^-9 beside the best one, do not show in the mean. */
 #define SHARE_SHOWN_MIN 1.2340980e-4f
 
@@ -18,7 +16,7 @@
 
 static int is_ready(const struct rho_hypotheses *pool)
 {
-    return pool->magic == POOL_MAGIC;
+    return pool->magic == RHO_HYPOTHESES_MAGIC;
 }
 
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
@@ -85,7 +83,7 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
         pool->spare[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
     }
     rho_imm_step_open(&pool->step, model, 0.0f);
-    pool->magic = POOL_MAGIC;
+    pool->magic = RHO_HYPOTHESES_MAGIC;
     return RHO_OK;
 }
 

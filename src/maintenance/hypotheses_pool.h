@@ -7,6 +7,8 @@
 
 #include "rhotrack/hypotheses.h"
 
+#define RHO_HYPOTHESES_MAGIC 0x4859504fu /* "HYPO" */
+
 /* hypotheses.c */
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot);
 

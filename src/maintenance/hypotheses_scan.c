@@ -8,6 +8,9 @@
 #include "hypotheses_pool.h"
 #include "rhotrack/approx.h"
 
+/* However fast, a hypothesis loses no more at once. */
+#define SPEED_LOSS_MAX_NAT 10.0f
+
 /* ---- weigh ------------------------------------------------------------------------------------ */
 
 /* Of places alone, in two or three axes. */
@@ -270,6 +273,31 @@ static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     return RHO_HYPOTHESES_MISS;
 }
 
+/*
+ * What is lost by an estimate faster than any target, nat: half of the squared excess in standard deviations of the speed. By the
+ * likelier model.
+ */
+static float loss_of_speed(const struct rho_imm *imm, float most_mps)
+{
+    const float *state = imm->probability > 0.5f ? imm->state : imm->steady.state;
+    const float *covariance = imm->probability > 0.5f ? imm->covariance : imm->steady.covariance;
+    const float *v = &state[3];
+    const float speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    float variance = 0.0f; /* times the squared speed */
+    if (!(most_mps > 0.0f) || !(speed2 > most_mps * most_mps)) {
+        return 0.0f;
+    }
+    for (int i = 0; i < 3; i++) {
+        variance += v[i] * v[i] * covariance[RHO_AT(3 + i, 3 + i)];
+        for (int j = 0; j < i; j++) {
+            variance += 2.0f * v[i] * v[j] * covariance[RHO_AT(3 + i, 3 + j)];
+        }
+    }
+    const float excess_mps = rho_sqrt(speed2) - most_mps;
+    const float loss = 0.5f * excess_mps * excess_mps * speed2;
+    return loss < SPEED_LOSS_MAX_NAT * variance ? loss / variance : SPEED_LOSS_MAX_NAT;
+}
+
 /* One whose update is refused has what a miss weighs. Weights are still those of the scan, the best one's included. */
 static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                  const struct rho_imm *before, const struct rho_hypotheses_scan *scan,
@@ -288,6 +316,9 @@ static void grow(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     }
     at->picks[RHO_HYPOTHESES_MEMORY - 1] = row;
     at->weight_nat = row == child->row ? child->weight_nat : as_miss;
+    if (row >= 0) {
+        at->weight_nat -= loss_of_speed(&at->imm, pool->model.speed_max_mps);
+    }
 }
 
 /* In a copy, while the parent has more children; the last one takes the parent's node, kept in case it is refused. */

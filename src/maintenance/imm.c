@@ -57,7 +57,8 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model)
            rho_is_within(model->steady_s, 1e-3f, 1e6f) &&
            rho_is_within(model->maneuver_s, 1e-3f, 1e6f) &&
            rho_is_within(model->speed_sigma_mps, 1e-3f, RHO_LIMIT_SPEED_MPS) &&
-           rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f);
+           rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f) &&
+           rho_is_within(model->speed_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS);
 }
 
 /* ---- what an interval does -------------------------------------------------------------------- */

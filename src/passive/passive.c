@@ -32,7 +32,7 @@ void rho_passive_config_default(struct rho_passive_config *config)
                                           .false_tracks_per_hour = 1.0f};
 }
 
-static int is_usable(const struct rho_passive_config *config)
+int rho_passive_is_usable(const struct rho_passive_config *config)
 {
     return config->scans >= SCANS_MIN && config->scans <= RHO_MAX_PASSIVE_SCANS &&
            rho_is_within(config->range_max_m, 1000.0f, 500000.0f) &&
@@ -66,7 +66,7 @@ enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
     if (size != sizeof *passive) {
         return RHO_ERROR_SIZE;
     }
-    if (!is_usable(config)) {
+    if (!rho_passive_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
     struct rho_passive_config kept = *config; /* it may lie within *passive */

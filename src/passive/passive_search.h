@@ -41,6 +41,9 @@ struct rho_passive_search {
     uint16_t candidates_taken;                  /* away again, so far */
 };
 
+/* Every field within its range. */
+int rho_passive_is_usable(const struct rho_passive_config *config);
+
 /* ---- lines ---- */
 
 /* Crossings of all pairs of sensors into passive->points. */

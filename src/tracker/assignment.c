@@ -24,9 +24,9 @@ struct search {
     int num_labelled; /* columns in the queue */
 };
 
-static int is_ready(const struct rho_assignment *a)
+int rho_assignment_is_ready(const struct rho_assignment *assignment)
 {
-    return a != NULL && a->magic == ASSIGNMENT_MAGIC;
+    return assignment != NULL && assignment->magic == ASSIGNMENT_MAGIC;
 }
 
 /* True where the pair is the worse one to keep; equal costs: the higher column. */
@@ -233,7 +233,7 @@ enum rho_status rho_assignment_begin(struct rho_assignment *assignment, unsigned
     if (assignment == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!is_ready(assignment)) {
+    if (!rho_assignment_is_ready(assignment)) {
         return RHO_ERROR_STATE;
     }
     if (num_rows > RHO_MAX_TRACKS || num_columns > RHO_MAX_PLOTS) {
@@ -256,7 +256,7 @@ enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned r
     if (assignment == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!is_ready(assignment)) {
+    if (!rho_assignment_is_ready(assignment)) {
         return RHO_ERROR_STATE;
     }
     if (row >= assignment->num_rows || column >= assignment->num_columns ||
@@ -282,7 +282,7 @@ void rho_assignment_solve(struct rho_assignment *assignment)
 {
     int row;
 
-    if (!is_ready(assignment)) {
+    if (!rho_assignment_is_ready(assignment)) {
         return;
     }
     clear_answer(assignment);
@@ -297,7 +297,7 @@ void rho_assignment_solve(struct rho_assignment *assignment)
 
 int rho_assignment_column(const struct rho_assignment *assignment, unsigned row)
 {
-    if (!is_ready(assignment) || row >= assignment->num_rows) {
+    if (!rho_assignment_is_ready(assignment) || row >= assignment->num_rows) {
         return RHO_ASSIGNMENT_NONE;
     }
     return assignment->row_column[row];

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "clutter_map.h"
 #include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
 #include "rhotrack/measurement.h"
@@ -60,7 +61,7 @@ const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *track
     return place < tracker->num_sensors ? &tracker->sensors[place] : NULL;
 }
 
-static int is_usable_sensor(const struct rho_sensor *sensor)
+int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
 {
     return rho_measurement_is_sensor(sensor) && rho_is_within(sensor->pd, 0.01f, 0.999f) &&
            rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
@@ -93,6 +94,10 @@ void rho_tracker_judge_plots(struct step *step)
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         int valid = rho_measurement_is_valid(plot, step->scan->measures);
+        if (valid && !rho_tracker_covers(step->sensor, plot, step->scan->measures)) {
+            valid = 0;
+            tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
+        }
         step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (valid) {
             rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
@@ -108,8 +113,7 @@ void rho_tracker_set_pd(struct step *step)
     step->log_miss = rho_log(1.0f - pd);
 }
 
-/* The filter of tracks of plots. */
-static enum rho_track_filter filter_of(const struct rho_tracker_config *config)
+enum rho_track_filter rho_tracker_filter_of(const struct rho_tracker_config *config)
 {
     if (config->gate == RHO_TRACKER_BEST) {
         return RHO_TRACK_HYPOTHESES;
@@ -129,7 +133,7 @@ static void set_model(struct step *step)
 #endif
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
-    if (filter_of(&tracker->config) == RHO_TRACK_HYPOTHESES) {
+    if (rho_tracker_filter_of(&tracker->config) == RHO_TRACK_HYPOTHESES) {
         step->model.hypotheses = &tracker->hypotheses;
     } else if (tracker->config.input.is_estimated) {
         step->model.input = &tracker->config.input;
@@ -277,7 +281,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
     config->input.is_estimated = (RHO_FILTERS) == 1 << RHO_TRACK_INPUT;
 }
 
-static int is_usable(const struct rho_tracker_config *config)
+int rho_tracker_is_usable(const struct rho_tracker_config *config)
 {
     return rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
@@ -286,7 +290,7 @@ static int is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
            rho_tracker_is_late_usable(config) && config->coast_scans_max >= 1 &&
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
-           RHO_HAS_FILTER(filter_of(config)) &&
+           RHO_HAS_FILTER(rho_tracker_filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
            config->planes > 0 && config->planes <= ALL_PLANES &&
@@ -297,6 +301,7 @@ static enum rho_status open_hypotheses(struct rho_tracker *tracker)
 {
     struct rho_imm_model model;
     rho_imm_model_default(&model, tracker->config.accel_max_mps2, tracker->config.v_max_mps);
+    model.speed_max_mps = tracker->config.v_max_mps;
     model.steady_s = larger(model.steady_s, tracker->config.steady_s);
     return rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
 }
@@ -310,7 +315,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     if (size != sizeof *tracker) {
         return RHO_ERROR_SIZE;
     }
-    if (!is_usable(config)) {
+    if (!rho_tracker_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
     enum rho_status status;
@@ -320,6 +325,9 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     tracker->next_track_id = 1;
     tracker->looks_max = 1;
     tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
+#if RHO_MAX_ECHOES > 0
+    rho_clutter_map_init(&tracker->clutter_map, copy.v_min_mps);
+#endif
     status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? open_hypotheses(tracker) : RHO_OK;
     if (status != RHO_OK) {
         return status;
@@ -336,7 +344,7 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!is_usable_sensor(sensor)) {
+    if (!rho_tracker_is_usable_sensor(sensor)) {
         return RHO_ERROR_CONFIG;
     }
     unsigned place = place_of_sensor(tracker, sensor->sensor_id);
@@ -365,6 +373,8 @@ enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t s
     tracker->sensors[place] = tracker->sensors[tracker->num_sensors];
     memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
     rho_tracker_forget_look(tracker, sensor_id);
+    rho_tracker_forget_pace(tracker, sensor_id);
+    rho_tracker_forget_second_plots(tracker, sensor_id);
     return RHO_OK;
 }
 
@@ -408,6 +418,7 @@ static void claim(struct step *step)
 #endif
     rho_tracker_judge_plots(step);
     rho_tracker_sort_plots(step);
+    rho_tracker_look_at_clutter(step);
     rho_tracker_claim(step);
     rho_tracker_watch(step);
     rho_tracker_update(step);
@@ -418,6 +429,11 @@ static void take_in(struct step *step)
     step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
     rho_tracker_set_pd(step);
     rho_tracker_note_look(step);
+    if (!step->is_late) {
+        const struct rho_sensor nowhere = {.sensor_id = step->scan->sensor_id};
+        rho_tracker_note_pace(step->tracker, step->sensor ? step->sensor : &nowhere, step->time_us,
+                              step->scan->sector_from_rad, step->scan->sector_to_rad);
+    }
     rho_tracker_weigh_sensor(step);
 #if RHO_AMBIGUOUS_RANGE_RATES
     step->log_range_rates -=
@@ -425,12 +441,14 @@ static void take_in(struct step *step)
 #endif
     rho_tracker_predict(step);
     claim(step);
+    rho_tracker_expect_second_plots(step);
     rho_tracker_age(step);
     if (RHO_SECTORS && step->is_late) {
         rho_tracker_end_late(step);
         return;
     }
     rho_tracker_initiate(step);
+    rho_tracker_learn_clutter(step);
     rho_tracker_settle(step);
     note_unclaimed(step);
 }

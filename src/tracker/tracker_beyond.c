@@ -56,7 +56,10 @@ static void begin_part(struct step *step, struct part *part, const struct rho_sc
     step->has_more_parts = end - first > RHO_MAX_PLOTS;
     rho_tracker_judge_plots(step);
     rho_tracker_sort_plots(step);
-    if (first > 0) {
+    rho_tracker_use_repeats(step, first == 0);
+    if (first == 0) {
+        rho_tracker_look_at_clutter(step);
+    } else {
         measure_part(step, whole);
     }
 }
@@ -103,7 +106,10 @@ void rho_tracker_claim_parts(struct step *step)
         }
     }
     memcpy(step->report->fates, fates, sizeof fates);
+    rho_tracker_use_repeats(step, 1);
     memcpy(step->reached, before.reached, sizeof step->reached);
+    step->part_share = before.part_share;
+    step->part_per_m2 = before.part_per_m2;
     step->scan = before.scan;
     step->num_gated = before.num_gated;
 }

@@ -2,6 +2,7 @@
 /*
  * tracker_claim: existing tracks are predicted, gate the scan's plots, and are updated by those assigned to them.
  */
+#include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
 
@@ -18,6 +19,9 @@ int32_t rho_tracker_mnat(float nat)
     }
     return mnat < (float)RHO_ASSIGNMENT_COST_MAX ? (int32_t)mnat : RHO_ASSIGNMENT_COST_MAX;
 }
+
+/* Standard deviations of a gate, where it is as large as the track's place is unknown. */
+#define GATE_SIGMAS 3.0f
 
 /* ---- predict ---------------------------------------------------------------------------------- */
 
@@ -42,7 +46,7 @@ void rho_tracker_predict(struct step *step)
 
 /* ---- claim ------------------------------------------------------------------------------------ */
 
-static float usual_density(const struct step *step, float x_m, float y_m)
+float rho_tracker_usual_density(const struct step *step, float x_m, float y_m)
 {
     const struct rho_tracker *tracker = step->tracker;
     if (step->initiator) {
@@ -57,12 +61,20 @@ static float usual_density(const struct step *step, float x_m, float y_m)
 
 static float clutter_density(const struct step *step, float x_m, float y_m)
 {
-    float density = usual_density(step, x_m, y_m);
+    float density = rho_tracker_usual_density(step, x_m, y_m);
     if (RHO_CLAIMS_BEYOND && step->part_share > 0.0f) {
         density *= step->part_share;
         density = step->part_per_m2 > density ? step->part_per_m2 : density;
     }
     return density;
+}
+
+float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track)
+{
+    const float sigma_m = rho_track_sigma_m(track);
+    return step->scan ? 0.5f * RHO_TWO_PI * GATE_SIGMAS * GATE_SIGMAS * sigma_m * sigma_m *
+                            clutter_density(step, track->kalman.state[0], track->kalman.state[1])
+                      : 0.0f;
 }
 
 /* ln of the plot's density as the track's, over its density as clutter, whose range rates are any that a target may
@@ -179,10 +191,13 @@ static void gate_plots(struct step *step, unsigned row)
             continue; /* most plots */
         }
         if (step->report->fates[i] == RHO_FATE_HELD && rho_gate_test(&gate, plot, &result)) {
-            rho_tracker_offer(step, row, i,
-                              by_hough ? hough_gain(step, track, &hough, plot)
-                                       : step->log_pd + log_ratio(step, &result, log_density) -
-                                             step->log_miss);
+            rho_tracker_offer(
+                step, row, i,
+                by_hough
+                    ? hough_gain(step, track, &hough, plot)
+                    : step->log_pd +
+                          log_ratio(step, &result, log_density + rho_tracker_repeats_nat(step, i)) -
+                          step->log_miss);
         }
     }
 }
@@ -228,7 +243,7 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
     const float log_miss = log_miss_of(step, track);
-    const struct rho_hypotheses_clutter clutter = clutter_at(step, track);
+    const struct rho_hypotheses_clutter usual = clutter_at(step, track);
     struct rho_hypotheses_reach reach;
     struct rho_imm_plot seen;
     float gain_nat;
@@ -244,6 +259,8 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
             continue;
         }
         rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);
+        struct rho_hypotheses_clutter clutter = usual;
+        clutter.log_per_m2 += rho_tracker_repeats_nat(step, i);
         if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
                                  step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
                                  &clutter, &gain_nat) &&
@@ -282,7 +299,9 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
         return 0;
     }
     float density = clutter_density(step, track->kalman.state[0], track->kalman.state[1]);
-    return rho_tracker_mnat(step->log_pd + log_ratio(step, &result, rho_log(density)));
+    return rho_tracker_mnat(
+        step->log_pd +
+        log_ratio(step, &result, rho_log(density) + rho_tracker_repeats_nat(step, plot)));
 }
 
 struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row)

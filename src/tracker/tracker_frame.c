@@ -11,6 +11,9 @@
 #include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
+/* Noise brings bearings of a target at the border of a sector so many standard deviations beyond it. */
+#define BEARING_SIGMAS 4.0f
+
 /* One sensor's scan in its frame. */
 struct look {
     const struct rho_bearing_scan *scan;
@@ -65,14 +68,28 @@ uint32_t rho_tracker_num_held(const struct step *step, const struct rho_bearing_
     return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
 }
 
-static void judge_bearings(const struct step *step, uint32_t first, struct look *look)
+/* The bearings of a sensor that was described are in its sector. */
+static int is_covered(struct step *step, const struct look *look, uint32_t i)
+{
+    struct rho_tracker_counters *counters = &step->tracker->counters;
+    const struct rho_bearing *bearing = &look->scan->bearings[i];
+    if (rho_tracker_covers_bearing(&look->sensor, bearing->bearing_rad,
+                                   BEARING_SIGMAS * bearing->sigma_rad)) {
+        return 1;
+    }
+    counters->plots_outside = rho_count(counters->plots_outside, 1);
+    return 0;
+}
+
+static void judge_bearings(struct step *step, uint32_t first, struct look *look)
 {
     look->fates = step->report->fates + (first < RHO_MAX_PLOTS ? first : 0);
     look->num = rho_tracker_num_held(step, look->scan, first);
     for (uint32_t i = 0; i < look->num; i++) {
         look->fates[i] =
-            (uint8_t)(rho_tracker_is_bearing(&look->scan->bearings[i]) ? RHO_FATE_HELD
-                                                                       : RHO_FATE_INVALID);
+            (uint8_t)(rho_tracker_is_bearing(&look->scan->bearings[i]) && is_covered(step, look, i)
+                          ? RHO_FATE_HELD
+                          : RHO_FATE_INVALID);
     }
 }
 
@@ -237,7 +254,11 @@ static void take_in(struct step *step)
     rho_tracker_predict(step);
     rho_tracker_settle(step); /* the gates of bearings look at the one estimate */
     for (uint32_t i = 0; i < frame->num_scans; i++) {
-        take_look(step, &frame->scans[i], first);
+        const struct rho_bearing_scan *scan = &frame->scans[i];
+        const struct rho_sensor sensor = sensor_of(step, scan);
+        rho_tracker_note_pace(step->tracker, &sensor, step->time_us, scan->sector_from_rad,
+                              scan->sector_to_rad);
+        take_look(step, scan, first);
         first = rho_count(first, frame->scans[i].num_bearings);
     }
     count_misses(step);

@@ -18,6 +18,11 @@
 /* Standard deviations of a speed that is surely below the slowest target's. */
 #define SLOW_SIGMAS 3.0f
 
+/* Speeds beyond the fastest target's: by so much, and by so many standard deviations, in so many updates in a row. */
+#define FAST_SHARE 1.1f
+#define FAST_SIGMAS 2.0f
+#define FAST_UPDATES 3
+
 /* ---- age -------------------------------------------------------------------------------------- */
 
 void rho_tracker_end_track(struct step *step, struct rho_track *track)
@@ -96,9 +101,29 @@ static int is_too_slow(const struct step *step, const struct rho_track *track)
                                    least_mps * least_mps;
 }
 
+/* Updates in a row after which its speed is surely beyond the fastest target's, and by more than a tenth. */
+static int is_too_fast_for_long(const struct step *step, struct rho_track *track)
+{
+    const float *velocity_mps = &track->kalman.state[3];
+    const float v_max_mps = step->tracker->config.v_max_mps;
+    const float speed2 = velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] +
+                         velocity_mps[2] * velocity_mps[2];
+    const float most_mps = FAST_SHARE * v_max_mps;
+    const float sure_mps = v_max_mps + FAST_SIGMAS * rho_track_sigma_mps(track);
+    const float limit_mps = most_mps > sure_mps ? most_mps : sure_mps;
+    if (track->plot >= 0) {
+        track->fast_in_row =
+            (uint8_t)(speed2 > limit_mps * limit_mps
+                          ? track->fast_in_row + (track->fast_in_row < FAST_UPDATES ? 1 : 0)
+                          : 0);
+    }
+    return track->fast_in_row >= FAST_UPDATES;
+}
+
 void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
+    struct rho_tracker_counters *counters = &tracker->counters;
     struct rho_track_limits limits = rho_tracker_limits(step);
     unsigned live = 0;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -114,8 +139,15 @@ void rho_tracker_age(struct step *step)
                                       : rho_tracker_mnat(-step->log_miss));
         }
         rho_tracker_note_sight(step, track);
+        const int is_unseen =
+            rho_tracker_is_long_unseen(step, track, &limits) || rho_tracker_is_nowhere(step, track);
+        const int is_too_fast = is_too_fast_for_long(step, track);
         judge(step, track, &limits);
-        if (track->status != RHO_TRACK_FREE && is_too_slow(step, track)) {
+        if (track->status != RHO_TRACK_FREE &&
+            (is_unseen || is_too_fast || is_too_slow(step, track))) {
+            counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);
+            counters->tracks_too_fast =
+                rho_count(counters->tracks_too_fast, is_too_fast && !is_unseen ? 1 : 0);
             rho_tracker_end_track(step, track);
         }
         if (track->status != RHO_TRACK_FREE) {
@@ -196,8 +228,10 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
         rho_track_end(track, &step->model);
         return 0;
     }
+    rho_tracker_note_place(track);
     rho_tracker_note_sight(step, track);
     rho_tracker_note_ahead(track);
+    track->seen_us = step->time_us;
     judge(step, track, limits);
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
@@ -225,9 +259,11 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         return;
     }
+    rho_tracker_note_start(step, candidate, &track);
     if (rho_tracker_admit(step, &track, limits)) {
         tracker->counters.plots_initiated = rho_count(
             tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
+        rho_tracker_expect_earlier_second_plots(step, candidate);
     }
 }
 
@@ -264,6 +300,7 @@ void rho_tracker_initiate(struct step *step)
     held.num_plots = step->num_gated;
     (void)!rho_initiator_push(initiator, &held, step->sensor, step->report->fates,
                               &tracker->counters.plots_clutter);
+    rho_tracker_keep_repeats(step);
     (void)!rho_initiator_search(initiator, RHO_SEARCH_NEWEST);
     tracker->counters.candidates_dropped =
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);

@@ -25,6 +25,29 @@ static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float
            (to_last_rad <= margin_rad && to_last_rad >= -margin_rad);
 }
 
+/* Noise brings plots of a target at the border so many standard deviations beyond it. */
+#define PLOT_SIGMAS 4.0f
+
+int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                       uint32_t measures)
+{
+    if (!sensor) {
+        return 1;
+    }
+    const float dx_m = plot->x_m - sensor->x_m, dy_m = plot->y_m - sensor->y_m;
+    const float dz_m = measures & RHO_MEASURES_Z ? plot->z_m - sensor->z_m : 0.0f;
+    const float ground_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    const float slant_m = rho_sqrt(ground_m * ground_m + dz_m * dz_m);
+    const float range_sigma_m = PLOT_SIGMAS * plot->sigma_range_m;
+    const float cross_sigma_m = PLOT_SIGMAS * plot->sigma_cross_m;
+    if (ground_m - range_sigma_m > sensor->range_max_m ||
+        slant_m + range_sigma_m < sensor->range_min_m) {
+        return 0;
+    }
+    return !(cross_sigma_m < ground_m) ||
+           rho_tracker_covers_bearing(sensor, rho_atan2(dy_m, dx_m), cross_sigma_m / ground_m);
+}
+
 static int is_whole_circle(float from_rad, float to_rad)
 {
     return from_rad <= to_rad && from_rad >= to_rad;
@@ -48,6 +71,11 @@ static int reaches_sector(const struct step *step, float azimuth_rad, float marg
     return is_near_sector(azimuth_rad, scan->sector_from_rad, scan->sector_to_rad, margin_rad) &&
            (!sensor || is_near_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad,
                                       margin_rad));
+}
+
+int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_rad, float margin_rad)
+{
+    return is_near_sector(bearing_rad, sensor->sector_from_rad, sensor->sector_to_rad, margin_rad);
 }
 
 int rho_tracker_reaches(const struct step *step, const struct rho_track *track)

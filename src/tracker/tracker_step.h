@@ -63,6 +63,10 @@ static inline float rho_tracker_log_range_rates(const struct step *step)
 
 /* tracker.c: what a step may be asked */
 int rho_tracker_is_ready(const struct rho_tracker *tracker);
+int rho_tracker_is_usable(const struct rho_tracker_config *config);
+int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
+/* The filter of tracks of plots. */
+enum rho_track_filter rho_tracker_filter_of(const struct rho_tracker_config *config);
 int rho_tracker_is_time(int64_t time_us);
 int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
 
@@ -199,9 +203,23 @@ static inline float rho_tracker_turns(const struct step *step)
 }
 #endif
 
-/* tracker_reach.c: whether the scan can say anything of a track; as found by rho_tracker_predict, by its row */
+/* tracker_reach.c: whether a plot may be a target's in the sensor's stated coverage (NULL: not known); a bearing, the noise of which
+ * is within the margin; whether the scan can say anything of a track; as found by rho_tracker_predict, by its row */
+int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                       uint32_t measures);
+int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_rad,
+                               float margin_rad);
 int rho_tracker_reaches(const struct step *step, const struct rho_track *track);
 int rho_tracker_is_reached(const struct step *step, unsigned row);
+
+/* tracker_unseen.c: a sensor's scan is noted; and a track, once a step: true where it was not seen for too long */
+void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id);
+void rho_tracker_note_pace(struct rho_tracker *tracker, const struct rho_sensor *sensor,
+                           int64_t time_us, float sector_from_rad, float sector_to_rad);
+int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
+                               const struct rho_track_limits *limits);
+/* The track's place is not known to a part of what its sensor sees. */
+int rho_tracker_is_nowhere(const struct step *step, const struct rho_track *track);
 
 /* tracker_strips.c: plots near a track, by their places in an order of its own */
 struct plot_range {
@@ -242,10 +260,91 @@ static inline uint32_t rho_tracker_plot_at(const struct step *step, uint32_t pla
 void rho_tracker_claim_parts(struct step *step);
 #endif
 
+/* tracker_clutter.c: clutter that comes back. Before claims; with the plots that are held; after starts */
+#if RHO_MAX_ECHOES > 0
+void rho_tracker_look_at_clutter(struct step *step);
+/* Of a scan in parts the map has looked at the first alone: the others have no repeats while they are claimed. */
+void rho_tracker_use_repeats(struct step *step, int is_first_part);
+void rho_tracker_keep_repeats(struct step *step);
+void rho_tracker_learn_clutter(struct step *step);
+/* ln of how much denser clutter is at this plot than near it. */
+float rho_tracker_repeats_nat(const struct step *step, uint32_t row);
+/* Where a track starts. */
+void rho_tracker_note_place(struct rho_track *track);
+/* How far echoes explained the candidate's plots. */
+void rho_tracker_note_start(struct step *step, const struct rho_candidate *candidate,
+                            struct rho_track *track);
+/* tracker_second_plots.c: plots near those that tracks have just claimed are expected, and learned from; a younger track that is
+ * the elder's target again ends. Before tracks age */
+void rho_tracker_expect_second_plots(struct step *step);
+void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id);
+/* A track has started with the candidate's plots: others near them, in the window, may be its own. */
+void rho_tracker_expect_earlier_second_plots(struct step *step,
+                                             const struct rho_candidate *candidate);
+#else
+static inline void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    (void)tracker, (void)sensor_id;
+}
+
+static inline void rho_tracker_expect_second_plots(struct step *step)
+{
+    (void)step;
+}
+
+static inline void rho_tracker_expect_earlier_second_plots(struct step *step,
+                                                           const struct rho_candidate *candidate)
+{
+    (void)step, (void)candidate;
+}
+
+static inline void rho_tracker_look_at_clutter(struct step *step)
+{
+    (void)step;
+}
+
+static inline void rho_tracker_use_repeats(struct step *step, int is_first_part)
+{
+    (void)step, (void)is_first_part;
+}
+
+static inline void rho_tracker_keep_repeats(struct step *step)
+{
+    (void)step;
+}
+
+static inline void rho_tracker_learn_clutter(struct step *step)
+{
+    (void)step;
+}
+
+static inline void rho_tracker_note_place(struct rho_track *track)
+{
+    (void)track;
+}
+
+static inline void rho_tracker_note_start(struct step *step, const struct rho_candidate *candidate,
+                                          struct rho_track *track)
+{
+    (void)step, (void)candidate, (void)track;
+}
+
+static inline float rho_tracker_repeats_nat(const struct step *step, uint32_t row)
+{
+    (void)step, (void)row;
+    return 0.0f;
+}
+#endif
+
 /* tracker_claim.c: existing tracks take their plots */
+/* Density of clutter that does not come back, plots a m^2. */
+float rho_tracker_usual_density(const struct step *step, float x_m, float y_m);
 void rho_tracker_predict(struct step *step);
 void rho_tracker_claim(struct step *step);
 void rho_tracker_update(struct step *step);
+
+/* Plots of clutter that are expected within three standard deviations of the track's place; 0 of bearings. */
+float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track);
 
 /* The plot as a track takes it. */
 struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row);

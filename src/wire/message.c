@@ -8,6 +8,8 @@
 #include "message_codec.h"
 
 const struct message_run rho_message_runs[] = {
+    {offsetof(struct rho_message_echo, sensor_id), 2, 3},
+    {offsetof(struct rho_message_echo, x_m), 4, 7},
     {offsetof(struct rho_message_peak, rho_m), 4, 4},
     {offsetof(struct rho_message_peak, scans_hit), 2, 2},
     {offsetof(struct rho_message_plot, dt_us), 4, 10},
@@ -33,6 +35,9 @@ const struct message_run rho_message_runs[] = {
     {offsetof(struct rho_message_bearing_scan, sensor_id), 2, 1},
     {offsetof(struct rho_message_bearing_scan, sensor_x_m), 4, 3},
     {0, 4, 1},
+    {offsetof(struct rho_message_clutter_map, utime), 8, 1},
+    {offsetof(struct rho_message_clutter_map, scan), 4, 2},
+    {offsetof(struct rho_message_clutter_map, num_echoes_total), 2, 3},
     {offsetof(struct rho_message_peak_list, utime), 8, 1},
     {offsetof(struct rho_message_peak_list, scan), 4, 1},
     {offsetof(struct rho_message_plot_scan, utime), 8, 1},
@@ -59,6 +64,10 @@ const struct message_run rho_message_runs[] = {
 };
 
 const struct message_float_rule rho_message_float_rules[] = {
+    {offsetof(struct rho_message_echo, x_m), 2, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_echo, vx_mps), 2, -20000.0f, 20000.0f},
+    {offsetof(struct rho_message_echo, sigma_range_m), 2, 0.0f, 1000000.0f},
+    {offsetof(struct rho_message_echo, chance), 1, 0.0f, 1.0f},
     {offsetof(struct rho_message_peak, rho_m), 1, -FLT_MAX, FLT_MAX},
     {offsetof(struct rho_message_peak, theta_rad), 1, 0.0f, 3.1415927f},
     {offsetof(struct rho_message_peak, speed_mps), 1, 0.0f, 1000000.0f},
@@ -92,6 +101,8 @@ const struct message_float_rule rho_message_float_rules[] = {
 };
 
 const struct message_int_rule rho_message_int_rules[] = {
+    {offsetof(struct rho_message_echo, hits), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_echo, unseen), 2, 1, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_peak, scans_hit), 2, 2, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_plot, dt_us), 4, 1, MESSAGE_RANGE, -60000000, 60000000},
     {offsetof(struct rho_message_polar_plot, dt_us), 4, 1, MESSAGE_RANGE, -60000000, 60000000},
@@ -111,6 +122,10 @@ const struct message_int_rule rho_message_int_rules[] = {
     {offsetof(struct rho_message_track, plot), 2, 1, MESSAGE_RANGE, -1, 32767},
     {offsetof(struct rho_message_track, update_age_us), 4, 1, MESSAGE_RANGE, 0, 2147483647},
     {offsetof(struct rho_message_bearing_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_clutter_map, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_clutter_map, num_echoes_total), 2, 1, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_clutter_map, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_clutter_map, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_clutter_map, num_parts)},
     {offsetof(struct rho_message_peak_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_plot_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_plot_scan, kind), 1, 1, MESSAGE_ONE_OF, 0, 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6},
@@ -133,78 +148,90 @@ const struct message_int_rule rho_message_int_rules[] = {
     {offsetof(struct rho_message_truth_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_truth_list, num_parts)},
 };
 
+static const struct message_format echo_format = {
+    RHO_MESSAGE_ECHO_FINGERPRINT, {{0, 2}, {0, 4}, {0, 2}, 34},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
 static const struct message_format peak_format = {
-    RHO_MESSAGE_PEAK_FINGERPRINT, {{0, 2}, {0, 4}, {0, 1}, 20},
+    RHO_MESSAGE_PEAK_FINGERPRINT, {{2, 2}, {4, 4}, {2, 1}, 20},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format plot_format = {
-    RHO_MESSAGE_PLOT_FINGERPRINT, {{2, 1}, {4, 4}, {1, 1}, 40},
+    RHO_MESSAGE_PLOT_FINGERPRINT, {{4, 1}, {8, 4}, {3, 1}, 40},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format polar_plot_format = {
-    RHO_MESSAGE_POLAR_PLOT_FINGERPRINT, {{3, 1}, {8, 5}, {2, 1}, 24},
+    RHO_MESSAGE_POLAR_PLOT_FINGERPRINT, {{5, 1}, {12, 5}, {4, 1}, 24},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format sensor_format = {
-    RHO_MESSAGE_SENSOR_FINGERPRINT, {{4, 7}, {13, 2}, {3, 6}, 38},
+    RHO_MESSAGE_SENSOR_FINGERPRINT, {{6, 7}, {17, 2}, {5, 6}, 38},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format status_format = {
-    RHO_MESSAGE_STATUS_FINGERPRINT, {{11, 4}, {15, 1}, {9, 5}, 138},
+    RHO_MESSAGE_STATUS_FINGERPRINT, {{13, 4}, {19, 1}, {11, 5}, 138},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format track_format = {
-    RHO_MESSAGE_TRACK_FINGERPRINT, {{15, 4}, {16, 3}, {14, 4}, 145},
+    RHO_MESSAGE_TRACK_FINGERPRINT, {{17, 4}, {20, 3}, {16, 4}, 145},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format truth_format = {
-    RHO_MESSAGE_TRUTH_FINGERPRINT, {{19, 1}, {19, 2}, {18, 0}, 28},
+    RHO_MESSAGE_TRUTH_FINGERPRINT, {{21, 1}, {23, 2}, {20, 0}, 28},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
 static const struct message_format bearing_scan_format = {
-    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{20, 4}, {21, 2}, {18, 1}, 30},
-    {{24, 1}, {23, 1}, {0, 0}, 4},
+    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{22, 4}, {25, 2}, {20, 1}, 30},
+    {{26, 1}, {27, 1}, {0, 0}, 4},
     offsetof(struct rho_message_bearing_scan, num_bearings), offsetof(struct rho_message_bearing_scan, bearing_rad),
     sizeof(float), RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD};
 
+static const struct message_format clutter_map_format = {
+    RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT, {{27, 3}, {28, 0}, {21, 4}, 22},
+    {{0, 2}, {0, 4}, {0, 2}, 34},
+    offsetof(struct rho_message_clutter_map, num_echoes), offsetof(struct rho_message_clutter_map, echoes),
+    sizeof(struct rho_message_echo), RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES};
+
 static const struct message_format peak_list_format = {
-    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{25, 2}, {24, 0}, {19, 1}, 12},
-    {{0, 2}, {0, 4}, {0, 1}, 20},
+    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{30, 2}, {28, 0}, {25, 1}, 12},
+    {{2, 2}, {4, 4}, {2, 1}, 20},
     offsetof(struct rho_message_peak_list, num_peaks), offsetof(struct rho_message_peak_list, peaks),
     sizeof(struct rho_message_peak), RHO_MESSAGE_PEAK_LIST_MAX_PEAKS};
 
 static const struct message_format plot_scan_format = {
-    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{27, 6}, {24, 1}, {20, 4}, 31},
-    {{2, 1}, {4, 4}, {1, 1}, 40},
+    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{32, 6}, {28, 1}, {26, 4}, 31},
+    {{4, 1}, {8, 4}, {3, 1}, 40},
     offsetof(struct rho_message_plot_scan, num_plots), offsetof(struct rho_message_plot_scan, plots),
     sizeof(struct rho_message_plot), RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
 
 static const struct message_format polar_scan_format = {
-    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{33, 6}, {25, 5}, {24, 4}, 60},
-    {{3, 1}, {8, 5}, {2, 1}, 24},
+    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{38, 6}, {29, 5}, {30, 4}, 60},
+    {{5, 1}, {12, 5}, {4, 1}, 24},
     offsetof(struct rho_message_polar_scan, num_polar_plots), offsetof(struct rho_message_polar_scan, polar_plots),
     sizeof(struct rho_message_polar_plot), RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS};
 
 static const struct message_format sensor_list_format = {
-    RHO_MESSAGE_SENSOR_LIST_FINGERPRINT, {{39, 3}, {30, 0}, {28, 4}, 22},
-    {{4, 7}, {13, 2}, {3, 6}, 38},
+    RHO_MESSAGE_SENSOR_LIST_FINGERPRINT, {{44, 3}, {34, 0}, {34, 4}, 22},
+    {{6, 7}, {17, 2}, {5, 6}, 38},
     offsetof(struct rho_message_sensor_list, num_sensors), offsetof(struct rho_message_sensor_list, sensors),
     sizeof(struct rho_message_sensor), RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS};
 
 static const struct message_format track_list_format = {
-    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{42, 3}, {30, 0}, {32, 4}, 22},
-    {{15, 4}, {16, 3}, {14, 4}, 145},
+    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{47, 3}, {34, 0}, {38, 4}, 22},
+    {{17, 4}, {20, 3}, {16, 4}, 145},
     offsetof(struct rho_message_track_list, num_tracks), offsetof(struct rho_message_track_list, tracks),
     sizeof(struct rho_message_track), RHO_MESSAGE_TRACK_LIST_MAX_TRACKS};
 
 static const struct message_format truth_list_format = {
-    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{45, 3}, {30, 0}, {36, 3}, 16},
-    {{19, 1}, {19, 2}, {18, 0}, 28},
+    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{50, 3}, {34, 0}, {42, 3}, 16},
+    {{21, 1}, {23, 2}, {20, 0}, 28},
     offsetof(struct rho_message_truth_list, num_targets), offsetof(struct rho_message_truth_list, targets),
     sizeof(struct rho_message_truth), RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS};
 
 typedef char bearing_scan_head_fits[offsetof(struct rho_message_bearing_scan, sigma_rad) ==
     offsetof(struct rho_message_bearing_scan_head, sigma_rad) ? 1 : -1];
+typedef char clutter_map_head_fits[offsetof(struct rho_message_clutter_map, num_parts) ==
+    offsetof(struct rho_message_clutter_map_head, num_parts) ? 1 : -1];
 typedef char peak_list_head_fits[offsetof(struct rho_message_peak_list, scan) ==
     offsetof(struct rho_message_peak_list_head, scan) ? 1 : -1];
 typedef char plot_scan_head_fits[offsetof(struct rho_message_plot_scan, sector_to_rad) ==
@@ -221,6 +248,7 @@ typedef char truth_list_head_fits[offsetof(struct rho_message_truth_list, num_pa
 uint64_t rho_message_fingerprint(enum rho_message_type type)
 {
     static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {
+        RHO_MESSAGE_ECHO_FINGERPRINT,
         RHO_MESSAGE_PEAK_FINGERPRINT,
         RHO_MESSAGE_PLOT_FINGERPRINT,
         RHO_MESSAGE_POLAR_PLOT_FINGERPRINT,
@@ -229,6 +257,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_TRACK_FINGERPRINT,
         RHO_MESSAGE_TRUTH_FINGERPRINT,
         RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
+        RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
         RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
         RHO_MESSAGE_PLOT_SCAN_FINGERPRINT,
         RHO_MESSAGE_POLAR_SCAN_FINGERPRINT,
@@ -238,6 +267,24 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
     };
 
     return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;
+}
+
+enum rho_status rho_message_echo_encode(
+    const struct rho_message_echo *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&echo_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_echo_decode(
+    const uint8_t *data, size_t size, struct rho_message_echo *message)
+{
+    return rho_message_decode(&echo_format, data, size, message);
+}
+
+enum rho_status rho_message_echo_validate(
+    const struct rho_message_echo *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&echo_format, message, place);
 }
 
 enum rho_status rho_message_peak_encode(
@@ -395,6 +442,37 @@ enum rho_status rho_message_bearing_scan_add(
     struct rho_message_writer *writer, const float *bearing_rad)
 {
     return rho_message_add(&bearing_scan_format, writer, bearing_rad);
+}
+
+enum rho_status rho_message_clutter_map_encode(
+    const struct rho_message_clutter_map *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&clutter_map_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_clutter_map_decode(
+    const uint8_t *data, size_t size, struct rho_message_clutter_map *message)
+{
+    return rho_message_decode(&clutter_map_format, data, size, message);
+}
+
+enum rho_status rho_message_clutter_map_validate(
+    const struct rho_message_clutter_map *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&clutter_map_format, message, place);
+}
+
+enum rho_status rho_message_clutter_map_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_clutter_map_head *head)
+{
+    return rho_message_begin(&clutter_map_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_clutter_map_add(
+    struct rho_message_writer *writer, const struct rho_message_echo *echoe)
+{
+    return rho_message_add(&clutter_map_format, writer, echoe);
 }
 
 enum rho_status rho_message_peak_list_encode(

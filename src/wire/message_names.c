@@ -21,6 +21,19 @@ static const char *find(const struct name *names, unsigned count, uint16_t offse
     return names[i].text;
 }
 
+static const struct name echo_names[] = {
+    {offsetof(struct rho_message_echo, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_echo, hits), "hits"},
+    {offsetof(struct rho_message_echo, unseen), "unseen"},
+    {offsetof(struct rho_message_echo, x_m), "x_m"},
+    {offsetof(struct rho_message_echo, y_m), "y_m"},
+    {offsetof(struct rho_message_echo, vx_mps), "vx_mps"},
+    {offsetof(struct rho_message_echo, vy_mps), "vy_mps"},
+    {offsetof(struct rho_message_echo, sigma_range_m), "sigma_range_m"},
+    {offsetof(struct rho_message_echo, sigma_cross_m), "sigma_cross_m"},
+    {offsetof(struct rho_message_echo, chance), "chance"},
+};
+
 static const struct name peak_names[] = {
     {offsetof(struct rho_message_peak, rho_m), "rho_m"},
     {offsetof(struct rho_message_peak, theta_rad), "theta_rad"},
@@ -150,6 +163,17 @@ static const struct name bearing_scan_names[] = {
     {offsetof(struct rho_message_bearing_scan, bearing_rad), "bearing_rad"},
 };
 
+static const struct name clutter_map_names[] = {
+    {offsetof(struct rho_message_clutter_map, utime), "utime"},
+    {offsetof(struct rho_message_clutter_map, scan), "scan"},
+    {offsetof(struct rho_message_clutter_map, epoch), "epoch"},
+    {offsetof(struct rho_message_clutter_map, num_echoes_total), "num_echoes_total"},
+    {offsetof(struct rho_message_clutter_map, part), "part"},
+    {offsetof(struct rho_message_clutter_map, num_parts), "num_parts"},
+    {offsetof(struct rho_message_clutter_map, num_echoes), "num_echoes"},
+    {offsetof(struct rho_message_clutter_map, echoes), "echoes"},
+};
+
 static const struct name peak_list_names[] = {
     {offsetof(struct rho_message_peak_list, utime), "utime"},
     {offsetof(struct rho_message_peak_list, scan), "scan"},
@@ -227,6 +251,7 @@ static const struct name truth_list_names[] = {
 const char *rho_message_type_name(enum rho_message_type type)
 {
     static const char type_names[RHO_NUM_MESSAGE_TYPES][15] = {
+        "echo_t",
         "peak_t",
         "plot_t",
         "polar_plot_t",
@@ -235,6 +260,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "track_t",
         "truth_t",
         "bearing_scan_t",
+        "clutter_map_t",
         "peak_list_t",
         "plot_scan_t",
         "polar_scan_t",
@@ -244,6 +270,11 @@ const char *rho_message_type_name(enum rho_message_type type)
     };
 
     return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : "unknown";
+}
+
+const char *rho_message_echo_field(const struct rho_message_place *place)
+{
+    return place ? find(echo_names, 10, place->offset) : "unknown";
 }
 
 const char *rho_message_peak_field(const struct rho_message_place *place)
@@ -287,6 +318,14 @@ const char *rho_message_bearing_scan_field(const struct rho_message_place *place
         return "bearing_rad";
     }
     return place ? find(bearing_scan_names, 9, place->offset) : "unknown";
+}
+
+const char *rho_message_clutter_map_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(echo_names, 10, place->offset);
+    }
+    return place ? find(clutter_map_names, 8, place->offset) : "unknown";
 }
 
 const char *rho_message_peak_list_field(const struct rho_message_place *place)

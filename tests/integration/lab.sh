@@ -19,7 +19,7 @@ expect_exit() {
 }
 
 # --- simulate
-for scenario in crossing radar parallel crossing-angle same-line clutter slow-turn traffic air-traffic formation; do
+for scenario in crossing radar parallel crossing-angle clutter traffic air-traffic formation; do
     check "simulate $scenario" "$RHOTRACK" simulate "$scenario" --seed 3 --set num_scans=6 -o "$folder/$scenario"
     check "track $scenario with its scenario.ini" "$RHOTRACK" track "$folder/$scenario/plots.csv" \
         --config "$folder/$scenario/scenario.ini" -o "$folder/$scenario/tracks.csv"
@@ -208,12 +208,21 @@ check "which the others do not know" says 2 "*polar*kernel*nht*"
 check "a refused experiment writes nothing" test ! -e "$folder/refused"
 run experiment nothing
 check "an unknown experiment names all there are" says 2 "*nothing*initiation*polar*false-alarms*passive*"
+run experiment real-skies
+check "experiment real-skies says where it is" says 2 "*real-skies*make experiments*tools/lab/real_skies.py"
 check "bench kalman --json is JSON" sh -c "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
 check "bench initiate" "$RHOTRACK" bench initiate
 check "bench hough --json is JSON" sh -c "'$RHOTRACK' bench hough --json | python3 -m json.tool >/dev/null"
 check "bench passive --json is JSON" sh -c "'$RHOTRACK' bench passive --json | python3 -m json.tool >/dev/null"
 expect_exit 2 "an unknown bench" "$RHOTRACK" bench nothing
-check "the demo tracks all three aircraft and nothing else" sh -c "
-    RHOTRACK='$RHOTRACK' '$root/tools/demo.sh' '$folder/demo' 2>/dev/null | grep -q '^3 of 3 targets tracked, 0 false tracks$'"
+RHOTRACK="$RHOTRACK" "$root/tools/demo.sh" "$folder/demo" >"$folder/demo.txt" 2>/dev/null
+check "the demo tracks all three aircraft and nothing else" grep -q '^3 of 3 targets tracked, 0 false tracks$' "$folder/demo.txt"
 check "the demo's page is there" test -s "$folder/demo/index.html"
+# scene, turns, plots, 2 of 2, share of time, switches, error m, others a turn
+check "both vessels of both harbour scenes are tracked nearly all the time, as themselves" awk '
+    $1 == 2 || $1 == 16 { if (NF == 10 && $5 == "of") { n++; bad += $4 != 2 || $7 < 0.9 || $8 > 2 || $9 > 15 } }
+    END { exit n != 2 || bad }' "$folder/demo.txt"
+check "and the page shows the harbour" sh -c "
+    grep -q 'harbour-2.svg' '$folder/demo/index.html' && grep -q 'harbour-16.svg' '$folder/demo/index.html' &&
+    test -s '$folder/demo/harbour-2.svg' && test -s '$folder/demo/harbour-16.svg'"
 finish

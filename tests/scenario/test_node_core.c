@@ -148,7 +148,7 @@ static void sensors_that_have_moved_together_are_believed(void **state)
     node_core_close(live.core);
 }
 
-/* A radar's plot of a target that stands 5 km north of it. */
+/* A radar's plot of a target that flies north from 5 km north of it: what stands for ever is clutter. */
 static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
 {
     static struct rho_message_polar_scan scan;
@@ -162,7 +162,7 @@ static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
                                            .num_parts = 1,
                                            .sensor_x_m = x_m,
                                            .num_polar_plots = 1};
-    scan.polar_plots[0].range_m = 5000.0f;
+    scan.polar_plots[0].range_m = 5000.0f + 50.0f * (float)k;
     scan.polar_plots[0].azimuth_rad = 1.5707964f;
     assert_int_equal(rho_message_polar_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id);

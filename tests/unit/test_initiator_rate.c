@@ -286,7 +286,7 @@ static void range_rates_ask_for_fewer_votes_in_the_same_clutter(void **state)
         search_with_range_rates(RHO_MEASURES_RANGE_RATE, counts[c]);
         assert_true(initiator.min_scans <= min_scans);
         assert_true(initiator.start_mnat < start_mnat ||
-                    start_mnat == -20000); /* the least there is */
+                    start_mnat == -10000); /* the least there is */
         assert_true(counts[c] > 100 || initiator.confirm_mnat < confirm_mnat - 2000);
     }
     assert_true(initiator.min_scans <= 4); /* 250 plots: 5 without */

@@ -45,13 +45,14 @@ static void targets_at_edges_are_seen_once_a_turn(void **state)
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
         for (int k = 0; k < 4; k++) {
-            struct scene still = {.turning = turning, .first_rad = 1.1 * k, .hidden = -1};
+            struct scene slow = {
+                .turning = turning, .first_rad = 1.1 * k, .speed_mps = 20.0, .hidden = -1};
             struct scene with = {.turning = turning,
                                  .first_rad = -0.7 * k,
-                                 .speed_mps = 120.0 * (k - 1),
+                                 .speed_mps = 120.0 * (k - 1.5),
                                  .hidden = -1};
 
-            assert_all_seen_once(&still, 12);
+            assert_all_seen_once(&slow, 12);
             assert_all_seen_once(&with, 20);
         }
     }

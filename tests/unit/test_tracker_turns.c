@@ -83,7 +83,7 @@ static void another_description_does_not_break_the_turn(void **state)
         for (size_t k = 0; k < 2; k++) {
             for (int at = 0; at < SECTORS;
                  at += 4) { /* right at a target; its own sector is next */
-                struct scene scene = {.turning = i == 1 ? -1 : 1, .hidden = -1};
+                struct scene scene = {.turning = i == 1 ? -1 : 1, .speed_mps = 80.0, .hidden = -1};
 
                 fly_described(&scene, 4, at, places_m[k], pds[i]);
                 assert_tracked(&scene);
@@ -100,7 +100,7 @@ static void another_description_does_not_break_the_turn(void **state)
 static void a_forgotten_sensor_begins_anew(void **state)
 {
     enum { TARGET = 5, QUARTERS = 4, SECTOR = 2, TURN = 4 };
-    struct scene scene = {.turning = 1, .hidden = -1, .sectors = QUARTERS};
+    struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1, .sectors = QUARTERS};
     (void)state;
     start();
     for (int turn = 0; turn <= 2 * TURN + 1; turn++) {
@@ -131,7 +131,7 @@ static void a_forgotten_sensor_begins_anew(void **state)
 static void more_sensors_than_the_table_holds(void **state)
 {
     enum { SENSORS = RHO_MAX_SENSORS + 3 };
-    struct scene scene = {.turning = 1, .hidden = -1};
+    struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
     (void)state;
     start();
     for (int32_t id = 2; id <= RHO_MAX_SENSORS; id++) {
@@ -170,7 +170,7 @@ static void what_is_not_searched_is_not_missed(void **state)
 {
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
-        struct scene scene = {.turning = turning, .hidden = -1};
+        struct scene scene = {.turning = turning, .speed_mps = 80.0, .hidden = -1};
         int before[TARGETS];
 
         fly(&scene, TURNS);
@@ -203,7 +203,7 @@ static void what_is_not_searched_is_not_missed(void **state)
 static void impossible_sectors_are_refused(void **state)
 {
     const float ends[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, 6.3f, -6.3f};
-    struct scene scene = {.turning = 1, .hidden = -1};
+    struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
     struct rho_plot plots[TARGETS];
     uint8_t fates[TARGETS];
     uint32_t unused = 0;
@@ -242,7 +242,8 @@ static void a_late_sector_is_one_look_all_the_same(void **state)
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
         for (int at = 7; at <= 9; at++) {
-            struct scene scene = {.turning = turning, .hidden = -1, .sectors = SECTORS};
+            struct scene scene = {
+                .turning = turning, .speed_mps = 80.0, .hidden = -1, .sectors = SECTORS};
 
             fly(&scene, TURNS);
             for (int turn = TURNS; turn < 2 * TURNS; turn++) {
@@ -264,7 +265,7 @@ static void a_row_of_an_earlier_sector_counts_once(void **state)
 {
     (void)state;
     for (int late = 1; late <= 3; late++) {
-        struct scene scene = {.turning = 1, .hidden = -1, .sectors = SECTORS};
+        struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1, .sectors = SECTORS};
         struct rho_plot kept[TARGETS];
 
         start();

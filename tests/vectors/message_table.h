@@ -7,9 +7,22 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH)
-#define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH")
+#define MESSAGES_WITHOUT_LIST(X) X(echo, ECHO) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH)
+#define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH")
 #endif
+
+static const struct message_member MESSAGE_TABLE(echo)[] = {
+    {"sensor_id", offsetof(MESSAGE_STRUCT(echo), sensor_id), 0, 2, 1, .rule = MEMBER_ANY},
+    {"hits", offsetof(MESSAGE_STRUCT(echo), hits), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+    {"unseen", offsetof(MESSAGE_STRUCT(echo), unseen), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"x_m", offsetof(MESSAGE_STRUCT(echo), x_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"y_m", offsetof(MESSAGE_STRUCT(echo), y_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"vx_mps", offsetof(MESSAGE_STRUCT(echo), vx_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"vy_mps", offsetof(MESSAGE_STRUCT(echo), vy_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"sigma_range_m", offsetof(MESSAGE_STRUCT(echo), sigma_range_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e6)},
+    {"sigma_cross_m", offsetof(MESSAGE_STRUCT(echo), sigma_cross_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e6)},
+    {"chance", offsetof(MESSAGE_STRUCT(echo), chance), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+};
 
 static const struct message_member MESSAGE_TABLE(peak)[] = {
     {"rho_m", offsetof(MESSAGE_STRUCT(peak), rho_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
@@ -141,6 +154,15 @@ static const struct message_member MESSAGE_TABLE(bearing_scan_element)[] = {
     {"bearing_rad", 0, 0, 4, 1, .is_float = true, .low = (float)(-3.1415927), .high = (float)(3.1415927)},
 };
 
+static const struct message_member MESSAGE_TABLE(clutter_map)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(clutter_map), utime), MESSAGE_HEAD(clutter_map, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(clutter_map), scan), MESSAGE_HEAD(clutter_map, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(clutter_map), epoch), MESSAGE_HEAD(clutter_map, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"num_echoes_total", offsetof(MESSAGE_STRUCT(clutter_map), num_echoes_total), MESSAGE_HEAD(clutter_map, num_echoes_total), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"part", offsetof(MESSAGE_STRUCT(clutter_map), part), MESSAGE_HEAD(clutter_map, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(clutter_map), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(clutter_map), num_parts), MESSAGE_HEAD(clutter_map, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+};
+
 static const struct message_member MESSAGE_TABLE(peak_list)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(peak_list), utime), MESSAGE_HEAD(peak_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(peak_list), scan), MESSAGE_HEAD(peak_list, scan), 4, 1, .rule = MEMBER_ANY},
@@ -204,6 +226,7 @@ static const struct message_member MESSAGE_TABLE(truth_list)[] = {
 };
 
 static const struct message_shape MESSAGE_TABLE(shapes)[] = {
+    {"echo_t", MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), .element_members = NULL},
     {"peak_t", MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), .element_members = NULL},
     {"plot_t", MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), .element_members = NULL},
     {"polar_plot_t", MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), .element_members = NULL},
@@ -214,6 +237,9 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"bearing_scan_t", MESSAGE_TABLE(bearing_scan), 7, sizeof(MESSAGE_STRUCT(bearing_scan)),
      {"num_bearings", offsetof(MESSAGE_STRUCT(bearing_scan), num_bearings), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(bearing_scan), bearing_rad), MESSAGE_TABLE(bearing_scan_element), 1, sizeof(float), 4, 256, MESSAGE_LIST_IS_POINTER},
+    {"clutter_map_t", MESSAGE_TABLE(clutter_map), 6, sizeof(MESSAGE_STRUCT(clutter_map)),
+     {"num_echoes", offsetof(MESSAGE_STRUCT(clutter_map), num_echoes), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(clutter_map), echoes), MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), 34, 40, MESSAGE_LIST_IS_POINTER},
     {"peak_list_t", MESSAGE_TABLE(peak_list), 2, sizeof(MESSAGE_STRUCT(peak_list)),
      {"num_peaks", offsetof(MESSAGE_STRUCT(peak_list), num_peaks), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(peak_list), peaks), MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), 20, 48, MESSAGE_LIST_IS_POINTER},

@@ -5,6 +5,9 @@
  */
 #define RHO_MAX_SCANS 5
 #define RHO_MAX_PLOTS 64
+#define RHO_MAX_ECHOES 32 /* of clutter that comes back */
+#define RHO_ECHO_REGIONS 1
+#define RHO_STROBE_BINS 120
 #define RHO_MAX_BINS 144
 #define RHO_MAX_CANDIDATES 8
 #define RHO_MAX_TRACKS 8

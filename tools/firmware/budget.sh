@@ -5,7 +5,7 @@
 # Environment: BUILD.
 set -eu
 cd "$(dirname "$0")/../.."
-flash_most=$((64 * 1024)) ram_most=$((160 * 1024)) failed=0
+flash_most=$((96 * 1024)) ram_most=$((176 * 1024)) failed=0
 digits() { sed -E 's/([0-9])([0-9]{3})$/\1 \2/' <<<"$1"; } # 65 536
 
 printf '%-44s %9s %9s %9s %9s\n' 'radar node' flash 'at most' RAM 'at most'

@@ -70,5 +70,10 @@ int command_experiment(struct command_line *line)
             return experiments[i].run(line);
         }
     }
+    if (strcmp(line->arguments[0], "real-skies") == 0) {
+        fail(EXIT_USAGE,
+             "experiment real-skies is one of the lab's, in Python: `make experiments`, "
+             "or tools/lab/real_skies.py");
+    }
     fail(EXIT_USAGE, "no experiment `%s`; there are: " NAMES, line->arguments[0]);
 }

@@ -11,8 +11,9 @@
 #include "common.h"
 #include "hint.h"
 #include "method.h"
+#include "scenario.h"
 
-enum { NUM_OPTIONS = 21, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 23, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -40,6 +41,9 @@ static const struct {
      "LCM network; without it $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0"},
     {'p', "print", NULL, "tracks as they come: a table on a terminal, else as CSV"},
     {'L', "log", "FILE", "an LCM log of what comes in and goes out"},
+    {'M', "clutter-map", "FILE",
+     "echoes that come back: read from FILE if it is there, written to it at the end (CSV)"},
+    {'R', "snapshot", "FILE", "goes on with what it holds; written once a minute and at the end"},
     {'x', "speed", "X", "so many times as fast as it was; 0: without waiting (default 1)"},
     {'O', "loop", NULL, "again and again; times and numbers of scans go on"},
     {'T', "for", "SECONDS", "ends by itself"},
@@ -132,6 +136,9 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
     case 'L':
         line->log = argument;
         return true;
+    case 'R':
+        line->snapshot = argument;
+        return true;
     case 'x':
         line->speed = read_decimal("speed", argument, 0, 1e6);
         return true;
@@ -160,6 +167,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     case 'K':
         line->kind = argument;
+        break;
+    case 'M':
+        line->clutter_map = argument;
         break;
     case 'f':
         line->follow = true;
@@ -250,6 +260,7 @@ static void read_options(struct command_line *line, const struct command *comman
                          char **argv)
 {
     struct option table[NUM_OPTIONS + 1];
+    size_t room = 0;
     int letter;
 
     fill_table(table);
@@ -268,8 +279,26 @@ static void read_options(struct command_line *line, const struct command *comman
             fail(EXIT_USAGE, "%s takes no --%s; see rhotrack %s --help", command->name,
                  name_of(letter), command->name);
         }
-        take_option(line, (char)letter, optarg);
+        if (letter == 's' && command->run == command_simulate) {
+            line->scene_sets =
+                must_grow(line->scene_sets, line->num_scene_sets, &room, sizeof *line->scene_sets);
+            line->scene_sets[line->num_scene_sets++] = optarg;
+        } else {
+            take_option(line, (char)letter, optarg);
+        }
     }
+}
+
+/* --set of a scene changes the scene, which is not read yet; of a scenario, the parameters. */
+static void settle_sets(struct command_line *line)
+{
+    if (line->num_arguments == 1 && !scenario_is_known(line->arguments[0])) {
+        return;
+    }
+    for (size_t i = 0; i < line->num_scene_sets; i++) {
+        parameters_set(&line->parameters, line->scene_sets[i]);
+    }
+    line->num_scene_sets = 0;
 }
 
 /* Where nobody set the origin of the local frame it is where the first radar of a recording says that it stands. */
@@ -297,6 +326,7 @@ void command_line_read(struct command_line *line, const struct command *command,
     read_options(line, command, argc, argv);
     line->arguments = argv + optind;
     line->num_arguments = argc - optind;
+    settle_sets(line);
     if (line->num_arguments < command->min_arguments) {
         fail(EXIT_USAGE, "%s: too few arguments; usage: rhotrack %s %s", command->name,
              command->name, command->usage);

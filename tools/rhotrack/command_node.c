@@ -8,10 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/signalfd.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "chain.h"
+#include "clutter_file.h"
 #include "commands.h"
 #include "common.h"
 #include "lcm_log.h"
@@ -24,7 +26,15 @@
 
 /* Messages that are taken before signals and clocks are looked at again. */
 /* And how long what may come after all must be missing before it is said. */
-enum { TURN_MESSAGES = 256, STATUS_US = 1000000, COMPLAINT_US = 1000000, MISSING_US = 3000000 };
+/* The map of clutter goes out with every so manyth status. */
+enum {
+    TURN_MESSAGES = 256,
+    STATUS_US = 1000000,
+    CLUTTER_STATUSES = 5,
+    COMPLAINT_US = 1000000,
+    MISSING_US = 3000000,
+    SNAPSHOT_US = 60000000
+};
 
 struct complaint {
     uint64_t said;
@@ -38,12 +48,16 @@ struct node {
     struct transport *transport;
     struct node_core *core;
     struct node_print print;
-    struct lcm_log_writer log; /* file NULL: none */
-    const char *log_path;
+    struct lcm_log_writer log;            /* file NULL: none */
+    const char *log_path, *snapshot_path; /* NULL: none */
+    int64_t snapshot_us;                  /* clock_us: when the next one is due */
+    pid_t snapshot_writer;                /* 0: none is at work */
     struct complaint complaints[NODE_TALLIES];
     struct node_sensors sensors;
+    struct clutter_file clutter;
     int signals;               /* descriptor */
     int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
+    unsigned statuses;         /* that were sent */
     bool is_over, is_waiting;  /* waiting: nothing is left to receive */
     int exit_code;
     uint64_t taken; /* messages */
@@ -91,6 +105,61 @@ static void close_log(struct node *node)
     flush_log(node);
     if (node->log.file && fclose(node->log.file)) {
         fail(EXIT_RUNTIME, "%s: %s", node->log_path, strerror(errno));
+    }
+}
+
+/* ---- Snapshots ---- */
+
+/* One that cannot be written does not end the tracking; the next one may be. */
+static void complain_of_snapshot(struct node *node, const char *why)
+{
+    fprintf(stderr, "rhotrack: %s: %s; the snapshot is not written\n", node->snapshot_path, why);
+    node->exit_code = EXIT_RUNTIME;
+}
+
+/* True where none is at work any more. */
+static bool has_snapshot_ended(struct node *node, int options)
+{
+    int status = 0;
+
+    if (node->snapshot_writer && waitpid(node->snapshot_writer, &status, options) == 0) {
+        return false;
+    }
+    node->snapshot_writer = 0;
+    if (WIFEXITED(status) && WEXITSTATUS(status)) {
+        complain_of_snapshot(node, strerror(WEXITSTATUS(status)));
+    }
+    return true;
+}
+
+/* In a process of its own, as the copy of what is here now: messages do not wait for the disk. */
+static void start_snapshot(struct node *node)
+{
+    node->snapshot_writer = fork();
+    if (node->snapshot_writer == 0) {
+        _exit(node_core_save(node->core, node->snapshot_path) ? 0 : errno);
+    }
+    if (node->snapshot_writer < 0) {
+        node->snapshot_writer = 0;
+        complain_of_snapshot(node, strerror(errno));
+    }
+}
+
+static void keep_snapshot(struct node *node, int64_t now_us)
+{
+    if (node->snapshot_path && now_us >= node->snapshot_us && has_snapshot_ended(node, WNOHANG)) {
+        node->snapshot_us = now_us + SNAPSHOT_US;
+        start_snapshot(node);
+    }
+}
+
+static void write_last_snapshot(struct node *node)
+{
+    if (node->snapshot_path) {
+        (void)has_snapshot_ended(node, 0);
+        if (!node_core_save(node->core, node->snapshot_path)) {
+            complain_of_snapshot(node, strerror(errno));
+        }
     }
 }
 
@@ -255,7 +324,8 @@ static bool is_output(const char *channel)
     return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_PEAK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0 ||
-           strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0;
+           strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0;
 }
 
 /* Other programs' channels are left out of the log, and what was published is there as it was sent. */
@@ -294,6 +364,9 @@ static void take_messages(struct node *node)
 static void send_status(struct node *node)
 {
     node_core_status(node->core, transport_counters(node->transport).refused);
+    if (node->statuses++ % CLUTTER_STATUSES == 0) {
+        node_core_send_clutter(node->core);
+    }
 }
 
 static void show(struct node *node, bool is_end)
@@ -308,6 +381,12 @@ static void show(struct node *node, bool is_end)
     }
 }
 
+/* A map that cannot be written does not end the tracking. */
+static void note_saved(struct node *node, bool is_saved)
+{
+    node->exit_code = is_saved ? node->exit_code : EXIT_RUNTIME;
+}
+
 static void keep_clocks(struct node *node)
 {
     int64_t now_us = clock_us();
@@ -319,11 +398,13 @@ static void keep_clocks(struct node *node)
         }
         send_status(node);
     }
+    keep_snapshot(node, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
     show(node, false);
     complain(node);
     watch_sensors(node);
     flush_log(node);
+    note_saved(node, clutter_file_keep(&node->clutter, node_core_clutter(node->core)));
 }
 
 static void run(struct node *node)
@@ -334,8 +415,11 @@ static void run(struct node *node)
         take_messages(node);
     }
     node_core_flush(node->core);
+    node->statuses = 0;
+    write_last_snapshot(node);
     send_status(node);
     show(node, true);
+    note_saved(node, clutter_file_save(&node->clutter, node_core_clutter(node->core)));
 }
 
 static void open_log(struct node *node, const char *path)
@@ -353,13 +437,26 @@ int command_node(struct command_line *line)
 {
     struct node node = {.status_us = clock_us(), .end_us = INT64_MAX};
     const struct node_core_events events = {&node, on_send, on_step};
+    bool is_restored = false; /* the map of clutter, too */
     int exit_code;
 
     if (line->log && transport_is_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
     chain_set_gate(&line->parameters, line->gate);
+    clutter_file_refuse(line->clutter_map, line->log, "log");
+    if (line->clutter_map && transport_is_file(line->lcm, line->clutter_map)) {
+        fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
+    }
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
+    node.snapshot_path = line->snapshot;
+    node.snapshot_us = node.status_us + SNAPSHOT_US;
+    if (line->snapshot && node_core_restore(node.core, line->snapshot) == CHAIN_RESTORED) {
+        fprintf(stderr, "rhotrack: %s: tracks go on\n", line->snapshot);
+        is_restored = true;
+    }
+    node.clutter = clutter_file_open(line->clutter_map, &line->parameters,
+                                     is_restored ? NULL : node_core_clutter(node.core));
     node.signals = open_signals();
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     open_log(&node, line->log);

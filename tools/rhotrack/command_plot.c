@@ -1,16 +1,27 @@
 /* SPDX-License-Identifier: MIT */
 /* plot: pictures of plots, tracks, errors and of the parameter space. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "clutter_file.h"
 #include "commands.h"
 #include "common.h"
 #include "map.h"
 #include "picture.h"
 #include "plot_bearings.h"
+#include "plot_clutter.h"
 #include "plot_data.h"
 #include "plot_errors.h"
 #include "plot_parameter_space.h"
+
+/* From so many points on a picture has small marks. */
+#define MANY_POINTS 1500
+
+static double mark_size(const struct plot_points *points, double size)
+{
+    return points->count > MANY_POINTS ? 0.5 * size : size;
+}
 
 /* ---- maps ------------------------------------------------------------------------------------- */
 
@@ -18,9 +29,11 @@ static void draw_scans(struct picture *picture, const struct plot_data *data)
 {
     struct map map = map_start(picture->script, data);
     map_put_points(&map, "plots", &data->plots);
-    fprintf(map.script, "set key off\nset cblabel 'time (s)'\nset palette defined (0 '#00204d', "
-                        "0.5 '#7c7b78', 1 '#ffd940')\n"
-                        "plot $plots using 1:2:3 with points pt 7 ps 0.45 lc palette\n");
+    fprintf(map.script,
+            "set key off\nset cblabel 'time (s)'\nset palette defined (0 '#00204d', "
+            "0.5 '#7c7b78', 1 '#ffd940')\n"
+            "plot $plots using 1:2:3 with points pt 7 ps %g lc palette\n",
+            mark_size(&data->plots, 0.45));
 }
 
 /* The straight line on which a track was found, back from its first row to the first plot's time. */
@@ -79,9 +92,10 @@ static void plot_track_lines(const struct map *map, const struct plot_points *tr
         char title[40];
         name_track(title, sizeof title, one.list[0].id, index, many);
         fprintf(map->script,
-                ", \\\n $tracks index %zu using 1:2 with linespoints lw 2.5 pt %d ps 0.9 lc rgb "
+                ", \\\n $tracks index %zu using 1:2 with linespoints lw %g pt %d ps %g lc rgb "
                 "'%s' %s",
-                index, picture_marker(index), picture_colour(index), title);
+                index, mark_size(tracks, 2.5), picture_marker(index),
+                tracks->count > MANY_POINTS ? 0.25 : 0.9, picture_colour(index), title);
         index++;
     }
 }
@@ -100,8 +114,11 @@ static void draw_tracks(struct picture *picture, const struct plot_data *data)
                 ", \\\n $plots using 1:2 with points pt 7 ps 0.3 lc rgb '#a8a8a8' title 'plots'");
     }
     if (data->truth.count) {
-        fprintf(map.script, ", \\\n $truth using 1:2 with linespoints lw 1 dt 2 pt 6 ps 1.3 lc rgb "
-                            "'#000000' title 'truth'");
+        fprintf(
+            map.script,
+            ", \\\n $truth using 1:2 with linespoints lw 1 dt 2 pt 6 ps %g lc rgb '#000000' title "
+            "'truth'",
+            data->truth.count > MANY_POINTS ? 0.3 : 1.3);
     }
     if (data->tracks.count) {
         fprintf(map.script, ", \\\n $starts using 1:2 with lines lw 1.5 dt 3 lc rgb '#444444' "
@@ -134,7 +151,9 @@ static void check_content(const char *kind, const struct plot_data *data)
     } else if (strcmp(kind, "errors") == 0) {
         need(&data->truth, kind, "truth (target_id)");
     } else if (strcmp(kind, "tracks") != 0) {
-        fail(EXIT_USAGE, "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors",
+        fail(EXIT_USAGE,
+             "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors, "
+             "clutter-map",
              kind);
     } else if (data->plots.count + data->tracks.count + data->truth.count == 0) {
         fail(EXIT_USAGE, "plot tracks: the files hold nothing to draw");
@@ -175,13 +194,35 @@ static void draw(const char *kind, struct picture *picture, const struct plot_da
     }
 }
 
+/* The map, and files of plots that are drawn beneath. */
+static int plot_clutter_map(const struct command_line *line)
+{
+    size_t count;
+    struct clutter_echo *echoes =
+        clutter_file_echoes(line->arguments[1], &line->parameters, &count);
+    struct plot_data data =
+        plot_data_read(line->arguments + 2, line->num_arguments - 2, &line->parameters);
+    if (line->num_arguments > 2) {
+        need(&data.plots, "clutter-map", "plots (t_s, x_m, y_m)");
+    }
+    struct picture picture = picture_open(line->output, 1000, 900);
+    plot_clutter(&picture, echoes, count, &data, &line->parameters);
+    picture_close(&picture);
+    free(echoes);
+    plot_data_free(&data);
+    return 0;
+}
+
 int command_plot(struct command_line *line)
 {
     if (line->num_arguments < 2 || !line->output) {
-        fail(EXIT_USAGE, "plot: give a picture (scans, tracks, parameter-space, errors), files, "
-                         "and -o FILE.svg");
+        fail(EXIT_USAGE, "plot: give a picture (scans, tracks, parameter-space, errors, "
+                         "clutter-map), files, and -o FILE.svg");
     }
     const char *kind = line->arguments[0];
+    if (strcmp(kind, "clutter-map") == 0) {
+        return plot_clutter_map(line);
+    }
     struct plot_data data =
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_content(kind, &data);

@@ -9,6 +9,7 @@
 
 #include "bearings_batch.h"
 #include "chain.h"
+#include "clutter_file.h"
 #include "command_line.h"
 #include "commands.h"
 #include "common.h"
@@ -20,6 +21,7 @@
 
 struct tracking {
     struct chain chain;
+    struct clutter_file clutter;
     int64_t sum_us, max_us;
 };
 
@@ -155,6 +157,7 @@ static const char *follow_until_over(struct tracking *tracking, struct inputs *i
     const char *why = NULL;
 
     while (!is_stopped) {
+        (void)clutter_file_keep(&tracking->clutter, &tracking->chain.tracker->clutter_map);
         why = scan_reader_why_over(reader); /* what was added before that is still read */
         if (follow_scans(tracking, inputs, tracks) || position != inputs_position(inputs) ||
             scan_reader_is_mid_row(reader)) {
@@ -264,23 +267,28 @@ static cJSON *fates_json(const struct rho_tracker_counters *counters)
     return object;
 }
 
-static cJSON *counters_json(const struct rho_tracker_counters *counters)
+static cJSON *counters_json(const struct rho_tracker *tracker)
 {
+    const struct rho_tracker_counters *counters = &tracker->counters;
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddNumberToObject(object, "scans_accepted", counters->scans_accepted);
     cJSON_AddNumberToObject(object, "scans_late", counters->scans_late);
     cJSON_AddNumberToObject(object, "scans_retrodicted", counters->scans_retrodicted);
     cJSON_AddNumberToObject(object, "sensors_doubted", counters->sensors_doubted);
+    cJSON_AddNumberToObject(object, "plots_outside", counters->plots_outside);
     cJSON_AddNumberToObject(object, "plots_initiated", counters->plots_initiated);
     cJSON_AddNumberToObject(object, "plots_clutter", counters->plots_clutter);
     cJSON_AddNumberToObject(object, "tracks_started", counters->tracks_started);
     cJSON_AddNumberToObject(object, "tracks_ended", counters->tracks_ended);
+    cJSON_AddNumberToObject(object, "tracks_unseen", counters->tracks_unseen);
+    cJSON_AddNumberToObject(object, "tracks_too_fast", counters->tracks_too_fast);
     cJSON_AddNumberToObject(object, "tracks_no_room", counters->tracks_no_room);
     cJSON_AddNumberToObject(object, "gate_plots_dropped", counters->gate_plots_dropped);
     cJSON_AddNumberToObject(object, "candidates_dropped", counters->candidates_dropped);
     cJSON_AddNumberToObject(object, "updates_refused", counters->updates_refused);
     cJSON_AddNumberToObject(object, "hypotheses_cut", counters->hypotheses_cut);
+    cJSON_AddNumberToObject(object, "echoes_dropped", tracker->clutter_map.echoes_dropped);
     return object;
 }
 
@@ -325,6 +333,18 @@ static size_t count_bytes(const struct tracking *tracking, const struct inputs *
            (inputs_have_bearings(inputs) ? sizeof *tracking->chain.passive : 0);
 }
 
+/* Echoes of the clutter map that are known. */
+static double echoes_known(const struct rho_clutter_map *map)
+{
+    uint32_t place = 0;
+    double num = 0.0;
+
+    while (rho_clutter_map_next(map, &place)) {
+        num += 1.0;
+    }
+    return num;
+}
+
 static void print_json(const struct tracking *tracking, const struct inputs *inputs,
                        const struct inputs_counts *counts, const struct parameters *parameters)
 {
@@ -341,7 +361,9 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
     cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
-    cJSON_AddItemToObject(object, "counters", counters_json(counters));
+    cJSON_AddItemToObject(object, "counters", counters_json(tracking->chain.tracker));
+    cJSON_AddNumberToObject(object, "echoes_known",
+                            echoes_known(&tracking->chain.tracker->clutter_map));
     cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->chain.tracker));
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
     json_print(object);
@@ -362,6 +384,14 @@ static void open_chain(struct tracking *tracking, const struct inputs *inputs,
 }
 
 /* ---- The command ---- */
+
+static void check_clutter_map(const struct command_line *line)
+{
+    for (int i = 0; i < line->num_arguments; i++) {
+        clutter_file_refuse(line->clutter_map, line->arguments[i], "input");
+    }
+    clutter_file_refuse(line->clutter_map, line->output, "output");
+}
 
 static struct inputs *open_inputs(const struct command_line *line)
 {
@@ -403,10 +433,14 @@ int command_track(struct command_line *line)
     struct inputs *inputs;
     struct tracks_output *tracks;
     const char *why = NULL;
+    bool is_saved;
 
     chain_set_gate(&line->parameters, line->gate);
+    check_clutter_map(line);
     inputs = open_inputs(line);
     open_chain(&tracking, inputs, &line->parameters);
+    tracking.clutter = clutter_file_open(line->clutter_map, &line->parameters,
+                                         &tracking.chain.tracker->clutter_map);
     tracks = open_tracks(line);
     if (line->follow) {
         why = follow(&tracking, inputs, tracks, &line->parameters);
@@ -414,11 +448,12 @@ int command_track(struct command_line *line)
         step_all(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
     }
     tracks_output_close(tracks);
+    is_saved = clutter_file_save(&tracking.clutter, &tracking.chain.tracker->clutter_map);
     print_results(&tracking, inputs, line);
     inputs_close(inputs);
     chain_free(&tracking.chain);
     if (why) {
         fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);
     }
-    return 0;
+    return is_saved ? 0 : EXIT_RUNTIME;
 }

@@ -16,6 +16,8 @@ struct command_line {
     const char *gate;         /* --gate */
     const char *kind;         /* --kind; NULL where not given */
     const char *lcm, *log;    /* --lcm, --log; NULL where not given */
+    const char *clutter_map;  /* --clutter-map; NULL where not given */
+    const char *snapshot;     /* --snapshot; NULL where not given */
     double speed;             /* --speed; default 1; 0: without waiting */
     double seconds;           /* --for; 0 where not given */
     bool print, loop;         /* --print, --loop */
@@ -28,6 +30,8 @@ struct command_line {
     bool no_input_estimation; /* --no-input-estimation */
     bool follow;              /* --follow */
     struct parameters parameters;
+    const char **scene_sets; /* --set of a scene, as typed */
+    size_t num_scene_sets;
 };
 
 /* Each returns the program's exit code. */

@@ -26,7 +26,7 @@
 
 static const struct command commands[] = {
     {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest] [--follow]", 1,
-     INT_MAX, "ogfcjksC", "the main job: scans in, tracks out",
+     INT_MAX, "ogfcMjksC", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
@@ -35,6 +35,10 @@ static const struct command commands[] = {
      "A summary goes to standard error. With --json the results go to standard output as one JSON\n"
      "object, and tracks only to OUTPUT. INPUT - is standard input (CSV). Files may be of any\n"
      "length: memory does not grow with them.\n"
+     "\n"
+     "--clutter-map keeps what is known of towers and other echoes that come back, so that they "
+     "start\n"
+     "no tracks in the next run. By hand: sensor_id,x_m,y_m.\n"
      "\n"
      "With --follow one CSV file of plots (or a pipe) is tracked while it grows, as tail -f shows "
      "it.\n"
@@ -64,19 +68,23 @@ static const struct command commands[] = {
      "with\n"
      "--seed). hough, nearest and none run a Kalman filter with input estimation.\n"
      "\n" INPUT_FORMATS "\n" TRACK_FORMATS},
-    {"simulate", command_simulate, "SCENARIO -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
+    {"simulate", command_simulate, "SCENARIO|SCENE -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
      "made-up targets, noise, misses and clutter",
-     "Writes DIR/plots.csv and DIR/truth.csv of a scenario; with several runs DIR/run-0000/ and "
-     "so\n"
-     "on. The same seed gives the same data. Scenarios: crossing, radar, parallel, "
-     "crossing-angle,\n"
-     "same-line, clutter, slow-turn, traffic, air-traffic, formation; polar, doppler, rotating (a "
-     "turning\n"
-     "radar's plots, polar.csv) and two-radars (of two, with biases); passive-two, "
-     "passive-three,\n"
-     "passive-clutter (bearings.csv); popup, weave, hard-turn (one target that pulls, in a beam, "
-     "with\n"
-     "heights); their parameters are set by --set.\n"},
+     "Writes DIR/plots.csv and DIR/truth.csv of a scenario or scene; with several runs "
+     "DIR/run-0000/\n"
+     "and so on. The same seed gives the same data.\n"
+     "\n"
+     "A scene is a file NAME.json, or the name of one that ships; all stands in it\n"
+     "(tools/scenes/README.md).\n"
+     "\n"
+     "Scenarios: crossing, radar, parallel, crossing-angle, clutter, "
+     "traffic,\n"
+     "air-traffic, formation; polar, doppler, rotating (a turning radar's plots, polar.csv) and\n"
+     "two-radars (of two, with biases); passive-two, passive-three, passive-clutter "
+     "(bearings.csv);\n"
+     "popup, weave, hard-turn (one target that pulls, in a beam, with heights); their parameters "
+     "are\n"
+     "set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
      "oBjsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "
@@ -101,10 +109,13 @@ static const struct command commands[] = {
      "or\n"
      "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "
      "rivals;\n"
-     "without it they run all.\n"},
-    {"plot", command_plot, "scans|tracks|parameter-space|errors FILES... -o FILE.svg", 2, INT_MAX,
-     "osC", "pictures",
-     "Draws plots or bearings, tracks, the parameter space of lines, or errors, as SVG.\n"},
+     "without it they run all. real-skies is a script: tools/lab/real_skies.py, `make "
+     "experiments`.\n"},
+    {"plot", command_plot, "scans|tracks|parameter-space|errors|clutter-map FILES... -o FILE.svg",
+     2, INT_MAX, "osC", "pictures",
+     "Draws plots or bearings, tracks, the parameter space of lines, errors, or a clutter map (and "
+     "the\n"
+     "plots of further files beneath), as SVG.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
     {"convert", command_convert, "IN OUT [--kind plots|polar|bearings|truth|tracks]", 2, 2, "KcksC",
@@ -121,12 +132,16 @@ static const struct command commands[] = {
      "places of a log are skipped and reported; bad messages are refused, or with --keep-going\n"
      "skipped and counted. Recordings in ASTERIX (.ast: CAT048 and CAT034) become either; tracks\n"
      "become CAT062 where OUT ends with .ast.\n"},
-    {"node", command_node, "[--lcm URL] [--print] [--log FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLTgsC", "the live tracker: LCM messages in, LCM messages out",
+    {"node", command_node,
+     "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
+     "lpLRTgMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
-     "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS and RHO_SENSORS once a second. Bad, late\n"
-     "and lost messages are counted and end nothing. Sensors that contradict the others or fall\n"
-     "silent are named. It ends on SIGINT and SIGTERM, or at the end of a log\n"
+     "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS and RHO_SENSORS once a second, and what "
+     "is\n"
+     "known of clutter that comes back, RHO_CLUTTER, every five. Bad, late and lost messages are\n"
+     "counted and end nothing. Sensors that contradict the others or fall\n"
+     "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
+     "It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
      "udpm:// URLs have the options ttl=N (0: this machine, 1: this network) and\n"
      "recv_buf_size=BYTES.\n"},

@@ -23,16 +23,20 @@ static double length_m(const struct plot_rays *rays)
     return largest;
 }
 
+void map_set_extent(struct map *map, double side_m)
+{
+    const char *unit;
+    map->unit_m = side_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
+    unit = map->unit_m > 1.0 ? "km" : "m";
+    fprintf(map->script, "set xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n", unit, unit);
+}
+
 struct map map_start(FILE *script, const struct plot_data *data)
 {
-    double largest = fmax(fmax(extent_m(&data->plots), length_m(&data->bearings)),
-                          fmax(extent_m(&data->tracks), extent_m(&data->truth)));
-    struct map map = {script, largest > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0};
-    const char *unit = map.unit_m > 1.0 ? "km" : "m";
-    fprintf(map.script,
-            "set size ratio -1\nset key outside top center horizontal\nset xlabel 'x east "
-            "(%s)'\nset ylabel 'y north (%s)'\n",
-            unit, unit);
+    struct map map = {script, 1.0};
+    fprintf(map.script, "set size ratio -1\nset key outside top center horizontal\n");
+    map_set_extent(&map, fmax(fmax(extent_m(&data->plots), length_m(&data->bearings)),
+                              fmax(extent_m(&data->tracks), extent_m(&data->truth))));
     return map;
 }
 

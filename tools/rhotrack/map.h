@@ -17,6 +17,9 @@ struct map {
 /* Axes and legend, in kilometres where anything of the data lies further apart than MAP_KILOMETRES_FROM_M. */
 struct map map_start(FILE *script, const struct plot_data *data);
 
+/* The same for what is so wide as a whole. */
+void map_set_extent(struct map *map, double side_m);
+
 /* A row of a data block: x, y, time, identity. */
 void map_put_point(const struct map *map, const struct plot_point *point);
 

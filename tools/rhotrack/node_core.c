@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "chain.h"
+#include "clutter_file.h"
 #include "common.h"
 #include "feed_room.h"
 #include "node_passive.h"
@@ -35,7 +36,8 @@ struct node_core {
     struct node_core_counters counters;
     struct timing total, lately; /* lately: since the last status */
     int32_t step, epoch;
-    int64_t now_us; /* reception clock, of the last call that told it */
+    bool is_restored; /* from a snapshot, and no scan has come since */
+    int64_t now_us;   /* reception clock, of the last call that told it */
     int64_t
         frame_due_us; /* when the open frame closes, whoever is missing; INT64_MAX: none is open */
     unsigned num_waiting;
@@ -72,12 +74,29 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
     return core;
 }
 
-/* Tracks do not go on across a clock that was set; counters do. */
+enum chain_restored node_core_restore(struct node_core *core, const char *path)
+{
+    enum chain_restored restored = chain_restore(&core->chain, core->parameters, path);
+
+    core->is_restored = restored == CHAIN_RESTORED;
+    return restored;
+}
+
+bool node_core_save(const struct node_core *core, const char *path)
+{
+    return chain_save(&core->chain, path);
+}
+
+/* Tracks do not go on across a clock that was set; counters do, and what stands is where it was. */
 static void start_anew(struct node_core *core)
 {
     struct rho_tracker_counters counters = core->chain.tracker->counters;
+    struct rho_clutter_map *clutter = must_alloc(sizeof *clutter);
 
+    *clutter = core->chain.tracker->clutter_map;
     open_chain(core);
+    clutter_file_carry(&core->chain.tracker->clutter_map, clutter);
+    free(clutter);
     core->chain.tracker->counters = counters;
     core->epoch = core->epoch == INT32_MAX ? 0 : core->epoch + 1;
     core->counters.restarts++;
@@ -327,11 +346,21 @@ static void restart(struct node_core *core)
     start_anew(core);
 }
 
+/* Of the first scan after a snapshot was taken over. */
+static bool is_of_another_clock(const struct node_core *core, const struct rho_feed_item *item)
+{
+    int64_t time_us = item->kind == RHO_FEED_BEARINGS ? item->bearings.time_us : item->scan.time_us;
+
+    return core->is_restored && core->chain.tracker->has_time &&
+           time_us < core->chain.tracker->time_us - core->feed.config.jump_max_us;
+}
+
 static void take_item(struct node_core *core, const struct rho_feed_item *item, int64_t now_us)
 {
-    if (item->is_restart) {
+    if (item->is_restart || is_of_another_clock(core, item)) {
         restart(core);
     }
+    core->is_restored = false;
     if (item->kind == RHO_FEED_BEARINGS) {
         push_bearings(core, item, now_us);
         settle(core);
@@ -437,6 +466,24 @@ void node_core_status(struct node_core *core, uint64_t refused)
     send_sensors(core);
 }
 
+void node_core_send_clutter(const struct node_core *core)
+{
+    struct rho_message_clutter_map list;
+    uint8_t buffer[RHO_MESSAGE_CLUTTER_MAP_MAX_SIZE];
+    size_t size;
+
+    for (uint16_t part = 0; part < rho_publish_num_clutter_parts(core->chain.tracker); part++) {
+        if (rho_publish_clutter(core->chain.tracker, part, &list) != RHO_OK) {
+            return;
+        }
+        list.scan = core->step;
+        list.epoch = core->epoch;
+        if (rho_message_clutter_map_encode(&list, buffer, sizeof buffer, &size) == RHO_OK) {
+            core->events.send(core->events.context, RHO_MESSAGE_CLUTTER_MAP_CHANNEL, buffer, size);
+        }
+    }
+}
+
 unsigned node_core_sensors(const struct node_core *core,
                            struct rho_message_sensor sensors[RHO_MAX_SENSORS])
 {
@@ -457,6 +504,11 @@ int node_core_follow_scans(const struct node_core *core)
 const struct rho_report *node_core_report(const struct node_core *core)
 {
     return core->chain.report;
+}
+
+struct rho_clutter_map *node_core_clutter(struct node_core *core)
+{
+    return &core->chain.tracker->clutter_map;
 }
 
 const struct rho_feed_counters *node_core_feed(const struct node_core *core)

@@ -16,6 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "chain_snapshot.h"
 #include "feed_order.h"
 #include "parameters.h"
 #include "rhotrack/feed.h"
@@ -52,6 +53,15 @@ struct node_core_counters {
 struct node_core *node_core_open(const struct parameters *parameters, int32_t epoch,
                                  const struct node_core_events *events);
 
+/*
+ * Goes on with the tracks and all that was learned of the file; before the first message. Where the first scan is more than
+ * jump_max_s older than the snapshot, the sensors' clock is another one, and tracks begin anew.
+ */
+enum chain_restored node_core_restore(struct node_core *core, const char *path);
+
+/* False: it failed, with errno. */
+bool node_core_save(const struct node_core *core, const char *path);
+
 /* A message that came at now_us of the reception clock; steps what is due then. */
 void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,
                     int64_t now_us);
@@ -80,6 +90,12 @@ unsigned node_core_sensors(const struct node_core *core,
 
 /* Scans after which a sensor is believed. */
 int node_core_follow_scans(const struct node_core *core);
+
+/* Sends what is known of clutter that comes back, RHO_CLUTTER. */
+void node_core_send_clutter(const struct node_core *core);
+
+/* The tracker's map of clutter. */
+struct rho_clutter_map *node_core_clutter(struct node_core *core);
 
 /* Mean and longest step in us since the start. */
 double node_core_mean_us(const struct node_core *core);

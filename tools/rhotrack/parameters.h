@@ -169,15 +169,11 @@
     X(FALSE_ALARMS, "false_alarms", "-", 0, 0, 1e4, 0, 0,                                          \
       "simulate passive-...: mean false bearings a sensor and scan")                               \
     X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
-      "simulate parallel, formation, same-line: distance of the two targets; two-radars: least")   \
+      "simulate parallel, formation: distance of the two targets; two-radars: least")              \
     X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0,                                       \
       "simulate crossing-angle, formation: angle between the tracks")                              \
-    X(TURN_DEG, "turn_deg", "deg", 2, -90, 90, 0, 0,                                               \
-      "simulate slow-turn: change of heading a scan")                                              \
     X(SPEED_MPS, "speed_mps", "m/s", 250, 0.1, 2e4, 0, 0,                                          \
-      "simulate parallel, crossing-angle, same-line, slow-turn: speed of the targets")             \
-    X(SECOND_SPEED_MPS, "second_speed_mps", "m/s", 250, -2e4, 2e4, 0, 0,                           \
-      "simulate same-line: speed of the one ahead; below 0 it comes towards the first")            \
+      "simulate parallel, crossing-angle, formation: speed of the targets")                        \
     X(ACCEL_G, "accel_g", "g", 10, 0, 100, 0, 0,                                                   \
       "simulate popup, weave, hard-turn: what the target pulls, 9.80665 m/s^2 each")               \
     X(VELOCITY, "velocity", "-", 0, 0, 1, 1, 0,                                                    \

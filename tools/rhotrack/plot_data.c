@@ -161,7 +161,7 @@ static void add_table(struct plot_data *data, struct table *table,
         keep_table(data, table);
         return;
     }
-    if (target >= 0) {
+    if (target >= 0 && table_find(table, "sensor_id") < 0) { /* plots of a scene have it, too */
         add_points(&data->truth, table, target, parameters);
     } else {
         add_points(&data->plots, table, -1, parameters);

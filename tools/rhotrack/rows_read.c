@@ -39,8 +39,11 @@ static const struct rows_kind *kind_of(const struct table *table)
                  {"range_m", ROWS_POLAR},   {"x_m", ROWS_PLOTS},
                  {"lat_deg", ROWS_PLOTS},   {"bearing_rad", ROWS_BEARINGS}};
 
+    bool has_sensor = table_find(table, "sensor_id") >= 0;
+
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
-        if (table_find(table, marks[i].name) >= 0) {
+        /* plots of a scene say whose they are */
+        if (table_find(table, marks[i].name) >= 0 && !(marks[i].kind == ROWS_TRUTH && has_sensor)) {
             return rows_kinds[marks[i].kind];
         }
     }

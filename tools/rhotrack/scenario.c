@@ -55,15 +55,6 @@ static const struct customs no_target = {.num_scans = 7,
                                          .accel_max_mps2 = 5,
                                          .box = {0, 4000, -1000, 1500},
                                          .clutter_per_km2 = 10};
-static const struct customs slow_turn = {.num_scans = 20,
-                                         .interval_s = 2,
-                                         .sigma_m = 10,
-                                         .true_pd = 0.99,
-                                         .v_min_mps = 100,
-                                         .v_max_mps = 400,
-                                         .accel_max_mps2 = 10,
-                                         .box = {-2500, 2500, -2500, 2500},
-                                         .clutter_per_km2 = 1};
 static const struct customs wide_traffic = {.num_scans = 120,
                                             .interval_s = 10,
                                             .sigma_m = 50,
@@ -133,88 +124,102 @@ static const struct customs two_radars = {.num_scans = 60,
 
 static const struct scenario {
     const char *name, *text;
+    uint64_t stream; /* of random numbers: its place when there were more */
     const struct customs *customs;
     struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
     /* or, where that is NULL, what turning radars saw */
     struct simulation *(*simulate)(const struct parameters *parameters, struct random *random);
 } scenarios[] = {
     {.name = "crossing",
+     .stream = 0,
      .text = "three targets, two of which cross (the paper's Table 1)",
      .customs = &paper_targets,
      .plan = plan_crossing},
     {.name = "radar",
+     .stream = 1,
      .text = "the real plots of three aircraft (the paper's Table 3) in clutter",
      .customs = &radar_table,
      .plan = plan_radar},
     {.name = "parallel",
+     .stream = 2,
      .text = "two targets side by side, spacing_m apart",
      .customs = &pair,
      .plan = plan_parallel},
     {.name = "crossing-angle",
+     .stream = 3,
      .text = "two targets that meet at crossing_deg",
      .customs = &pair,
      .plan = plan_crossing_angle},
-    {.name = "same-line",
-     .text = "two targets on one line, spacing_m apart, with speeds of their own",
-     .customs = &pair,
-     .plan = plan_same_line},
     {.name = "clutter",
+     .stream = 5,
      .text = "no target at all",
      .customs = &no_target,
      .plan = plan_clutter_alone},
-    {.name = "slow-turn",
-     .text = "one target that turns by turn_deg a scan",
-     .customs = &slow_turn,
-     .plan = plan_slow_turn},
     {.name = "traffic",
+     .stream = 7,
      .text = "many straight targets in a large area",
      .customs = &wide_traffic,
      .plan = plan_traffic},
     {.name = "polar",
+     .stream = 8,
      .text = "a turning radar: straight targets at 20 to 60 km, plots in range and azimuth, each "
              "at its own time",
      .customs = &turning_radar,
      .plan = plan_polar},
     {.name = "passive-two",
+     .stream = 9,
      .text = "two passive sensors: bearings of two targets that come towards them",
      .customs = &passive,
      .plan = plan_passive},
     {.name = "passive-three",
+     .stream = 10,
      .text = "the same with a third sensor",
      .customs = &passive,
      .plan = plan_passive},
     {.name = "passive-clutter",
+     .stream = 11,
      .text = "two passive sensors, four targets, misses and false bearings",
      .customs = &passive_clutter,
      .plan = plan_passive},
     {.name = "popup",
+     .stream = 12,
      .text = "one target in a beam that pulls accel_g upwards, over, and level again",
      .customs = &beam,
      .plan = plan_popup},
-    {.name = "weave", .text = "the same to the sides", .customs = &beam, .plan = plan_weave},
+    {.name = "weave",
+     .stream = 13,
+     .text = "the same to the sides",
+     .customs = &beam,
+     .plan = plan_weave},
     {.name = "hard-turn",
+     .stream = 14,
      .text = "the same in level turns",
      .customs = &beam,
      .plan = plan_hard_turn},
     {.name = "air-traffic",
+     .stream = 15,
      .text =
          "aircraft that take off, turn, hold, cross, land, come and go: always so many in the air",
      .customs = &air_traffic,
      .plan = plan_air_traffic},
     {.name = "formation",
+     .stream = 16,
      .text = "two aircraft that come together, fly side by side for half the time, and part",
      .customs = &formation,
      .plan = plan_formation},
     {.name = "two-radars",
+     .stream = 17,
      .text = "two turning radars with biases, and the aircraft that both see; a share of it "
              "arrives late",
      .customs = &two_radars,
      .simulate = simulate_two_radars},
     {.name = "rotating",
+     .stream = 18,
      .text = "a turning radar by sectors: targets at 20 to 60 km, some of which turn gently",
      .customs = &turning_radar,
      .simulate = simulate_rotating},
     {.name = "doppler",
+     .stream = 19,
      .text = "as polar, with range rates, ambiguous ones too, and clutter that stands still",
      .customs = &turning_radar,
      .plan = plan_doppler},
@@ -278,14 +283,6 @@ static bool is_radar(const struct scenario *scenario)
            scenario->simulate == simulate_rotating;
 }
 
-static double spacing_of(const struct scenario *scenario)
-{
-    if (scenario->plan == plan_formation) {
-        return 400.0;
-    }
-    return scenario->plan == plan_same_line ? 300.0 : 50.0;
-}
-
 /*
  * What a tracker is told of air traffic's motion: by GOSPA on its seed 3, as the process noise of the rivals that
  * `experiment air-traffic` compares with was chosen (tests/bench).
@@ -323,10 +320,9 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     }
     parameters_suggest(parameters, PARAMETER_TARGETS, is_radar(scenario) ? 3 : 50);
     parameters_suggest(parameters, PARAMETER_SPEED_MPS, 250);
-    parameters_suggest(parameters, PARAMETER_SECOND_SPEED_MPS, 250);
     parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
-    parameters_suggest(parameters, PARAMETER_TURN_DEG, 2);
-    parameters_suggest(parameters, PARAMETER_SPACING_M, spacing_of(scenario));
+    parameters_suggest(parameters, PARAMETER_SPACING_M,
+                       scenario->plan == plan_formation ? 400.0 : 50.0);
     suggest_area(parameters, &scenario->customs->box);
     if (is_radar(scenario)) {
         parameters_suggest(parameters, PARAMETER_RANGE_RATE, scenario->plan == plan_doppler);
@@ -366,6 +362,16 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     }
 }
 
+bool scenario_is_known(const char *name)
+{
+    size_t i = 0;
+
+    while (scenario_name(i) != NULL && strcmp(scenario_name(i), name) != 0) {
+        i++;
+    }
+    return scenario_name(i) != NULL;
+}
+
 /* ---- one run ---------------------------------------------------------------------------------- */
 
 static double value_or(const struct parameters *parameters, enum parameter_id id,
@@ -394,7 +400,7 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
                                      uint64_t seed, uint64_t run)
 {
     const struct scenario *scenario = find_scenario(name);
-    struct random random = random_start(seed, (uint64_t)(scenario - scenarios), run);
+    struct random random = random_start(seed, scenario->stream, run);
     if (scenario->simulate != NULL) {
         /* cppcheck-suppress returnDanglingLifetime ; what is returned has nothing of it */
         return scenario->simulate(parameters, &random);

@@ -2,7 +2,7 @@
 /*
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
- * Scenarios: crossing, radar, parallel, crossing-angle, same-line, clutter, slow-turn, traffic, air-traffic, polar,
+ * Scenarios: crossing, radar, parallel, crossing-angle, clutter, traffic, air-traffic, polar,
  * passive-two, passive-three, passive-clutter, popup, weave, hard-turn, formation, two-radars, rotating, doppler. The same seed
  * gives the same data
  * on every machine.
@@ -112,6 +112,9 @@ struct simulation {
 /* Names and one-line texts of all scenarios, for help and errors; NULL past the last. */
 const char *scenario_name(size_t index);
 const char *scenario_text(size_t index);
+
+/* Whether there is a scenario of that name. */
+bool scenario_is_known(const char *name);
 
 /* The scenario's customary parameters (suggested, so that --set wins). Unknown name: exit 2 with the list. */
 void scenario_suggest(const char *name, struct parameters *parameters);

@@ -107,33 +107,10 @@ struct scenario_plan plan_formation(const struct parameters *parameters, struct 
     return plan;
 }
 
-struct scenario_plan plan_same_line(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    double second_mps = parameters->value[PARAMETER_SECOND_SPEED_MPS];
-    double second_x_m =
-        second_mps < 0.0 ? 1500.0 : -1500.0 + parameters->value[PARAMETER_SPACING_M];
-    struct scenario_plan plan = plan_of(parameters, 2);
-    plan_straight(&plan, 0,
-                  (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 300, 0});
-    plan_straight(&plan, 1, (struct scenario_state){second_x_m, second_mps, 300, 0});
-    return plan;
-}
-
 struct scenario_plan plan_clutter_alone(const struct parameters *parameters, struct random *random)
 {
     (void)random;
     return plan_of(parameters, 0);
-}
-
-struct scenario_plan plan_slow_turn(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    struct scenario_plan plan = plan_of(parameters, 1);
-    plan_turn(&plan, 0,
-              (struct scenario_state){-1500, parameters->value[PARAMETER_SPEED_MPS], 0, 0},
-              parameters->value[PARAMETER_TURN_DEG] * DEG_RAD);
-    return plan;
 }
 
 /* Anywhere, any heading, any speed between the limits, drawn again until the whole path lies in the area. */

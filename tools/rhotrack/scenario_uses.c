@@ -7,8 +7,7 @@
 #include "scenario.h"
 
 #define SKY "air-traffic, parallel, crossing-angle, formation" /* with merge_m a sky of their own */
-#define TARGETS_ON_PLANE                                                                           \
-    "crossing, parallel, crossing-angle, same-line, slow-turn, traffic, air-traffic, formation"
+#define TARGETS_ON_PLANE "crossing, parallel, crossing-angle, traffic, air-traffic, formation"
 #define ON_PLANE TARGETS_ON_PLANE ", clutter"
 #define TURNING "polar, doppler, rotating"
 #define PASSIVE "passive-two, passive-three, passive-clutter"
@@ -41,11 +40,9 @@ static const struct use uses[] = {
     {PARAMETER_TARGETS, "traffic, air-traffic, two-radars, " TURNING ", " PASSIVE, NULL},
     {PARAMETER_SENSORS, PASSIVE, NULL},
     {PARAMETER_FALSE_ALARMS, PASSIVE, NULL},
-    {PARAMETER_SPACING_M, "parallel, same-line, formation, two-radars", NULL},
+    {PARAMETER_SPACING_M, "parallel, formation, two-radars", NULL},
     {PARAMETER_CROSSING_DEG, "crossing-angle, formation", NULL},
-    {PARAMETER_TURN_DEG, "slow-turn", NULL},
-    {PARAMETER_SPEED_MPS, "parallel, crossing-angle, same-line, slow-turn, formation", NULL},
-    {PARAMETER_SECOND_SPEED_MPS, "same-line", NULL},
+    {PARAMETER_SPEED_MPS, "parallel, crossing-angle, formation", NULL},
     {PARAMETER_ACCEL_G, BEAM, NULL},
     {PARAMETER_VELOCITY, BEAM, NULL},
     {PARAMETER_BEAM_DEG, BEAM, NULL},

@@ -8,6 +8,8 @@ import java.nio.ByteBuffer;
 import java.util.ArrayList;
 import java.util.List;
 import rhotrack.bearing_scan_t;
+import rhotrack.clutter_map_t;
+import rhotrack.echo_t;
 import rhotrack.peak_list_t;
 import rhotrack.plot_scan_t;
 import rhotrack.polar_scan_t;
@@ -34,7 +36,8 @@ final class Decoder {
         return fingerprint == plot_scan_t.LCM_FINGERPRINT || fingerprint == polar_scan_t.LCM_FINGERPRINT
                 || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
                 || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
-                || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT;
+                || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT
+                || fingerprint == clutter_map_t.LCM_FINGERPRINT;
     }
 
     void decode(String channel, byte[] data) {
@@ -70,6 +73,9 @@ final class Decoder {
         }
         if (fingerprint == sensor_list_t.LCM_FINGERPRINT) {
             return take(new sensor_list_t(in), in);
+        }
+        if (fingerprint == clutter_map_t.LCM_FINGERPRINT) {
+            return take(new clutter_map_t(in), in);
         }
         return fingerprint == status_t.LCM_FINGERPRINT && take(new status_t(in), in);
     }
@@ -217,6 +223,22 @@ final class Decoder {
             }
         }
         model.setSensorFaults(list.part, list.num_parts, faults);
+        return true;
+    }
+
+    private boolean take(clutter_map_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_echoes > clutter_map_t.MAX_ECHOES || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<Scene.Echo> echoes = new ArrayList<>();
+        for (echo_t echo : list.echoes) {
+            Place place = new Place(echo.x_m, echo.y_m);
+            if (!place.isSane() || echo.hits < 1 || !(echo.chance >= 0 && echo.chance <= 1)) {
+                return false;
+            }
+            echoes.add(new Scene.Echo(place, echo.sensor_id, echo.hits, echo.chance));
+        }
+        model.addEchoes(list.epoch, list.scan, list.part, list.num_parts, echoes);
         return true;
     }
 

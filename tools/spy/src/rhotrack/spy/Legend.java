@@ -8,7 +8,7 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.TreeMap;
 
-/** One row at the foot of the plan view that says what its marks mean; of sensors and truth those that there are. */
+/** One row at the foot of the plan view that says what its marks mean; of sensors, truth and clutter those that there are. */
 final class Legend {
     static final int HEIGHT = 26;
 
@@ -38,6 +38,12 @@ final class Legend {
         if (options.shows(ViewOptions.Layer.TRUTH) && !scene.truth().isEmpty()) {
             Symbols.truth(g, legend.x, legend.y);
             legend.text("truth");
+        }
+        if (options.shows(ViewOptions.Layer.CLUTTER) && !scene.echoes().isEmpty()) {
+            g.setColor(Palette.MUTED);
+            g.setStroke(Palette.THIN);
+            Symbols.echo(g, legend.x, legend.y);
+            legend.text("clutter that comes back");
         }
     }
 

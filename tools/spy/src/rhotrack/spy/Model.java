@@ -20,8 +20,10 @@ final class Model {
     private LookHistory<Scene.Peaks> peaks = new LookHistory<>(PEAK_LISTS);
     private ListAssembler<TrackMark> trackParts = new ListAssembler<>();
     private ListAssembler<Scene.Truth> truthParts = new ListAssembler<>();
+    private ListAssembler<Scene.Echo> echoParts = new ListAssembler<>();
     private TrackStore tracks = new TrackStore();
     private List<Scene.Truth> truth = List.of();
+    private List<Scene.Echo> echoes = List.of();
     private final Map<Integer, Place> sensors = new TreeMap<>();
     /** RHO_SENSORS: what is wrong with sensors, of each part of the list. */
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
@@ -67,6 +69,10 @@ final class Model {
         truthParts.add(0, scan, part, numParts, targets).forEach(list -> truth = List.copyOf(list.items()));
     }
 
+    synchronized void addEchoes(int epoch, int scan, int part, int numParts, List<Scene.Echo> known) {
+        echoParts.add(epoch, scan, part, numParts, known).forEach(list -> echoes = List.copyOf(list.items()));
+    }
+
     synchronized void setStatus(Scene.Status newStatus) {
         status = newStatus;
         statusNanos = System.nanoTime();
@@ -100,8 +106,10 @@ final class Model {
         peaks = new LookHistory<>(PEAK_LISTS);
         trackParts = new ListAssembler<>();
         truthParts = new ListAssembler<>();
+        echoParts = new ListAssembler<>();
         tracks = new TrackStore();
         truth = List.of();
+        echoes = List.of();
         changes++;
     }
 
@@ -115,7 +123,7 @@ final class Model {
         Scene.Health health =
                 new Scene.Health(status, faults, age(statusNanos), age(tracksNanos), received, ignored);
         return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
-                new TreeMap<>(sensors), health);
+                echoes, new TreeMap<>(sensors), health);
     }
 
     private static double age(long nanos) {

@@ -86,6 +86,9 @@ final class PlanView extends JComponent {
         if (options.shows(ViewOptions.Layer.BEARINGS)) {
             SensorLayer.paintBearings(g, scene, view);
         }
+        if (options.shows(ViewOptions.Layer.CLUTTER)) {
+            SensorLayer.paintEchoes(g, scene, view);
+        }
         if (options.shows(ViewOptions.Layer.PLOTS)) {
             SensorLayer.paintPlots(g, scene, view);
         }

@@ -7,7 +7,7 @@ import java.util.Map;
 /** What is to be drawn: an immutable copy of the model, so that painting needs no lock and a pause is to keep one. */
 record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
         List<LookHistory.Faded<Peaks>> peaks, List<TrackMark> tracks, List<List<Place>> trails, List<Truth> truth,
-        Map<Integer, Place> sensors, Health health) {
+        List<Echo> echoes, Map<Integer, Place> sensors, Health health) {
     /** Plots of (a part of) one look. */
     record Plots(int sensorId, List<Place> places) {
     }
@@ -24,6 +24,10 @@ record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearin
     }
 
     record Truth(int id, Place place, double vx, double vy) {
+    }
+
+    /** Clutter that the tracker knows: it comes back to its place. */
+    record Echo(Place place, int sensorId, int hits, double chance) {
     }
 
     /** RHO_STATUS, the few figures that a status line has room for. */

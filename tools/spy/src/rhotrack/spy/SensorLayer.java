@@ -7,7 +7,7 @@ import java.awt.geom.Line2D;
 import java.awt.geom.Rectangle2D;
 import java.util.Map;
 
-/** What the sensors saw: plots and bearings that fade, and where the sensors stand. */
+/** What the sensors saw: plots and bearings that fade, clutter that comes back, and where the sensors stand. */
 final class SensorLayer {
     private SensorLayer() {
     }
@@ -20,6 +20,15 @@ final class SensorLayer {
             for (Place place : look.content().places()) {
                 Symbols.plot(g, view.screenX(place.x()), view.screenY(place.y()), size);
             }
+        }
+    }
+
+    /** Hollow, so that plots in them can be seen. */
+    static void paintEchoes(Graphics2D g, Scene scene, ViewTransform view) {
+        g.setStroke(Palette.THIN);
+        for (Scene.Echo echo : scene.echoes()) {
+            g.setColor(Palette.faded(Palette.MUTED, 0.35 + 0.5 * echo.chance()));
+            Symbols.echo(g, view.screenX(echo.place().x()), view.screenY(echo.place().y()));
         }
     }
 

@@ -27,6 +27,10 @@ final class Symbols {
         g.fill(new Rectangle2D.Double(x - size / 2, y - size / 2, size, size));
     }
 
+    static void echo(Graphics2D g, double x, double y) {
+        g.draw(new Rectangle2D.Double(x - 3.5, y - 3.5, 7, 7));
+    }
+
     static void truth(Graphics2D g, double x, double y) {
         g.setColor(Palette.faded(Palette.TRUTH, 0.5));
         g.setStroke(Palette.THIN);

@@ -7,7 +7,7 @@ import java.util.EnumSet;
 final class ViewOptions {
     enum Layer {
         PLOTS('P', "Plots"), BEARINGS('B', "Bearings"), TRAILS('H', "Trails"), ELLIPSES('E', "Ellipses"),
-        LABELS('L', "Labels"), TRUTH('T', "Truth");
+        LABELS('L', "Labels"), TRUTH('T', "Truth"), CLUTTER('M', "Clutter map");
 
         final char key;
         final String title;

@@ -10,6 +10,8 @@ import java.util.List;
 import java.util.Random;
 import lcm.lcm.LCMEncodable;
 import rhotrack.bearing_scan_t;
+import rhotrack.clutter_map_t;
+import rhotrack.echo_t;
 import rhotrack.peak_list_t;
 import rhotrack.peak_t;
 import rhotrack.polar_plot_t;
@@ -102,6 +104,21 @@ final class MessageTest {
         return list;
     }
 
+    private static clutter_map_t echoes(int scan, int part, int numParts, float x) {
+        echo_t echo = new echo_t();
+        echo.sensor_id = 3;
+        echo.hits = 12;
+        echo.x_m = x;
+        echo.chance = 0.5f;
+        clutter_map_t list = new clutter_map_t();
+        list.scan = scan;
+        list.part = (short) part;
+        list.num_parts = (short) numParts;
+        list.num_echoes = 1;
+        list.echoes = new echo_t[] {echo};
+        return list;
+    }
+
     private static void good(Checks check) throws IOException {
         Model model = new Model();
         Decoder decoder = new Decoder(model);
@@ -129,6 +146,14 @@ final class MessageTest {
         check.equal("none any more", List.of(), model.scene().health().sensorFaults());
         decoder.decode("RHO_SENSORS", bytes(sensors(64, 32767, 5, 1, 0)));
         check.equal("no more parts than sensors", List.of(), model.scene().health().sensorFaults());
+        decoder.decode("RHO_CLUTTER", bytes(echoes(7, 0, 2, 300)));
+        check.equal("half of a clutter map", List.of(), model.scene().echoes());
+        decoder.decode("RHO_CLUTTER", bytes(echoes(7, 1, 2, 400)));
+        check.equal("a clutter map", List.of(new Place(300, 0), new Place(400, 0)),
+                model.scene().echoes().stream().map(Scene.Echo::place).toList());
+        decoder.decode("RHO_CLUTTER", bytes(echoes(8, 0, 1, 500)));
+        check.equal("the next one", List.of(new Scene.Echo(new Place(500, 0), 3, 12, 0.5)), model.scene().echoes());
+        scene = model.scene();
         check.equal("all taken", 0L, scene.health().ignored());
         decoder.decode("RHO_TRACKS", bytes(trackList(2, track_t.DELETED)));
         check.equal("deleted", 0, model.scene().tracks().size());
@@ -156,7 +181,12 @@ final class MessageTest {
         infinite.bearing_rad[0] = Float.POSITIVE_INFINITY;
         decoder.decode("RHO_BEARINGS_2", bytes(infinite));
         decoder.decode("RHO_BEARINGS_12", bytes(bearings())); // a sensor on another one's channel
-        check.equal("all refused", 10L, model.scene().health().ignored());
+        decoder.decode("RHO_CLUTTER", bytes(echoes(1, 0, 1, Float.NaN)));
+        clutter_map_t sure = echoes(1, 0, 1, 300);
+        sure.echoes[0].chance = 1.5f;
+        decoder.decode("RHO_CLUTTER", bytes(sure));
+        check.equal("no echoes", List.of(), model.scene().echoes());
+        check.equal("all refused", 12L, model.scene().health().ignored());
         check.equal("nothing shown", 0, model.scene().tracks().size());
         track_list_t vague = trackList(1, track_t.CONFIRMED);
         vague.tracks[0].covariance[0] = Float.NaN;
@@ -170,7 +200,7 @@ final class MessageTest {
         Decoder decoder = new Decoder(model);
         byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
             bytes(peaks()), bytes(new status_t()),
-            bytes(sensors(0, 1, 3, 1, 0))};
+            bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/* Echoes that the tracker's clutter map knows, as messages. */
+#include "rhotrack/approx.h"
+#include "rhotrack/clutter_map.h"
+#include "rhotrack/publish.h"
+
+#define PART_ECHOES RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES
+
+/* Of the message's members (lcm_types/echo_t.lcm). */
+#define SIGMA_MAX_M 1e6f
+
+#if RHO_MAX_ECHOES > 0
+
+static float at_most(float value, float most)
+{
+    return value > most ? most : value < -most ? -most : value;
+}
+
+static struct rho_message_echo echo_of(const struct rho_clutter_map *map,
+                                       const struct rho_echo *echo)
+{
+    return (struct rho_message_echo){
+        .sensor_id =
+            (int16_t)(echo->sensor_id >= INT16_MIN && echo->sensor_id <= INT16_MAX ? echo->sensor_id
+                                                                                   : -1),
+        .hits = (int16_t)(echo->hits < INT16_MAX ? echo->hits : INT16_MAX),
+        .unseen = echo->unseen,
+        .x_m = at_most(echo->x_m, RHO_LIMIT_POSITION_M),
+        .y_m = at_most(echo->y_m, RHO_LIMIT_POSITION_M),
+        .vx_mps = at_most(echo->vx_mps, RHO_LIMIT_SPEED_MPS),
+        .vy_mps = at_most(echo->vy_mps, RHO_LIMIT_SPEED_MPS),
+        .sigma_range_m = at_most(rho_sqrt(echo->along[0]), SIGMA_MAX_M),
+        .sigma_cross_m = at_most(rho_sqrt(echo->across[0]), SIGMA_MAX_M),
+        .chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen + 1u),
+    };
+}
+
+static unsigned count_echoes(const struct rho_tracker *tracker)
+{
+    uint32_t place = 0;
+    unsigned count = 0;
+
+    while (rho_clutter_map_next(&tracker->clutter_map, &place)) {
+        count++;
+    }
+    return count;
+}
+
+static void add_echoes(const struct rho_tracker *tracker, struct rho_message_clutter_map *list)
+{
+    const struct rho_echo *echo;
+    uint32_t place = 0;
+    unsigned at = 0;
+
+    while ((echo = rho_clutter_map_next(&tracker->clutter_map, &place))) {
+        if (at++ / PART_ECHOES == (unsigned)list->part) {
+            list->echoes[list->num_echoes++] = echo_of(&tracker->clutter_map, echo);
+        }
+    }
+}
+
+#else
+
+static unsigned count_echoes(const struct rho_tracker *tracker)
+{
+    (void)tracker;
+    return 0;
+}
+
+static void add_echoes(const struct rho_tracker *tracker, struct rho_message_clutter_map *list)
+{
+    (void)tracker, (void)list;
+}
+
+#endif
+
+static unsigned num_parts(unsigned echoes)
+{
+    return echoes <= PART_ECHOES ? 1 : (echoes + PART_ECHOES - 1) / PART_ECHOES;
+}
+
+uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker)
+{
+    return (uint16_t)num_parts(tracker ? count_echoes(tracker) : 0);
+}
+
+enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t part,
+                                    struct rho_message_clutter_map *list)
+{
+    if (!tracker || !list) {
+        return RHO_ERROR_NULL;
+    }
+    const unsigned echoes = count_echoes(tracker);
+    if (part >= num_parts(echoes)) {
+        return RHO_ERROR_VALUE;
+    }
+    list->utime = tracker->time_us;
+    list->scan = list->epoch = 0;
+    list->num_echoes_total = (int16_t)echoes;
+    list->part = (int16_t)part;
+    list->num_parts = (int16_t)num_parts(echoes);
+    list->num_echoes = 0;
+    add_echoes(tracker, list);
+    return RHO_OK;
+}

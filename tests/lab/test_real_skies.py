@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""The experiment from end to end on small scenes. Program in $RHOTRACK."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import harness
+
+harness.need_packages()
+
+PROGRAM = os.environ.get("RHOTRACK", str(harness.ROOT / "build" / "rhotrack"))
+SCRIPT = harness.ROOT / "tools" / "lab" / "real_skies.py"
+SCENE = {
+    "version": 1, "text": "three targets & some clutter", "duration_s": 160,
+    "settings": {"v_min_mps": 30, "v_max_mps": 350, "accel_max_mps2": 20},
+    "radars": [{"turn_s": 4, "range_m": [1000, 60000], "sigma_range_m": 30, "sigma_azimuth_rad": 0.003, "pd": 0.95}],
+    "targets": [{"count": 3, "range_m": [20000, 40000], "speed_mps": [100, 200]}],
+    "clutter": [{"kind": "uniform", "plots": 5}],
+    "goal": {"completeness": 0.5, "false_per_scan": 0.5, "switches": 0, "rms_m": 1, "delay_scans": None},
+}
+
+
+class RealSkies(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.kept.name)
+        scenes = cls.folder / "scenes"
+        scenes.mkdir()
+        (scenes / "small.json").write_text(json.dumps(SCENE))
+        (scenes / "uniform.json").write_text(json.dumps({key: value for key, value in SCENE.items() if key != "goal"}))
+        (scenes / "broken.json").write_text("{")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.kept.cleanup()
+
+    def run_it(self, *arguments):
+        return subprocess.run([str(SCRIPT), "--program", PROGRAM, "--scenes", str(self.folder / "scenes"), "--jobs", "2",
+                               "-o", str(self.folder / "out"), *arguments], capture_output=True, text=True, check=False)
+
+    def test_figures_pictures_and_page(self):
+        done = self.run_it("--scene", "small", "--runs", "3", "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        report = json.loads(done.stdout)
+        scene = report["scenes"][0]
+        self.assertEqual((report["runs"], scene["name"], len(scene["runs"])), (3, "small", 3))
+        self.assertGreater(scene["figures"]["completeness"]["mean"], 0.8)
+        self.assertGreater(scene["oracle"]["completeness"]["mean"], 0.85)
+        self.assertEqual(scene["oracle"]["false_per_scan"]["mean"], 0)
+        self.assertTrue(10 < scene["oracle"]["rms_m"]["mean"] < 150)
+        # rms is told, but is no bar
+        self.assertEqual(scene["met"], {"completeness": True, "false_per_scan": True, "switches": True, "rms_m": False})
+        self.assertEqual((report["bars_held"], report["bars_missed"]), (3, 0))
+        self.assertEqual((self.folder / "out" / "small.png").read_bytes()[1:4], b"PNG")
+        page = (self.folder / "out" / "index.html").read_text()
+        self.assertIn("three targets &amp; some clutter", page)
+        self.assertIn('src="small.png"', page)
+        again = json.loads(self.run_it("--scene", "small", "--runs", "3", "--json", "--jobs", "1").stdout)
+        self.assertEqual(again, report)
+        other = json.loads(self.run_it("--scene", "small", "--runs", "3", "--json", "--seed", "9").stdout)
+        self.assertNotEqual(other["scenes"][0]["runs"], scene["runs"])
+
+    def test_lines_and_settings_of_the_tracker(self):
+        done = self.run_it("--scene", str(self.folder / "scenes" / "small.json"), "--runs", "1", "--lines", "--no-oracle",
+                           "--set", "score_min_nat=1000")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"^small +completeness 0\.000 ")
+        self.assertEqual(len(done.stdout.splitlines()), 1)
+
+    def test_false_tracks_an_hour(self):
+        done = self.run_it("--endurance", "--scene", "uniform", "--runs", "2", "--hours", "0.2", "--json", "--no-pages")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        report = json.loads(done.stdout)
+        row = report["endurance"][0]
+        self.assertEqual(report["bars_held"] + report["bars_missed"], 1)
+        self.assertEqual((row["name"], row["hours"], row["wanted_per_hour"]), ("uniform", 0.2, 1))
+        self.assertLess(row["tracks"], 5)
+        self.assertLess(row["ratio_low"], row["ratio_high"])
+
+    def test_what_is_not_there(self):
+        self.assertEqual(self.run_it("--scene", "nothing").returncode, 2)
+        self.assertEqual(self.run_it("--scene", "broken").returncode, 2)
+        self.assertEqual(self.run_it("--program", "/nowhere").returncode, 2)
+        self.assertEqual(self.run_it("--runs", "0").returncode, 2)
+        done = self.run_it("--scene", "small", "--runs", "1", "--set", "nonsense=1")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("nonsense", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    harness.main()

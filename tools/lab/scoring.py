@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""Tracks against truth, scan by scan: which track is which target's, and what follows from it."""
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+GATE_SHARE = 0.0125  # of the largest range: a track so near to a target may be that target's
+FORGIVEN_TURNS = 5  # of the slowest sensor: for so long a track may stay behind where its target left or died
+KEPT_PAIR = 0.5  # in gates: by so much another pairing must be nearer than that of the last scan
+FORBIDDEN = 1e4
+
+
+def gate_m(sensors):
+    return GATE_SHARE * max(sensor.range_max_m for sensor in sensors.values())
+
+
+def forgiven_scans(scene):
+    """FORGIVEN_TURNS as scans of all sensors of a scene; of a single radar whose turns are scans just as many."""
+    sensors = scene.get("radars", []) + scene.get("passive", [])
+    turns_s = [sensor.get("turn_s", sensor.get("interval_s")) for sensor in sensors]
+    scans_per_s = sum(sensor.get("sectors", 1) / turn_s for sensor, turn_s in zip(sensors, turns_s))
+    return round(FORGIVEN_TURNS * max(turns_s) * scans_per_s)
+
+
+def pair(distance, is_kept):
+    """As many pairs as there can be, and of those the nearest ones; distances in gates, beyond 1 there is no pair.
+    Returns rows and columns."""
+    near = distance <= 1
+    if not near.any():
+        return np.empty(0, dtype=int), np.empty(0, dtype=int)
+    if near.sum(axis=0).max() <= 1 and near.sum(axis=1).max() <= 1:
+        return np.nonzero(near)
+    rows, cols = linear_sum_assignment(np.where(near, distance - KEPT_PAIR * is_kept, FORBIDDEN))
+    allowed = near[rows, cols]
+    return rows[allowed], cols[allowed]
+
+
+def score(truth, tracks, gate, forgiven=FORGIVEN_TURNS):
+    """Figures of one run, and the rows of false tracks as (scan, index in the scan).
+
+    completeness   share of (target, scan), target visible, that have a track
+    false_per_scan tracks that are no target's; forgiven are those whose last target, or a target near them, went out of sight
+                   at most `forgiven` scans ago
+    switches       a target's track is another one than its last; not after it was out of sight for longer than that
+    rms_m          of places, over all pairs
+    delays_scans   scans from a target's first visibility to its first track, of the targets that ever had one
+    delay_mean_scans, never_tracked, false_tracks: their mean, the targets without one, and how many tracks were ever false
+    """
+    visible = truth.visible
+    num_scans, num_targets = visible.shape
+    last_track = [None] * num_targets  # of each target
+    last_paired = np.full(num_targets, -1)
+    last_visible = np.full(num_targets, -1)
+    visit = np.zeros(num_targets, dtype=int)  # its present one began at this scan
+    last_target = {}  # of each track
+    first_track = np.full(num_targets, -1)
+    pairs = false = switches = 0
+    square_m2 = 0.0
+    false_rows = []
+    for k in range(num_scans):
+        seen = np.nonzero(visible[k])[0]
+        returned = seen[(last_visible[seen] >= 0) & (k - last_visible[seen] - 1 > forgiven)]
+        visit[returned] = k
+        last_visible[seen] = k
+        ids, places = tracks.ids[k].tolist(), tracks.place_m[k]
+        if not ids:
+            continue
+        apart = np.linalg.norm(truth.place_m[k, seen][:, None, :] - places[None, :, :], axis=2) / gate
+        kept = np.array([[last_track[j] == track and last_paired[j] == k - 1 for track in ids] for j in seen.tolist()],
+                        dtype=bool).reshape(len(seen), len(ids)) if len(seen) and len(ids) else np.zeros((len(seen), len(ids)))
+        rows, cols = pair(apart, kept) if len(seen) else (np.empty(0, dtype=int),) * 2
+        taken = set(cols.tolist())
+        for row, col in zip(rows.tolist(), cols.tolist()):
+            j, track = int(seen[row]), ids[col]
+            pairs += 1
+            square_m2 += (apart[row, col] * gate) ** 2
+            switches += last_track[j] is not None and last_track[j] != track and last_paired[j] >= visit[j]
+            if first_track[j] < 0:
+                first_track[j] = k
+            last_track[j], last_paired[j], last_target[track] = track, k, j
+        gone = np.nonzero((last_visible >= 0) & (last_visible < k) & (k - last_visible <= forgiven))[0]
+        for col, track in enumerate(ids):
+            if col in taken or last_target.get(track, -1) in gone:
+                continue
+            with np.errstate(invalid="ignore"):
+                if (np.linalg.norm(truth.place_m[k, gone] - places[col], axis=1) <= gate).any():
+                    continue
+            false += 1
+            false_rows.append((k, col))
+    chances = int(visible.sum())
+    first_visible = np.where(visible.any(axis=0), visible.argmax(axis=0), -1)
+    delays = [int(first_track[j] - first_visible[j]) if first_track[j] >= 0 else None
+              for j in range(num_targets) if first_visible[j] >= 0]
+    found = [delay for delay in delays if delay is not None]
+    return {
+        "completeness": pairs / chances if chances else float("nan"),
+        "false_per_scan": false / num_scans if num_scans else float("nan"),
+        "switches": float(switches),
+        "rms_m": float(np.sqrt(square_m2 / pairs)) if pairs else float("nan"),
+        "delay_mean_scans": float(np.mean(found)) if found else float("nan"),
+        "delays_scans": found,
+        "never_tracked": float(len(delays) - len(found)),
+        "false_tracks": float(len({tracks.ids[k][col] for k, col in false_rows})),
+    }, false_rows

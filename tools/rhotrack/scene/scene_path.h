@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scene_path: where targets are: legs of constant acceleration along and constant rate of turn, and groups of random ones.
+ */
+#ifndef RHOTRACK_TOOL_SCENE_PATH_H
+#define RHOTRACK_TOOL_SCENE_PATH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scene_json.h"
+#include "scene_stream.h"
+
+struct motion {
+    double x_m, y_m, vx_mps, vy_mps;
+};
+
+/* From t_s on, until the next leg. */
+struct path_leg {
+    double t_s, x_m, y_m, speed_mps, heading_rad;
+    double along_mps2, turn_radps;
+};
+
+struct scene_path {
+    double from_s, until_s; /* from .. below until it is there */
+    size_t item;            /* of targets[] */
+    size_t num_legs, room;
+    struct path_leg *legs;
+};
+
+struct motion path_at(const struct scene_path *path, double t_s);
+void path_free(struct scene_path *path);
+
+/* One leg of a described path. */
+struct path_step {
+    double for_s; /* 0: until the speed or the turn is there */
+    double along_mps2, across_mps2, turn_radps;
+    bool has_speed;
+    double to_speed_mps;
+    double turn_rad; /* 0: for_s */
+};
+
+/* An element of targets[]: one path, or a group of random ones. */
+struct target_item {
+    size_t count; /* 0: one path */
+    double from_s, until_s;
+    double x_m, y_m, speed_mps, heading_rad;
+    bool has_parent;
+    size_t parent;
+    double heading_change_rad, speed_change_mps; /* against the parent's */
+    size_t num_steps;
+    struct path_step *steps;
+
+    struct json_span from, life; /* of a group; life 0: to the end */
+    bool has_life, is_replaced;
+    struct json_span pause;
+    double about_x_m, about_y_m;
+    struct json_span range, azimuth; /* of the place where it begins */
+    bool has_box;
+    double box_m[4];
+    struct json_span speed, heading;
+    bool is_relative; /* heading: against the way to the centre */
+    bool is_either;   /* heading: to the left or the right */
+    bool has_keep;
+    struct json_span keep;
+    bool has_turns, has_turn_for;
+    struct json_span turn_every, turn_across, turn_rad, turn_for;
+    bool has_changes;
+    struct json_span change_every, change_speed, change_along;
+    bool has_stops;
+    struct json_span stop_every, stop_for, stop_along;
+};
+
+struct scene_targets {
+    size_t count;
+    struct target_item *items;
+};
+
+struct scene_targets targets_read(struct json_object *object, const char *key);
+void targets_free(struct scene_targets *targets);
+
+/* All paths of a run, in new memory. Exit 2 where no random path keeps within keep_range_m. */
+struct scene_path *targets_draw(const struct scene_targets *targets, const char *file,
+                                double duration_s, uint64_t seed, uint64_t run, uint64_t source,
+                                size_t *count);
+
+#endif

@@ -1,0 +1,846 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene_watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "../common.h"
+#include "portable_math.h"
+#include "scene_mover.h"
+
+#define RANGE_LEAST_M 0.01 /* a file's last digit */
+#define MEETING_STEPS                                                                              \
+    16                  /* each leaves the ratio of the angular speeds: 1e-2 at worst in practice */
+#define AGAIN_TURNS 0.5 /* what has just been met is not met again before */
+
+/* ---- where sensors look ------------------------------------------------------------------------------ */
+
+static double direction(const struct scene_sensor *sensor)
+{
+    return sensor->is_counter_clockwise ? 1.0 : -1.0;
+}
+
+/* Turns of the antenna, or scans of a sensor that does not turn. */
+static size_t num_turns(const struct scene *scene, const struct scene_sensor *sensor)
+{
+    double turns = (scene->duration_s - sensor->start_s) / sensor->turn_s;
+
+    turns = sensor->turns ? floor(turns + 1e-9) : ceil(turns - 1e-9);
+    return turns > 0.0 ? (size_t)turns : 0;
+}
+
+/* The share of a turn that is left until the antenna says this azimuth, 0 .. below 1, at the time. */
+static double turns_until(const struct scene_sensor *sensor, double azimuth_rad, double t_s)
+{
+    double turns = (t_s - sensor->start_s) / sensor->turn_s;
+    double way = direction(sensor) * (azimuth_rad - sensor->start_rad) / PORTABLE_TURN - turns;
+
+    way -= floor(way);
+    return way < 1.0 ? way : 0.0;
+}
+
+static bool is_in_sector(const struct scene_coverage *coverage, double azimuth_rad)
+{
+    double width, way;
+
+    if (!coverage->has_sector) {
+        return true;
+    }
+    width = (coverage->to_rad - coverage->from_rad) / PORTABLE_TURN;
+    way = (azimuth_rad - coverage->from_rad) / PORTABLE_TURN;
+    width -= floor(width);
+    way -= floor(way);
+    return !(width > 0.0) || way <= width;
+}
+
+static bool is_within(const struct scene_coverage *coverage, double range_m, double azimuth_rad)
+{
+    return range_m >= coverage->range_m.lo && range_m <= coverage->range_m.hi &&
+           is_in_sector(coverage, azimuth_rad);
+}
+
+static bool sees_place(const struct scene *scene, const struct scene_sensor *sensor, double x_m,
+                       double y_m)
+{
+    double dx_m = x_m - sensor->x_m, dy_m = y_m - sensor->y_m;
+    const double *area_m = scene->area_m;
+
+    if (sensor->is_cartesian) {
+        return x_m >= area_m[0] && x_m <= area_m[1] && y_m >= area_m[2] && y_m <= area_m[3];
+    }
+    return is_within(&sensor->coverage, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m));
+}
+
+bool scene_covers(const struct scene *scene, double x_m, double y_m)
+{
+    for (size_t i = 0; i < scene->num_sensors; i++) {
+        if (sees_place(scene, &scene->sensors[i], x_m, y_m)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- what happens ------------------------------------------------------------------------------------- */
+
+static bool happens(const struct scene_event *event, size_t sensor, double t_s)
+{
+    return (event->sensors >> sensor & 1) && t_s >= event->from_s && t_s < event->until_s;
+}
+
+/* Neither off nor behind a mask. */
+static bool can_see(const struct scene *scene, size_t sensor, double t_s, double range_m,
+                    double azimuth_rad)
+{
+    for (size_t i = 0; i < scene->num_events; i++) {
+        const struct scene_event *event = &scene->events[i];
+
+        if (happens(event, sensor, t_s) &&
+            (event->kind == EVENT_OUTAGE ||
+             (event->kind == EVENT_MASK && is_within(&event->within, range_m, azimuth_rad)))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A scan that a silent outage touches is never there. */
+static bool is_lost(const struct scene *scene, size_t sensor, double start_s, double end_s)
+{
+    for (size_t i = 0; i < scene->num_events; i++) {
+        const struct scene_event *event = &scene->events[i];
+
+        if (event->kind == EVENT_OUTAGE && event->is_silent && (event->sensors >> sensor & 1) &&
+            end_s >= event->from_s && start_s < event->until_s) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- one sensor at work ---------------------------------------------------------------------------------- */
+
+/* What the sensor meets when it passes a target. */
+struct sighting {
+    double t_s;
+    struct motion at;
+    double range_m, azimuth_rad;
+    uint64_t pass; /* counted for each target */
+    int target_id;
+    bool is_seen;
+    size_t group; /* the first of those that are one plot */
+};
+
+struct fade {
+    double from_s, until_s, pd;
+    uint32_t sensors;
+};
+
+struct target_fades {
+    size_t count, room;
+    struct fade *fades;
+};
+
+struct watch {
+    const struct scene *scene;
+    const struct scene_sensor *sensor;
+    size_t index; /* of the sensor */
+    uint64_t seed, run;
+    size_t turns;
+    double end_s;
+    size_t num_plots, room;
+    struct scene_plot *plots;
+    size_t num_sightings, sightings_room;
+    struct sighting *sightings;
+};
+
+static double pd_at(const struct scene_curve *curve, double range_m)
+{
+    size_t i = 0;
+
+    while (i < curve->count && curve->range_m[i] < range_m) {
+        i++;
+    }
+    if (i == 0 || i == curve->count) {
+        return curve->value[i == 0 ? 0 : i - 1];
+    }
+    return curve->value[i - 1] + (curve->value[i] - curve->value[i - 1]) *
+                                     (range_m - curve->range_m[i - 1]) /
+                                     (curve->range_m[i] - curve->range_m[i - 1]);
+}
+
+static void keep_plot(struct watch *watch, struct scene_plot plot)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double scans = (plot.t_s - sensor->start_s) / sensor->turn_s * (double)sensor->sectors;
+    size_t last = watch->turns * sensor->sectors - 1;
+
+    plot.scan = sensor->turns ? (size_t)fmax(0.0, floor(scans)) : (size_t)floor(scans + 0.5);
+    plot.scan = plot.scan > last ? last : plot.scan;
+    plot.range_m = fmax(RANGE_LEAST_M, plot.range_m);
+    plot.azimuth_rad = portable_wrap(plot.azimuth_rad);
+    if (sensor->range_rate_span_mps > 0.0) {
+        plot.range_rate_mps = remainder(plot.range_rate_mps, sensor->range_rate_span_mps);
+    }
+    watch->plots = must_grow(watch->plots, watch->num_plots, &watch->room, sizeof *watch->plots);
+    watch->plots[watch->num_plots++] = plot;
+}
+
+static double rate_of(const struct scene_sensor *sensor, const struct motion *at, double range_m)
+{
+    return ((at->x_m - sensor->x_m) * at->vx_mps + (at->y_m - sensor->y_m) * at->vy_mps) / range_m;
+}
+
+/* With biases and noise. The same numbers are drawn whatever the sensor measures. */
+static struct scene_plot measure(const struct scene_sensor *sensor, const struct sighting *sighting,
+                                 struct random *random)
+{
+    double first = random_normal(random), second = random_normal(random),
+           third = random_normal(random);
+    double sigma_rad = sensor->is_passive ? sensor->sigma_rad : sensor->sigma_azimuth_rad;
+
+    return (struct scene_plot){
+        .t_s = sighting->t_s,
+        .target_id = sighting->target_id,
+        .range_m = sighting->range_m + sensor->range_bias_m + sensor->sigma_range_m * first,
+        .azimuth_rad = sighting->azimuth_rad + sensor->azimuth_bias_rad + sigma_rad * second,
+        .range_rate_mps = rate_of(sensor, &sighting->at, sighting->range_m) +
+                          sensor->sigma_range_rate_mps * third,
+        .x_m = sighting->at.x_m + sensor->sigma_m * first,
+        .y_m = sighting->at.y_m + sensor->sigma_m * second};
+}
+
+/* ---- things that are seen again and again ---------------------------------------------------------------- */
+
+/* When the antenna next points to it, after after_s. False: it is not there then. */
+static bool meet(const struct watch *watch, const struct scene_mover *mover, double after_s,
+                 struct sighting *sighting)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double at_s = after_s;
+    bool is_there = mover_at(mover, sensor, at_s, &sighting->at);
+
+    for (int i = 0; sensor->turns && i < MEETING_STEPS; i++) {
+        double azimuth_rad =
+            portable_atan2(sighting->at.y_m - sensor->y_m, sighting->at.x_m - sensor->x_m);
+        double ahead = turns_until(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
+
+        at_s += (i > 0 && ahead > 0.5 ? ahead - 1.0 : ahead) * sensor->turn_s;
+        is_there = mover_at(mover, sensor, at_s, &sighting->at);
+    }
+    sighting->t_s = at_s;
+    sighting->range_m =
+        portable_hypot(sighting->at.x_m - sensor->x_m, sighting->at.y_m - sensor->y_m);
+    sighting->azimuth_rad =
+        portable_atan2(sighting->at.y_m - sensor->y_m, sighting->at.x_m - sensor->x_m);
+    return is_there;
+}
+
+/* All passes: called with each at which the sensor could see it. */
+static void watch_mover(struct watch *watch, const struct scene_mover *mover,
+                        void (*take)(struct watch *, const struct scene_mover *, struct sighting *,
+                                     uint64_t item),
+                        uint64_t item)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double end_s = fmin(watch->end_s, mover->until_s);
+    double first_s = fmax(sensor->start_s, mover->from_s), after_s = first_s;
+    uint64_t pass = 0;
+
+    if (!sensor->turns) { /* the first scan that is not before */
+        after_s = sensor->start_s +
+                  ceil((first_s - sensor->start_s) / sensor->turn_s - 1e-9) * sensor->turn_s;
+    }
+    while (after_s < end_s) {
+        struct sighting sighting = {.target_id = mover->target_id, .pass = pass};
+        bool is_there = meet(watch, mover, after_s, &sighting);
+
+        if (is_there && sighting.t_s >= sensor->start_s && sighting.t_s < watch->end_s &&
+            sighting.range_m > 0.0 &&
+            sees_place(watch->scene, sensor, sighting.at.x_m, sighting.at.y_m) &&
+            can_see(watch->scene, watch->index, sighting.t_s, sighting.range_m,
+                    sighting.azimuth_rad)) {
+            take(watch, mover, &sighting, item);
+        }
+        pass++;
+        if (!sensor->turns) {
+            size_t next = (size_t)floor((after_s - sensor->start_s) / sensor->turn_s + 1.5);
+
+            after_s = sensor->start_s + (double)next * sensor->turn_s;
+        } else {
+            after_s = fmax(sighting.t_s, after_s) + AGAIN_TURNS * sensor->turn_s;
+        }
+    }
+}
+
+/* ---- targets ----------------------------------------------------------------------------------------------- */
+
+static struct target_fades draw_fades(const struct scene *scene, const struct scene_path *path,
+                                      uint64_t target, uint64_t seed, uint64_t run)
+{
+    struct target_fades fades = {.count = 0};
+
+    for (size_t i = 0; i < scene->num_events; i++) {
+        const struct scene_event *event = &scene->events[i];
+        struct random random = scene_stream(seed, run, STREAM_FADES, i, target, 0);
+        double from_s = fmax(0.0, event->from_s), until_s = fmin(scene->duration_s, event->until_s);
+        uint64_t count =
+            random_poisson(&random, event->per_hour / 3600.0 * fmax(0.0, until_s - from_s));
+
+        if (event->kind != EVENT_FADES ||
+            (event->has_targets && (path->item > 31 || !(event->targets >> path->item & 1)))) {
+            continue;
+        }
+        count = event->per_hour > 0.0 ? count : 1;
+        for (uint64_t k = 0; k < count; k++) {
+            struct fade fade = {event->from_s, event->until_s, event->pd, event->sensors};
+
+            if (event->per_hour > 0.0) {
+                fade.from_s = random_between(&random, from_s, until_s);
+                fade.until_s = fade.from_s + draw_between(&random, event->for_s);
+            }
+            fades.fades = must_grow(fades.fades, fades.count, &fades.room, sizeof *fades.fades);
+            fades.fades[fades.count++] = fade;
+        }
+    }
+    return fades;
+}
+
+static double faded_pd(const struct target_fades *fades, size_t sensor, double t_s, double pd)
+{
+    for (size_t i = 0; i < fades->count; i++) {
+        const struct fade *fade = &fades->fades[i];
+
+        if ((fade->sensors >> sensor & 1) && t_s >= fade->from_s && t_s < fade->until_s) {
+            pd = fmin(pd, fade->pd);
+        }
+    }
+    return pd;
+}
+
+static void take_target(struct watch *watch, const struct scene_mover *mover,
+                        struct sighting *sighting, uint64_t item)
+{
+    (void)mover;
+    (void)item;
+    watch->sightings = must_grow(watch->sightings, watch->num_sightings, &watch->sightings_room,
+                                 sizeof *watch->sightings);
+    watch->sightings[watch->num_sightings++] = *sighting;
+}
+
+static struct random pass_stream(const struct watch *watch, const struct sighting *sighting)
+{
+    return scene_stream(watch->seed, watch->run, STREAM_TARGET, watch->index,
+                        (uint64_t)sighting->target_id, sighting->pass);
+}
+
+static void split(struct watch *watch, const struct sighting *sighting)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+
+    for (size_t i = 0; i < watch->scene->num_events; i++) {
+        const struct scene_event *event = &watch->scene->events[i];
+        struct random random;
+
+        if (event->kind != EVENT_SPLIT || !happens(event, watch->index, sighting->t_s)) {
+            continue;
+        }
+        random = scene_stream(watch->seed, watch->run, STREAM_SPLIT, i * 64 + watch->index,
+                              (uint64_t)sighting->target_id, sighting->pass);
+        if (random_uniform(&random) < event->share) {
+            struct scene_plot second = measure(sensor, sighting, &random);
+
+            second.range_m += sensor->sigma_range_m * draw_between(&random, event->range_sigmas) +
+                              draw_between(&random, event->range_m);
+            second.azimuth_rad +=
+                sensor->sigma_azimuth_rad * draw_between(&random, event->azimuth_sigmas) +
+                draw_between(&random, event->azimuth_rad);
+            second.x_m += sensor->sigma_m * draw_between(&random, event->range_sigmas);
+            second.y_m += sensor->sigma_m * draw_between(&random, event->azimuth_sigmas);
+            keep_plot(watch, second);
+        }
+    }
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct sighting *one = a, *other = b;
+
+    if (one->t_s < other->t_s || one->t_s > other->t_s) {
+        return one->t_s > other->t_s ? 1 : -1;
+    }
+    return (one->target_id > other->target_id) - (one->target_id < other->target_id);
+}
+
+static bool is_unresolved(const struct scene_sensor *sensor, const struct sighting *one,
+                          const struct sighting *other)
+{
+    if (sensor->is_cartesian) {
+        return portable_hypot(one->at.x_m - other->at.x_m, one->at.y_m - other->at.y_m) <
+               sensor->resolution_m;
+    }
+    if (sensor->is_passive) {
+        return false;
+    }
+    return fabs(one->range_m - other->range_m) < sensor->resolution_m &&
+           fabs(portable_wrap(one->azimuth_rad - other->azimuth_rad)) < sensor->resolution_rad;
+}
+
+/* Sightings in the order of time: those that are not resolved, one by one, get the same group. */
+static void find_groups(struct watch *watch)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double window_s =
+        sensor->turns ? sensor->resolution_rad / PORTABLE_TURN * sensor->turn_s * 1.01 : 0.0;
+
+    for (size_t i = 0; i < watch->num_sightings; i++) {
+        watch->sightings[i].group = i;
+    }
+    for (size_t i = 0; sensor->resolution_m > 0.0 && i < watch->num_sightings; i++) {
+        for (size_t k = i + 1; k < watch->num_sightings &&
+                               watch->sightings[k].t_s - watch->sightings[i].t_s <= window_s;
+             k++) {
+            if (is_unresolved(sensor, &watch->sightings[i], &watch->sightings[k])) {
+                size_t from = watch->sightings[k].group, to = watch->sightings[i].group;
+                size_t low = from < to ? from : to;
+
+                for (size_t m = low; m <= k; m++) {
+                    if (watch->sightings[m].group == from || watch->sightings[m].group == to) {
+                        watch->sightings[m].group = low;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/* The middle of all in the group that begins with this one; seen where one of them is. */
+static struct sighting middle_of(const struct watch *watch, size_t first)
+{
+    struct sighting middle = watch->sightings[first];
+    double dx_m = 0, dy_m = 0, vx_mps = 0, vy_mps = 0, range_m = 0, way_rad = 0, t_s = 0, n = 0;
+    double window_s = 0.25 * watch->sensor->turn_s;
+
+    for (size_t i = first; i < watch->num_sightings &&
+                           watch->sightings[i].t_s - watch->sightings[first].t_s <= window_s;
+         i++) {
+        const struct sighting *one = &watch->sightings[i];
+
+        if (one->group != first) {
+            continue;
+        }
+        if (!middle.is_seen && one->is_seen) {
+            middle.target_id = one->target_id;
+        }
+        middle.is_seen = middle.is_seen || one->is_seen;
+        dx_m += one->at.x_m - middle.at.x_m;
+        dy_m += one->at.y_m - middle.at.y_m;
+        vx_mps += one->at.vx_mps;
+        vy_mps += one->at.vy_mps;
+        range_m += one->range_m;
+        way_rad += portable_wrap(one->azimuth_rad - middle.azimuth_rad);
+        t_s += one->t_s;
+        n += 1.0;
+    }
+    middle.at =
+        (struct motion){middle.at.x_m + dx_m / n, middle.at.y_m + dy_m / n, vx_mps / n, vy_mps / n};
+    middle.range_m = range_m / n;
+    middle.azimuth_rad += way_rad / n;
+    middle.t_s = t_s / n;
+    return middle;
+}
+
+static void watch_targets(struct watch *watch, const struct scene_run *run,
+                          const struct target_fades *fades)
+{
+    for (size_t i = 0; i < run->num_paths; i++) {
+        const struct scene_path *path = &run->paths[i];
+        const struct scene_mover mover = {.path = path,
+                                          .from_s = path->from_s,
+                                          .until_s = path->until_s,
+                                          .pd = -1.0,
+                                          .target_id = (int)i};
+
+        watch_mover(watch, &mover, take_target, 0);
+    }
+    if (watch->num_sightings > 0) {
+        qsort(watch->sightings, watch->num_sightings, sizeof *watch->sightings, by_time);
+    }
+    for (size_t i = 0; i < watch->num_sightings; i++) {
+        struct sighting *one = &watch->sightings[i];
+        struct random random = pass_stream(watch, one);
+        double pd = pd_at(&watch->sensor->pd, one->range_m);
+
+        one->is_seen =
+            random_uniform(&random) < faded_pd(&fades[one->target_id], watch->index, one->t_s, pd);
+    }
+    find_groups(watch);
+    for (size_t i = 0; i < watch->num_sightings; i++) {
+        if (watch->sightings[i].group == i) {
+            struct sighting middle = middle_of(watch, i);
+            struct random random = pass_stream(watch, &watch->sightings[i]);
+
+            random_uniform(&random); /* which decided on its detection */
+            if (middle.is_seen) {
+                keep_plot(watch, measure(watch->sensor, &middle, &random));
+                split(watch, &middle);
+            }
+        }
+    }
+}
+
+/* ---- clutter ------------------------------------------------------------------------------------------------ */
+
+static void take_echo(struct watch *watch, const struct scene_mover *mover,
+                      struct sighting *sighting, uint64_t item)
+{
+    struct random random =
+        scene_stream(watch->seed, watch->run, STREAM_CLUTTER, (item >> 32) * 64 + watch->index,
+                     item & UINT32_MAX, sighting->pass);
+
+    if (random_uniform(&random) < mover->pd) {
+        keep_plot(watch, measure(watch->sensor, sighting, &random));
+    }
+}
+
+static void watch_movers(struct watch *watch, const struct scene_run *run, size_t source)
+{
+    struct scene_path *paths;
+    size_t count, num_paths;
+    struct scene_mover *movers =
+        clutter_movers(run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
+
+    for (size_t i = 0; i < count; i++) {
+        watch_mover(watch, &movers[i], take_echo, (uint64_t)source << 32 | i);
+    }
+    for (size_t i = 0; i < num_paths; i++) {
+        path_free(&paths[i]);
+    }
+    free(paths);
+    free(movers);
+}
+
+/* The plot at a place, when the antenna passes it in this turn. */
+static void keep_clutter(struct watch *watch, size_t turn, double range_m, double azimuth_rad,
+                         double x_m, double y_m, double rate_mps)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double turn_s = sensor->start_s + (double)turn * sensor->turn_s, t_s = turn_s;
+
+    if (sensor->turns) {
+        t_s += turns_until(sensor, azimuth_rad + sensor->azimuth_bias_rad, sensor->start_s) *
+               sensor->turn_s;
+    }
+    if (range_m > 0.0 && can_see(watch->scene, watch->index, t_s, range_m, azimuth_rad) &&
+        (sensor->is_cartesian || is_within(&sensor->coverage, range_m, azimuth_rad))) {
+        keep_plot(watch, (struct scene_plot){.t_s = t_s,
+                                             .target_id = -1,
+                                             .range_m = range_m + sensor->range_bias_m,
+                                             .azimuth_rad = azimuth_rad + sensor->azimuth_bias_rad,
+                                             .range_rate_mps = rate_mps,
+                                             .x_m = x_m,
+                                             .y_m = y_m});
+    }
+}
+
+static void keep_clutter_at(struct watch *watch, size_t turn, double x_m, double y_m,
+                            double rate_mps)
+{
+    double dx_m = x_m - watch->sensor->x_m, dy_m = y_m - watch->sensor->y_m;
+
+    keep_clutter(watch, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m, y_m,
+                 rate_mps);
+}
+
+static void draw_azimuths(const struct scene_coverage *coverage, double *from_rad, double *to_rad)
+{
+    *from_rad = coverage->has_sector ? coverage->from_rad : -PORTABLE_PI;
+    *to_rad = coverage->has_sector ? coverage->to_rad : PORTABLE_PI;
+    *to_rad += *to_rad <= *from_rad ? PORTABLE_TURN : 0.0;
+}
+
+static void draw_uniform(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
+                         struct random *random)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_coverage *coverage = &sensor->coverage;
+    double rate_max_mps =
+        clutter->rate_max_mps > 0.0 ? clutter->rate_max_mps : watch->scene->v_max_mps;
+    double rate_mps = random_between(random, -rate_max_mps, rate_max_mps);
+
+    if (clutter->has_box || sensor->is_cartesian) {
+        const double *box_m = clutter->has_box ? clutter->box_m : watch->scene->area_m;
+        double x_m = random_between(random, box_m[0], box_m[1]);
+
+        keep_clutter_at(watch, turn, x_m, random_between(random, box_m[2], box_m[3]), rate_mps);
+    } else {
+        struct json_span range =
+            clutter->within.range_m.lo < 0.0 ? coverage->range_m : clutter->within.range_m;
+        double from_rad, to_rad, range_m = draw_between(random, range);
+
+        draw_azimuths(clutter->within.has_sector ? &clutter->within : coverage, &from_rad, &to_rad);
+        keep_clutter(watch, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
+                     rate_mps);
+    }
+}
+
+static void draw_cell(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
+                      struct random *random)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
+    double x_m = clutter->x_m + clutter->vx_mps * t_s, y_m = clutter->y_m + clutter->vy_mps * t_s;
+    double rate_mps = clutter->rate_sigma_mps * random_normal(random);
+    struct motion at;
+
+    if (clutter->is_disc) {
+        double radius_m = clutter->radius_m * sqrt(random_uniform(random));
+        double angle_rad = random_between(random, -PORTABLE_PI, PORTABLE_PI);
+
+        x_m += radius_m * portable_cos(angle_rad);
+        y_m += radius_m * portable_sin(angle_rad);
+    } else {
+        x_m += clutter->radius_m * random_normal(random);
+        y_m += clutter->radius_m * random_normal(random);
+    }
+    at = (struct motion){x_m, y_m, clutter->vx_mps, clutter->vy_mps};
+    rate_mps += rate_of(sensor, &at,
+                        fmax(RANGE_LEAST_M, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m)));
+    keep_clutter_at(watch, turn, x_m, y_m, rate_mps);
+}
+
+static void draw_strobe(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
+                        struct random *random)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double t_s = sensor->start_s + (double)turn * sensor->turn_s;
+    struct json_span range =
+        clutter->within.range_m.lo < 0.0 ? sensor->coverage.range_m : clutter->within.range_m;
+    double azimuth_rad = clutter->azimuth_rad + clutter->azimuth_radps * t_s +
+                         clutter->width_rad * (random_uniform(random) - 0.5);
+    double range_m = draw_between(random, range);
+    double rate_mps = random_between(random, -watch->scene->v_max_mps, watch->scene->v_max_mps);
+
+    azimuth_rad = portable_wrap(azimuth_rad);
+    keep_clutter(watch, turn, range_m, azimuth_rad,
+                 sensor->x_m + range_m * portable_cos(azimuth_rad),
+                 sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
+}
+
+static double mean_plots(const struct scene *scene, const struct scene_clutter *clutter)
+{
+    const double *box_m = clutter->has_box ? clutter->box_m : scene->area_m;
+
+    return clutter->plots +
+           clutter->plots_per_km2 * (box_m[1] - box_m[0]) * (box_m[3] - box_m[2]) * 1e-6;
+}
+
+/* What is drawn anew each scan. */
+static void watch_clutter(struct watch *watch, size_t source)
+{
+    const struct scene_clutter *clutter = &watch->scene->clutter[source];
+    double mean = mean_plots(watch->scene, clutter);
+
+    for (size_t turn = 0; turn < watch->turns; turn++) {
+        double t_s = watch->sensor->start_s + (double)turn * watch->sensor->turn_s;
+        struct random random = scene_stream(watch->seed, watch->run, STREAM_CLUTTER,
+                                            source * 64 + watch->index, turn, 0);
+        uint64_t count = random_poisson(&random, mean);
+
+        if (t_s < clutter->from_s || t_s >= clutter->until_s) {
+            continue;
+        }
+        for (uint64_t i = 0; i < count; i++) {
+            if (clutter->kind == CLUTTER_UNIFORM) {
+                draw_uniform(watch, clutter, turn, &random);
+            } else if (clutter->kind == CLUTTER_CELL) {
+                draw_cell(watch, clutter, turn, &random);
+            } else {
+                draw_strobe(watch, clutter, turn, &random);
+            }
+        }
+    }
+}
+
+static void watch_false_bearings(struct watch *watch)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+
+    for (size_t turn = 0; turn < watch->turns; turn++) {
+        struct random random =
+            scene_stream(watch->seed, watch->run, STREAM_BEARINGS, watch->index, turn, 0);
+        uint64_t count = random_poisson(&random, sensor->false_bearings);
+
+        for (uint64_t i = 0; i < count; i++) {
+            keep_clutter(
+                watch, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
+                random_between(&random, sensor->false_from_rad, sensor->false_to_rad), 0, 0, 0);
+        }
+    }
+}
+
+/* ---- all sensors ---------------------------------------------------------------------------------------------- */
+
+static int by_scan(const void *a, const void *b)
+{
+    const struct scene_plot *one = a, *other = b;
+    const double pairs[][2] = {
+        {one->t_s, other->t_s},         {one->azimuth_rad, other->azimuth_rad},
+        {one->range_m, other->range_m}, {one->x_m, other->x_m},
+        {one->y_m, other->y_m},         {one->target_id, other->target_id}};
+
+    if (one->scan != other->scan) {
+        return one->scan > other->scan ? 1 : -1;
+    }
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        if (pairs[i][0] < pairs[i][1] || pairs[i][0] > pairs[i][1]) {
+            return pairs[i][0] > pairs[i][1] ? 1 : -1;
+        }
+    }
+    return 0;
+}
+
+/* Where sector `index` of a turn begins, as the sensor says it: the same number every turn. */
+static double border_rad(const struct scene_sensor *sensor, size_t index)
+{
+    double share = (double)(index % sensor->sectors) / (double)sensor->sectors;
+
+    return portable_wrap(sensor->start_rad + direction(sensor) * PORTABLE_TURN * share);
+}
+
+static struct scene_scan scan_of(const struct watch *watch, size_t number)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double scan_s = sensor->turn_s / (double)sensor->sectors;
+    struct scene_scan scan = {.sensor = watch->index,
+                              .number = number,
+                              .end_s = sensor->start_s +
+                                       (double)(number + (sensor->turns ? 1 : 0)) * scan_s};
+
+    if (sensor->sectors > 1) {
+        double first_rad = border_rad(sensor, number), last_rad = border_rad(sensor, number + 1);
+
+        scan.from_rad = sensor->is_counter_clockwise ? first_rad : last_rad;
+        scan.to_rad = sensor->is_counter_clockwise ? last_rad : first_rad;
+    } else if (sensor->told.coverage.has_sector) {
+        scan.from_rad = portable_wrap(sensor->told.coverage.from_rad + sensor->azimuth_bias_rad);
+        scan.to_rad = portable_wrap(sensor->told.coverage.to_rad + sensor->azimuth_bias_rad);
+    }
+    return scan;
+}
+
+static void keep_scans(struct scene_run *run, const struct watch *watch, size_t *room)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double scan_s = sensor->turns ? sensor->turn_s / (double)sensor->sectors : 0.0;
+    size_t taken = 0;
+
+    for (size_t i = 0; i < watch->turns * sensor->sectors; i++) {
+        struct scene_scan scan = scan_of(watch, i);
+        struct random random =
+            scene_stream(watch->seed, watch->run, STREAM_ARRIVAL, watch->index, i, 0);
+
+        scan.plots = watch->plots ? watch->plots + taken : NULL;
+        while (taken < watch->num_plots && watch->plots[taken].scan == i) {
+            taken++;
+            scan.num_plots++;
+        }
+        scan.received_s = scan.end_s;
+        if (random_uniform(&random) < sensor->late_share) {
+            scan.received_s += sensor->late_s;
+        }
+        if (!is_lost(run->scene, watch->index, scan.end_s - scan_s, scan.end_s)) {
+            run->scans = must_grow(run->scans, run->num_scans, room, sizeof *run->scans);
+            run->scans[run->num_scans++] = scan;
+        }
+    }
+}
+
+static int by_arrival(const void *a, const void *b)
+{
+    const struct scene_scan *one = a, *other = b;
+
+    if (one->received_s < other->received_s || one->received_s > other->received_s) {
+        return one->received_s > other->received_s ? 1 : -1;
+    }
+    if (one->sensor != other->sensor) {
+        return one->sensor > other->sensor ? 1 : -1;
+    }
+    return (one->number > other->number) - (one->number < other->number);
+}
+
+static void watch_all(struct watch *watch, const struct scene_run *run,
+                      const struct target_fades *fades)
+{
+    watch_targets(watch, run, fades);
+    for (size_t i = 0; !watch->sensor->is_passive && i < run->scene->num_clutter; i++) {
+        enum clutter_kind kind = run->scene->clutter[i].kind;
+
+        if (!(run->scene->clutter[i].sensors >> watch->index & 1)) {
+            continue;
+        }
+        if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
+            watch_clutter(watch, i);
+        } else {
+            watch_movers(watch, run, i);
+        }
+    }
+    if (watch->sensor->is_passive) {
+        watch_false_bearings(watch);
+    }
+    if (watch->num_plots > 0) {
+        qsort(watch->plots, watch->num_plots, sizeof *watch->plots, by_scan);
+    }
+}
+
+struct scene_run *scene_watch(const struct scene *scene, uint64_t seed, uint64_t run_number)
+{
+    struct scene_run *run = must_calloc(1, sizeof *run);
+    struct target_fades *fades;
+    size_t room = 0;
+
+    run->scene = scene;
+    run->seed = seed;
+    run->run = run_number;
+    run->paths = targets_draw(&scene->targets, scene->name, scene->duration_s, seed, run_number, 0,
+                              &run->num_paths);
+    fades = must_calloc(run->num_paths + 1, sizeof *fades);
+    for (size_t i = 0; i < run->num_paths; i++) {
+        fades[i] = draw_fades(scene, &run->paths[i], i, seed, run_number);
+    }
+    for (size_t i = 0; i < scene->num_sensors; i++) {
+        const struct scene_sensor *sensor = &scene->sensors[i];
+        struct watch watch = {
+            .scene = scene, .sensor = sensor, .index = i, .seed = seed, .run = run_number};
+
+        watch.turns = num_turns(scene, sensor);
+        watch.end_s = sensor->start_s + (double)watch.turns * sensor->turn_s;
+        if (watch.turns > 0) {
+            watch_all(&watch, run, fades);
+            keep_scans(run, &watch, &room);
+        }
+        run->plots[i] = watch.plots;
+        free(watch.sightings);
+    }
+    if (run->num_scans > 0) {
+        qsort(run->scans, run->num_scans, sizeof *run->scans, by_arrival);
+    }
+    for (size_t i = 0; i < run->num_paths; i++) {
+        free(fades[i].fades);
+    }
+    free(fades);
+    return run;
+}
+
+void scene_run_free(struct scene_run *run)
+{
+    for (size_t i = 0; i < run->num_paths; i++) {
+        path_free(&run->paths[i]);
+    }
+    for (size_t i = 0; i < run->scene->num_sensors; i++) {
+        free(run->plots[i]);
+    }
+    free(run->paths);
+    free(run->scans);
+    free(run);
+}
