@@ -232,7 +232,7 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
     return is_overdue &&
-           (track->misses_in_row > 0 || unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
+           (track->misses_in_row > 1 || unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
 }
 
 /* ---- places ------------------------------------------------------------------------------------- */
