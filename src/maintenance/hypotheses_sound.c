@@ -67,7 +67,8 @@ static int is_sound_node(const struct rho_hypothesis *at)
            rho_are_finite(at->imm.steady.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
            rho_are_finite(at->imm.state, RHO_IMM_STATES) &&
            rho_are_finite(at->imm.covariance, RHO_TRIANGLE(RHO_IMM_STATES)) &&
-           rho_is_within(at->imm.probability, 0.0f, 1.0f);
+           rho_is_within(at->imm.probability, 0.0f, 1.0f) &&
+           rho_is_within(at->imm.calm, 0.0f, 1.0f);
 }
 
 int rho_hypotheses_is_sound(const struct rho_hypotheses *pool)

@@ -30,7 +30,19 @@
 
 /* Steady targets are not quite; those that hardly manoeuvre are steadier still. */
 #define QUIET_DENSITY 1.0f
+#define CALM_DENSITY 0.01f
 #define QUIET_SHARE 0.5f
+
+/* Calm targets keep straight for minutes: airliners, ships. An agile one that kept straight for a minute is one of them. */
+#define CALM_S 300.0f
+#define SETTLE_S 60.0f
+
+/*
+ * Odds of a manoeuvre below which none gives anything back to the steady model: there the little that is left of it adds the
+ * square of its distance to the steady estimate's variance, scan by scan, and is what keeps straight targets from being known well.
+ * On the odds, not on the probability, which never falls so low where scans follow each other fast.
+ */
+#define ODDS_OVER 0.16f
 
 void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps)
 {
@@ -40,8 +52,11 @@ void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, fl
     const float memory_s = MEMORY_SHARE * turn_s, sojourn_s = SOJOURN_SHARE * turn_s;
     *model = (struct rho_imm_model){
         .quiet_density = quiet * quiet < QUIET_DENSITY ? quiet * quiet : QUIET_DENSITY,
+        .calm_density = quiet * quiet < CALM_DENSITY ? quiet * quiet : CALM_DENSITY,
         .memory_s = memory_s > MEMORY_MIN_S ? memory_s : MEMORY_MIN_S,
         .maneuver_s = sojourn_s > SOJOURN_MIN_S ? sojourn_s : SOJOURN_MIN_S,
+        .calm_s = CALM_S,
+        .settle_s = SETTLE_S,
         .speed_sigma_mps = v_max_mps,
         .accel_sigma_mps2 = accel_max_mps2,
     };
@@ -52,10 +67,13 @@ void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, fl
 int rho_imm_model_is_usable(const struct rho_imm_model *model)
 {
     return rho_is_within(model->quiet_density, 0.0f, 1e8f) &&
+           rho_is_within(model->calm_density, 0.0f, model->quiet_density) &&
            rho_is_within(model->drive_density, 0.0f, 1e8f) &&
            rho_is_within(model->memory_s, 1e-3f, 1e6f) &&
            rho_is_within(model->steady_s, 1e-3f, 1e6f) &&
            rho_is_within(model->maneuver_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->calm_s, 0.0f, 1e6f) &&
+           rho_is_within(model->settle_s, model->calm_s > 0.0f ? 1e-3f : 0.0f, 1e6f) &&
            rho_is_within(model->speed_sigma_mps, 1e-3f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f) &&
            rho_is_within(model->speed_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS);
@@ -141,12 +159,23 @@ static void double_step(struct rho_imm_step *step)
     step->dt_s *= 2.0f;
 }
 
-/* A Markov chain of two states: what has begun and ended since, where none of both had. */
+static float passed(float dt_s, float mean_s)
+{
+    return 1.0f - rho_exp(-dt_s / mean_s);
+}
+
+/* A Markov chain: what has begun and ended since, where none of both had. A calm target is never less steady than another. */
 static void open_changes(struct rho_imm_step *step, const struct rho_imm_model *model)
 {
     const float begins = step->dt_s / model->steady_s, ends = step->dt_s / model->maneuver_s;
-    step->begins = step->ends = 0.0f;
+    step->begins = step->ends = step->calm_begins = step->settles = step->odds_over = 0.0f;
     if (step->dt_s > 0.0f) {
+        if (model->calm_s > 0.0f) {
+            step->calm_begins = passed(
+                step->dt_s, model->calm_s > model->steady_s ? model->calm_s : model->steady_s);
+            step->settles = passed(step->dt_s, model->settle_s);
+            step->odds_over = ODDS_OVER;
+        }
         const float moved = 1.0f - rho_exp(-(begins + ends));
         step->begins = begins / (begins + ends) * moved;
         step->ends = ends / (begins + ends) * moved;
@@ -167,10 +196,12 @@ void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *mo
         double_step(step);
     }
     step->dt_s = dt_s;
-    const float quiet = dt_s > 0.0f ? model->quiet_density * dt_s : 0.0f;
-    step->quiet_noise[0] = quiet * dt_s * dt_s * (1.0f / 3.0f);
-    step->quiet_noise[1] = 0.5f * dt_s * quiet;
-    step->quiet_noise[2] = quiet;
+    step->quiet_density = model->quiet_density;
+    step->calm_density = model->calm_density;
+    const float noisy_s = dt_s > 0.0f ? dt_s : 0.0f;
+    step->quiet_noise[0] = noisy_s * noisy_s * noisy_s * (1.0f / 3.0f);
+    step->quiet_noise[1] = 0.5f * noisy_s * noisy_s;
+    step->quiet_noise[2] = noisy_s;
     open_changes(step, model);
 }
 
@@ -198,6 +229,7 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
         }
     }
     imm->probability = 0.5f;
+    imm->calm = model->calm_s > 0.0f ? 0.5f : 0.0f;
 }
 
 /* ---- mix -------------------------------------------------------------------------------------- */
@@ -258,14 +290,19 @@ struct exchange {
     struct mixing steady, manoeuvre;
 };
 
-/* (1 - probability, probability) moves on as a Markov chain; each model takes what comes from the other. */
+/* The probabilities of calm, agile and manoeuvring targets move on as a Markov chain; each filter takes what comes from the other. */
 static struct exchange change(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    const float was = imm->probability;
-    const float ends = was * step->ends, begins = (1.0f - was) * step->begins;
+    const float was = imm->probability, was_steady = 1.0f - was;
+    const float calm = was_steady * imm->calm, agile = was_steady - calm;
+    const float begins = calm * step->calm_begins + agile * step->begins;
+    const float ends = was < step->odds_over * was_steady ? 0.0f : was * step->ends;
     /* summed up, not taken off 1: nothing may cancel where a model is all but certain */
-    const float steady = ends / (ends + (1.0f - was) * (1.0f - step->begins));
-    const float is = begins + was * (1.0f - step->ends), manoeuvre = begins / is;
+    const float calm_stays = calm * (1.0f - step->calm_begins);
+    const float agile_stays = agile * (1.0f - step->begins);
+    const float is_steady = ends + calm_stays + agile_stays, is = begins + (was - ends);
+    const float steady = ends / is_steady, manoeuvre = begins / is;
+    imm->calm = (calm_stays + agile_stays * step->settles) / is_steady;
     imm->probability = is;
     return (struct exchange){
         .into_steady = steady,
@@ -334,14 +371,14 @@ static inline void move_manoeuvre(struct axis *at, struct accel *by,
     by->aa = raised(by->aa + step->noise[5]);
 }
 
-/* The same of the steady model's. */
-static inline void move_steady(struct axis *at, const struct rho_imm_step *step)
+/* The same of the steady model's, with the noise of a density. */
+static inline void move_steady(struct axis *at, const struct rho_imm_step *step, float density)
 {
     const float dt = step->dt_s;
     at->p += dt * at->v;
-    at->pp = raised(at->pp + dt * (2.0f * at->vp + dt * at->vv) + step->quiet_noise[0]);
-    at->vp += dt * at->vv + step->quiet_noise[1];
-    at->vv = raised(at->vv + step->quiet_noise[2]);
+    at->pp = raised(at->pp + dt * (2.0f * at->vp + dt * at->vv) + density * step->quiet_noise[0]);
+    at->vp += dt * at->vv + density * step->quiet_noise[1];
+    at->vv = raised(at->vv + density * step->quiet_noise[2]);
 }
 
 /* What is left must be finite, and the variances within the limit; they are above 0 where they are numbers. */
@@ -370,7 +407,8 @@ static void predict_axis(struct rho_imm *imm, int axis, const struct exchange *b
     if (by) {
         mix_axis(&steady, &manoeuvre, &more, by);
     }
-    move_steady(&steady, step);
+    move_steady(&steady, step,
+                step->quiet_density + imm->calm * (step->calm_density - step->quiet_density));
     move_manoeuvre(&manoeuvre, &more, step);
     put_axis(kalman->state, kalman->covariance, axis, &steady);
     put_axis(imm->state, imm->covariance, axis, &manoeuvre);

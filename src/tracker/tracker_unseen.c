@@ -223,16 +223,20 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
     if (track->plot >= 0) {
         note_hit(track, step->time_us);
-        if (is_overdue && rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS) {
+        if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
+            rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS) {
             doubt(track, limits);
         }
         return 0;
+    }
+    if (is_overdue && track->misses_in_row == 1) {
+        doubt(track, limits);
     }
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
     return is_overdue &&
-           (track->misses_in_row > 1 || unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
+           (track->misses_in_row > 2 || unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
 }
 
 /* ---- places ------------------------------------------------------------------------------------- */
