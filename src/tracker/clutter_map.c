@@ -159,6 +159,11 @@ struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m
     return (struct echo_view){dx_m / range_m, dy_m / range_m, range_m};
 }
 
+float rho_clutter_map_turn(const struct echo_view *view)
+{
+    return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
+}
+
 static unsigned cell_of(float share)
 {
     const float cell = share * (float)RHO_ECHO_REGIONS;
@@ -170,8 +175,7 @@ uint8_t rho_clutter_map_region(const struct rho_sensor *sensor, float range_max_
                                float y_m)
 {
     const struct echo_view view = rho_clutter_map_view(sensor, x_m, y_m);
-    const float turn = (rho_atan2(view.along_y, view.along_x) + RHO_PI) / RHO_TWO_PI;
-    return (uint8_t)(cell_of(turn) * RHO_ECHO_REGIONS +
+    return (uint8_t)(cell_of(rho_clutter_map_turn(&view)) * RHO_ECHO_REGIONS +
                      cell_of(rho_sqrt(view.range_m / range_max_m)));
 }
 

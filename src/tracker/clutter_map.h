@@ -18,6 +18,7 @@ struct echo_view {
 void rho_clutter_map_init(struct rho_clutter_map *map, float v_min_mps);
 
 struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m, float y_m);
+float rho_clutter_map_turn(const struct echo_view *view); /* its direction as a share of a turn */
 uint8_t rho_clutter_map_region(const struct rho_sensor *sensor, float range_max_m, float x_m,
                                float y_m);
 

@@ -150,7 +150,7 @@ static int meet(struct step *step, struct rho_echo *echo, float range_max_m)
 
 /* ---- strobes ---------------------------------------------------------------------------------- */
 
-/* Where the sensor sees a plot. */
+/* Where the sensor sees a plot, which must be a valid one. */
 struct direction {
     unsigned bin;
     float range_m;
@@ -160,8 +160,7 @@ static struct direction direction_of(const struct step *step, uint32_t row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
     const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
-    const float turn = (rho_atan2(view.along_y, view.along_x) + RHO_PI) / RHO_TWO_PI;
-    const unsigned bin = (unsigned)(turn * (float)RHO_STROBE_BINS);
+    const unsigned bin = (unsigned)(rho_clutter_map_turn(&view) * (float)RHO_STROBE_BINS);
     return (struct direction){bin < RHO_STROBE_BINS ? bin : 0, view.range_m};
 }
 
@@ -223,6 +222,9 @@ static void look_for_strobes(struct step *step, float range_max_m)
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     const float plots = count_directions(step, range_max_m);
     for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
         const struct direction at = direction_of(step, i);
         float density = 0.0f;
         for (unsigned k = 0; k < 3; k++) { /* at the strobe's edge */
@@ -230,7 +232,7 @@ static void look_for_strobes(struct step *step, float range_max_m)
                 step, (at.bin + RHO_STROBE_BINS + k - 1u) % RHO_STROBE_BINS, plots, range_max_m);
             density = beside > density ? beside : density;
         }
-        if (density > 0.0f && at.range_m > 0.0f && step->report->fates[i] == RHO_FATE_HELD) {
+        if (density > 0.0f && at.range_m > 0.0f) {
             map->denser[i] += density / at.range_m;
         }
     }
