@@ -116,7 +116,7 @@ struct rho_track {
 struct rho_track_limits {
     int32_t confirm_mnat;   /* confirmed at or above */
     int32_t tentative_mnat; /* a track below that never was confirmed is dropped */
-    int32_t doubt_mnat;     /* one so far below its highest score is tentative; > 0 */
+    int32_t doubt_mnat;     /* one so far below its highest score is tentative; 0: any is */
     int32_t fall_mnat; /* one that was confirmed, so far below its highest score, is dropped; > 0 */
     uint8_t misses_in_row_max; /* any track ends at so many misses in a row */
 };

@@ -28,6 +28,7 @@
 void rho_tracker_end_track(struct step *step, struct rho_track *track)
 {
     struct rho_report *report = step->report;
+    rho_tracker_note_death(step, track);
     if (track->is_believed) {
         report->ended[report->num_ended++] = track->track_id;
     }
@@ -81,7 +82,10 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
 static void judge(struct step *step, struct rho_track *track, const struct rho_track_limits *limits)
 {
     const uint8_t was_believed = track->is_believed;
-    if (rho_track_judge(track, limits) == RHO_TRACK_FREE) {
+    struct rho_track_limits own = *limits;
+    own.doubt_mnat = rho_tracker_is_too_young(step, track) ? 0 : limits->doubt_mnat;
+    rho_tracker_note_growth(step, track);
+    if (rho_track_judge(track, &own) == RHO_TRACK_FREE) {
         rho_tracker_end_track(step, track);
     } else if (track->is_believed != was_believed) {
         step->tracker->counters.tracks_confirmed =
@@ -126,6 +130,7 @@ void rho_tracker_age(struct step *step)
     struct rho_tracker_counters *counters = &tracker->counters;
     struct rho_track_limits limits = rho_tracker_limits(step);
     unsigned live = 0;
+    rho_tracker_weigh_youth(step);
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         if (track->status == RHO_TRACK_FREE) {

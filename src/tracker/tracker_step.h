@@ -44,6 +44,8 @@ struct step {
     struct rho_track_model model;
     float log_pd;
     float log_miss; /* ln(1 - pd) */
+    float asked_nat,
+        miss_nat; /* of a young track: evidence to be believed, 0: none is asked; what a miss takes from it */
     /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; the range rates that a target may have, m/s */
     float log_height, log_rates;
 #if RHO_AMBIGUOUS_RANGE_RATES
@@ -220,6 +222,12 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
                                const struct rho_track_limits *limits);
 /* The track's place is not known to a part of what its sensor sees. */
 int rho_tracker_is_nowhere(const struct step *step, const struct rho_track *track);
+
+/* tracker_young.c: what young tracks are asked for, found once a step; tracks that grow up, and that end */
+void rho_tracker_weigh_youth(struct step *step);
+int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track);
+void rho_tracker_note_growth(struct step *step, const struct rho_track *track);
+void rho_tracker_note_death(struct step *step, const struct rho_track *track);
 
 /* tracker_strips.c: plots near a track, by their places in an order of its own */
 struct plot_range {

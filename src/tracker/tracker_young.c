@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_young: where tracks die young, new ones are asked for more.
+ *
+ * The score weighs a target against clutter that comes and goes. It does not know what moves as targets do and is seldom seen:
+ * echoes of the second time around, sidelobes, a weather front's edge. Such a thing is a track each time three of its plots happen
+ * to follow each other, and is missed then. How many tracks end so is counted, and how many grow up. Of each track the evidence that
+ * it is seen as targets are, and not 0.3 times as often, is (h hits, m misses)
+ *
+ *      e = h ln(1 / 0.3) - m ln((1 - 0.3 p) / (1 - p))
+ *
+ * with p what grown tracks are seen. Three hits are 3.6. Where D tracks died young and G grew up, of the last half an hour, a
+ * track is believed from
+ *
+ *      e = 3.6 + ln(20 (D - sqrt(D)) / (G + 2))
+ *
+ * on: one in twenty of those that are believed will be none (Wald). sqrt(D) of them may have been chance; where tracks hardly ever
+ * die young, nothing is asked. Until then a track is tentative, as one in doubt is.
+ */
+#include "rhotrack/approx.h"
+#include "tracker_step.h"
+
+/* A track of so many hits has grown up. */
+#define GROWN_HITS 16
+
+/* What is no target is seen so often as targets, times. */
+#define SELDOM 0.3f
+#define HIT_NAT 1.2039728f /* ln(1 / SELDOM) */
+#define START_NAT (3.0f * HIT_NAT)
+
+/* So many of those believed to one that is not. */
+#define ODDS 20.0f
+#define GROWN_PRIOR 2.0f
+
+#define MEMORY_S 1600.0f
+
+/* What grown tracks are seen: counts beside theirs. */
+#define PRIOR_HITS 9.0f
+#define PRIOR_MISSES 1.0f
+
+static float evidence(const struct step *step, const struct rho_track *track)
+{
+    return (float)track->hits * HIT_NAT - (float)track->misses * step->miss_nat;
+}
+
+/* What a miss says, by how often grown tracks are seen now. */
+static float miss_nat(const struct rho_tracker *tracker)
+{
+    float hits = PRIOR_HITS, misses = PRIOR_MISSES;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        if (track->hits >= GROWN_HITS) {
+            hits += (float)track->hits;
+            misses += (float)track->misses;
+        }
+    }
+    return rho_log(((1.0f - SELDOM) * hits + misses) / misses);
+}
+
+void rho_tracker_weigh_youth(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    if (step->time_us > tracker->youth_us) {
+        const float kept =
+            rho_exp(-rho_seconds_between(tracker->youth_us, step->time_us) / MEMORY_S);
+        tracker->died_young *= kept;
+        tracker->grown *= kept;
+        tracker->youth_us = step->time_us;
+    }
+    const float more_than_chance = tracker->died_young - rho_sqrt(tracker->died_young);
+    const float odds = ODDS * more_than_chance / (tracker->grown + GROWN_PRIOR);
+    step->miss_nat = miss_nat(tracker);
+    step->asked_nat = odds > 1.0f ? START_NAT + rho_log(odds) : 0.0f;
+}
+
+int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track)
+{
+    return step->asked_nat > 0.0f && evidence(step, track) < step->asked_nat;
+}
+
+void rho_tracker_note_growth(struct step *step, const struct rho_track *track)
+{
+    if (track->hits == GROWN_HITS && track->plot >= 0) {
+        step->tracker->grown += 1.0f;
+    }
+}
+
+void rho_tracker_note_death(struct step *step, const struct rho_track *track)
+{
+    if (track->hits < GROWN_HITS && evidence(step, track) < 0.0f &&
+        track->score_max_mnat >= step->tracker->confirm_mnat) {
+        step->tracker->died_young += 1.0f;
+    }
+}
