@@ -290,6 +290,12 @@ struct exchange {
     struct mixing steady, manoeuvre;
 };
 
+/* A part's share of the whole: 0 where rounding left nothing in the whole, NaN where that is NaN. */
+static inline float share(float part, float whole)
+{
+    return whole <= 0.0f ? 0.0f : part / whole;
+}
+
 /* The probabilities of calm, agile and manoeuvring targets move on as a Markov chain; each filter takes what comes from the other. */
 static struct exchange change(struct rho_imm *imm, const struct rho_imm_step *step)
 {
@@ -301,8 +307,8 @@ static struct exchange change(struct rho_imm *imm, const struct rho_imm_step *st
     const float calm_stays = calm * (1.0f - step->calm_begins);
     const float agile_stays = agile * (1.0f - step->begins);
     const float is_steady = ends + calm_stays + agile_stays, is = begins + (was - ends);
-    const float steady = ends / is_steady, manoeuvre = begins / is;
-    imm->calm = (calm_stays + agile_stays * step->settles) / is_steady;
+    const float steady = share(ends, is_steady), manoeuvre = share(begins, is);
+    imm->calm = share(calm_stays + agile_stays * step->settles, is_steady);
     imm->probability = is;
     return (struct exchange){
         .into_steady = steady,

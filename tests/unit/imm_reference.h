@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Two models that interact, as textbooks have them: nine states and full matrices in double precision for both, vector updates
- * with an inverse, mixing by the definition, Singer's noise by numerical integration. It shares nothing with the library but
- * the order of the states and of the packed triangle, and the names of its inputs.
+ * with an inverse, mixing by the definition over a chain of three states, Singer's noise by numerical integration. It shares
+ * nothing with the library but the order of the states and of the packed triangle, and the names of its inputs.
  *
- * The steady model has the acceleration, too: 0, and known to be.
+ * The steady model has the acceleration, too: 0, and known to be. Calm and agile targets share it.
  */
 #ifndef RHOTRACK_TESTS_IMM_REFERENCE_H
 #define RHOTRACK_TESTS_IMM_REFERENCE_H
@@ -245,6 +245,7 @@ static inline void singer_noise(double dt, double memory, double q[3][3])
 struct reference {
     struct wide_model models[2];
     double probability; /* of the manoeuvring model */
+    double calm;        /* share of steady targets that is calm */
     int has_z;
     int is_apart; /* no covariances between axes */
 };
@@ -274,7 +275,8 @@ reference_step(const struct reference *r, const struct rho_imm_model *model, dou
                     density * model->drive_density * q[i / 3][i % 3];
             }
         } else if (dt > 0.0) {
-            const double noise = density * model->quiet_density;
+            const double noise =
+                density * (r->calm * model->calm_density + (1.0 - r->calm) * model->quiet_density);
 
             step.q[axis][axis] = noise * dt * dt * dt / 3.0;
             step.q[axis][axis + 3] = step.q[axis + 3][axis] = noise * dt * dt / 2.0;
@@ -315,28 +317,65 @@ static inline struct wide_model reference_mean(const struct wide_model models[2]
     return mean;
 }
 
-static inline void reference_mix(struct reference *r, const struct rho_imm_model *model, double dt)
+/* The chain's states, and the model that each follows. */
+#define CALM 0
+#define AGILE 1
+#define PULLING 2
+static const int chain_models[3] = {STEADY, STEADY, MANOEUVRE};
+
+/* True where manoeuvres end: those of low odds give nothing back to the steady model, where any target is calm. */
+static inline int reference_returns(const struct rho_imm_model *model, double probability)
+{
+    return !(model->calm_s > 0.0f) || probability >= 0.16 * (1.0 - probability);
+}
+
+/*
+ * Probabilities of a change by the state before and after. Agile targets and manoeuvres alternate as a chain of two in continuous
+ * time; calm ones leave by their own rate; an agile target that stays steady settles.
+ */
+static inline void reference_chain(const struct rho_imm_model *model, double dt, int returns,
+                                   double change[3][3])
 {
     const double begins = 1.0 / model->steady_s, ends = 1.0 / model->maneuver_s;
     const double moved = -expm1(-dt * (begins + ends)) / (begins + ends);
-    const double change[2] = {begins * moved, ends * moved}; /* by the model that it leaves */
-    const double was[2] = {1.0 - r->probability, r->probability};
+    const int has_calm = model->calm_s > 0.0f;
+    const double settles = has_calm ? -expm1(-dt / model->settle_s) : 0.0;
+    const double calm_begins =
+        has_calm ? -expm1(-dt / fmax(model->calm_s, model->steady_s)) : begins * moved;
+    const double ended = returns ? ends * moved : 0.0, stays = 1.0 - begins * moved;
+    const double rows[3][3] = {{1.0 - calm_begins, 0.0, calm_begins},
+                               {stays * settles, stays * (1.0 - settles), begins * moved},
+                               {0.0, ended, 1.0 - ended}};
+
+    memcpy(change, rows, sizeof rows);
+}
+
+static inline void reference_mix(struct reference *r, const struct rho_imm_model *model, double dt,
+                                 int returns)
+{
+    const double steady = 1.0 - r->probability;
+    const double was[3] = {steady * r->calm, steady * (1.0 - r->calm), r->probability};
+    double change[3][3], share[2][2] = {{0.0}}, is[3] = {0.0};
     struct wide_model mixed[2];
 
-    for (int to = 0; to < 2; ++to) {
-        double share[2], sum = 0.0;
+    reference_chain(model, dt, returns, change);
+    for (int from = 0; from < 3; ++from) {
+        for (int to = 0; to < 3; ++to) {
+            const double passes = was[from] * change[from][to];
 
-        for (int from = 0; from < 2; ++from) {
-            share[from] = was[from] * (from == to ? 1.0 - change[from] : change[from]);
-            sum += share[from];
-        }
-        share[0] /= sum;
-        share[1] /= sum;
-        mixed[to] = reference_mean(r->models, share);
-        if (to == MANOEUVRE) {
-            r->probability = sum;
+            is[to] += passes;
+            share[chain_models[to]][chain_models[from]] += passes;
         }
     }
+    for (int to = 0; to < 2; ++to) {
+        const double sum = share[to][0] + share[to][1];
+
+        share[to][0] /= sum;
+        share[to][1] /= sum;
+        mixed[to] = reference_mean(r->models, share[to]);
+    }
+    r->probability = is[PULLING];
+    r->calm = is[CALM] / (is[CALM] + is[AGILE]);
     for (int i = 0; i < WIDE * WIDE; ++i) {
         if (i / WIDE > 5 || i % WIDE > 5) { /* known to be 0 */
             mixed[STEADY].p[i / WIDE][i % WIDE] = 0.0;
@@ -349,11 +388,12 @@ static inline void reference_mix(struct reference *r, const struct rho_imm_model
     memcpy(r->models, mixed, sizeof mixed);
 }
 
+/* Whether manoeuvres end is the caller's to say: at that bound, rounding would send two paths apart. */
 static inline void reference_predict(struct reference *r, const struct rho_imm_model *model,
-                                     double dt)
+                                     double dt, int returns)
 {
     if (dt > 0.0) {
-        reference_mix(r, model, dt);
+        reference_mix(r, model, dt, returns);
     }
     reference_move(r, model, dt);
 }
@@ -365,6 +405,7 @@ static inline void reference_start(struct reference *r, const struct rho_imm_mod
     r->has_z = estimate->covariance[RHO_AT(2, 2)] > 0.0f;
     r->is_apart = 1;
     r->probability = 0.5;
+    r->calm = model->calm_s > 0.0f ? 0.5 : 0.0;
     for (int which = 0; which < 2; ++which) {
         struct wide_model *m = &r->models[which];
 
@@ -605,6 +646,7 @@ static inline double reference_bearing(struct reference *r, double x, double y, 
 static inline struct reference reference_of(const struct rho_imm *imm)
 {
     struct reference r = {.probability = imm->probability,
+                          .calm = imm->calm,
                           .has_z = imm->covariance[RHO_AT(2, 2)] > 0.0f,
                           .is_apart = !imm->is_coupled};
 
@@ -623,7 +665,7 @@ static inline struct reference reference_of(const struct rho_imm *imm)
 struct reference_worst {
     double state;      /* in sigmas, beyond the rounding of a state itself */
     double covariance; /* in products of two sigmas */
-    double probability, log_likelihood, distance2;
+    double probability, log_likelihood, distance2, calm;
 };
 
 #define REFERENCE_ROUNDING 5e-7 /* of a state itself: eight units of float32 */
@@ -667,8 +709,9 @@ static inline void reference_compare(const struct rho_imm *imm, const struct ref
     reference_compare_model(imm->state, imm->covariance, WIDE, &r->models[MANOEUVRE],
                             &before->models[MANOEUVRE], worst);
     worst->probability = fmax(worst->probability, fabs(imm->probability - r->probability));
+    worst->calm = fmax(worst->calm, fabs(imm->calm - r->calm));
     assert_true(isfinite(worst->state) && isfinite(worst->covariance) &&
-                isfinite(worst->probability));
+                isfinite(worst->probability) && isfinite(worst->calm));
 }
 
 /* The mean over both models, with its acceleration. */
@@ -691,8 +734,9 @@ static inline void reference_compare_mean(const struct rho_imm *imm, const struc
         }
     }
     worst->probability = fmax(worst->probability, fabs(imm->probability - r->probability));
+    worst->calm = fmax(worst->calm, fabs(imm->calm - r->calm));
     assert_true(isfinite(worst->state) && isfinite(worst->covariance) &&
-                isfinite(worst->probability));
+                isfinite(worst->probability) && isfinite(worst->calm));
 }
 
 #endif

@@ -119,6 +119,7 @@ static void assert_sane(const struct rho_imm *imm)
     assert_variances(6, imm->steady.state, imm->steady.covariance, has_z);
     assert_variances(RHO_IMM_STATES, imm->state, imm->covariance, has_z);
     assert_true(imm->probability >= 0.0f && imm->probability <= 1.0f);
+    assert_true(imm->calm >= 0.0f && imm->calm <= 1.0f);
 }
 
 static void assert_definite(const struct rho_imm *imm)
@@ -161,6 +162,8 @@ static void the_default_follows_what_targets_may_do(void **state)
         assert_float_equal(0.5 * model.drive_density * model.memory_s, pow(0.8 * a, 2),
                            1e-5 * a * a);
         assert_float_equal(model.quiet_density, fmin(1.0, 0.25 * a * a), 1e-6);
+        assert_float_equal(model.calm_density, fmin(0.01, 0.25 * a * a), 1e-8);
+        assert_true(model.calm_s == 300.0f && model.settle_s == 60.0f);
         assert_true(model.speed_sigma_mps == (float)v && model.accel_sigma_mps2 == (float)a);
     }
 }
@@ -169,24 +172,51 @@ static void models_out_of_their_ranges_are_not_usable(void **state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, -1.0f, 1e9f};
     const struct rho_imm_model good = some_model(30.0f, 300.0f);
+    struct rho_imm_model model;
+    const struct {
+        float *field;
+        int may_be_0; /* a density or an acceleration may; a time or a speed may not */
+    } cases[] = {{&model.quiet_density, 0}, /* calm_density is no larger */
+                 {&model.calm_density, 1},  {&model.drive_density, 1},
+                 {&model.memory_s, 0},      {&model.steady_s, 0},
+                 {&model.maneuver_s, 0},    {&model.calm_s, 1},
+                 {&model.settle_s, 0},      {&model.speed_sigma_mps, 0},
+                 {&model.speed_max_mps, 1}, {&model.accel_sigma_mps2, 1}};
 
     (void)state;
     assert_true(rho_imm_model_is_usable(&good));
-    for (size_t k = 0; k < NUM(bad); ++k) {
-        for (int field = 0; field < 7; ++field) {
-            struct rho_imm_model model = good;
-            float *const fields[7] = {&model.quiet_density,   &model.drive_density,
-                                      &model.memory_s,        &model.steady_s,
-                                      &model.maneuver_s,      &model.speed_sigma_mps,
-                                      &model.accel_sigma_mps2};
-
-            *fields[field] = bad[k];
+    for (size_t n = 0; n < NUM(cases); ++n) {
+        for (size_t k = 0; k < NUM(bad); ++k) {
+            model = good;
+            *cases[n].field = bad[k];
             assert_false(rho_imm_model_is_usable(&model));
-            *fields[field] =
-                0.0f; /* none of a density or an acceleration is fine, no time or speed is not */
-            assert_int_equal(rho_imm_model_is_usable(&model), field < 2 || field == 6);
         }
+        model = good;
+        *cases[n].field = 0.0f;
+        assert_int_equal(rho_imm_model_is_usable(&model), cases[n].may_be_0);
     }
+}
+
+/* A calm target is at most as restless as another; where none is calm nobody settles. */
+static void calm_targets_are_those_of_a_usable_model(void **state)
+{
+    struct rho_imm_model model = some_model(30.0f, 300.0f);
+
+    (void)state;
+    model.calm_density = model.quiet_density;
+    assert_true(rho_imm_model_is_usable(&model));
+    model.calm_density = nextafterf(model.quiet_density, 2.0f);
+    assert_false(rho_imm_model_is_usable(&model));
+    model.calm_density = model.quiet_density = 0.0f;
+    assert_true(rho_imm_model_is_usable(&model));
+    model.settle_s = 9e-4f;
+    assert_false(rho_imm_model_is_usable(&model));
+    model.calm_s = 0.0f;
+    assert_true(rho_imm_model_is_usable(&model));
+    model.settle_s = 0.0f;
+    assert_true(rho_imm_model_is_usable(&model));
+    model.settle_s = -1.0f;
+    assert_false(rho_imm_model_is_usable(&model));
 }
 
 /* ---- vague and sharp ------------------------------------------------------------------------- */
@@ -592,6 +622,7 @@ int main(void)
         cmocka_unit_test(hypotheses_are_small),
         cmocka_unit_test(the_default_follows_what_targets_may_do),
         cmocka_unit_test(models_out_of_their_ranges_are_not_usable),
+        cmocka_unit_test(calm_targets_are_those_of_a_usable_model),
         cmocka_unit_test(a_vague_start_survives_a_sharp_sensor),
         cmocka_unit_test(any_sigma_follows_any_other),
         cmocka_unit_test(a_hostile_walk_stays_sane),

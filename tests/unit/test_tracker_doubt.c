@@ -206,15 +206,15 @@ static void steady_times_out_of_range_are_refused(void **state)
 }
 
 struct flight {
-    double straight_m, turning_m; /* root mean squares of the errors */
-    double sure;                  /* of a manoeuvre, in the turn's second half: mean probability */
-    unsigned kept;                /* runs that one track followed to the end */
+    double early_m, straight_m, turning_m; /* root mean squares of the errors */
+    double sure;   /* of a manoeuvre, in the turn's second half: mean probability */
+    unsigned kept; /* runs that one track followed to the end */
 };
 
-/* 100 s straight, 3 g for 20 s; 50 m, a plot a second. */
+/* 100 s straight, of which the first 10 s do not count and 30 s are early; 3 g for 20 s; 50 m, a plot a second. */
 static struct flight fly_and_turn(float steady_s)
 {
-    enum { RUNS = 12, STRAIGHT = 100, TURN = 20 };
+    enum { RUNS = 12, BEGIN = 10, EARLY = 40, STRAIGHT = 100, TURN = 20 };
     struct flight flight = {0};
     for (int run = 0; run < RUNS; run++) {
         double x_m = 0.0, y_m = 0.0, course_rad = 0.4;
@@ -227,11 +227,16 @@ static struct flight fly_and_turn(float steady_s)
             add(seen_m, y_m + 50.0 * normal(), 50.0);
             step(k);
             const struct rho_track_report *track = report_of(1);
-            if (track && k >= 40) {
+            if (track && k >= BEGIN) {
                 const double off_m =
                     hypot((double)track->state[0] - x_m, (double)track->state[1] - y_m);
-                double *into = k < STRAIGHT ? &flight.straight_m : &flight.turning_m;
-                *into += off_m * off_m / RUNS / (k < STRAIGHT ? STRAIGHT - 40 : TURN);
+                double *into = k < EARLY      ? &flight.early_m
+                               : k < STRAIGHT ? &flight.straight_m
+                                              : &flight.turning_m;
+                *into += off_m * off_m / RUNS /
+                         (k < EARLY      ? EARLY - BEGIN
+                          : k < STRAIGHT ? STRAIGHT - EARLY
+                                         : TURN);
                 flight.sure += k >= STRAIGHT + TURN / 2
                                    ? (double)track->maneuver_probability / RUNS / (TURN / 2)
                                    : 0.0;
@@ -245,19 +250,27 @@ static struct flight fly_and_turn(float steady_s)
         const struct rho_track_report *track = report_of(1);
         flight.kept += track && track->misses <= 2 && tracker.counters.tracks_started == 1;
     }
+    flight.early_m = sqrt(flight.early_m);
     flight.straight_m = sqrt(flight.straight_m);
     flight.turning_m = sqrt(flight.turning_m);
     return flight;
 }
 
-static void steady_targets_are_known_better_and_turns_are_followed(void **state)
+/* What keeps straight for a while is known well whatever steady_s says: it sets how well until then. */
+static void straight_targets_are_known_well_and_turns_are_followed(void **state)
 {
     (void)state;
     const struct flight restless = fly_and_turn(0.0f), steady = fly_and_turn(300.0f);
-    /* 47 and 30 m; 60 and 71 m; 0.48 */
-    assert_true(steady.straight_m < 0.85 * restless.straight_m);
-    assert_true(steady.turning_m < 1.5 * restless.turning_m);
-    assert_true(steady.sure > 0.3);
+    print_message("early %.1f, with steady_s 300 s %.1f m; straight %.1f, %.1f m; turning %.1f, "
+                  "%.1f m; sure %.2f, %.2f\n",
+                  restless.early_m, steady.early_m, restless.straight_m, steady.straight_m,
+                  restless.turning_m, steady.turning_m, restless.sure, steady.sure);
+    assert_true(steady.early_m < 0.9 * restless.early_m); /* 38 and 31 m */
+    assert_true(restless.straight_m < 28.0);              /* 24 m, and 24 m */
+    assert_true(steady.straight_m < 28.0);
+    assert_true(restless.turning_m < 72.0); /* 63 m, and 64 m */
+    assert_true(steady.turning_m < 72.0);
+    assert_true(restless.sure > 0.45 && steady.sure > 0.3); /* 0.63 and 0.50 */
     assert_int_equal(restless.kept, 12);
     assert_int_equal(steady.kept, 12);
 }
@@ -337,7 +350,7 @@ int main(void)
         cmocka_unit_test(of_two_starts_with_the_same_newest_plot_one_waits),
         cmocka_unit_test(starts_with_newest_plots_of_their_own_are_both_started),
         cmocka_unit_test(steady_times_out_of_range_are_refused),
-        cmocka_unit_test(steady_targets_are_known_better_and_turns_are_followed),
+        cmocka_unit_test(straight_targets_are_known_well_and_turns_are_followed),
         cmocka_unit_test(a_short_steady_time_is_as_none),
         cmocka_unit_test(what_stands_is_no_target_where_targets_move),
         cmocka_unit_test(least_speeds_out_of_range_are_refused),

@@ -383,6 +383,67 @@ static void a_minute_without_the_radar(void **state)
     assert_true((double)false_rows / scans < 0.1);
 }
 
+/* One target that flies straight, seen or not, and clutter far from it. */
+static void look_at_one(double t_s, int is_seen, int clutter)
+{
+    if (is_seen) {
+        const double x_m = -40e3 + 200.0 * t_s + 30.0 * normal();
+        add(x_m, 20e3 + 30.0 * normal(), 30.0);
+    }
+    for (int i = 0; i < clutter; i++) {
+        const double x_m = uniform(-60e3, 60e3);
+        add(x_m, uniform(-60e3, -10e3), 30.0);
+    }
+    step_scan((struct rho_scan){.time_us = llround(t_s * 1e6), .sensor_id = 1});
+}
+
+/* The radar is off for a minute, and misses the target so many times when it is back; what is left of its track then. */
+static void miss_after_a_minute(uint64_t seed, int misses, int clutter)
+{
+    double t_s = 0.0;
+    start(seed, 30.0, 350.0, 20.0);
+    for (; t_s < 120.0; t_s += 4.0) {
+        look_at_one(t_s, 1, clutter);
+    }
+    const uint32_t id = report.tracks[0].track_id;
+    assert_int_equal(report_of(id)->status, RHO_TRACK_CONFIRMED);
+    t_s += 60.0;
+    for (int k = 1; k <= misses; k++, t_s += 4.0) {
+        look_at_one(t_s, 0, clutter);
+        const struct rho_track_report *track = report_of(id);
+        assert_int_equal(track != NULL, k < 3);
+        assert_true(!track || track->status == RHO_TRACK_TENTATIVE);
+    }
+    for (int k = 0; k < 5 && misses < 3; k++, t_s += 4.0) {
+        look_at_one(t_s, 1, clutter);
+        assert_non_null(report_of(id));
+        assert_int_equal(report_of(id)->plot, 0);
+    }
+    assert_true(misses > 2 || report_of(id)->status == RHO_TRACK_CONFIRMED);
+}
+
+/*
+ * Until it is seen again the track is tentative; it ends at the third miss. In dense clutter the plot that ends the wait is a
+ * doubtful one, which must not count against the track a second time.
+ */
+static void a_target_missed_when_the_radar_is_back_keeps_its_track(void **state)
+{
+    (void)state;
+    num_radars = 1;
+    for (int is_described = 0; is_described < 2; is_described++) {
+        radars[0] = usual_radar();
+        radars[0].is_described = is_described;
+        for (uint64_t seed = 1; seed <= 5; seed++) {
+            for (int misses = 0; misses <= 3; misses++) {
+                miss_after_a_minute(seed, misses, 6);
+            }
+            if (RHO_MAX_PLOTS > 300) {
+                miss_after_a_minute(seed, 1, 300);
+            }
+        }
+    }
+}
+
 /* Radars of which one is switched off for good, where the others see none of its targets, or some of them. */
 static void a_radar_that_is_switched_off_leaves_no_tracks(void **state)
 {
@@ -583,6 +644,7 @@ int main(void)
         cmocka_unit_test(ten_minutes_after_the_last_target_left_no_track_is_there),
         cmocka_unit_test(a_short_radar_of_a_sector_keeps_none),
         cmocka_unit_test(a_minute_without_the_radar),
+        cmocka_unit_test(a_target_missed_when_the_radar_is_back_keeps_its_track),
         cmocka_unit_test(a_radar_that_is_switched_off_leaves_no_tracks),
         cmocka_unit_test(after_a_long_silence_nothing_old_is_left),
         cmocka_unit_test(targets_pass_through_two_radars),

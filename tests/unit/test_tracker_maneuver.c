@@ -180,15 +180,15 @@ static void targets_side_by_side_keep_their_identities(void **state)
     unsigned agile_nearest = keep_apart(RHO_TRACKER_NEAREST, 30.0f, 50.0);
     print_message("side by side: accel_max 5 m/s^2: best %u; 30: best %u, nearest %u of %d\n", calm,
                   agile, agile_nearest, NUM_RUNS);
-    assert_true(calm >= 39);                 /* 40 */
-    assert_true(agile >= 30);                /* 34 */
-    assert_true(agile >= agile_nearest + 8); /* 15 */
+    assert_true(calm >= 39);                  /* 40 */
+    assert_true(agile >= 37);                 /* 40 */
+    assert_true(agile >= agile_nearest + 15); /* 16 */
 }
 
 /*
  * Eight that fly abreast, 60 m apart, all seen, by a tracker that looks far: more of the others' plots are in a gate than
  * a hypothesis lists. Their own must not be forgotten for these. Of 4 640 plots 28 were not claimed, and 9 tracks more
- * were started of them, when it was.
+ * were started of them, when it was. Of 46 400 plots 6 lie outside of the narrow gate of a calm track, 3 of them in these runs.
  */
 static void a_formation_claims_all_its_plots(void **state)
 {
@@ -212,7 +212,7 @@ static void a_formation_claims_all_its_plots(void **state)
     }
     print_message("a formation: %u plots not claimed, %u tracks started later\n", unclaimed,
                   started);
-    assert_true(unclaimed <= 2);
+    assert_true(unclaimed <= 4);
     assert_true(started <= 1);
 }
 

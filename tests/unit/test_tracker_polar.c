@@ -278,8 +278,8 @@ static double follow(uint32_t measured, enum rho_tracker_gate gate)
 
 /*
  * Variances along the line of sight. A plot's own is 1; the line of sight turns a little from the plot's time to the
- * scan's. White acceleration of half accel_max cannot tell a range's rate from places as well as that, by far. Who
- * weighs whether the target pulls at all comes near it.
+ * scan's. White acceleration of half accel_max cannot tell a range's rate from places as well as that, by far: 22 and 1.1
+ * m^2/s^2. Hypotheses find that the target is calm, and 40 places tell nearly as much: 1.2 and 0.34.
  */
 static void polar_plots_are_tracked_with_and_without_range_rate(void **state)
 {
@@ -292,7 +292,8 @@ static void polar_plots_are_tracked_with_and_without_range_rate(void **state)
             print_message("gate %d: along the line of sight: %.2f, %.2f m/s\n", gate, sqrt(without),
                           sqrt(with));
             assert_true(with < 1.5);
-            assert_true(without > (gate == RHO_TRACKER_BEST ? 6.0 : 10.0) * with);
+            assert_true(without > (gate == RHO_TRACKER_BEST ? 2.5 : 10.0) * with);
+            assert_true(gate != RHO_TRACKER_BEST || without < 1.5);
         }
     }
 }
