@@ -19,7 +19,7 @@ expect_exit() {
 }
 
 # --- simulate
-for scenario in crossing radar parallel crossing-angle clutter traffic air-traffic formation; do
+for scenario in crossing parallel clutter air-traffic formation; do
     check "simulate $scenario" "$RHOTRACK" simulate "$scenario" --seed 3 --set num_scans=6 -o "$folder/$scenario"
     check "track $scenario with its scenario.ini" "$RHOTRACK" track "$folder/$scenario/plots.csv" \
         --config "$folder/$scenario/scenario.ini" -o "$folder/$scenario/tracks.csv"
@@ -34,7 +34,7 @@ check "runs differ" sh -c "! cmp -s '$folder/runs/run-0000/plots.csv' '$folder/r
 expect_exit 2 "an unknown scenario" "$RHOTRACK" simulate nothing -o "$folder/nothing"
 
 # the table in the program and the one in the tests are the same
-"$RHOTRACK" simulate radar --seed 1 --set clutter_per_scan=0 -o "$folder/table"
+"$RHOTRACK" simulate radar --seed 1 --set clutter=[] -o "$folder/table"
 check "the program's real plots are the vector file's" sh -c "
     cut -d, -f1,3,4 '$folder/table/truth.csv' | awk -F, 'NR > 1 { printf \"%d %d %d\\n\", \$1, \$2, \$3 }' | sort >'$folder/a'
     awk -F, '/^[0-9]/ { printf \"%d %d %d\\n\", \$1, \$3, \$4 }' $root/tests/vectors/radar-table3.csv | sort >'$folder/b'
