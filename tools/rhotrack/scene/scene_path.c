@@ -293,7 +293,9 @@ static struct scene_path described_path(const struct target_item *item, size_t i
 
     if (item->num_points > 0) {
         follow_points(&path, item);
-    } else if (parent) {
+        return path;
+    }
+    if (parent) {
         const struct path_leg *leg = leg_of(parent, item->from_s);
         struct motion at = path_at(parent, item->from_s);
 
