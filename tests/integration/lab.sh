@@ -19,13 +19,13 @@ expect_exit() {
 }
 
 # --- simulate
-for scenario in crossing parallel clutter air-traffic formation; do
-    check "simulate $scenario" "$RHOTRACK" simulate "$scenario" --seed 3 --set num_scans=6 -o "$folder/$scenario"
+for scenario in crossing clutter air-traffic formation; do
+    check "simulate $scenario" "$RHOTRACK" simulate "$scenario" --seed 3 -o "$folder/$scenario"
     check "track $scenario with its scenario.ini" "$RHOTRACK" track "$folder/$scenario/plots.csv" \
         --config "$folder/$scenario/scenario.ini" -o "$folder/$scenario/tracks.csv"
 done
-"$RHOTRACK" simulate clutter --seed 3 --set num_scans=6 -o "$folder/again"
-"$RHOTRACK" simulate clutter --seed 4 --set num_scans=6 -o "$folder/otherwise"
+"$RHOTRACK" simulate clutter --seed 3 -o "$folder/again"
+"$RHOTRACK" simulate clutter --seed 4 -o "$folder/otherwise"
 check "the same seed gives the same plots" cmp -s "$folder/clutter/plots.csv" "$folder/again/plots.csv"
 check "another seed gives others" sh -c "! cmp -s '$folder/clutter/plots.csv' '$folder/otherwise/plots.csv'"
 "$RHOTRACK" simulate crossing --seed 3 --runs 3 -o "$folder/runs"

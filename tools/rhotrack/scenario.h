@@ -2,7 +2,7 @@
 /*
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
- * Scenarios: crossing, parallel, crossing-angle, clutter, traffic, air-traffic, polar, formation, two-radars, rotating, doppler;
+ * Scenarios: crossing, parallel, crossing-angle, traffic, air-traffic, polar, formation, two-radars, rotating, doppler;
  * the passive ones of experiments are in scenario_plan.h. The same seed gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H

@@ -95,12 +95,6 @@ struct scenario_plan plan_formation(const struct parameters *parameters, struct 
     return plan;
 }
 
-struct scenario_plan plan_clutter_alone(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    return plan_of(parameters, 0);
-}
-
 /* Anywhere, any heading, any speed between the limits, drawn again until the whole path lies in the area. */
 static struct scenario_state straight_inside(const struct parameters *parameters, double duration_s,
                                              struct random *random)

@@ -111,7 +111,6 @@ struct scenario_plan plan_parallel(const struct parameters *parameters, struct r
 struct scenario_plan plan_crossing_angle(const struct parameters *parameters,
                                          struct random *random);
 struct scenario_plan plan_formation(const struct parameters *parameters, struct random *random);
-struct scenario_plan plan_clutter_alone(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_traffic(const struct parameters *parameters, struct random *random);
 
 /* Scenarios polar and doppler. scenario_radar.c */

@@ -6,9 +6,7 @@
 #include "common.h"
 #include "scenario.h"
 
-#define SKY "air-traffic, parallel, formation" /* with merge_m a sky of their own */
-#define TARGETS_ON_PLANE "crossing, parallel, air-traffic, formation"
-#define ON_PLANE TARGETS_ON_PLANE ", clutter"
+#define ON_PLANE "air-traffic, formation" /* formation: with merge_m a sky of its own */
 #define TURNING "polar, doppler, rotating"
 
 #define RADARS "two-radars"
@@ -24,21 +22,21 @@ struct use {
 static const struct use uses[] = {
     {PARAMETER_CLUTTER_PER_KM2, ON_PLANE ", polar, doppler", NULL},
     {PARAMETER_CLUTTER_PER_SCAN, ON_PLANE ", two-radars, " TURNING, NULL},
-    {PARAMETER_TRUE_PD, TARGETS_ON_PLANE ", " TURNING, NULL},
-    {PARAMETER_TRUE_SIGMA_M, TARGETS_ON_PLANE, NULL},
-    {PARAMETER_FADES_PER_HOUR, SKY, NULL},
-    {PARAMETER_FADE_SCANS, SKY, NULL},
-    {PARAMETER_SPOTS, SKY, NULL},
-    {PARAMETER_SPOT_CLUTTER, SKY, NULL},
-    {PARAMETER_PERSISTENT_SOURCES, SKY, NULL},
-    {PARAMETER_MERGE_M, SKY, NULL},
+    {PARAMETER_TRUE_PD, ON_PLANE ", " TURNING, NULL},
+    {PARAMETER_TRUE_SIGMA_M, ON_PLANE, NULL},
+    {PARAMETER_FADES_PER_HOUR, ON_PLANE, NULL},
+    {PARAMETER_FADE_SCANS, ON_PLANE, NULL},
+    {PARAMETER_SPOTS, ON_PLANE, NULL},
+    {PARAMETER_SPOT_CLUTTER, ON_PLANE, NULL},
+    {PARAMETER_PERSISTENT_SOURCES, ON_PLANE, NULL},
+    {PARAMETER_MERGE_M, ON_PLANE, NULL},
     {PARAMETER_CROSSING_SHARE, "air-traffic", NULL},
     {PARAMETER_RANGE_RATE, TURNING, NULL},
     {PARAMETER_STATIC_CLUTTER, "doppler", NULL},
     {PARAMETER_TARGETS, "air-traffic, two-radars, " TURNING, NULL},
-    {PARAMETER_SPACING_M, "parallel, formation, two-radars", NULL},
+    {PARAMETER_SPACING_M, "formation, two-radars", NULL},
     {PARAMETER_CROSSING_DEG, "formation", NULL},
-    {PARAMETER_SPEED_MPS, "parallel, formation", NULL},
+    {PARAMETER_SPEED_MPS, "formation", NULL},
     {PARAMETER_SECTORS_PER_TURN, "rotating, two-radars", NULL},
     {PARAMETER_SECOND_INTERVAL_S, "two-radars", NULL},
     {PARAMETER_TRUE_RANGE_BIAS_M, "two-radars", NULL},

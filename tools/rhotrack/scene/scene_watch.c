@@ -189,7 +189,8 @@ static void keep_plot(struct watch *watch, struct scene_plot plot)
 
 static double rate_of(const struct scene_sensor *sensor, const struct motion *at, double range_m)
 {
-    return ((at->x_m - sensor->x_m) * at->vx_mps + (at->y_m - sensor->y_m) * at->vy_mps) / range_m;
+    return ((at->x_m - sensor->x_m) * at->vx_mps + (at->y_m - sensor->y_m) * at->vy_mps) /
+           fmax(RANGE_LEAST_M, range_m);
 }
 
 /* With biases and noise. The same numbers are drawn whatever the sensor measures. */
@@ -265,7 +266,7 @@ static void watch_mover(struct watch *watch, const struct scene_mover *mover,
         bool is_there = meet(watch, mover, after_s, &sighting);
 
         if (is_there && sighting.t_s >= sensor->start_s && sighting.t_s < watch->end_s &&
-            sighting.range_m > 0.0 &&
+            (sensor->is_cartesian || sighting.range_m > 0.0) &&
             sees_place(watch->scene, sensor, sighting.at.x_m, sighting.at.y_m) &&
             can_see(watch->scene, watch->index, sighting.t_s, sighting.range_m,
                     sighting.azimuth_rad)) {
@@ -621,8 +622,7 @@ static void draw_cell(struct watch *watch, const struct scene_clutter *clutter, 
     }
     at = (struct motion){
         .x_m = x_m, .y_m = y_m, .vx_mps = clutter->vx_mps, .vy_mps = clutter->vy_mps};
-    rate_mps += rate_of(sensor, &at,
-                        fmax(RANGE_LEAST_M, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m)));
+    rate_mps += rate_of(sensor, &at, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m));
     keep_clutter_at(watch, turn, x_m, y_m, rate_mps);
 }
 
