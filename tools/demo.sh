@@ -9,7 +9,7 @@ set -euo pipefail
 program=${RHOTRACK:-build/rhotrack}
 out=${1:-build/demo}
 
-"$program" simulate radar --seed 1 --set clutter_per_scan=100 -o "$out"
+"$program" simulate radar --seed 1 -o "$out"
 "$program" track "$out/plots.csv" --config "$out/scenario.ini" \
     -o "$out/tracks.csv" --json >"$out/track.json"
 "$program" evaluate "$out/truth.csv" "$out/tracks.csv" >"$out/evaluation.txt"
@@ -77,7 +77,7 @@ table() {
     printf '%6s %6s %5s %8s %8s %6s %8s | %6s %8s %8s %6s %8s %8s\n' track 'from s' plots 'x km' 'y km' \
         m/s heading target 'x km' 'y km' m/s heading 'error m'
     compare ' %5d %6d %5d %8.2f %8.2f %6.0f %7.0f° | %6d %8.2f %8.2f %6.0f %7.0f° %8.0f\n'
-    printf 'Errors contain the slight turns that a straight truth line leaves out. %s us a scan.\n' "$mean_us"
+    printf 'The truth is the real plots, with their noise. %s us a scan.\n' "$mean_us"
     printf '\n%s\n\n' "Two vessels in a harbour, each with a satellite receiver, seen by a small ferry's radar, 1.68 s a turn:"
     printf '%6s %6s %6s %8s %8s %9s %8s %13s\n' scene turns plots tracked 'of time' switches 'error m' 'others a turn'
     harbour '%6d %6d %6d %3d of 2 %8.2f %9d %8.1f %13.1f\n'

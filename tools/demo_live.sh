@@ -19,7 +19,7 @@ fi
 # A port of its own, so that nobody else's sensors are heard.
 export LCM_DEFAULT_URL="udpm://239.255.76.67:$((20000 + $$ % 10000))?ttl=0"
 
-"$program" simulate traffic --seed 1 --set targets=8 --set num_scans=60 --set clutter_per_scan=100 -o "$out"
+"$program" simulate traffic --seed 1 --set targets.0.count=8 --set duration_s=600 --set clutter.0.plots=100 -o "$out"
 echo "8 aircraft among 100 clutter plots a scan, 60 scans 10 s apart, played 100 times as fast:"
 
 player=''

@@ -27,9 +27,9 @@ run() { # variant, scenario: its files in output/SCENARIO
     local more=()
     if [ "${2%%-*}" = passive ]; then
         input=bearings.csv
-        more=(--set num_scans=20)
+        more=(--set duration_s=200)
     elif [ "$2" = popup ]; then
-        more=(--set velocity=1)
+        more=(--set radars.0.sigma_mps=1)
     fi
     "$rhotrack" simulate "$2" --seed 3 "${more[@]}" -o "$data" &&
         "$rhotrack" track "$data/$input" --covariance -o "$data/tracks.csv" &&

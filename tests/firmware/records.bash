@@ -16,9 +16,9 @@ record() {
 
 # The real plots of three aircraft among 100 clutter plots; three passive sensors; one target that pulls 10 g; a turning radar.
 record_all() {
-    record table3 radar plots --set clutter_per_scan=100 &&
-        record passive passive-three bearings --set num_scans=20 &&
-        record popup popup plots --set velocity=1 --set clutter_per_scan=30 &&
+    record table3 radar plots &&
+        record passive passive-three bearings --set duration_s=200 &&
+        record popup popup plots --set radars.0.sigma_mps=1 --set clutter.0.count=30 &&
         record turning polar polar --set targets=8 --set num_scans=30
 }
 

@@ -16,7 +16,7 @@ if ! { ip tuntap add dev node mode tap && add_host radar 1 && add_host logger 2;
 fi
 ip link set node master bridge up
 
-check 'a record is made' record popup popup plots --set velocity=1
+check 'a record is made' record popup popup plots --set radars.0.sigma_mps=1
 scans=161
 stack_most=4096
 speed=16

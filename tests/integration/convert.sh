@@ -9,7 +9,7 @@ python=$("$(dirname "$0")/../python.sh") # that has the package lcm
 . "$(dirname "$0")/checks.bash"
 
 # Each value of the first file is in the second, as the same float32; rows that saw nothing may be fewer. Columns that
-# are empty or 0 all the way down may be missing.
+# are empty or 0 all the way down may be missing, and whose plots they are, which no log has.
 cat >same.py <<'END'
 import csv, struct, sys
 def rows(path):
@@ -27,7 +27,7 @@ if len(one) != len(other):
     one, other = [r for r in one if saw(r)], [r for r in other if saw(r)]
 if len(one) != len(other) or not one:
     sys.exit(f"{len(one)} and {len(other)} rows")
-skipped = set(sys.argv[3:])
+skipped = set(sys.argv[3:]) | ({"target_id"} - other[0].keys())
 for a, b in zip(one, other):
     if round(float(a["t_s"]) * 1e6) != round(float(b["t_s"]) * 1e6):
         sys.exit(f"times {a['t_s']} and {b['t_s']}")
@@ -89,7 +89,7 @@ END
 run convert slow.csv slow.lcm
 check 'a pipe will do' bash -c "'$program' convert slow.csv - | cmp - slow.lcm"
 check 'range rates: the values are the same' same_values rates/polar.csv back.csv
-run simulate popup -o fast --set velocity=1
+run simulate popup -o fast --set radars.0.sigma_mps=1
 check 'velocities: the log is the same' there_and_back fast/plots.csv
 check 'velocities: the values are the same' same_values fast/plots.csv back.csv
 check 'real plots: the log is the same' there_and_back "$vectors/radar-table3.csv"

@@ -35,8 +35,8 @@ same_tracks() { # scenario, options
 
 make_files radar plots
 make_files polar polar --set range_rate=1
-make_files weave plots --set num_scans=60
-make_files passive-three bearings --set num_scans=14
+make_files weave plots --set duration_s=15
+make_files passive-three bearings --set duration_s=140
 same_tracks radar --gate nearest
 same_tracks polar --gate hough
 for scenario in radar polar weave passive-three; do

@@ -5,28 +5,24 @@
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# ---- the scenarios' files ----
-for scenario in popup weave hard-turn; do
-    run simulate $scenario --seed 3 -o $scenario
-    check "$scenario" exits 0
+# ---- the scenes' files ----
+for scene in popup weave; do
+    run simulate $scene --seed 3 -o $scene
+    check "$scene" exits 0
 done
-check 'columns of plots with heights' matches "$(head -n 1 popup/plots.csv)" 't_s,sensor_id,x_m,y_m,z_m,sigma_m'
+check 'columns of plots with heights' matches "$(head -n 1 popup/plots.csv)" 't_s,sensor_id,x_m,y_m,z_m,sigma_m,scan,target_id'
 check 'columns of a truth with heights' matches "$(head -n 1 popup/truth.csv)" \
     't_s,target_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps'
-check 'four clutter plots a scan but in the first three' matches "$(wc -l <popup/plots.csv)" $((1 + 161 * 5 - 3 * 4))
+check 'four clutter plots a scan but in the first three' matches "$(wc -l <popup/plots.csv)" $((1 + 161 * 6 - 3 * 4))
 check 'what a tracker may know' grep -q '^accel_max_mps2 = 117.68$' popup/scenario.ini
 check 'clutter that moves has no area' bash -c '! grep -q area popup/scenario.ini'
-run simulate popup --seed 3 --set velocity=1 --set true_pd=0 --set clutter_per_scan=0 -o empty
-check 'a scan that saw nothing has a row' grep -q '^40.000000,0,,,,,,,,$' empty/plots.csv
-run simulate popup -o bad --set clutter_per_km2=1
-check 'clutter by area' says 2 'rhotrack: scenarios popup, weave and hard-turn take clutter_per_scan, not clutter_per_km2'
-run simulate popup -o bad --set clutter_per_scan=1.5
-check 'half a plot' says 2 'rhotrack: scenarios popup, weave and hard-turn: clutter_per_scan 1.5 is not a whole number'
+run simulate popup --seed 3 --set radars.0.sigma_mps=1 --set radars.0.pd=0 --set clutter=[] -o empty
+check 'a scan that saw nothing has a row' grep -q '^40.000000,1,,,,,,,,,161,$' empty/plots.csv
 
 # ---- each gate, as in the paper: velocities are measured, 1 m and 1 m/s ----
-run simulate popup --seed 3 --set velocity=1 --set sigma_m=1 -o sharp
+run simulate popup --seed 4 --set radars.0.sigma_mps=1 --set radars.0.sigma_m=1 -o sharp
 check 'columns of velocities' matches "$(head -n 1 sharp/plots.csv)" \
-    't_s,sensor_id,x_m,y_m,z_m,sigma_m,vx_mps,vy_mps,vz_mps,sigma_mps'
+    't_s,sensor_id,x_m,y_m,z_m,sigma_m,vx_mps,vy_mps,vz_mps,sigma_mps,scan,target_id'
 for gate in best hough nearest none; do
     run maintain sharp/plots.csv --config sharp/scenario.ini --gate $gate -o $gate.csv
     check "$gate" exits 0
@@ -51,7 +47,7 @@ check 'the acceleration is there while it pulls, and not before' awk -F, '
 run maintain sharp/plots.csv --config sharp/scenario.ini --no-input-estimation
 check 'best is the default' cmp best.csv stdout
 check 'and has no input estimation' grep -q '^rhotrack: --no-input-estimation says nothing to --gate best' stderr
-run simulate weave --seed 5 --set true_pd=0.9 --set clutter_per_scan=10 -o hard
+run simulate weave --seed 5 --set radars.0.pd=0.9 --set clutter.0.count=10 -o hard
 run maintain hard/plots.csv --config hard/scenario.ini -o out.csv
 run evaluate hard/truth.csv out.csv --json
 check 'best: a target that pulls 10 g, places alone, 10 clutter plots, P_D 0.9' json stdout \
@@ -96,11 +92,11 @@ check 'covariance: the other columns are the same' cmp hough.csv first_columns.c
 check 'covariance: 21 columns more' awk -F, 'NF != 39 { exit 1 }' stdout
 
 # ---- scans ----
-run simulate popup --seed 3 --set velocity=1 --set true_pd=0.8 --set clutter_per_scan=0 -o misses
+run simulate popup --seed 3 --set radars.0.sigma_mps=1 --set radars.0.pd=0.8 --set clutter=[] -o misses
 run maintain misses/plots.csv --gate nearest --config misses/scenario.ini --json -o out.csv
 check 'misses are counted' json stdout 'o["misses"] + o["fates"]["claimed"] == 161 and 10 < o["misses"] < 60'
 check 'and their rows coast' awk -F, 'NR > 1 && ($18 == -1) != ($3 == "coasting") { exit 1 }' out.csv
-{ head -n 1 misses/plots.csv; echo '-0.5,0,,,,,,,,'; tail -n +2 misses/plots.csv; } >late.csv
+{ head -n 1 misses/plots.csv; echo '-0.5,1,,,,,,,,,0,'; tail -n +2 misses/plots.csv; } >late.csv
 run maintain late.csv --gate nearest --config misses/scenario.ini
 check 'nothing is written before there is a plot' writes_same_as out.csv
 
@@ -168,7 +164,7 @@ check 'not one plot' says 2 'rhotrack: nothing.csv: not one plot to start the tr
 run simulate passive-two -o passive
 run maintain passive/bearings.csv --gate nearest
 check 'bearings' says 2 'rhotrack: passive/bearings.csv: maintain takes plots, and these are bearings'
-sed '7s/^[^,]*,0,[^,]*/1,0,12x/' sharp/plots.csv >broken.csv
+sed '7s/^[^,]*,1,[^,]*/1,1,12x/' sharp/plots.csv >broken.csv
 run maintain broken.csv --gate nearest -o none_left.csv
 check 'a bad cell' says 2 "rhotrack: broken.csv:7: x_m*"
 check 'and no output is left again' test ! -e none_left.csv

@@ -42,7 +42,7 @@ lines_are_near() { # lines, truth
         }
         END { for (i in theta) { n++; m += found[i] } exit !(n > 0 && m == n && lines <= n + 1) }' "$2" "$1"
 }
-run simulate passive-two --seed 1 --set sigma_rad=0.0005 --set num_scans=8 -o sharp
+run simulate passive-two --seed 3 --set passive.0.sigma_rad=0.0005 --set passive.1.sigma_rad=0.0005 -o sharp
 run initiate sharp/bearings.csv --method passive-paper
 cp stdout lines.csv
 check 'passive-paper: lines along every path' lines_are_near lines.csv sharp/truth.csv

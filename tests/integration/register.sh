@@ -120,7 +120,7 @@ run register first.csv --config sectors/scenario.ini
 check 'one radar' says 2 'rhotrack: register: only one radar is in the input; *'
 run simulate parallel -o cartesian
 run register cartesian/plots.csv
-check 'Cartesian plots' says 2 'rhotrack: register: sensor 0: its plots are not in range and azimuth'
+check 'Cartesian plots' says 2 'rhotrack: register: sensor 1: its plots are not in range and azimuth'
 run simulate passive-two -o passive
 run register passive/bearings.csv
 check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, and no bearings'

@@ -51,7 +51,7 @@ unset PYTHONPATH
 python=$build/stonesoup/bin/python3
 [ -x "$python" ] || python=python3
 if "$python" -c 'import stonesoup' 2>/dev/null; then
-    "$RHOTRACK" simulate traffic --seed 3 --set targets=6 --set clutter_per_scan=10 --set num_scans=20 -o "$folder"
+    "$RHOTRACK" simulate traffic --seed 3 --set targets.0.count=6 --set duration_s=200 --set clutter.0.plots=10 -o "$folder"
     program=$python
     for method in gnn jpda; do
         run "$root/tests/bench/air_traffic_stonesoup.py" plots.csv -o "$method.csv" --method "$method" --scans 15

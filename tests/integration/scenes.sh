@@ -45,7 +45,7 @@ refuse 'half a number of targets' '1: targets?0?.count: 2.5 is not a whole numbe
 refuse 'a span the wrong way' '1: clutter?0?.range_m: the first, 5, is above the second, 2' \
     "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5, \"range_m\": [5, 2]}]}"
 refuse 'an unknown kind' "1: clutter?0?.kind: 'rain' is none of uniform, cell, *" "$start, \"clutter\": [{\"kind\": \"rain\"}]}"
-refuse 'a density of no area' '1: clutter?0?.plots_per_km2: needs box_m*' "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots_per_km2\": 1}]}"
+refuse 'a density of no area' '1: clutter?0?: needs box_m*' "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots_per_km2\": 1}]}"
 refuse 'no such sensor' '1: events?0?.sensors: there is no sensor 2' \
     "$start, \"events\": [{\"kind\": \"mask\", \"sensors\": [2]}]}"
 refuse 'two sensors of a number' '1: passive?0?.sensor_id: sensor 1 is there already' \
@@ -54,8 +54,17 @@ refuse 'an unknown setting' "1: settings.v_mix: unknown parameter*" "$start, \"s
 refuse 'a setting out of range' '1: settings.pd: *' "$start, \"settings\": {\"pd\": 3}}"
 refuse 'platforms' '1: platforms: sensors that move are not simulated yet' "$start, \"platforms\": [{}]}"
 refuse 'radars of two kinds' '1: radars?1?: radars measure all*' "${start%]}, {\"interval_s\": 2, \"sigma_m\": 10}], \"area\": [0, 1, 0, 1]}"
-refuse 'plots in x and y without an area' '1: area is missing*' \
-    '{"version": 1, "duration_s": 9, "radars": [{"interval_s": 2, "sigma_m": 10}]}'
+plane='{"version": 1, "duration_s": 9, "radars": [{"interval_s": 2, "sigma_m": 10, "sigma_mps": 1}]'
+refuse 'clutter in x and y without an area' '1: clutter?0?: needs box_m*' "$plane, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5}]}"
+refuse 'clutter without velocities' '1: clutter?0?.kind: has no velocities, which sensor 1 measures*' \
+    "$plane, \"clutter\": [{\"kind\": \"cell\", \"plots\": 5, \"at_m\": [0, 0], \"radius_m\": 9}]}"
+refuse 'heights of a radar that has none' '1: targets: heights are for radars with sigma_m' \
+    "$start, \"targets\": [{\"at_m\": [1, 2, 3], \"velocity_mps\": [1, 1]}]}"
+refuse 'a pull beside a turn' '1: targets?0?.legs?0?.turn_degps: does not go with accel_mps2' \
+    "$plane, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], \"legs\": [{\"for_s\": 1, \"accel_mps2\": [1, 2], \"turn_degps\": 3}]}]}"
+refuse 'one point' '1: targets?0?.points: must be two or more*' "$plane, \"targets\": [{\"points\": [[0, 1, 2]]}]}"
+refuse 'points that go back in time' '1: targets?0?.points: times must grow' "$plane, \"targets\": [{\"points\": [[1, 1, 2], [1, 2, 3]]}]}"
+refuse 'points and legs' '1: targets?0?.legs: does not go with points' "$plane, \"targets\": [{\"points\": [], \"legs\": []}]}"
 refuse 'too much' '1: 2.5e+07 scans *' "{\"version\": 1, \"duration_s\": 1e5, \"radars\": [{\"interval_s\": 0.004, \"sigma_range_m\": 30, \"sigma_azimuth_rad\": 0.003}]}"
 refuse 'a goal that is none' "1: goal.completness: unknown key, did you mean 'completeness'?" "$start, \"goal\": {\"completness\": 3}}"
 printf '%s' "$start, \"targets\": [{\"count\": 1, \"range_m\": 50, \"speed_mps\": 30, \"keep_range_m\": 60}]}" >wrong.json
@@ -72,12 +81,16 @@ for set in radars '=3' 'radars[1].pd=3' 'radars[x]=3' 'radars.pd=3' 'radars[0.pd
     run simulate towers --set "$set" -o none
     check "no place: $set" says 2 "rhotrack: --set *"
 done
+run simulate towers --set radar.0.pd=3 -o none
+check 'no place: the nearest' says 2 "rhotrack: --set radar.0.pd=3: there is no such place in the scene: 'radar', did you mean 'radars'?"
+run simulate towers --set radars.1.pd=3 -o none
+check 'no place: how many there are' says 2 "rhotrack: --set radars.1.pd=3: there is no such place in the scene: '1' of a list of 1"
 run simulate towers --set 'radars[0].pd=3' -o none
 check 'a value out of range by --set' says 2 'rhotrack: towers:*: radars?0?.pd: 3 is outside 0 .. 1'
 run simulate towers --set 'radars[0].range=3' -o none
 check 'an unknown key by --set' says 2 "rhotrack: towers:*: radars?0?.range: unknown key*"
 run simulate towers --set 'clutter[2]={"kind": "uniform", "plots": 3}' --set settings.gate=nearest --set duration_s=40 \
-    --set 'radars[0].told={"pd": 0.5}' -o changed
+    --set 'radars.0.told={"pd": 0.5}' -o changed
 check '--set' bash -c 'grep -qx "gate = nearest" changed/scenario.ini && grep -qx "pd = 0.5" changed/scenario.ini && ! grep -q ^44 changed/plots.csv'
 
 # ---- seeds and bytes ----

@@ -108,7 +108,7 @@ check 'a liar: on RHO_SENSORS' matches "$(read_sensors said.lcm)" '1 0
 3 1'
 
 # ---- three passive sensors, which make frames ----
-run simulate passive-three --seed 4 --set num_scans=16 -o passive
+run simulate passive-three --seed 4 --set duration_s=160 -o passive
 for sensor in 1 2 3; do
     awk -F, -v s="$sensor" 'NR == 1 || $2 == s' passive/bearings.csv >"passive$sensor.csv"
 done

@@ -11,7 +11,7 @@ node() {
     run node --lcm "file://$log?speed=0" --print --config scene/scenario.ini "$@"
 }
 
-"$program" simulate traffic --seed 3 --set targets=6 --set num_scans=30 --set clutter_per_scan=60 -o scene
+"$program" simulate traffic --seed 3 --set targets.0.count=6 --set duration_s=300 --set clutter.0.plots=60 -o scene
 "$program" convert scene/plots.csv all.lcm
 # both halves, in the middle of the tracks
 middle=$(awk -F, 'NR > 1 && $1 != last { last = $1; if (++n == 16) print $1 }' scene/plots.csv)

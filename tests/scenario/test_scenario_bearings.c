@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scenarios passive-..., bearing by bearing: is their chance what their parameters say? Seeds are fixed; bounds are four
+ * The experiments' passive sensors, bearing by bearing: is their chance what is asked for? Seeds are fixed; bounds are four
  * standard deviations of a sample's mean or variance.
  */
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "scenario.h"
+#include "scenario_plan.h"
 
 #define SEED 4711
 #define PI 3.141592653589793
@@ -60,22 +60,31 @@ static void assert_uniform(const char *what, const struct sample *sample, double
 
 /* ---- simulations ------------------------------------------------------------------------------ */
 
-static struct parameters parameters_of(const char *name)
+static struct parameters suggested(double pd)
 {
     struct parameters parameters;
 
     parameters_default(&parameters);
-    scenario_suggest(name, &parameters);
+    suggest_passive(&parameters);
+    parameters_suggest(&parameters, PARAMETER_TRUE_PD, pd);
     return parameters;
 }
 
-/* A thousand targets over the customary 8 scans. */
-static struct simulation *simulate_many(const char *name)
+static struct simulation *simulate(size_t num_sensors, size_t num_targets, double false_mean,
+                                   const struct parameters *parameters, uint64_t run)
 {
-    struct parameters parameters = parameters_of(name);
+    const struct scenario_bearings of = {
+        .num_sensors = num_sensors, .num_targets = num_targets, .false_mean = false_mean};
 
-    parameters_suggest(&parameters, PARAMETER_TARGETS, 1000);
-    return scenario_simulate(name, &parameters, SEED, 0);
+    return simulate_passive(&of, parameters, SEED, run);
+}
+
+/* A thousand targets over the customary 8 scans. */
+static struct simulation *simulate_many(double pd, double false_mean)
+{
+    struct parameters parameters = suggested(pd);
+
+    return simulate(2, 1000, false_mean, &parameters, 0);
 }
 
 static const struct truth_point *truth_of(const struct simulation *simulation, size_t scan,
@@ -95,11 +104,11 @@ static double true_bearing(const struct simulation *simulation, const struct sim
 
 /* ---- what a run holds ------------------------------------------------------------------------- */
 
-static void check_sizes(const char *name, size_t num_sensors, size_t num_targets)
+static void check_sizes(size_t num_sensors, size_t num_targets)
 {
     static const double places_m[][2] = {{0, -10000}, {0, 10000}, {10000, 0}, {-10000, 0}};
-    struct parameters parameters = parameters_of(name);
-    struct simulation *simulation = scenario_simulate(name, &parameters, SEED, 0);
+    struct parameters parameters = suggested(1.0);
+    struct simulation *simulation = simulate(num_sensors, num_targets, 0.0, &parameters, 0);
 
     assert_true(simulation->passive.is_used && !simulation->radar.is_used);
     assert_int_equal(simulation->num_scans, 8);
@@ -121,33 +130,19 @@ static void check_sizes(const char *name, size_t num_sensors, size_t num_targets
     simulation_free(simulation);
 }
 
-static void scenarios_have_their_sensors_targets_and_times(void **state)
+static void there_are_as_many_as_asked_for(void **state)
 {
     (void)state;
-    check_sizes("passive-two", 2, 2);
-    check_sizes("passive-three", 3, 2);
-    check_sizes("passive-clutter", 2, 4);
-}
-
-static void four_sensors_are_the_most(void **state)
-{
-    struct parameters parameters = parameters_of("passive-three");
-    struct simulation *simulation;
-    (void)state;
-
-    parameters_suggest(&parameters, PARAMETER_SENSORS, 4);
-    simulation = scenario_simulate("passive-three", &parameters, SEED, 0);
-    assert_int_equal(simulation->passive.num_sensors, 4);
-    assert_true(fabs(simulation->passive.sensors[3].x_m + 10000.0) < 1e-9);
-    assert_true(fabs(simulation->passive.sensors[3].y_m) < 1e-9);
-    simulation_free(simulation);
+    check_sizes(2, 2);
+    check_sizes(3, 2);
+    check_sizes(4, 4);
 }
 
 /* ---- targets ---------------------------------------------------------------------------------- */
 
 static void targets_come_towards_the_origin_from_the_east(void **state)
 {
-    struct simulation *simulation = simulate_many("passive-two");
+    struct simulation *simulation = simulate_many(1.0, 0.0);
     struct sample headings_rad = {0}, speeds_mps = {0};
     (void)state;
 
@@ -183,13 +178,12 @@ static void targets_come_towards_the_origin_from_the_east(void **state)
 
 static void check_noise(double sigma_rad)
 {
-    struct parameters parameters = parameters_of("passive-three");
+    struct parameters parameters = suggested(1.0);
     struct sample errors = {0};
     struct simulation *simulation;
 
-    parameters_suggest(&parameters, PARAMETER_TARGETS, 500);
     parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, sigma_rad);
-    simulation = scenario_simulate("passive-three", &parameters, SEED, 0);
+    simulation = simulate(3, 500, 0.0, &parameters, 0);
     for (size_t i = 0; i < simulation->num_looks; i++) {
         const struct simulated_look *look = &simulation->looks[i];
 
@@ -217,7 +211,7 @@ static void bearings_have_the_noise_that_was_set(void **state)
 
 static void targets_are_seen_once_a_look_as_often_as_true_pd_says(void **state)
 {
-    struct simulation *simulation = simulate_many("passive-clutter");
+    struct simulation *simulation = simulate_many(0.9, 1.0);
     double seen = 0.0, n = (double)simulation->num_looks * 1000.0;
     (void)state;
 
@@ -240,14 +234,13 @@ static void targets_are_seen_once_a_look_as_often_as_true_pd_says(void **state)
 
 static void false_bearings_are_poisson_and_uniform_ahead(void **state)
 {
-    struct parameters parameters = parameters_of("passive-clutter");
+    struct parameters parameters = suggested(0.9);
     struct sample counts = {0}, bearings_rad = {0};
     struct simulation *simulation;
     (void)state;
 
-    parameters_suggest(&parameters, PARAMETER_TARGETS, 0);
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 3000);
-    simulation = scenario_simulate("passive-clutter", &parameters, SEED, 0);
+    simulation = simulate(2, 0, 1.0, &parameters, 0);
     for (size_t i = 0; i < simulation->num_looks; i++) {
         add(&counts, (double)simulation->looks[i].num_bearings);
         for (size_t j = 0; j < simulation->looks[i].num_bearings; j++) {
@@ -268,14 +261,13 @@ static void false_bearings_are_poisson_and_uniform_ahead(void **state)
 /* Where of ten places target 0 stands: each equally often. */
 static void bearings_of_a_look_come_in_random_order(void **state)
 {
-    struct parameters parameters = parameters_of("passive-two");
+    struct parameters parameters = suggested(1.0);
     struct sample places = {0};
     struct simulation *simulation;
     (void)state;
 
-    parameters_suggest(&parameters, PARAMETER_TARGETS, 10);
     for (uint64_t run = 0; run < 200; run++) {
-        simulation = scenario_simulate("passive-two", &parameters, SEED, run);
+        simulation = simulate(2, 10, 0.0, &parameters, run);
         for (size_t i = 0; i < simulation->num_looks; i++) {
             size_t j = 0;
             while (simulation->looks[i].bearings[j].target_id != 0) {
@@ -291,10 +283,10 @@ static void bearings_of_a_look_come_in_random_order(void **state)
 
 static void a_seed_gives_the_same_bearings_again(void **state)
 {
-    struct parameters parameters = parameters_of("passive-clutter");
-    struct simulation *one = scenario_simulate("passive-clutter", &parameters, SEED, 0);
-    struct simulation *again = scenario_simulate("passive-clutter", &parameters, SEED, 0);
-    struct simulation *other = scenario_simulate("passive-clutter", &parameters, SEED, 1);
+    struct parameters parameters = suggested(0.9);
+    struct simulation *one = simulate(2, 4, 1.0, &parameters, 0);
+    struct simulation *again = simulate(2, 4, 1.0, &parameters, 0);
+    struct simulation *other = simulate(2, 4, 1.0, &parameters, 1);
     (void)state;
 
     for (size_t i = 0; i < one->num_looks; i++) {
@@ -316,8 +308,7 @@ static void a_seed_gives_the_same_bearings_again(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenarios_have_their_sensors_targets_and_times),
-        cmocka_unit_test(four_sensors_are_the_most),
+        cmocka_unit_test(there_are_as_many_as_asked_for),
         cmocka_unit_test(targets_come_towards_the_origin_from_the_east),
         cmocka_unit_test(bearings_have_the_noise_that_was_set),
         cmocka_unit_test(targets_are_seen_once_a_look_as_often_as_true_pd_says),

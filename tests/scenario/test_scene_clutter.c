@@ -234,6 +234,55 @@ static void echoes_of_the_second_time(void **state)
     end_look(&seen);
 }
 
+/* Of a target that climbs: always so many, even in the ball, with the ways from its last place; and its own plot's noise. */
+static void clutter_stays_about_a_target(void **state)
+{
+    (void)state;
+    struct scene *scene = scene_of(SCENE(
+        "1000", "{\"interval_s\": 2, \"sigma_m\": 7, \"sigma_mps\": 3, \"pd\": 1}",
+        ", \"targets\": [{\"at_m\": [30000, 40000, 100], \"velocity_mps\": [100, 20, 5]}]" CLUTTER(
+            "{\"kind\": \"about-targets\", \"count\": 4, \"width_rad\": 0.02, "
+            "\"from_s\": 10}")));
+    struct scene_run *run = scene_watch(scene, 5, 0);
+    struct moments share = {0}, x = {0}, z = {0}, noise = {0}, velocity = {0};
+
+    assert_int_equal(run->num_scans, 500);
+    for (size_t i = 0; i < run->num_scans; i++) {
+        const struct scene_scan *scan = &run->scans[i];
+        struct motion at = path_at(run->paths, scan->end_s);
+        double radius_m = sqrt(at.x_m * at.x_m + at.y_m * at.y_m + at.z_m * at.z_m) * sin(0.01);
+
+        assert_int_equal(scan->num_plots, scan->end_s < 10 ? 1 : 5);
+        for (size_t k = 0; k < scan->num_plots; k++) {
+            const struct scene_plot *plot = &scan->plots[k];
+            double dx_m = plot->x_m - at.x_m, dy_m = plot->y_m - at.y_m, dz_m = plot->z_m - at.z_m;
+
+            if (plot->target_id < 0) {
+                double r_m = sqrt(dx_m * dx_m + dy_m * dy_m + dz_m * dz_m);
+
+                add_moment(&share, pow(r_m / radius_m, 3));
+                add_moment(&x, dx_m / radius_m);
+                add_moment(&z, dz_m / radius_m);
+                assert_near(plot->vx_mps, 100 + dx_m / 2, 1e-6);
+                assert_near(plot->vz_mps, 5 + dz_m / 2, 1e-6);
+            } else {
+                add_moment(&noise, dx_m);
+                add_moment(&noise, dz_m);
+                add_moment(&velocity, plot->vx_mps - 100);
+                add_moment(&velocity, plot->vz_mps - 5);
+            }
+        }
+    }
+    assert_near(mean_of(&share), 0.5, 4 * 0.289 / sqrt(share.count));
+    assert_near(mean_of(&x), 0, 4 * 0.447 / sqrt(share.count));
+    assert_near(sigma_of(&x), sqrt(0.2), 0.03);
+    assert_near(sigma_of(&z), sqrt(0.2), 0.03);
+    assert_near(sigma_of(&noise), 7, 4 * 7 / sqrt(2 * noise.count));
+    assert_near(sigma_of(&velocity), 3, 4 * 3 / sqrt(2 * noise.count));
+    scene_run_free(run);
+    scene_free(scene);
+}
+
 static void clutter_changes_no_target(void **state)
 {
     (void)state;
@@ -285,6 +334,7 @@ int main(void)
         cmocka_unit_test(a_strobe_is_a_wedge),
         cmocka_unit_test(birds_flock),
         cmocka_unit_test(echoes_of_the_second_time),
+        cmocka_unit_test(clutter_stays_about_a_target),
         cmocka_unit_test(clutter_changes_no_target),
     };
 

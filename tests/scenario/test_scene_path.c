@@ -98,6 +98,81 @@ static void legs_are_flown(void **state)
     free_paths(paths, count);
 }
 
+static struct motion at_of(const char *targets, uint64_t seed, double t_s)
+{
+    char text[2048];
+    struct scene *scene;
+    struct scene_path *paths;
+    struct motion at;
+    size_t count;
+
+    snprintf(text, sizeof text,
+             SCENE("100", "{\"interval_s\": 1, \"sigma_m\": 9}", ", \"targets\": [%s]"), targets);
+    scene = scene_of(text);
+    paths = targets_draw(&scene->targets, "test.json", 100, seed, 0, 0, &count);
+    at = path_at(paths, t_s);
+    free_paths(paths, count);
+    scene_free(scene);
+    return at;
+}
+
+/* One acceleration, whatever the heading, and upwards; what is reached goes on. */
+static void pulls_have_a_direction(void **state)
+{
+    (void)state;
+    const char *target = "{\"at_m\": [100, 200, 300], \"velocity_mps\": [-6, -8, 2], \"legs\": "
+                         "[{\"for_s\": 10}, {\"for_s\": 4, \"accel_mps2\": [1, -2, 3]}, "
+                         "{\"for_s\": 2}, {\"for_s\": 4, \"accel_mps2\": [-1, 2, -3]}]}";
+    struct motion at = at_of(target, 1, 12);
+
+    assert_near(at.x_m, 100 - 72 + 2, 1e-6);
+    assert_near(at.y_m, 200 - 96 - 4, 1e-6);
+    assert_near(at.z_m, 300 + 24 + 6, 1e-6);
+    at = at_of(target, 1, 16);
+    assert_near(at.vx_mps, -2, 1e-6);
+    assert_near(at.vy_mps, -16, 1e-6);
+    assert_near(at.vz_mps, 14, 1e-6);
+    at = at_of(target, 1, 30);
+    assert_near(at.x_m, 100 - 180 + 8 + 8 + 8, 1e-6);
+    assert_near(at.z_m, 300 + 60 + 24 + 24 + 24, 1e-6);
+    assert_near(at.vz_mps, 2, 1e-6);
+}
+
+static void points_are_passed(void **state)
+{
+    (void)state;
+    const char *target = "{\"points\": [[5, 100, 200], [10, 150, 200], [20, 150, 100]]}";
+
+    assert_near(at_of(target, 1, 7.5).x_m, 125, 1e-9);
+    assert_near(at_of(target, 1, 7.5).vx_mps, 10, 1e-9);
+    assert_near(at_of(target, 1, 10).x_m, 150, 1e-9);
+    assert_near(at_of(target, 1, 20).y_m, 100, 1e-9);
+    assert_near(at_of(target, 1, 22).y_m, 80, 1e-9);
+}
+
+/* As many sums of random accelerations as there were intervals: of the velocity n, of the place about n^3 / 3. */
+static void who_is_shaken_wanders(void **state)
+{
+    (void)state;
+    const char *target = "{\"at_m\": [0, 0, 0], \"velocity_mps\": [10, 0], \"shake\": "
+                         "{\"every_s\": 0.5, \"sigma_mps2\": 2}}";
+    struct moments place = {0}, height = {0}, velocity = {0};
+    const double n = 100;
+
+    for (uint64_t seed = 0; seed < 1000; seed++) {
+        struct motion at = at_of(target, seed, 50), before = at_of(target, seed, 49.999);
+
+        assert_near(at.x_m - before.x_m, 0.001 * at.vx_mps, 1e-5);
+        add_moment(&place, at.x_m - 500);
+        add_moment(&height, at.z_m);
+        add_moment(&velocity, at.vy_mps);
+    }
+    assert_near(mean_of(&place), 0, 4 * 2 * 0.25 * sqrt(n * n * n / 3 / 1000));
+    assert_near(sigma_of(&place), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
+    assert_near(sigma_of(&height), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
+    assert_near(sigma_of(&velocity), 2 * 0.5 * sqrt(n), 0.9);
+}
+
 static void one_separates_from_another(void **state)
 {
     (void)state;
@@ -182,6 +257,24 @@ static void who_is_to_keep_within_does(void **state)
     free_paths(paths, count);
 }
 
+static void a_box_keeps_who_is_to_stay(void **state)
+{
+    (void)state;
+    size_t count;
+    struct scene_path *paths =
+        paths_of("{\"count\": 500, \"box_m\": [0, 9000, 0, 9000], \"speed_mps\": [10, 80],"
+                 " \"keep_box_m\": [0, 9000, 1000, 8000]}",
+                 100, 4, &count);
+
+    for (size_t i = 0; i < count; i++) {
+        struct motion first = path_at(&paths[i], 0), last = path_at(&paths[i], 100);
+
+        assert_true(fmin(first.x_m, last.x_m) >= 0 && fmax(first.x_m, last.x_m) <= 9000);
+        assert_true(fmin(first.y_m, last.y_m) >= 1000 && fmax(first.y_m, last.y_m) <= 8000);
+    }
+    free_paths(paths, count);
+}
+
 static void always_as_many_where_they_are_replaced(void **state)
 {
     (void)state;
@@ -237,6 +330,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(angles_are_those_of_libm),
         cmocka_unit_test(legs_are_flown),
+        cmocka_unit_test(pulls_have_a_direction),
+        cmocka_unit_test(points_are_passed),
+        cmocka_unit_test(who_is_shaken_wanders),
+        cmocka_unit_test(a_box_keeps_who_is_to_stay),
         cmocka_unit_test(one_separates_from_another),
         cmocka_unit_test(groups_are_as_they_say),
         cmocka_unit_test(who_is_to_keep_within_does),

@@ -106,6 +106,20 @@ static void others_look_everywhere_at_once(void **state)
                 none, false);
 }
 
+/* A radar that measures x and y has no place of its own: what passes the origin is seen, too. */
+static void planes_have_no_blind_spot(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run =
+        watch_text(SCENE("7", "{\"interval_s\": 1, \"sigma_m\": 1, \"pd\": 1}",
+                         ", \"targets\": [{\"at_m\": [-300, 0], \"velocity_mps\": [100, 0]}]"),
+                   &scene, 1);
+
+    assert_int_equal(all_plots(run), 7);
+    end_watch(run, scene);
+}
+
 static void ambiguous_range_rates_are_folded(void **state)
 {
     (void)state;
@@ -368,6 +382,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(turning_radars_measure),
         cmocka_unit_test(others_look_everywhere_at_once),
+        cmocka_unit_test(planes_have_no_blind_spot),
         cmocka_unit_test(ambiguous_range_rates_are_folded),
         cmocka_unit_test(coverage_ends),
         cmocka_unit_test(pd_follows_the_range),

@@ -14,7 +14,7 @@
 #include "grid.h"
 #include "random.h"
 #include "rhotrack/passive.h"
-#include "scenario.h"
+#include "scenario_plan.h"
 #include "verdicts.h"
 
 #define PI 3.141592653589793
@@ -27,7 +27,7 @@
 
 struct job {
     const char *name, *json_name;
-    int sensors, targets; /* no sensors: a full batch */
+    unsigned sensors, targets; /* no sensors: a full batch */
     int batches;
     double sigma_rad;
 };
@@ -88,11 +88,11 @@ static void record_scene(struct recording *recording, const struct job *job, uin
 {
     struct parameters parameters;
     parameters_default(&parameters);
-    scenario_suggest("passive-clutter", &parameters);
-    parameters_suggest(&parameters, PARAMETER_SENSORS, job->sensors);
-    parameters_suggest(&parameters, PARAMETER_TARGETS, job->targets);
+    suggest_passive(&parameters);
     parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, job->sigma_rad);
-    struct simulation *simulation = scenario_simulate("passive-clutter", &parameters, seed, run);
+    const struct scenario_bearings of = {
+        .num_sensors = job->sensors, .num_targets = job->targets, .false_mean = 1.0};
+    struct simulation *simulation = simulate_passive(&of, &parameters, seed, run);
     *recording = (struct recording){.num_frames = SCANS};
     for (size_t i = 0; i < simulation->num_looks; i++) {
         const struct simulated_look *look = &simulation->looks[i];

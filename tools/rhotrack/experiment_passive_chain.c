@@ -10,7 +10,7 @@
 #include "common.h"
 #include "double_filter.h"
 #include "method.h"
-#include "scenario.h"
+#include "scenario_plan.h"
 #include "workers.h"
 
 #define STREAM 8000    /* of the first case */
@@ -59,13 +59,10 @@ static struct parameters parameters_of(const struct passive_chain_case *of)
 {
     struct parameters parameters;
     parameters_default(&parameters);
-    scenario_suggest("passive-clutter", &parameters);
+    suggest_passive(&parameters);
     method_suggest(METHOD_PASSIVE, &parameters);
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, (double)of->frames);
-    parameters_suggest(&parameters, PARAMETER_SENSORS, (double)of->sensors);
-    parameters_suggest(&parameters, PARAMETER_TARGETS, (double)of->targets);
     parameters_suggest(&parameters, PARAMETER_TRUE_PD, of->pd);
-    parameters_suggest(&parameters, PARAMETER_FALSE_ALARMS, of->false_mean);
     /* slow enough to stay in front of the sensors all the time */
     parameters_suggest(&parameters, PARAMETER_V_MIN_MPS, 150.0);
     parameters_suggest(&parameters, PARAMETER_V_MAX_MPS, 250.0);
@@ -263,7 +260,9 @@ static struct result make_run(const struct passive_chain_case *of, struct chain 
     run->of = of;
     run->chain = chain;
     run->parameters = parameters_of(of);
-    run->simulation = scenario_simulate("passive-clutter", &run->parameters, seed, number);
+    const struct scenario_bearings drawn = {
+        .num_sensors = of->sensors, .num_targets = of->targets, .false_mean = of->false_mean};
+    run->simulation = simulate_passive(&drawn, &run->parameters, seed, number);
     /* half of the largest acceleration, kept up for a second: the tracker's */
     run->noise_density = pow(0.5 * run->parameters.value[PARAMETER_ACCEL_MAX_MPS2], 2.0);
     chain_open(chain, &run->parameters);

@@ -40,14 +40,11 @@ static struct parameters parameters_of(const struct passive_scene *scene)
     const struct passive_setting *of = scene->of;
     struct parameters parameters;
     parameters_default(&parameters);
-    scenario_suggest("passive-two", &parameters);
+    suggest_passive(&parameters);
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, PASSIVE_SCANS);
     parameters_suggest(&parameters, PARAMETER_INTERVAL_S,
                        scene->times_s[PASSIVE_SCANS - 1] / (PASSIVE_SCANS - 1));
-    parameters_suggest(&parameters, PARAMETER_SENSORS, (double)of->sensors);
-    parameters_suggest(&parameters, PARAMETER_TARGETS, (double)of->targets);
     parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, of->sigma_deg * DEG_RAD);
-    parameters_suggest(&parameters, PARAMETER_FALSE_ALARMS, of->false_mean);
     return parameters;
 }
 
@@ -71,7 +68,9 @@ struct passive_scene passive_scene_draw(const struct passive_setting *of, struct
     struct parameters parameters = parameters_of(&scene);
     const struct scenario_region *region =
         of->region == PASSIVE_AHEAD ? &scenario_ahead : &regions[of->region];
-    scene.plan = plan_passive_in(region, &parameters, random);
+    const struct scenario_bearings drawn = {
+        .num_sensors = of->sensors, .num_targets = of->targets, .false_mean = of->false_mean};
+    scene.plan = plan_passive(region, &drawn, &parameters, random);
     scene.plan.pd = of->pd;
     move_to_own_times(&scene);
     scene.simulation = plan_simulate(&scene.plan, random);

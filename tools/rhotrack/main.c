@@ -77,14 +77,8 @@ static const struct command commands[] = {
      "A scene is a file NAME.json, or the name of one that ships; all stands in it\n"
      "(tools/scenes/README.md).\n"
      "\n"
-     "Scenarios: crossing, radar, parallel, crossing-angle, clutter, "
-     "traffic,\n"
-     "air-traffic, formation; polar, doppler, rotating (a turning radar's plots, polar.csv) and\n"
-     "two-radars (of two, with biases); passive-two, passive-three, passive-clutter "
-     "(bearings.csv);\n"
-     "popup, weave, hard-turn (one target that pulls, in a beam, with heights); their parameters "
-     "are\n"
-     "set by --set.\n"},
+     "Scenarios: air-traffic, formation; polar, doppler, rotating (a turning radar's plots,\n"
+     "polar.csv) and two-radars (of two, with biases); their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
      "oBjsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "

@@ -38,7 +38,6 @@ static const char *choices_of(enum parameter_id id)
     case PARAMETER_GATE:
         return "best|hough|nearest|none";
     case PARAMETER_INPUT_MODEL:
-    case PARAMETER_TRUE_MODEL:
         return "literal|physical";
     case PARAMETER_ASTERIX_SCANS:
         return "sector|turn";

@@ -138,7 +138,7 @@
     X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0,                               \
       "simulate: mean clutter plots a scan and area")                                              \
     X(CLUTTER_PER_SCAN, "clutter_per_scan", "-", 0, 0, 1e4, 0, 0,                                  \
-      "simulate: mean clutter plots a scan; popup, weave, hard-turn: always so many")              \
+      "simulate: mean clutter plots a scan")                                                       \
     X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0,                                                   \
       "simulate: probability of detection that happens; air-traffic, unset: pd")                   \
     X(TRUE_SIGMA_M, "true_sigma_m", "m", 10, 0.001, 1e5, 0, 0,                                     \
@@ -154,7 +154,7 @@
     X(PERSISTENT_SOURCES, "persistent_sources", "-", 0, 0, 1e4, 1, 0,                              \
       "simulate air-traffic: things that stand, seen in 9 scans of 10")                            \
     X(MERGE_M, "merge_m", "m", 0, 0, 1e5, 0, 0,                                                    \
-      "simulate air-traffic, formation, parallel, crossing-angle: closer targets give one plot")   \
+      "simulate air-traffic, formation: closer targets give one plot")                             \
     X(CROSSING_SHARE, "crossing_share", "-", 0.2, 0, 1, 0, 0,                                      \
       "simulate air-traffic: share of targets that start so that they meet another")               \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
@@ -165,30 +165,12 @@
     X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
     X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0,                                                   \
       "simulate: number of targets, where the scenario leaves it open")                            \
-    X(SENSORS, "sensors", "-", 2, 2, 4, 1, 0, "simulate passive-...: number of sensors")           \
-    X(FALSE_ALARMS, "false_alarms", "-", 0, 0, 1e4, 0, 0,                                          \
-      "simulate passive-...: mean false bearings a sensor and scan")                               \
     X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
-      "simulate parallel, formation: distance of the two targets; two-radars: least")              \
+      "simulate formation: distance of the two targets; two-radars: least")                        \
     X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0,                                       \
-      "simulate crossing-angle, formation: angle between the tracks")                              \
+      "simulate formation: angle between the tracks")                                              \
     X(SPEED_MPS, "speed_mps", "m/s", 250, 0.1, 2e4, 0, 0,                                          \
-      "simulate parallel, crossing-angle, formation: speed of the targets")                        \
-    X(ACCEL_G, "accel_g", "g", 10, 0, 100, 0, 0,                                                   \
-      "simulate popup, weave, hard-turn: what the target pulls, 9.80665 m/s^2 each")               \
-    X(VELOCITY, "velocity", "-", 0, 0, 1, 1, 0,                                                    \
-      "simulate popup, ...: 1: plots have velocities too, with sigma_mps")                         \
-    X(BEAM_DEG, "beam_deg", "deg", 1.2, 0.01, 60, 0, 0,                                            \
-      "simulate popup, ...: width of the beam about the target, full of clutter")                  \
-    X(CLEAN_SCANS, "clean_scans", "-", 3, 0, 1e6, 1, 0,                                            \
-      "simulate popup, ...: first scans without clutter or misses")                                \
-    X(TRUE_MODEL, "true_model", "-", 1, 0, 1, 1, 0,                                                \
-      "simulate popup, ...: what an acceleration does to the place, as input_model")               \
-    X(TRUE_NOISE_MPS2, "true_noise_mps2", "m/s^2", 2, 0, 1e4, 0, 0,                                \
-      "simulate popup, ..., physical: random acceleration a scan, each axis")                      \
-    X(TRUE_NOISE_M, "true_noise_m", "m", 1, 0, 1e5, 0, 0,                                          \
-      "simulate popup, ..., literal: random change of place a scan, each axis; root of Q")         \
-    X(TRUE_NOISE_MPS, "true_noise_mps", "m/s", 1, 0, 1e4, 0, 0, "the same of velocities")          \
+      "simulate formation: speed of the targets")                                                  \
     X(REFERENCE_SENSOR, "reference_sensor", "-", 0, -2147483648.0, 2147483647, 1, 0,               \
       "register: the radar whose time counts as right; unset: the lowest number")                  \
     X(SECTORS_PER_TURN, "sectors_per_turn", "-", 32, 1, 360, 1, 0,                                 \

@@ -7,8 +7,6 @@
 #include "common.h"
 #include "scenario_plan.h"
 
-#define DEG_RAD 0.017453292519943295
-
 /* ---- their names and customary parameters ----------------------------------------------------- */
 
 /* What scenarios are customarily drawn with; several may share it. true_pd 0: what is assumed. */
@@ -28,15 +26,6 @@ static const struct customs paper_targets = {.num_scans = 7,
                                              .accel_max_mps2 = 5,
                                              .box = {0, 4000, -1000, 1500},
                                              .clutter_per_km2 = 1};
-static const struct customs radar_table = {.num_scans = RADAR_TABLE_SCANS,
-                                           .interval_s = RADAR_TABLE_INTERVAL_S,
-                                           .sigma_m = RADAR_TABLE_SIGMA_M,
-                                           .true_pd = 1.0,
-                                           .v_min_mps = 100,
-                                           .v_max_mps = 400,
-                                           .accel_max_mps2 = 5,
-                                           .box = {-25000, -1000, 13000, 29000},
-                                           .clutter_per_scan = 100};
 static const struct customs pair = {.num_scans = 7,
                                     .interval_s = 2,
                                     .sigma_m = 10,
@@ -46,15 +35,6 @@ static const struct customs pair = {.num_scans = 7,
                                     .accel_max_mps2 = 5,
                                     .box = {-2500, 2500, -2500, 2500},
                                     .clutter_per_km2 = 1};
-static const struct customs no_target = {.num_scans = 7,
-                                         .interval_s = 2,
-                                         .sigma_m = 10,
-                                         .true_pd = 0.99,
-                                         .v_min_mps = 100,
-                                         .v_max_mps = 400,
-                                         .accel_max_mps2 = 5,
-                                         .box = {0, 4000, -1000, 1500},
-                                         .clutter_per_km2 = 10};
 static const struct customs wide_traffic = {.num_scans = 120,
                                             .interval_s = 10,
                                             .sigma_m = 50,
@@ -73,30 +53,6 @@ static const struct customs turning_radar = {.num_scans = 15,
                                              .accel_max_mps2 = 5,
                                              .box = {-65000, 65000, -65000, 65000},
                                              .clutter_per_scan = 100};
-static const struct customs passive = {.num_scans = 8,
-                                       .interval_s = 10,
-                                       .sigma_m = 10,
-                                       .true_pd = 1,
-                                       .v_min_mps = 150,
-                                       .v_max_mps = 350,
-                                       .accel_max_mps2 = 5,
-                                       .box = {0, 80000, -55000, 55000}};
-static const struct customs passive_clutter = {.num_scans = 8,
-                                               .interval_s = 10,
-                                               .sigma_m = 10,
-                                               .true_pd = 0.9,
-                                               .v_min_mps = 150,
-                                               .v_max_mps = 350,
-                                               .accel_max_mps2 = 5,
-                                               .box = {0, 80000, -55000, 55000}};
-static const struct customs beam = {.num_scans = 161,
-                                    .interval_s = 0.25,
-                                    .sigma_m = 10,
-                                    .true_pd = 1,
-                                    .v_min_mps = 100,
-                                    .v_max_mps = 1000,
-                                    .box = {10000, 60000, 5000, 45000},
-                                    .clutter_per_scan = 4};
 static const struct customs air_traffic = {.num_scans = 120,
                                            .interval_s = 10,
                                            .sigma_m = 50,
@@ -123,79 +79,23 @@ static const struct customs two_radars = {.num_scans = 60,
                                           .clutter_per_scan = 20};
 
 static const struct scenario {
-    const char *name, *text;
-    uint64_t stream; /* of random numbers: its place when there were more */
+    const char *name, *text; /* no text: an experiment's own; simulate has a scene of that name */
+    uint64_t stream;         /* of random numbers: its place when there were more */
     const struct customs *customs;
     struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
     /* or, where that is NULL, what turning radars saw */
     struct simulation *(*simulate)(const struct parameters *parameters, struct random *random);
 } scenarios[] = {
-    {.name = "crossing",
-     .stream = 0,
-     .text = "three targets, two of which cross (the paper's Table 1)",
-     .customs = &paper_targets,
-     .plan = plan_crossing},
-    {.name = "radar",
-     .stream = 1,
-     .text = "the real plots of three aircraft (the paper's Table 3) in clutter",
-     .customs = &radar_table,
-     .plan = plan_radar},
-    {.name = "parallel",
-     .stream = 2,
-     .text = "two targets side by side, spacing_m apart",
-     .customs = &pair,
-     .plan = plan_parallel},
-    {.name = "crossing-angle",
-     .stream = 3,
-     .text = "two targets that meet at crossing_deg",
-     .customs = &pair,
-     .plan = plan_crossing_angle},
-    {.name = "clutter",
-     .stream = 5,
-     .text = "no target at all",
-     .customs = &no_target,
-     .plan = plan_clutter_alone},
-    {.name = "traffic",
-     .stream = 7,
-     .text = "many straight targets in a large area",
-     .customs = &wide_traffic,
-     .plan = plan_traffic},
+    {.name = "crossing", .stream = 0, .customs = &paper_targets, .plan = plan_crossing},
+    {.name = "parallel", .stream = 2, .customs = &pair, .plan = plan_parallel},
+    {.name = "crossing-angle", .stream = 3, .customs = &pair, .plan = plan_crossing_angle},
+    {.name = "traffic", .stream = 7, .customs = &wide_traffic, .plan = plan_traffic},
     {.name = "polar",
      .stream = 8,
      .text = "a turning radar: straight targets at 20 to 60 km, plots in range and azimuth, each "
              "at its own time",
      .customs = &turning_radar,
      .plan = plan_polar},
-    {.name = "passive-two",
-     .stream = 9,
-     .text = "two passive sensors: bearings of two targets that come towards them",
-     .customs = &passive,
-     .plan = plan_passive},
-    {.name = "passive-three",
-     .stream = 10,
-     .text = "the same with a third sensor",
-     .customs = &passive,
-     .plan = plan_passive},
-    {.name = "passive-clutter",
-     .stream = 11,
-     .text = "two passive sensors, four targets, misses and false bearings",
-     .customs = &passive_clutter,
-     .plan = plan_passive},
-    {.name = "popup",
-     .stream = 12,
-     .text = "one target in a beam that pulls accel_g upwards, over, and level again",
-     .customs = &beam,
-     .plan = plan_popup},
-    {.name = "weave",
-     .stream = 13,
-     .text = "the same to the sides",
-     .customs = &beam,
-     .plan = plan_weave},
-    {.name = "hard-turn",
-     .stream = 14,
-     .text = "the same in level turns",
-     .customs = &beam,
-     .plan = plan_hard_turn},
     {.name = "air-traffic",
      .stream = 15,
      .text =
@@ -227,14 +127,24 @@ static const struct scenario {
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
 
+static const struct scenario *offered(size_t index)
+{
+    for (size_t i = 0; i < NUM_SCENARIOS; i++) {
+        if (scenarios[i].text && index-- == 0) {
+            return &scenarios[i];
+        }
+    }
+    return NULL;
+}
+
 const char *scenario_name(size_t index)
 {
-    return index < NUM_SCENARIOS ? scenarios[index].name : NULL;
+    return offered(index) ? offered(index)->name : NULL;
 }
 
 const char *scenario_text(size_t index)
 {
-    return index < NUM_SCENARIOS ? scenarios[index].text : NULL;
+    return offered(index) ? offered(index)->text : NULL;
 }
 
 static const struct scenario *find_scenario(const char *name)
@@ -259,22 +169,6 @@ static void suggest_area(struct parameters *parameters, const struct scenario_bo
     for (int i = 0; i < 4; i++) {
         parameters_suggest(parameters, sides[i], values[i]);
     }
-}
-
-/* Bearings instead of plots. */
-static void suggest_passive(const char *name, struct parameters *parameters)
-{
-    bool has_clutter = strcmp(name, "passive-clutter") == 0;
-    parameters_suggest(parameters, PARAMETER_SENSORS, strcmp(name, "passive-three") == 0 ? 3 : 2);
-    parameters_suggest(parameters, PARAMETER_TARGETS, has_clutter ? 4 : 2);
-    parameters_suggest(parameters, PARAMETER_FALSE_ALARMS, has_clutter ? 1 : 0);
-    parameters_suggest(parameters, PARAMETER_SIGMA_RAD, 0.1 * DEG_RAD);
-}
-
-static bool is_beam(const struct scenario *scenario)
-{
-    return scenario->plan == plan_popup || scenario->plan == plan_weave ||
-           scenario->plan == plan_hard_turn;
 }
 
 static bool is_radar(const struct scenario *scenario)
@@ -347,12 +241,6 @@ void scenario_suggest(const char *name, struct parameters *parameters)
                            300); /* and the aircraft keep to a course */
     }
     suggest_sky(parameters);
-    if (scenario->plan == plan_passive) {
-        suggest_passive(name, parameters);
-    }
-    if (is_beam(scenario)) {
-        suggest_beam(parameters);
-    }
     if (scenario->customs->clutter_per_km2 > 0.0) {
         parameters_suggest(parameters, PARAMETER_CLUTTER_PER_KM2,
                            scenario->customs->clutter_per_km2);
@@ -408,10 +296,7 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
     struct scenario_plan plan = scenario->plan(parameters, &random);
     plan.pd = value_or(parameters, PARAMETER_TRUE_PD, PARAMETER_PD);
     plan.sigma_m = parameters->value[PARAMETER_SIGMA_M];
-    /* real plots bring their own noise */
-    plan.noise_m = scenario->plan == plan_radar
-                       ? 0.0
-                       : value_or(parameters, PARAMETER_TRUE_SIGMA_M, PARAMETER_SIGMA_M);
+    plan.noise_m = value_or(parameters, PARAMETER_TRUE_SIGMA_M, PARAMETER_SIGMA_M);
     plan.box = plan_box_of(parameters);
     plan_grow_box(&plan, parameters);
     plan.clutter_mean = plan_clutter_mean(parameters, &plan.box);

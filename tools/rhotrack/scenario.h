@@ -2,10 +2,8 @@
 /*
  * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
  *
- * Scenarios: crossing, radar, parallel, crossing-angle, clutter, traffic, air-traffic, polar,
- * passive-two, passive-three, passive-clutter, popup, weave, hard-turn, formation, two-radars, rotating, doppler. The same seed
- * gives the same data
- * on every machine.
+ * Scenarios: crossing, parallel, crossing-angle, traffic, air-traffic, polar, formation, two-radars, rotating, doppler;
+ * the passive ones of experiments are in scenario_plan.h. The same seed gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H
@@ -20,7 +18,7 @@ struct truth_point {
     double t_s;
     int target_id; /* 0, 1, ... */
     double x_m, y_m, vx_mps, vy_mps;
-    double z_m, vz_mps; /* 0 but for a beam's target */
+    double z_m, vz_mps; /* 0 but in files that have heights */
 };
 
 struct simulated_plot {
@@ -29,7 +27,6 @@ struct simulated_plot {
     /* of a rotating radar, else 0: when the antenna looked there, and what it measured */
     double offset_s; /* after the scan's time */
     double range_m, azimuth_rad, range_rate_mps;
-    double z_m, vx_mps, vy_mps, vz_mps; /* of a beam, else 0 */
 };
 
 /* A radar in the origin that turns counter-clockwise, from +x at the scan's time on, once an interval. */
@@ -54,16 +51,6 @@ struct scenario_passive {
     } sensors[SCENARIO_SENSORS_MAX];
     double sigma_rad;
     double false_mean; /* false bearings a sensor and scan, uniform within pi/2 of +x */
-};
-
-/* A beam from the origin that stays on its one target, and clutter in a sphere about it, as wide as the beam. */
-struct scenario_beam {
-    bool is_used;      /* plots have heights */
-    bool has_velocity; /* and velocities */
-    double sigma_mps;
-    double half_rad;    /* half the beam's width */
-    size_t num_clutter; /* plots a scan, always so many */
-    size_t clean_scans; /* first scans, without clutter or misses */
 };
 
 struct simulated_bearing {
@@ -101,7 +88,6 @@ struct simulation {
     double interval_s;
     struct scenario_radar radar;
     struct scenario_passive passive;
-    struct scenario_beam beam;
     struct simulated_scan *scans; /* without plots where passive is used */
     struct simulated_look *looks; /* num_looks = num_scans x passive.num_sensors: by time, sensor */
     struct truth_point *truth;    /* by time, then target */
@@ -109,11 +95,11 @@ struct simulation {
     size_t num_times;               /* of the truth, with a record */
 };
 
-/* Names and one-line texts of all scenarios, for help and errors; NULL past the last. */
+/* Names and one-line texts of the scenarios that `simulate` offers; NULL past the last. */
 const char *scenario_name(size_t index);
 const char *scenario_text(size_t index);
 
-/* Whether there is a scenario of that name. */
+/* Whether it offers a scenario of that name. */
 bool scenario_is_known(const char *name);
 
 /* The scenario's customary parameters (suggested, so that --set wins). Unknown name: exit 2 with the list. */

@@ -7,6 +7,7 @@
 
 #define PI 3.141592653589793
 #define START_FAR_M 78000.0
+#define STREAM 11 /* of random numbers, beside the scenarios' */
 
 const struct scenario_region scenario_ahead = {.x_min_m = 20000.0,
                                                .x_max_m = 75000.0,
@@ -51,33 +52,59 @@ static struct scenario_state approach(const struct parameters *parameters,
                      "take fewer scans or slower targets");
 }
 
-struct scenario_plan plan_passive(const struct parameters *parameters, struct random *random)
-{
-    return plan_passive_in(&scenario_ahead, parameters, random);
-}
-
-struct scenario_plan plan_passive_in(const struct scenario_region *region,
-                                     const struct parameters *parameters, struct random *random)
+struct scenario_plan plan_passive(const struct scenario_region *region,
+                                  const struct scenario_bearings *of,
+                                  const struct parameters *parameters, struct random *random)
 {
     const double *value = parameters->value;
-    struct scenario_plan plan =
-        plan_start((size_t)(value[PARAMETER_TARGETS] + 0.5),
-                   (size_t)(value[PARAMETER_NUM_SCANS] + 0.5), value[PARAMETER_INTERVAL_S]);
+    struct scenario_plan plan = plan_start(
+        of->num_targets, (size_t)(value[PARAMETER_NUM_SCANS] + 0.5), value[PARAMETER_INTERVAL_S]);
     double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t target = 0; target < plan.num_targets; target++) {
         plan_straight(&plan, target, approach(parameters, region, duration_s, random));
     }
     plan.passive = (struct scenario_passive){
         .is_used = true,
-        .num_sensors = (size_t)(value[PARAMETER_SENSORS] + 0.5),
+        .num_sensors = of->num_sensors,
         .sigma_rad = value[PARAMETER_SIGMA_RAD],
-        .false_mean = value[PARAMETER_FALSE_ALARMS],
+        .false_mean = of->false_mean,
     };
     for (size_t sensor = 0; sensor < plan.passive.num_sensors; sensor++) {
         plan.passive.sensors[sensor].x_m = places_m[sensor][0];
         plan.passive.sensors[sensor].y_m = places_m[sensor][1];
     }
     return plan;
+}
+
+void suggest_passive(struct parameters *parameters)
+{
+    const struct {
+        enum parameter_id id;
+        double value;
+    } values[] = {{PARAMETER_NUM_SCANS, 8},        {PARAMETER_INTERVAL_S, 10},
+                  {PARAMETER_TRUE_PD, 0.9},        {PARAMETER_SIGMA_RAD, 0.1 * PI / 180.0},
+                  {PARAMETER_V_MIN_MPS, 150},      {PARAMETER_V_MAX_MPS, 350},
+                  {PARAMETER_ACCEL_MAX_MPS2, 5},   {PARAMETER_AREA_X_MIN_M, 0},
+                  {PARAMETER_AREA_X_MAX_M, 80000}, {PARAMETER_AREA_Y_MIN_M, -55000},
+                  {PARAMETER_AREA_Y_MAX_M, 55000}};
+
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
+        parameters_suggest(parameters, values[i].id, values[i].value);
+    }
+}
+
+struct simulation *simulate_passive(const struct scenario_bearings *of,
+                                    const struct parameters *parameters, uint64_t seed,
+                                    uint64_t run)
+{
+    struct random random = random_start(seed, STREAM, run);
+    struct scenario_plan plan = plan_passive(&scenario_ahead, of, parameters, &random);
+    struct simulation *simulation;
+
+    plan.pd = parameters->value[PARAMETER_TRUE_PD];
+    simulation = plan_simulate(&plan, &random);
+    plan_free(&plan);
+    return simulation;
 }
 
 /* ---- bearings --------------------------------------------------------------------------------- */

@@ -28,18 +28,6 @@ struct scenario_plan plan_crossing(const struct parameters *parameters, struct r
     return plan;
 }
 
-struct scenario_plan plan_radar(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    if (count_of(parameters, PARAMETER_NUM_SCANS) > RADAR_TABLE_SCANS) {
-        fail(EXIT_USAGE, "scenario radar has %d scans, num_scans must not be greater",
-             RADAR_TABLE_SCANS);
-    }
-    struct scenario_plan plan = plan_of(parameters, RADAR_TABLE_TARGETS);
-    plan_radar_table(&plan);
-    return plan;
-}
-
 struct scenario_plan plan_parallel(const struct parameters *parameters, struct random *random)
 {
     (void)random;
@@ -105,12 +93,6 @@ struct scenario_plan plan_formation(const struct parameters *parameters, struct 
         }
     }
     return plan;
-}
-
-struct scenario_plan plan_clutter_alone(const struct parameters *parameters, struct random *random)
-{
-    (void)random;
-    return plan_of(parameters, 0);
 }
 
 /* Anywhere, any heading, any speed between the limits, drawn again until the whole path lies in the area. */

@@ -251,7 +251,6 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
     simulation->interval_s = plan->interval_s;
     simulation->radar = plan->radar;
     simulation->passive = plan->passive;
-    simulation->beam = plan->beam;
     simulation->num_looks = plan->num_scans * plan->passive.num_sensors;
     simulation->looks = must_calloc(simulation->num_looks + 1, sizeof *simulation->looks);
     simulation->scans = must_calloc(plan->num_scans, sizeof *simulation->scans);
@@ -264,8 +263,6 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
             plan_look_of_sensors(plan, scan, &simulation->looks[first], random);
         } else if (plan->radar.is_used) {
             plan_turn_of_radar(plan, scan, &simulation->scans[scan], random);
-        } else if (plan->beam.is_used) {
-            plan_look_of_beam(plan, scan, &simulation->scans[scan], random);
         } else if (plan->sky.is_used) {
             plan_look_at_sky(plan, scan, &simulation->scans[scan]);
         } else {

@@ -50,7 +50,6 @@ struct scenario_plan {
     double spot_mean;                /* plots a scan; 0: none */
     struct scenario_radar radar;     /* where it is used: its noise, its clutter */
     struct scenario_passive passive; /* the same */
-    struct scenario_beam beam;       /* the same; noise_m goes to three axes */
     struct scenario_sky sky;         /* the same, by plan_sky */
     struct truth_point *truth;       /* num_scans x num_targets, by time, then target */
 };
@@ -108,12 +107,10 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
 
 /* The small scenarios, and traffic. scenario_paths.c */
 struct scenario_plan plan_crossing(const struct parameters *parameters, struct random *random);
-struct scenario_plan plan_radar(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_parallel(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_crossing_angle(const struct parameters *parameters,
                                          struct random *random);
 struct scenario_plan plan_formation(const struct parameters *parameters, struct random *random);
-struct scenario_plan plan_clutter_alone(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_traffic(const struct parameters *parameters, struct random *random);
 
 /* Scenarios polar and doppler. scenario_radar.c */
@@ -139,54 +136,28 @@ struct scenario_region {
     bool is_on_both_sides; /* of the x axis, each as often */
     double end_x_min_m;    /* -INFINITY: anywhere */
 };
-extern const struct scenario_region scenario_ahead; /* of the passive scenarios */
+extern const struct scenario_region scenario_ahead; /* of the passive scenes */
 
-/* Targets that come towards the origin, and sensors, of the passive scenarios; the same elsewhere. scenario_bearings.c */
-struct scenario_plan plan_passive(const struct parameters *parameters, struct random *random);
-struct scenario_plan plan_passive_in(const struct scenario_region *region,
-                                     const struct parameters *parameters, struct random *random);
+/* How many, at most SCENARIO_SENSORS_MAX sensors, and the mean of false bearings a sensor and scan. */
+struct scenario_bearings {
+    size_t num_sensors, num_targets;
+    double false_mean;
+};
+
+/* Targets that come towards the origin, and sensors. scenario_bearings.c */
+struct scenario_plan plan_passive(const struct scenario_region *region,
+                                  const struct scenario_bearings *of,
+                                  const struct parameters *parameters, struct random *random);
+
+/* The same ahead, drawn: eight scans with misses, where the parameters are those suggested. */
+void suggest_passive(struct parameters *parameters);
+struct simulation *simulate_passive(const struct scenario_bearings *of,
+                                    const struct parameters *parameters, uint64_t seed,
+                                    uint64_t run);
 
 /* What the plan's passive sensors see at scan `index`: a look a sensor. scenario_bearings.c */
 void plan_look_of_sensors(const struct scenario_plan *plan, size_t index,
                           struct simulated_look *looks, struct random *random);
-
-/* ---- Targets that pull, in a beam: scenario_beam.c ---------------------------------------------- */
-
-enum scenario_maneuver {
-    MANEUVER_POPUP = 0, /* up, over, and level again at the first height */
-    MANEUVER_WEAVE,     /* to the sides of the first heading, and along it again */
-    MANEUVER_TURN /* level turns: the acceleration turns with the heading, scan by scan (speed: 5 % more) */
-};
-
-/* What happens to such a target's state in an interval T. */
-struct scenario_motion {
-    double accel_mps2; /* while it pulls */
-    bool
-        is_physical; /* an acceleration u moves it by u T^2 / 2, else not at all; both change its velocity by u T */
-    double noise_mps2;         /* physical: sd of more acceleration, each axis */
-    double noise_m, noise_mps; /* else: sd of what is added to place and velocity, each axis */
-};
-
-/* The acceleration of each interval without noise, num_scans - 1 of them. */
-void plan_inputs(enum scenario_maneuver maneuver, double accel_mps2, double interval_s,
-                 size_t num_scans, double (*inputs_mps2)[3]);
-
-/* The path of target 0, from (50 km, 35 km, 300 m) at (-600, -500, 0) m/s. */
-void plan_maneuver(struct scenario_plan *plan, enum scenario_maneuver maneuver,
-                   const struct scenario_motion *motion, struct random *random);
-
-/* What the plan's beam sees at scan `index`. */
-void plan_look_of_beam(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
-                       struct random *random);
-
-/* Radius of the beam at a target, its clutter's sphere. */
-double beam_radius_m(const struct scenario_beam *beam, const struct truth_point *truth);
-
-/* The scenarios' plans, and their customary parameters. */
-struct scenario_plan plan_popup(const struct parameters *parameters, struct random *random);
-struct scenario_plan plan_weave(const struct parameters *parameters, struct random *random);
-struct scenario_plan plan_hard_turn(const struct parameters *parameters, struct random *random);
-void suggest_beam(struct parameters *parameters);
 
 /* ---- Turning radars, sector by sector ---------------------------------------------------------- */
 

@@ -6,15 +6,11 @@
 #include "common.h"
 #include "scenario.h"
 
-#define SKY "air-traffic, parallel, crossing-angle, formation" /* with merge_m a sky of their own */
-#define TARGETS_ON_PLANE "crossing, parallel, crossing-angle, traffic, air-traffic, formation"
-#define ON_PLANE TARGETS_ON_PLANE ", clutter"
+#define ON_PLANE "air-traffic, formation" /* formation: with merge_m a sky of its own */
 #define TURNING "polar, doppler, rotating"
-#define PASSIVE "passive-two, passive-three, passive-clutter"
-#define BEAM "popup, weave, hard-turn"
 
 #define RADARS "two-radars"
-#define WITH_AREA ON_PLANE ", radar, " TURNING ", " PASSIVE
+#define WITH_AREA ON_PLANE ", " TURNING
 
 struct use {
     enum parameter_id id;
@@ -24,33 +20,23 @@ struct use {
 
 /* All use num_scans and interval_s. */
 static const struct use uses[] = {
-    {PARAMETER_CLUTTER_PER_KM2, ON_PLANE ", radar, polar, doppler, " BEAM, NULL},
-    {PARAMETER_CLUTTER_PER_SCAN, ON_PLANE ", radar, two-radars, " TURNING ", " BEAM, NULL},
-    {PARAMETER_TRUE_PD, TARGETS_ON_PLANE ", radar, " TURNING ", " PASSIVE ", " BEAM, NULL},
-    {PARAMETER_TRUE_SIGMA_M, TARGETS_ON_PLANE ", " BEAM, NULL},
-    {PARAMETER_FADES_PER_HOUR, SKY, NULL},
-    {PARAMETER_FADE_SCANS, SKY, NULL},
-    {PARAMETER_SPOTS, SKY, NULL},
-    {PARAMETER_SPOT_CLUTTER, SKY, NULL},
-    {PARAMETER_PERSISTENT_SOURCES, SKY, NULL},
-    {PARAMETER_MERGE_M, SKY, NULL},
+    {PARAMETER_CLUTTER_PER_KM2, ON_PLANE ", polar, doppler", NULL},
+    {PARAMETER_CLUTTER_PER_SCAN, ON_PLANE ", two-radars, " TURNING, NULL},
+    {PARAMETER_TRUE_PD, ON_PLANE ", " TURNING, NULL},
+    {PARAMETER_TRUE_SIGMA_M, ON_PLANE, NULL},
+    {PARAMETER_FADES_PER_HOUR, ON_PLANE, NULL},
+    {PARAMETER_FADE_SCANS, ON_PLANE, NULL},
+    {PARAMETER_SPOTS, ON_PLANE, NULL},
+    {PARAMETER_SPOT_CLUTTER, ON_PLANE, NULL},
+    {PARAMETER_PERSISTENT_SOURCES, ON_PLANE, NULL},
+    {PARAMETER_MERGE_M, ON_PLANE, NULL},
     {PARAMETER_CROSSING_SHARE, "air-traffic", NULL},
     {PARAMETER_RANGE_RATE, TURNING, NULL},
     {PARAMETER_STATIC_CLUTTER, "doppler", NULL},
-    {PARAMETER_TARGETS, "traffic, air-traffic, two-radars, " TURNING ", " PASSIVE, NULL},
-    {PARAMETER_SENSORS, PASSIVE, NULL},
-    {PARAMETER_FALSE_ALARMS, PASSIVE, NULL},
-    {PARAMETER_SPACING_M, "parallel, formation, two-radars", NULL},
-    {PARAMETER_CROSSING_DEG, "crossing-angle, formation", NULL},
-    {PARAMETER_SPEED_MPS, "parallel, crossing-angle, formation", NULL},
-    {PARAMETER_ACCEL_G, BEAM, NULL},
-    {PARAMETER_VELOCITY, BEAM, NULL},
-    {PARAMETER_BEAM_DEG, BEAM, NULL},
-    {PARAMETER_CLEAN_SCANS, BEAM, NULL},
-    {PARAMETER_TRUE_MODEL, BEAM, NULL},
-    {PARAMETER_TRUE_NOISE_MPS2, BEAM, NULL},
-    {PARAMETER_TRUE_NOISE_M, BEAM, NULL},
-    {PARAMETER_TRUE_NOISE_MPS, BEAM, NULL},
+    {PARAMETER_TARGETS, "air-traffic, two-radars, " TURNING, NULL},
+    {PARAMETER_SPACING_M, "formation, two-radars", NULL},
+    {PARAMETER_CROSSING_DEG, "formation", NULL},
+    {PARAMETER_SPEED_MPS, "formation", NULL},
     {PARAMETER_SECTORS_PER_TURN, "rotating, two-radars", NULL},
     {PARAMETER_SECOND_INTERVAL_S, "two-radars", NULL},
     {PARAMETER_TRUE_RANGE_BIAS_M, "two-radars", NULL},
@@ -65,12 +51,10 @@ static const struct use uses[] = {
  * go to scenario.ini.
  */
 static const struct use trackers_uses[] = {
-    {PARAMETER_SIGMA_M, ON_PLANE ", radar, " BEAM, NULL},
-    {PARAMETER_SIGMA_MPS, BEAM, NULL},
+    {PARAMETER_SIGMA_M, ON_PLANE, NULL},
     {PARAMETER_SIGMA_RANGE_M, TURNING, RADARS},
     {PARAMETER_SIGMA_AZIMUTH_RAD, TURNING, RADARS},
     {PARAMETER_SIGMA_RANGE_RATE_MPS, TURNING, NULL},
-    {PARAMETER_SIGMA_RAD, PASSIVE, NULL},
     {PARAMETER_PD, "air-traffic, formation", RADARS},
     {PARAMETER_RANGE_MIN_M, TURNING, RADARS},
     {PARAMETER_RANGE_MAX_M, TURNING, RADARS},

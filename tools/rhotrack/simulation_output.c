@@ -7,39 +7,6 @@
 #include "common.h"
 #include "scenario_record.h"
 
-/* Plots of a beam have heights, and velocities where these are measured. */
-static void write_beam_plot(const struct simulation *simulation, const struct simulated_scan *scan,
-                            const struct simulated_plot *plot, FILE *file)
-{
-    fprintf(file, "%.6f,0,%.3f,%.3f,%.3f,%g", scan->t_s, plot->x_m, plot->y_m, plot->z_m,
-            simulation->sigma_m);
-    if (simulation->beam.has_velocity) {
-        fprintf(file, ",%.4f,%.4f,%.4f,%g", plot->vx_mps, plot->vy_mps, plot->vz_mps,
-                simulation->beam.sigma_mps);
-    }
-    fprintf(file, "\n");
-}
-
-static void write_beam(const struct simulation *simulation, const char *folder)
-{
-    bool has_velocity = simulation->beam.has_velocity;
-    char *path = path_join(folder, "plots.csv");
-    struct output output = output_open(path);
-    fprintf(output.file, "t_s,sensor_id,x_m,y_m,z_m,sigma_m%s\n",
-            has_velocity ? ",vx_mps,vy_mps,vz_mps,sigma_mps" : "");
-    for (size_t i = 0; i < simulation->num_scans; i++) {
-        const struct simulated_scan *scan = &simulation->scans[i];
-        for (size_t j = 0; j < scan->num_plots; j++) {
-            write_beam_plot(simulation, scan, &scan->plots[j], output.file);
-        }
-        if (scan->num_plots == 0) {
-            fprintf(output.file, "%.6f,0,,,,%s\n", scan->t_s, has_velocity ? ",,,," : "");
-        }
-    }
-    output_close(&output);
-    free(path);
-}
-
 static void write_plots(const struct simulation *simulation, const char *folder)
 {
     char *path = path_join(folder, "plots.csv");
@@ -84,51 +51,15 @@ static void write_polar(const struct simulation *simulation, const char *folder)
     free(path);
 }
 
-/* A sensor that saw nothing has a row without a bearing. */
-static void write_look(const struct simulation *simulation, const struct simulated_look *look,
-                       FILE *file)
-{
-    char place[80];
-    snprintf(place, sizeof place, "%.6f,%zu,%g,%g", look->t_s, look->sensor + 1,
-             simulation->passive.sensors[look->sensor].x_m,
-             simulation->passive.sensors[look->sensor].y_m);
-    for (size_t i = 0; i < look->num_bearings; i++) {
-        fprintf(file, "%s,%.8f\n", place, look->bearings[i].bearing_rad);
-    }
-    if (look->num_bearings == 0) {
-        fprintf(file, "%s,\n", place);
-    }
-}
-
-static void write_bearings(const struct simulation *simulation, const char *folder)
-{
-    char *path = path_join(folder, "bearings.csv");
-    struct output output = output_open(path);
-    fprintf(output.file, "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n");
-    for (size_t i = 0; i < simulation->num_looks; i++) {
-        write_look(simulation, &simulation->looks[i], output.file);
-    }
-    output_close(&output);
-    free(path);
-}
-
 static void write_truth(const struct simulation *simulation, const char *folder)
 {
     char *path = path_join(folder, "truth.csv");
     struct output output = output_open(path);
-    bool has_height = simulation->beam.is_used;
-    fprintf(output.file, "t_s,target_id,x_m,y_m,%svx_mps,vy_mps%s\n", has_height ? "z_m," : "",
-            has_height ? ",vz_mps" : "");
+    fprintf(output.file, "t_s,target_id,x_m,y_m,vx_mps,vy_mps\n");
     for (size_t i = 0; i < simulation->num_truth; i++) {
         const struct truth_point *point = &simulation->truth[i];
-        fprintf(output.file, "%.6f,%d,%.3f,%.3f", point->t_s, point->target_id, point->x_m,
-                point->y_m);
-        if (has_height) {
-            fprintf(output.file, ",%.3f,%.4f,%.4f,%.4f\n", point->z_m, point->vx_mps, point->vy_mps,
-                    point->vz_mps);
-        } else {
-            fprintf(output.file, ",%.4f,%.4f\n", point->vx_mps, point->vy_mps);
-        }
+        fprintf(output.file, "%.6f,%d,%.3f,%.3f,%.4f,%.4f\n", point->t_s, point->target_id,
+                point->x_m, point->y_m, point->vx_mps, point->vy_mps);
     }
     output_close(&output);
     free(path);
@@ -180,8 +111,6 @@ static void write_settings(const char *name, const struct simulation *simulation
     fprintf(output.file, "# scenario %s: what a tracker may know beforehand\n", name);
     if (simulation->record != NULL) {
         write_patience(simulation->record, parameters, output.file);
-    } else if (simulation->passive.is_used) {
-        fprintf(output.file, "sigma_rad = %.9g\n", simulation->passive.sigma_rad);
     } else if (simulation->radar.is_used) {
         write_radar(&simulation->radar, simulation->interval_s, output.file);
     } else {
@@ -189,9 +118,6 @@ static void write_settings(const char *name, const struct simulation *simulation
     }
     if (simulation->pd > 0.0) {
         fprintf(output.file, "pd = %g\n", simulation->pd);
-    }
-    if (simulation->beam.has_velocity) {
-        fprintf(output.file, "sigma_mps = %g\n", simulation->beam.sigma_mps);
     }
     for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
         fprintf(output.file, "%s = %g\n", parameters_name(told[i]), parameters->value[told[i]]);
@@ -202,9 +128,7 @@ static void write_settings(const char *name, const struct simulation *simulation
             fprintf(output.file, "%s = %g\n", parameters_name(told_if_set[i]), value);
         }
     }
-    if (!simulation->beam.is_used) { /* whose clutter moves with it */
-        write_area(&simulation->area, output.file);
-    }
+    write_area(&simulation->area, output.file);
     if (simulation->record != NULL) {
         record_write_sensors(simulation->record, output.file);
     }
@@ -218,12 +142,8 @@ void simulation_write(const char *name, const struct simulation *simulation,
     make_folder(folder);
     if (simulation->record != NULL) {
         record_write(simulation->record, folder);
-    } else if (simulation->passive.is_used) {
-        write_bearings(simulation, folder);
     } else if (simulation->radar.is_used) {
         write_polar(simulation, folder);
-    } else if (simulation->beam.is_used) {
-        write_beam(simulation, folder);
     } else {
         write_plots(simulation, folder);
     }

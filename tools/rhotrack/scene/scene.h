@@ -39,7 +39,7 @@ struct scene_coverage {
 /* What a tracker is told of a sensor, where that is not the truth. */
 struct scene_told {
     double x_m, y_m, pd;
-    double sigma_m, sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps, sigma_rad;
+    double sigma_m, sigma_mps, sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps, sigma_rad;
     double range_bias_m, azimuth_bias_rad, time_bias_s;
     struct scene_coverage coverage;
 };
@@ -59,6 +59,7 @@ struct scene_sensor {
     double sigma_m, sigma_range_m, sigma_azimuth_rad, sigma_rad;
     bool has_range_rate;
     double sigma_range_rate_mps, range_rate_span_mps;
+    double sigma_mps; /* with sigma_m: plots have velocities; 0: they have none */
     double resolution_m, resolution_rad; /* targets nearer in both give one plot; 0: none do */
     double range_bias_m, azimuth_bias_rad, time_bias_s; /* as of struct rho_sensor */
     double late_share, late_s;                          /* so many scans arrive so much late */
@@ -75,6 +76,7 @@ enum clutter_kind {
     CLUTTER_STROBE,
     CLUTTER_FLOCK,
     CLUTTER_SECOND_TIME,
+    CLUTTER_ABOUT_TARGETS,
     CLUTTER_KINDS
 };
 
@@ -91,13 +93,13 @@ struct scene_clutter {
     double x_m, y_m, vx_mps, vy_mps, radius_m; /* cell, flock */
     double rate_sigma_mps;                     /* cell: spread of its range rates */
     double rate_max_mps;   /* uniform: its range rates are uniform within, either way */
-    uint64_t count;        /* standing, flock */
+    uint64_t count;        /* standing, flock; about-targets: a scan, of each target */
     double (*places_m)[2]; /* standing: listed ones, or NULL */
     double pd;             /* standing, spikes, flock, second time */
     double per_s;          /* spikes: born a second */
     struct json_span life_s;
     double speed_mps; /* flock: each against the others; spikes: their drift, in any direction */
-    double azimuth_rad, width_rad, azimuth_radps; /* strobe */
+    double azimuth_rad, width_rad, azimuth_radps; /* strobe; about-targets: width */
     double unambiguous_m;                         /* second time */
     struct scene_targets targets;
 };
@@ -130,6 +132,7 @@ struct scene {
     size_t num_sensors, num_radars; /* radars first */
     struct scene_sensor sensors[2 * SCENE_SENSORS_MAX];
     struct scene_targets targets;
+    bool has_heights; /* some target is said to have one */
     size_t num_clutter;
     struct scene_clutter clutter[SCENE_ITEMS_MAX];
     size_t num_events;

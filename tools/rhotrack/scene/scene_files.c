@@ -18,6 +18,16 @@ static bool measures_range_rate(const struct scene *scene)
     return false;
 }
 
+static bool measures_velocity(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->num_radars; i++) {
+        if (scene->sensors[i].sigma_mps > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool arrives_late(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->num_sensors; i++) {
@@ -74,15 +84,31 @@ static void write_cartesian_scan(const struct scene_run *run, const struct scene
                                  FILE *file)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
+    bool has_height = run->scene->has_heights, has_velocity = measures_velocity(run->scene);
 
-    fprintf(file, "%.6f,%d,,,", scan->end_s, sensor->sensor_id);
+    fprintf(file, "%.6f,%d,,%s,%s", scan->end_s, sensor->sensor_id, has_height ? "," : "",
+            !has_velocity ? ""
+            : has_height  ? ",,,,"
+                          : ",,,");
     write_tail(run, scan, file);
     fprintf(file, ",\n");
     for (size_t i = 0; i < scan->num_plots; i++) {
         const struct scene_plot *plot = &scan->plots[i];
 
-        fprintf(file, "%.6f,%d,%.3f,%.3f,%g", plot->t_s, sensor->sensor_id, plot->x_m, plot->y_m,
-                sensor->told.sigma_m);
+        fprintf(file, "%.6f,%d,%.3f,%.3f", plot->t_s, sensor->sensor_id, plot->x_m, plot->y_m);
+        if (has_height) {
+            fprintf(file, ",%.3f", plot->z_m);
+        }
+        fprintf(file, ",%g", sensor->told.sigma_m);
+        if (has_velocity && sensor->sigma_mps > 0.0) {
+            fprintf(file, ",%.4f,%.4f", plot->vx_mps, plot->vy_mps);
+            if (has_height) {
+                fprintf(file, ",%.4f", plot->vz_mps);
+            }
+            fprintf(file, ",%g", sensor->told.sigma_mps);
+        } else if (has_velocity) {
+            fprintf(file, has_height ? ",,,," : ",,,");
+        }
         write_tail(run, scan, file);
         write_target(plot->target_id, file);
     }
@@ -93,13 +119,18 @@ static void write_plots(const struct scene_run *run, const char *folder)
     const struct scene *scene = run->scene;
     char *path = path_join(folder, "plots.csv");
     struct output output = output_open(path);
-    const char *columns = scene->sensors[0].is_cartesian ? "x_m,y_m,sigma_m"
+    char cartesian[64];
+    const char *columns = scene->sensors[0].is_cartesian ? cartesian
                           : measures_range_rate(scene)
                               ? "range_m,azimuth_rad,range_rate_mps,sensor_x_m,"
                                 "sensor_y_m,sector_from_rad,sector_to_rad"
                               : "range_m,azimuth_rad,sensor_x_m,sensor_y_m,"
                                 "sector_from_rad,sector_to_rad";
 
+    snprintf(cartesian, sizeof cartesian, "x_m,y_m%s,sigma_m%s", scene->has_heights ? ",z_m" : "",
+             !measures_velocity(scene) ? ""
+             : scene->has_heights      ? ",vx_mps,vy_mps,vz_mps,sigma_mps"
+                                       : ",vx_mps,vy_mps,sigma_mps");
     fprintf(output.file, "t_s,sensor_id,%s,scan%s,target_id\n", columns,
             arrives_late(scene) ? ",received_s" : "");
     for (size_t i = 0; i < run->num_scans; i++) {
@@ -190,8 +221,11 @@ static void write_truth(const struct scene_run *run, const char *folder)
     size_t num_times;
     int64_t *times_us = times_of(run, &num_times);
 
-    fprintf(truth.file, "t_s,target_id,x_m,y_m,vx_mps,vy_mps\n");
-    fprintf(all.file, "t_s,target_id,x_m,y_m,vx_mps,vy_mps,is_covered\n");
+    const char *columns = run->scene->has_heights ? "t_s,target_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps"
+                                                  : "t_s,target_id,x_m,y_m,vx_mps,vy_mps";
+
+    fprintf(truth.file, "%s\n", columns);
+    fprintf(all.file, "%s,is_covered\n", columns);
     for (size_t i = 0; i < num_times; i++) {
         double t_s = (double)times_us[i] * 1e-6;
 
@@ -206,8 +240,13 @@ static void write_truth(const struct scene_run *run, const char *folder)
             }
             at = path_at(flight, t_s);
             is_covered = scene_covers(run->scene, at.x_m, at.y_m);
-            snprintf(row, sizeof row, "%.6f,%zu,%.3f,%.3f,%.4f,%.4f", t_s, k, at.x_m, at.y_m,
-                     at.vx_mps, at.vy_mps);
+            if (run->scene->has_heights) {
+                snprintf(row, sizeof row, "%.6f,%zu,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f", t_s, k, at.x_m,
+                         at.y_m, at.z_m, at.vx_mps, at.vy_mps, at.vz_mps);
+            } else {
+                snprintf(row, sizeof row, "%.6f,%zu,%.3f,%.3f,%.4f,%.4f", t_s, k, at.x_m, at.y_m,
+                         at.vx_mps, at.vy_mps);
+            }
             fprintf(all.file, "%s,%d\n", row, is_covered);
             if (is_covered) {
                 fprintf(truth.file, "%s\n", row);
@@ -268,6 +307,9 @@ static void write_settings(const struct scene *scene, const char *name, const ch
     if (scene->num_radars > 0 && scene->sensors[0].is_cartesian) {
         fprintf(output.file, "sigma_m = %.9g\npd = %.9g\n", scene->sensors[0].told.sigma_m,
                 scene->sensors[0].told.pd);
+        if (measures_velocity(scene)) {
+            fprintf(output.file, "sigma_mps = %.9g\n", scene->sensors[0].told.sigma_mps);
+        }
     }
     if (scene->has_area) {
         fprintf(output.file, "area_x_min_m = %.3f\narea_x_max_m = %.3f\n", scene->area_m[0],

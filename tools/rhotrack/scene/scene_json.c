@@ -228,25 +228,22 @@ void json_close(struct json_file *file)
 
 /* ---- changes ------------------------------------------------------------------------------------ */
 
-/* One step of a path: `key` or `[3]`; moves *path behind it. False: it is neither. */
+/* One step of a path: `key`, `[3]` or `3`; moves *path behind it. False: it is none of them. */
 static bool take_step(const char **path, char key[KEY_BYTES], int *index)
 {
-    size_t length;
+    bool is_bracketed = **path == '[';
+    const char *start = *path + (is_bracketed || **path == '.');
+    size_t length = strcspn(start, is_bracketed ? "]=" : ".[=");
+    bool is_number = length > 0 && length < 7 && strspn(start, "0123456789") >= length;
 
-    if (**path == '[') {
-        char *end;
-        long number = strtol(*path + 1, &end, 10);
-
-        *index = number >= 0 && number < 1000000 ? (int)number : -1;
-        *path = *end == ']' ? end + 1 : end;
-        return *end == ']' && *index >= 0;
+    snprintf(key, KEY_BYTES, "%.*s", (int)length, start);
+    *index = is_number ? (int)strtol(start, NULL, 10) : -1;
+    *path = start + length;
+    if (!is_bracketed) {
+        return length > 0 && length < KEY_BYTES;
     }
-    *path += **path == '.';
-    length = strcspn(*path, ".[=");
-    snprintf(key, KEY_BYTES, "%.*s", (int)length, *path);
-    *path += length;
-    *index = -1;
-    return length > 0 && length < KEY_BYTES;
+    *path += **path == ']';
+    return is_number && (*path)[-1] == ']';
 }
 
 static cJSON *step_down(cJSON *item, const char *key, int index)
@@ -270,10 +267,37 @@ static bool put_value(cJSON *item, const char *key, int index, cJSON *value)
                                             : cJSON_AddItemToArray(item, value);
 }
 
+/* For hint_nearest, which takes names by index alone. */
+static const cJSON *hinted_item;
+
+static const char *member_name(size_t index)
+{
+    const cJSON *member = cJSON_GetArrayItem(hinted_item, (int)index);
+
+    return member ? member->string : NULL;
+}
+
+/* What stands there instead of the first step that leads nowhere. */
+static _Noreturn void fail_step(const char *assignment, const cJSON *item, const char *key)
+{
+    const char *hint = NULL;
+
+    if (cJSON_IsArray(item)) {
+        fail(EXIT_USAGE, "--set %s: there is no such place in the scene: '%s' of a list of %d",
+             assignment, key, cJSON_GetArraySize(item));
+    }
+    if (cJSON_IsObject(item)) {
+        hinted_item = item;
+        hint = hint_nearest(key, member_name);
+    }
+    fail(EXIT_USAGE, "--set %s: there is no such place in the scene: '%s'%s%s%s", assignment, key,
+         hint ? ", did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
+}
+
 void json_assign(struct json_file *file, const char *assignment)
 {
     const char *path = assignment, *equals = strchr(assignment, '=');
-    cJSON *item = file->root, *value;
+    cJSON *item = file->root, *value, *below;
     char key[KEY_BYTES];
     int index;
 
@@ -283,17 +307,20 @@ void json_assign(struct json_file *file, const char *assignment)
     value = cJSON_ParseWithOpts(equals + 1, NULL, 1);
     value = value ? value : cJSON_CreateString(equals + 1);
     for (;;) {
-        if (!item || !take_step(&path, key, &index) ||
-            (*path != '=' && *path != '.' && *path != '[')) {
-            fail(EXIT_USAGE, "--set %s: there is no such place in the scene", assignment);
+        if (!take_step(&path, key, &index) || (*path != '=' && *path != '.' && *path != '[')) {
+            fail(EXIT_USAGE, "--set %s: not of the form place=value", assignment);
         }
         if (*path == '=') {
             break;
         }
-        item = step_down(item, key, index);
+        below = step_down(item, key, index);
+        if (!below) {
+            fail_step(assignment, item, key);
+        }
+        item = below;
     }
     if (!put_value(item, key, index, value)) {
-        fail(EXIT_USAGE, "--set %s: there is no such place in the scene", assignment);
+        fail_step(assignment, item, key);
     }
 }
 

@@ -50,8 +50,8 @@ struct json_span {
 
 /* The text stays the caller's, and must live as long as the file. Exit 2 with the line where it is no JSON object. */
 struct json_file json_open(const char *name, const char *text, size_t length);
-/* `radars[0].pd=0.7`: the value, JSON or a text, takes the place of what stands there, or is added; behind the last element of a
- * list, too. Exit 2 where there is no such place. */
+/* `radars.0.pd=0.7` or `radars[0].pd=0.7`: the value, JSON or a text, takes the place of what stands there, or is added;
+ * behind the last element of a list, too. Exit 2, with the nearest, where there is no such place. */
 void json_assign(struct json_file *file, const char *assignment);
 
 void json_close(struct json_file *file);

@@ -15,8 +15,10 @@ bool mover_at(const struct scene_mover *mover, const struct scene_sensor *sensor
     if (mover->path) {
         *at = path_at(mover->path, t_s);
     } else {
-        *at = (struct motion){mover->x_m + mover->vx_mps * t_s, mover->y_m + mover->vy_mps * t_s,
-                              mover->vx_mps, mover->vy_mps};
+        *at = (struct motion){.x_m = mover->x_m + mover->vx_mps * t_s,
+                              .y_m = mover->y_m + mover->vy_mps * t_s,
+                              .vx_mps = mover->vx_mps,
+                              .vy_mps = mover->vy_mps};
     }
     if (mover->circle_m > 0.0) {
         double angle_rad = mover->circle_rad + mover->circle_radps * t_s;

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene_path.h"
 
+#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../common.h"
 #include "portable_math.h"
@@ -21,14 +23,33 @@
 
 /* ---- motion ------------------------------------------------------------------------------------- */
 
+static bool is_pulled(const struct path_leg *leg)
+{
+    return fabs(leg->accel_mps2[0]) + fabs(leg->accel_mps2[1]) > 0.0;
+}
+
+static void pulled_velocity(const struct path_leg *leg, double dt_s, double *vx_mps, double *vy_mps)
+{
+    *vx_mps = leg->speed_mps * portable_cos(leg->heading_rad) + leg->accel_mps2[0] * dt_s;
+    *vy_mps = leg->speed_mps * portable_sin(leg->heading_rad) + leg->accel_mps2[1] * dt_s;
+}
+
 static double leg_speed_mps(const struct path_leg *leg, double t_s)
 {
-    return leg->speed_mps + leg->along_mps2 * (t_s - leg->t_s);
+    double vx_mps, vy_mps;
+
+    pulled_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
+    return is_pulled(leg) ? portable_hypot(vx_mps, vy_mps)
+                          : leg->speed_mps + leg->along_mps2 * (t_s - leg->t_s);
 }
 
 static double leg_heading_rad(const struct path_leg *leg, double t_s)
 {
-    return leg->heading_rad + leg->turn_radps * (t_s - leg->t_s);
+    double vx_mps, vy_mps;
+
+    pulled_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
+    return is_pulled(leg) ? portable_atan2(vy_mps, vx_mps)
+                          : leg->heading_rad + leg->turn_radps * (t_s - leg->t_s);
 }
 
 static struct motion leg_at(const struct path_leg *leg, double t_s)
@@ -36,10 +57,19 @@ static struct motion leg_at(const struct path_leg *leg, double t_s)
     double dt_s = t_s - leg->t_s, turn = leg->turn_radps, along = leg->along_mps2;
     double speed_mps = leg_speed_mps(leg, t_s), heading_rad = leg_heading_rad(leg, t_s);
     double c = portable_cos(heading_rad), s = portable_sin(heading_rad);
-    struct motion at = {
-        .x_m = leg->x_m, .y_m = leg->y_m, .vx_mps = speed_mps * c, .vy_mps = speed_mps * s};
+    const double *accel_mps2 = leg->accel_mps2;
+    struct motion at = {.x_m = leg->x_m,
+                        .y_m = leg->y_m,
+                        .vx_mps = speed_mps * c,
+                        .vy_mps = speed_mps * s,
+                        .z_m = leg->z_m + (leg->vz_mps + 0.5 * accel_mps2[2] * dt_s) * dt_s,
+                        .vz_mps = leg->vz_mps + accel_mps2[2] * dt_s};
 
-    if (fabs(turn) < STRAIGHT_RADPS) {
+    if (is_pulled(leg)) {
+        pulled_velocity(leg, dt_s, &at.vx_mps, &at.vy_mps);
+        at.x_m += (at.vx_mps - 0.5 * accel_mps2[0] * dt_s) * dt_s;
+        at.y_m += (at.vy_mps - 0.5 * accel_mps2[1] * dt_s) * dt_s;
+    } else if (fabs(turn) < STRAIGHT_RADPS) {
         double way_m = (leg->speed_mps + 0.5 * along * dt_s) * dt_s;
         double middle_rad = leg->heading_rad + 0.5 * turn * dt_s;
 
@@ -70,15 +100,39 @@ static const struct path_leg *leg_of(const struct scene_path *path, double t_s)
     return &path->legs[first];
 }
 
+/* A random acceleration, another one every shake_s, has led it so far off its legs. */
+static void add_shake(const struct scene_path *path, double t_s, struct motion *at)
+{
+    double steps = fmax(0.0, floor((t_s - path->from_s) / path->shake_s));
+    size_t last = path->num_shakes - 1, i = steps < (double)last ? (size_t)steps : last;
+    const struct motion *shake = &path->shakes[i], *next = &path->shakes[i < last ? i + 1 : i];
+    double dt_s = fmax(0.0, t_s - path->from_s - (double)i * path->shake_s);
+    double share = dt_s / path->shake_s;
+
+    at->x_m += shake->x_m + (shake->vx_mps + 0.5 * share * (next->vx_mps - shake->vx_mps)) * dt_s;
+    at->y_m += shake->y_m + (shake->vy_mps + 0.5 * share * (next->vy_mps - shake->vy_mps)) * dt_s;
+    at->z_m += shake->z_m + (shake->vz_mps + 0.5 * share * (next->vz_mps - shake->vz_mps)) * dt_s;
+    at->vx_mps += shake->vx_mps + share * (next->vx_mps - shake->vx_mps);
+    at->vy_mps += shake->vy_mps + share * (next->vy_mps - shake->vy_mps);
+    at->vz_mps += shake->vz_mps + share * (next->vz_mps - shake->vz_mps);
+}
+
 struct motion path_at(const struct scene_path *path, double t_s)
 {
-    return leg_at(leg_of(path, t_s), t_s);
+    struct motion at = leg_at(leg_of(path, t_s), t_s);
+
+    if (path->num_shakes > 0) {
+        add_shake(path, t_s, &at);
+    }
+    return at;
 }
 
 void path_free(struct scene_path *path)
 {
     free(path->legs);
+    free(path->shakes);
     path->legs = NULL;
+    path->shakes = NULL;
 }
 
 static void add_leg(struct scene_path *path, struct path_leg leg)
@@ -108,7 +162,9 @@ static void go_on(struct scene_path *path, double t_s, double along_mps2, double
                             .speed_mps = leg_speed_mps(last, t_s),
                             .heading_rad = leg_heading_rad(last, t_s),
                             .along_mps2 = along_mps2,
-                            .turn_radps = turn_radps};
+                            .turn_radps = turn_radps,
+                            .z_m = at.z_m,
+                            .vz_mps = at.vz_mps};
 
     if (fabs(next.speed_mps) < STANDS_MPS * 1e-3) {
         next.speed_mps = 0.0;
@@ -176,6 +232,8 @@ static double follow_step(struct scene_path *path, double t_s, const struct path
         }
     } else {
         go_on(path, t_s, along_mps2, turn_radps);
+        memcpy(path->legs[path->num_legs - 1].accel_mps2, step->accel_mps2,
+               sizeof step->accel_mps2);
     }
     go_on(path, t_s + for_s, 0.0, 0.0);
     if (step->has_speed) {
@@ -193,20 +251,63 @@ static void follow_steps(struct scene_path *path, const struct target_item *item
     }
 }
 
+static void follow_points(struct scene_path *path, const struct target_item *item)
+{
+    for (size_t i = 0; i + 1 < item->num_points; i++) {
+        const double *from = item->points[i], *to = item->points[i + 1];
+        double dx_m = to[1] - from[1], dy_m = to[2] - from[2];
+
+        add_leg(path, (struct path_leg){.t_s = from[0],
+                                        .x_m = from[1],
+                                        .y_m = from[2],
+                                        .speed_mps = portable_hypot(dx_m, dy_m) / (to[0] - from[0]),
+                                        .heading_rad = portable_atan2(dy_m, dx_m)});
+    }
+}
+
+static void draw_shakes(struct scene_path *path, const struct target_item *item, double duration_s,
+                        struct random *random)
+{
+    double last_s = fmin(path->until_s, duration_s), t_s = item->shake_s;
+
+    path->num_shakes = last_s > path->from_s ? (size_t)((last_s - path->from_s) / t_s) + 2 : 1;
+    path->shake_s = t_s;
+    path->shakes = must_calloc(path->num_shakes, sizeof *path->shakes);
+    for (size_t i = 1; i < path->num_shakes; i++) {
+        struct motion *to = &path->shakes[i];
+
+        *to = path->shakes[i - 1];
+        to->vx_mps += t_s * item->shake_mps2 * random_normal(random);
+        to->vy_mps += t_s * item->shake_mps2 * random_normal(random);
+        to->vz_mps += item->has_height ? t_s * item->shake_mps2 * random_normal(random) : 0.0;
+        to->x_m += 0.5 * t_s * (path->shakes[i - 1].vx_mps + to->vx_mps);
+        to->y_m += 0.5 * t_s * (path->shakes[i - 1].vy_mps + to->vy_mps);
+        to->z_m += 0.5 * t_s * (path->shakes[i - 1].vz_mps + to->vz_mps);
+    }
+}
+
 static struct scene_path described_path(const struct target_item *item, size_t index,
                                         const struct scene_path *parent)
 {
     struct scene_path path = {.from_s = item->from_s, .until_s = item->until_s, .item = index};
 
+    if (item->num_points > 0) {
+        follow_points(&path, item);
+        return path;
+    }
     if (parent) {
         const struct path_leg *leg = leg_of(parent, item->from_s);
-        struct motion at = leg_at(leg, item->from_s);
+        struct motion at = path_at(parent, item->from_s);
 
         begin_path(&path, at.x_m, at.y_m,
                    fmax(0.0, leg_speed_mps(leg, item->from_s) + item->speed_change_mps),
                    leg_heading_rad(leg, item->from_s) + item->heading_change_rad);
+        path.legs[0].z_m = at.z_m;
+        path.legs[0].vz_mps = at.vz_mps;
     } else {
         begin_path(&path, item->x_m, item->y_m, item->speed_mps, item->heading_rad);
+        path.legs[0].z_m = item->z_m;
+        path.legs[0].vz_mps = item->vz_mps;
     }
     follow_steps(&path, item);
     return path;
@@ -315,15 +416,21 @@ static bool keeps_within(const struct target_item *item, const struct scene_path
                          double end_s)
 {
     double first_s = fmax(0.0, path->from_s);
-    size_t count =
-        item->has_keep && end_s >= first_s ? (size_t)((end_s - first_s) / KEEP_STEP_S) + 1 : 0;
+    size_t count = (item->has_keep || item->has_keep_box) && end_s >= first_s
+                       ? (size_t)((end_s - first_s) / KEEP_STEP_S) + 1
+                       : 0;
+    const double *box_m = item->keep_box_m;
 
     for (size_t i = 0; i < count; i++) {
         double t_s = first_s + (double)i * KEEP_STEP_S;
         struct motion at = path_at(path, t_s);
         double range_m = portable_hypot(at.x_m - item->about_x_m, at.y_m - item->about_y_m);
 
-        if (range_m < item->keep.lo || range_m > item->keep.hi) {
+        if (item->has_keep && (range_m < item->keep.lo || range_m > item->keep.hi)) {
+            return false;
+        }
+        if (item->has_keep_box &&
+            (at.x_m < box_m[0] || at.x_m > box_m[1] || at.y_m < box_m[2] || at.y_m > box_m[3])) {
             return false;
         }
     }
@@ -353,10 +460,10 @@ static struct scene_path random_path(const struct draft *draft, double from_s, d
         path_free(&path);
     }
     fail(EXIT_USAGE,
-         "%s: targets[%zu]: none of %d random paths keeps within keep_range_m; take a shorter "
-         "life_s, "
+         "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
          "less speed, or turns, which lead back",
-         draft->file, draft->index, DRAFTS_MAX);
+         draft->file, draft->index, DRAFTS_MAX,
+         draft->item->has_keep_box ? "keep_box_m" : "keep_range_m");
 }
 
 /* ---- all paths ------------------------------------------------------------------------------------ */
@@ -413,9 +520,15 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
 
         first[i] = paths.count;
         if (item->count == 0) {
-            keep_path(&paths,
-                      described_path(item, i,
-                                     item->has_parent ? &paths.paths[first[item->parent]] : NULL));
+            const struct scene_path *parent =
+                item->has_parent ? &paths.paths[first[item->parent]] : NULL;
+            struct scene_path path = described_path(item, i, parent);
+            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, 0);
+
+            if (item->shake_s > 0.0) {
+                draw_shakes(&path, item, duration_s, &random);
+            }
+            keep_path(&paths, path);
         }
         for (size_t k = 0; k < item->count; k++) {
             struct random random = scene_stream(seed, run, STREAM_PATH, source, i, k);
@@ -433,6 +546,17 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
 
 /* ---- reading -------------------------------------------------------------------------------------- */
 
+/* x, y and, where there is a third number, z. */
+static bool read_vector(struct json_object *object, const char *key, double max, double vector[3],
+                        bool *has_height)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object->item, key);
+    size_t count = cJSON_GetArraySize(item) == 3 ? 3 : 2;
+
+    *has_height = *has_height || count == 3;
+    return json_numbers(object, key, count, -max, max, vector);
+}
+
 static void read_place(struct json_object *object, const char *key, double *x_m, double *y_m)
 {
     double place_m[2] = {*x_m, *y_m};
@@ -442,8 +566,10 @@ static void read_place(struct json_object *object, const char *key, double *x_m,
     *y_m = place_m[1];
 }
 
-static struct path_step read_step(struct json_object object)
+static struct path_step read_step(struct json_object object, bool *has_height)
 {
+    static const char *const others[] = {"along_mps2", "across_mps2", "turn_degps", "turn_deg",
+                                         "to_speed_mps"};
     struct path_step step = {0};
 
     step.for_s = json_number(&object, "for_s", 0, 1e6, 0);
@@ -453,6 +579,11 @@ static struct path_step read_step(struct json_object object)
     step.turn_rad = json_number(&object, "turn_deg", -36000, 36000, 0) * PORTABLE_PI / 180.0;
     step.has_speed = json_has(&object, "to_speed_mps");
     step.to_speed_mps = json_number(&object, "to_speed_mps", 0, SPEED_MAX_MPS, 0);
+    if (read_vector(&object, "accel_mps2", ACCEL_MAX_MPS2, step.accel_mps2, has_height)) {
+        for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+            json_exclude(&object, "accel_mps2", others[i]);
+        }
+    }
     json_exclude(&object, "across_mps2", "turn_degps");
     json_exclude(&object, "for_s", "to_speed_mps");
     json_exclude(&object, "for_s", "turn_deg");
@@ -477,19 +608,20 @@ static void read_steps(struct json_object *object, struct target_item *item)
     item->num_steps = list.count;
     item->steps = must_calloc(list.count + 1, sizeof *item->steps);
     for (size_t i = 0; i < list.count; i++) {
-        item->steps[i] = read_step(json_element(&list, i));
+        item->steps[i] = read_step(json_element(&list, i), &item->has_height);
     }
 }
 
 static void read_velocity(struct json_object *object, struct target_item *item)
 {
-    double velocity_mps[2];
+    double velocity_mps[3] = {0};
 
     json_exclude(object, "velocity_mps", "speed_mps");
     json_exclude(object, "velocity_mps", "heading_rad");
     item->speed_mps = json_number(object, "speed_mps", 0, SPEED_MAX_MPS, 0);
     item->heading_rad = json_number(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
-    if (json_numbers(object, "velocity_mps", 2, -SPEED_MAX_MPS, SPEED_MAX_MPS, velocity_mps)) {
+    if (read_vector(object, "velocity_mps", SPEED_MAX_MPS, velocity_mps, &item->has_height)) {
+        item->vz_mps = velocity_mps[2];
         item->speed_mps = portable_hypot(velocity_mps[0], velocity_mps[1]);
         item->heading_rad = portable_atan2(velocity_mps[1], velocity_mps[0]);
     } else {
@@ -519,19 +651,65 @@ static void read_parent(struct json_object *object, struct target_item *item,
         json_number(object, "heading_change_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
 }
 
+static void read_points(struct json_object *object, struct target_item *item)
+{
+    static const char *const others[] = {"at_m",   "velocity_mps", "speed_mps", "heading_rad",
+                                         "from_s", "parent",       "legs"};
+    struct json_list list = json_list_of(object, "points", LEGS_MAX);
+
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        json_exclude(object, "points", others[i]);
+    }
+    if (list.count < 2) {
+        json_fail(&list.place, "must be two or more, each [t_s, x_m, y_m]");
+    }
+    item->num_points = list.count;
+    item->points = must_calloc(list.count, sizeof *item->points);
+    for (size_t i = 0; i < list.count; i++) {
+        json_element_numbers(&list, i, 3, -PLACE_MAX_M, PLACE_MAX_M, item->points[i]);
+        if (i > 0 && item->points[i][0] <= item->points[i - 1][0]) {
+            json_fail(&list.place, "times must grow");
+        }
+    }
+    item->from_s = item->points[0][0];
+}
+
+static void read_shake(struct json_object *object, struct target_item *item)
+{
+    struct json_object shake;
+
+    if (json_below(object, "shake", &shake)) {
+        json_require(&shake, "every_s");
+        json_require(&shake, "sigma_mps2");
+        item->shake_s = json_number(&shake, "every_s", 0.01, 1e6, 0);
+        item->shake_mps2 = json_number(&shake, "sigma_mps2", 0, ACCEL_MAX_MPS2, 0);
+        json_end(&shake);
+    }
+}
+
 static void read_path(struct json_object *object, struct target_item *item,
                       const struct scene_targets *before)
 {
+    double place_m[3] = {0};
+
     item->from_s = json_number(object, "from_s", -1e6, 1e6, 0);
     item->until_s = json_number(object, "until_s", -1e6, 1e6, INFINITY);
     if (item->until_s <= item->from_s) {
         json_fail_key(object, "until_s", "is not after from_s");
     }
+    read_shake(object, item);
+    if (json_has(object, "points")) {
+        read_points(object, item);
+        return;
+    }
     if (json_has(object, "parent")) {
         read_parent(object, item, before);
     } else {
         json_require(object, "at_m");
-        read_place(object, "at_m", &item->x_m, &item->y_m);
+        read_vector(object, "at_m", PLACE_MAX_M, place_m, &item->has_height);
+        item->x_m = place_m[0];
+        item->y_m = place_m[1];
+        item->z_m = place_m[2];
         read_velocity(object, item);
     }
     read_steps(object, item);
@@ -631,6 +809,8 @@ static void read_group(struct json_object *object, struct target_item *item)
     item->heading = json_between(object, "inbound_rad", 0, PORTABLE_PI, item->heading);
     item->has_keep = json_has(object, "keep_range_m");
     item->keep = json_between(object, "keep_range_m", 0, PLACE_MAX_M, (struct json_span){0});
+    item->has_keep_box =
+        json_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
     read_turns(object, item);
     read_changes(object, item);
     read_stops(object, item);
@@ -660,6 +840,7 @@ void targets_free(struct scene_targets *targets)
 {
     for (size_t i = 0; i < targets->count; i++) {
         free(targets->items[i].steps);
+        free(targets->items[i].points);
     }
     free(targets->items);
     *targets = (struct scene_targets){.count = 0};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_path: where targets are: legs of constant acceleration along and constant rate of turn, and groups of random ones.
+ * scene_path: where targets are: legs of constant acceleration along and constant rate of turn, or of one acceleration whatever the
+ * heading, and groups of random ones.
  */
 #ifndef RHOTRACK_TOOL_SCENE_PATH_H
 #define RHOTRACK_TOOL_SCENE_PATH_H
@@ -13,13 +14,15 @@
 #include "scene_stream.h"
 
 struct motion {
-    double x_m, y_m, vx_mps, vy_mps;
+    double x_m, y_m, vx_mps, vy_mps, z_m, vz_mps;
 };
 
 /* From t_s on, until the next leg. */
 struct path_leg {
     double t_s, x_m, y_m, speed_mps, heading_rad;
     double along_mps2, turn_radps;
+    double accel_mps2[3]; /* x and y: in place of along and turn */
+    double z_m, vz_mps;
 };
 
 struct scene_path {
@@ -27,6 +30,9 @@ struct scene_path {
     size_t item;            /* of targets[] */
     size_t num_legs, room;
     struct path_leg *legs;
+    size_t num_shakes; /* of the way and velocity beside the legs, shake_s apart; 0: none */
+    double shake_s;
+    struct motion *shakes;
 };
 
 struct motion path_at(const struct scene_path *path, double t_s);
@@ -36,6 +42,8 @@ void path_free(struct scene_path *path);
 struct path_step {
     double for_s; /* 0: until the speed or the turn is there */
     double along_mps2, across_mps2, turn_radps;
+    bool has_accel;
+    double accel_mps2[3]; /* x, y, z */
     bool has_speed;
     double to_speed_mps;
     double turn_rad; /* 0: for_s */
@@ -51,6 +59,11 @@ struct target_item {
     double heading_change_rad, speed_change_mps; /* against the parent's */
     size_t num_steps;
     struct path_step *steps;
+    bool has_height;
+    double z_m, vz_mps;
+    size_t num_points; /* in place of a beginning and legs: t_s, x_m, y_m */
+    double (*points)[3];
+    double shake_s, shake_mps2; /* a random acceleration so often; 0: none */
 
     struct json_span from, life; /* of a group; life 0: to the end */
     bool has_life, is_replaced;
@@ -64,6 +77,8 @@ struct target_item {
     bool is_either;   /* heading: to the left or the right */
     bool has_keep;
     struct json_span keep;
+    bool has_keep_box;
+    double keep_box_m[4];
     bool has_turns, has_turn_for;
     struct json_span turn_every, turn_across, turn_rad, turn_for;
     bool has_changes;
@@ -80,7 +95,7 @@ struct scene_targets {
 struct scene_targets targets_read(struct json_object *object, const char *key);
 void targets_free(struct scene_targets *targets);
 
-/* All paths of a run, in new memory. Exit 2 where no random path keeps within keep_range_m. */
+/* All paths of a run, in new memory. Exit 2 where no random path keeps within keep_range_m and keep_box_m. */
 struct scene_path *targets_draw(const struct scene_targets *targets, const char *file,
                                 double duration_s, uint64_t seed, uint64_t run, uint64_t source,
                                 size_t *count);

@@ -115,6 +115,7 @@ static void read_told(struct json_object *object, struct scene_sensor *sensor)
                                 .y_m = sensor->y_m,
                                 .pd = fmin(0.999, fmax(0.01, sensor->pd.value[0])),
                                 .sigma_m = sensor->sigma_m,
+                                .sigma_mps = sensor->sigma_mps,
                                 .sigma_range_m = sensor->sigma_range_m,
                                 .sigma_azimuth_rad = sensor->sigma_azimuth_rad,
                                 .sigma_range_rate_mps = sensor->sigma_range_rate_mps,
@@ -128,6 +129,7 @@ static void read_told(struct json_object *object, struct scene_sensor *sensor)
         told->sigma_rad = json_number(&below, "sigma_rad", 1e-6, 0.5, told->sigma_rad);
     } else if (sensor->is_cartesian) {
         told->sigma_m = json_number(&below, "sigma_m", 1e-3, 1e5, told->sigma_m);
+        told->sigma_mps = json_number(&below, "sigma_mps", 1e-3, 1e5, told->sigma_mps);
     } else {
         told->sigma_range_m = json_number(&below, "sigma_range_m", 1e-3, 1e5, told->sigma_range_m);
         told->sigma_azimuth_rad =
@@ -181,7 +183,9 @@ static void read_radar(struct json_object *object, struct scene_sensor *sensor)
     json_exclude(object, "sigma_m", "sigma_range_m");
     sensor->is_cartesian = json_has(object, "sigma_m");
     sensor->sigma_m = json_number(object, "sigma_m", 1e-3, 1e5, 0);
-    if (!sensor->is_cartesian) {
+    if (sensor->is_cartesian) {
+        sensor->sigma_mps = json_number(object, "sigma_mps", 1e-3, 1e5, 0);
+    } else {
         json_require(object, "sigma_range_m");
         json_require(object, "sigma_azimuth_rad");
         sensor->sigma_range_m = json_number(object, "sigma_range_m", 1e-3, 1e5, 0);
@@ -270,11 +274,6 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
         struct json_object one = json_element(&passive, i);
 
         read_sensor(scene, &one, true);
-    }
-    for (size_t i = 0; i < scene->num_radars; i++) {
-        if (scene->sensors[i].is_cartesian && !scene->has_area) {
-            json_fail(&root->place, "area is missing: a radar with sigma_m sees that");
-        }
     }
 }
 
@@ -385,13 +384,44 @@ static void read_second_time(struct json_object *object, struct scene_clutter *c
     clutter->targets = targets_read(object, "targets");
 }
 
+static void read_about(struct json_object *object, struct scene_clutter *clutter)
+{
+    json_require(object, "count");
+    json_require(object, "width_rad");
+    clutter->count = json_count(object, "count", 0, 10000, 0);
+    clutter->width_rad = json_number(object, "width_rad", 0, PORTABLE_PI, 0);
+}
+
+/* Where it is even, in the area it is told; and what a radar measures of it. */
+static void check_clutter(const struct scene *scene, const struct json_object *object,
+                          const struct scene_clutter *clutter)
+{
+    bool is_cartesian = scene->num_radars > 0 && scene->sensors[0].is_cartesian;
+    bool is_drawn_anew = clutter->kind == CLUTTER_UNIFORM || clutter->kind == CLUTTER_CELL ||
+                         clutter->kind == CLUTTER_STROBE;
+    bool is_even = clutter->kind == CLUTTER_UNIFORM || clutter->kind == CLUTTER_SPIKES ||
+                   (clutter->kind == CLUTTER_STANDING && !clutter->places_m);
+
+    if (is_even && (is_cartesian || clutter->plots_per_km2 > 0.0) && !clutter->has_box &&
+        !scene->has_area) {
+        json_fail(&object->place, "needs box_m, or the scene's area");
+    }
+    for (size_t i = 0; is_drawn_anew && i < scene->num_radars; i++) {
+        if (scene->sensors[i].sigma_mps > 0.0 && (clutter->sensors >> i & 1)) {
+            json_fail_key(object, "kind", "has no velocities, which sensor %d measures (sigma_mps)",
+                          scene->sensors[i].sensor_id);
+        }
+    }
+}
+
 static void read_clutter(struct scene *scene, struct json_object *object)
 {
     static const char *const kinds[CLUTTER_KINDS] = {
-        "uniform", "cell", "standing", "spikes", "strobe", "flock", "second-time-around"};
+        "uniform", "cell",  "standing",           "spikes",
+        "strobe",  "flock", "second-time-around", "about-targets"};
     static void (*const readers[CLUTTER_KINDS])(struct json_object *, struct scene_clutter *) = {
-        read_uniform, read_cell,  read_standing,   read_spikes,
-        read_strobe,  read_flock, read_second_time};
+        read_uniform, read_cell,  read_standing,    read_spikes,
+        read_strobe,  read_flock, read_second_time, read_about};
     struct scene_clutter *clutter = &scene->clutter[scene->num_clutter];
 
     json_require(object, "kind");
@@ -401,9 +431,7 @@ static void read_clutter(struct scene *scene, struct json_object *object)
     clutter->within = anywhere;
     read_times(object, &clutter->from_s, &clutter->until_s);
     readers[clutter->kind](object, clutter);
-    if (clutter->plots_per_km2 > 0.0 && !clutter->has_box && !scene->has_area) {
-        json_fail_key(object, "plots_per_km2", "needs box_m, or the scene's area");
-    }
+    check_clutter(scene, object, clutter);
     json_end(object);
     scene->num_clutter++;
 }
@@ -594,6 +622,12 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
     read_settings(scene, &root);
     read_all_sensors(scene, &root);
     scene->targets = targets_read(&root, "targets");
+    for (size_t i = 0; i < scene->targets.count; i++) {
+        scene->has_heights = scene->has_heights || scene->targets.items[i].has_height;
+    }
+    if (scene->has_heights && (scene->num_radars == 0 || !scene->sensors[0].is_cartesian)) {
+        json_fail_key(&root, "targets", "heights are for radars with sigma_m");
+    }
     list = json_list_of(&root, "clutter", SCENE_ITEMS_MAX);
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);

@@ -66,7 +66,8 @@ static bool sees_place(const struct scene *scene, const struct scene_sensor *sen
     const double *area_m = scene->area_m;
 
     if (sensor->is_cartesian) {
-        return x_m >= area_m[0] && x_m <= area_m[1] && y_m >= area_m[2] && y_m <= area_m[3];
+        return !scene->has_area ||
+               (x_m >= area_m[0] && x_m <= area_m[1] && y_m >= area_m[2] && y_m <= area_m[3]);
     }
     return is_within(&sensor->coverage, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m));
 }
@@ -188,7 +189,8 @@ static void keep_plot(struct watch *watch, struct scene_plot plot)
 
 static double rate_of(const struct scene_sensor *sensor, const struct motion *at, double range_m)
 {
-    return ((at->x_m - sensor->x_m) * at->vx_mps + (at->y_m - sensor->y_m) * at->vy_mps) / range_m;
+    return ((at->x_m - sensor->x_m) * at->vx_mps + (at->y_m - sensor->y_m) * at->vy_mps) /
+           fmax(RANGE_LEAST_M, range_m);
 }
 
 /* With biases and noise. The same numbers are drawn whatever the sensor measures. */
@@ -199,7 +201,7 @@ static struct scene_plot measure(const struct scene_sensor *sensor, const struct
            third = random_normal(random);
     double sigma_rad = sensor->is_passive ? sensor->sigma_rad : sensor->sigma_azimuth_rad;
 
-    return (struct scene_plot){
+    struct scene_plot plot = {
         .t_s = sighting->t_s,
         .target_id = sighting->target_id,
         .range_m = sighting->range_m + sensor->range_bias_m + sensor->sigma_range_m * first,
@@ -207,7 +209,15 @@ static struct scene_plot measure(const struct scene_sensor *sensor, const struct
         .range_rate_mps = rate_of(sensor, &sighting->at, sighting->range_m) +
                           sensor->sigma_range_rate_mps * third,
         .x_m = sighting->at.x_m + sensor->sigma_m * first,
-        .y_m = sighting->at.y_m + sensor->sigma_m * second};
+        .y_m = sighting->at.y_m + sensor->sigma_m * second,
+        .z_m = sighting->at.z_m + sensor->sigma_m * third};
+
+    if (sensor->sigma_mps > 0.0) {
+        plot.vx_mps = sighting->at.vx_mps + sensor->sigma_mps * random_normal(random);
+        plot.vy_mps = sighting->at.vy_mps + sensor->sigma_mps * random_normal(random);
+        plot.vz_mps = sighting->at.vz_mps + sensor->sigma_mps * random_normal(random);
+    }
+    return plot;
 }
 
 /* ---- things that are seen again and again ---------------------------------------------------------------- */
@@ -256,7 +266,7 @@ static void watch_mover(struct watch *watch, const struct scene_mover *mover,
         bool is_there = meet(watch, mover, after_s, &sighting);
 
         if (is_there && sighting.t_s >= sensor->start_s && sighting.t_s < watch->end_s &&
-            sighting.range_m > 0.0 &&
+            (sensor->is_cartesian || sighting.range_m > 0.0) &&
             sees_place(watch->scene, sensor, sighting.at.x_m, sighting.at.y_m) &&
             can_see(watch->scene, watch->index, sighting.t_s, sighting.range_m,
                     sighting.azimuth_rad)) {
@@ -419,6 +429,7 @@ static struct sighting middle_of(const struct watch *watch, size_t first)
 {
     struct sighting middle = watch->sightings[first];
     double dx_m = 0, dy_m = 0, vx_mps = 0, vy_mps = 0, range_m = 0, way_rad = 0, t_s = 0, n = 0;
+    double z_m = 0, vz_mps = 0;
     double window_s = 0.25 * watch->sensor->turn_s;
 
     for (size_t i = first; i < watch->num_sightings &&
@@ -437,13 +448,19 @@ static struct sighting middle_of(const struct watch *watch, size_t first)
         dy_m += one->at.y_m - middle.at.y_m;
         vx_mps += one->at.vx_mps;
         vy_mps += one->at.vy_mps;
+        z_m += one->at.z_m;
+        vz_mps += one->at.vz_mps;
         range_m += one->range_m;
         way_rad += portable_wrap(one->azimuth_rad - middle.azimuth_rad);
         t_s += one->t_s;
         n += 1.0;
     }
-    middle.at =
-        (struct motion){middle.at.x_m + dx_m / n, middle.at.y_m + dy_m / n, vx_mps / n, vy_mps / n};
+    middle.at = (struct motion){.x_m = middle.at.x_m + dx_m / n,
+                                .y_m = middle.at.y_m + dy_m / n,
+                                .vx_mps = vx_mps / n,
+                                .vy_mps = vy_mps / n,
+                                .z_m = z_m / n,
+                                .vz_mps = vz_mps / n};
     middle.range_m = range_m / n;
     middle.azimuth_rad += way_rad / n;
     middle.t_s = t_s / n;
@@ -603,9 +620,9 @@ static void draw_cell(struct watch *watch, const struct scene_clutter *clutter, 
         x_m += clutter->radius_m * random_normal(random);
         y_m += clutter->radius_m * random_normal(random);
     }
-    at = (struct motion){x_m, y_m, clutter->vx_mps, clutter->vy_mps};
-    rate_mps += rate_of(sensor, &at,
-                        fmax(RANGE_LEAST_M, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m)));
+    at = (struct motion){
+        .x_m = x_m, .y_m = y_m, .vx_mps = clutter->vx_mps, .vy_mps = clutter->vy_mps};
+    rate_mps += rate_of(sensor, &at, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m));
     keep_clutter_at(watch, turn, x_m, y_m, rate_mps);
 }
 
@@ -625,6 +642,60 @@ static void draw_strobe(struct watch *watch, const struct scene_clutter *clutter
     keep_clutter(watch, turn, range_m, azimuth_rad,
                  sensor->x_m + range_m * portable_cos(azimuth_rad),
                  sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
+}
+
+/* Even in the ball (without heights, the disc) about the target that fills the beam's width there. */
+static void draw_about(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
+                       const struct scene_path *path, struct random *random)
+{
+    const struct scene_sensor *sensor = watch->sensor;
+    double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
+    struct motion at = path_at(path, t_s), last = path_at(path, t_s - sensor->turn_s);
+    double ground_m = portable_hypot(at.x_m - sensor->x_m, at.y_m - sensor->y_m);
+    double radius_m = portable_hypot(ground_m, at.z_m) * portable_sin(0.5 * clutter->width_rad);
+    double x, y, z;
+
+    if (!sees_place(watch->scene, sensor, at.x_m, at.y_m)) {
+        return;
+    }
+    for (uint64_t i = 0; i < clutter->count; i++) {
+        size_t before = watch->num_plots;
+
+        do {
+            x = random_between(random, -1.0, 1.0);
+            y = random_between(random, -1.0, 1.0);
+            z = watch->scene->has_heights ? random_between(random, -1.0, 1.0) : 0.0;
+        } while (x * x + y * y + z * z > 1.0);
+        keep_clutter_at(watch, turn, at.x_m + radius_m * x, at.y_m + radius_m * y,
+                        rate_of(sensor, &at, ground_m));
+        if (watch->num_plots > before) {
+            struct scene_plot *plot = &watch->plots[before];
+
+            plot->z_m = at.z_m + radius_m * z;
+            plot->vx_mps = (plot->x_m - last.x_m) / sensor->turn_s;
+            plot->vy_mps = (plot->y_m - last.y_m) / sensor->turn_s;
+            plot->vz_mps = (plot->z_m - last.z_m) / sensor->turn_s;
+        }
+    }
+}
+
+static void watch_about(struct watch *watch, const struct scene_run *run, size_t source)
+{
+    const struct scene_clutter *clutter = &watch->scene->clutter[source];
+
+    for (size_t turn = 0; turn < watch->turns; turn++) {
+        double t_s = watch->sensor->start_s + (double)turn * watch->sensor->turn_s;
+
+        for (size_t i = 0; i < run->num_paths && t_s >= clutter->from_s && t_s < clutter->until_s;
+             i++) {
+            struct random random = scene_stream(watch->seed, watch->run, STREAM_CLUTTER,
+                                                source * 64 + watch->index, turn, i);
+
+            if (t_s >= run->paths[i].from_s && t_s < run->paths[i].until_s) {
+                draw_about(watch, clutter, turn, &run->paths[i], &random);
+            }
+        }
+    }
 }
 
 static double mean_plots(const struct scene *scene, const struct scene_clutter *clutter)
@@ -781,6 +852,8 @@ static void watch_all(struct watch *watch, const struct scene_run *run,
         }
         if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
             watch_clutter(watch, i);
+        } else if (kind == CLUTTER_ABOUT_TARGETS) {
+            watch_about(watch, run, i);
         } else {
             watch_movers(watch, run, i);
         }

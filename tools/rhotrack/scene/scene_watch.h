@@ -13,9 +13,10 @@ struct scene_plot {
     size_t scan; /* of its sensor, from 0 on */
     double t_s;
     double range_m, azimuth_rad,
-        range_rate_mps; /* as measured; of passive sensors the azimuth alone */
-    double x_m, y_m;    /* of radars with sigma_m, in their place */
-    int target_id;      /* -1: clutter */
+        range_rate_mps;            /* as measured; of passive sensors the azimuth alone */
+    double x_m, y_m, z_m;          /* of radars with sigma_m, in their place */
+    double vx_mps, vy_mps, vz_mps; /* where they measure them */
+    int target_id;                 /* -1: clutter */
 };
 
 struct scene_scan {
