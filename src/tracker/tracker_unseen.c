@@ -7,7 +7,7 @@
  *
  *      hit   hit   leaves coverage                           the radar is silent, and back
  *       |-----|-----x. . . . . . . . . . . x ends             |-----|-----x . . . . . . . . . . |  claims a plot: goes on
- *             '------ coast_scans_max -----'                                                    |  claims none: ends
+ *             '------ coast_scans_max -----'                                                    |  missed: tentative, three times: ends
  *
  * Where a sensor that sees its place might still look, it has UNLOOKED times as long. How often sensors look at a place is
  * measured: from one scan that holds a fixed direction to the next one; and how often the track is hit, where that is longer: a
@@ -40,6 +40,9 @@
 
 /* Plots of clutter in a gate that make its plot a doubtful one, of a target that was not seen for long. */
 #define DOUBTFUL_PLOTS 0.1f
+
+/* Misses in a row that end a target that was not seen for long: it may be there, and missed as ever. */
+#define LATE_MISSES 3
 
 /* A place that is not known to a quarter of what its sensor sees is none. */
 #define UNKNOWN_SHARE 1.0f
@@ -197,8 +200,8 @@ static void note_hit(struct rho_track *track, int64_t time_us)
 }
 
 /*
- * A target that was out of sight for longer than tracks may coast is rather gone than not: what is seen now, where clutter may be
- * seen as well, has to be seen once more before it is believed again. Where so much would end a track, misses alone do.
+ * A target that was out of sight for longer than tracks may coast is rather gone than not: when it is missed, or what is seen may
+ * be clutter as well, it has to be seen once more before it is believed again. Where so much would end a track, misses alone do.
  */
 static void doubt(struct rho_track *track, const struct rho_track_limits *limits)
 {
@@ -221,22 +224,21 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
     const float unseen_s = rho_seconds_between(track->seen_us, step->time_us);
     const int is_overdue =
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
+    if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
+        (track->plot < 0 ? track->misses_in_row > 0
+                         : rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
+        doubt(track, limits);
+    }
     if (track->plot >= 0) {
         note_hit(track, step->time_us);
-        if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
-            rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS) {
-            doubt(track, limits);
-        }
         return 0;
-    }
-    if (is_overdue && track->misses_in_row == 1) {
-        doubt(track, limits);
     }
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
     return is_overdue &&
-           (track->misses_in_row > 2 || unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
+           (track->misses_in_row >= LATE_MISSES ||
+            unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
 }
 
 /* ---- places ------------------------------------------------------------------------------------- */
