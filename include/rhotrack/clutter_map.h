@@ -66,8 +66,10 @@ struct rho_clutter_map {
     int64_t time_us;         /* of the newest scan that it looked at */
     float v_min_mps;         /* nothing that moves as fast is clutter; 0: only what stands is */
     uint32_t echoes_dropped; /* gave way to others; saturates */
-    float scans_to_blocks;   /* scans until the tables below are moved on */
-    uint32_t is_looked;      /* ratios and best echoes below are those of the newest scan */
+    float rate_plots,
+        exact_plots; /* of echoes, with range rates; those whose rate is just the echo's speed */
+    float scans_to_blocks; /* scans until the tables below are moved on */
+    uint32_t is_looked;    /* ratios and best echoes below are those of the newest scan */
     /* by regions of range and azimuth about the sensor, and of all of them. [1], [2]: of the last scans, not believed yet: their
      * plots may turn out to be a target's */
     struct rho_echo_returns tables[3][RHO_ECHO_TABLES];

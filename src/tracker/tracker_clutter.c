@@ -32,9 +32,13 @@
 #define UNKNOWN_SHARE 0.01f
 /* Share of a plot's density from which an echo takes it. */
 #define WEIGHT_MIN 0.3f
-/* Range rates of an echo: half of them are its speed's, to so many m/s beside the noise; half are any (blades, trees, water). */
+/* Range rates of an echo: just its speed's (learned how often; the share before that, and its weight in plots); of the rest half are
+ * so to some m/s, and half are any (blades, trees, water). Sums are halved at so many plots. */
+#define EXACT_PRIOR 0.3f
+#define EXACT_PRIOR_PLOTS 10.0f
 #define RATE_SIGMA_MPS 1.0f
 #define RATE_SHARE 0.5f
+#define RATE_PLOTS_REMEMBERED 1000.0f
 /* A strobe: three directions have more plots than this, and than so many times as many as others; in so many eighths of the range. */
 #define STROBE_PLOTS_MIN 8.0f
 #define STROBE_TIMES_USUAL 6.0f
@@ -57,21 +61,66 @@ static float range_max_of(const struct step *step)
     return 0.5f * rho_sqrt(width_m * width_m + height_m * height_m);
 }
 
-/* What a plot's range rate says for the echo: its density over that of clutter that is spread over all rates. */
+/* What a plot's range rate says for the echo, over what it says for clutter that is spread over all rates: if it is just the echo's
+ * speed, as a reflector's; and if not. */
+struct rate_ratios {
+    float exact, other;
+};
+
+static float normal_density(float off, float variance)
+{
+    return rho_exp(-0.5f * off * off / variance) * rho_inverse_sqrt(RHO_TWO_PI * variance);
+}
+
+static struct rate_ratios rate_ratios(const struct step *step, const struct rho_echo *echo,
+                                      const struct echo_view *view, const struct rho_plot *plot)
+{
+    const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
+    const float off_mps =
+        plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
+    const float rates_mps = rho_exp(rho_tracker_log_range_rates(step));
+    return (struct rate_ratios){
+        rates_mps * normal_density(off_mps, variance),
+        1.0f - RATE_SHARE +
+            RATE_SHARE * rates_mps *
+                normal_density(off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS)};
+}
+
+/* The share of echoes' plots whose rate is just their speed, as learned. */
+static float exact_share(const struct rho_clutter_map *map)
+{
+    return (map->exact_plots + EXACT_PRIOR * EXACT_PRIOR_PLOTS) /
+           (map->rate_plots + EXACT_PRIOR_PLOTS);
+}
+
 static float rate_ratio(const struct step *step, const struct rho_echo *echo,
                         const struct echo_view *view, const struct rho_plot *plot)
 {
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps +
-                           echo->along[2] + RATE_SIGMA_MPS * RATE_SIGMA_MPS;
-    const float off_mps =
-        plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
-    const float rates_mps = rho_exp(rho_tracker_log_range_rates(step));
-    return 1.0f - RATE_SHARE +
-           RATE_SHARE * rates_mps * rho_exp(-0.5f * off_mps * off_mps / variance) *
-               rho_inverse_sqrt(RHO_TWO_PI * variance);
+    const struct rate_ratios ratios = rate_ratios(step, echo, view, plot);
+    const float share = exact_share(&step->tracker->clutter_map);
+    return share * ratios.exact + (1.0f - share) * ratios.other;
+}
+
+/* An echo takes a plot: how likely its rate is just the echo's speed. */
+static void learn_rate(struct step *step, const struct rho_echo *echo, const struct rho_plot *plot)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+        return;
+    }
+    const struct echo_view view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
+    const struct rate_ratios ratios = rate_ratios(step, echo, &view, plot);
+    const float share = exact_share(map);
+    const float exact = share * ratios.exact;
+    if (map->rate_plots >= RATE_PLOTS_REMEMBERED) {
+        map->rate_plots *= 0.5f;
+        map->exact_plots *= 0.5f;
+    }
+    map->rate_plots += 1.0f;
+    map->exact_plots += exact / (exact + (1.0f - share) * ratios.other);
 }
 
 /* Density of the echo's next plot at this one, if it comes back; 0 beyond its gate. */
@@ -434,6 +483,7 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
             }
         }
         if (is_seen && echo->weight > WEIGHT_MIN && !(by_target && !(v_min2 > 0.0f))) {
+            learn_rate(step, echo, &step->scan->plots[echo->plot]);
             rho_clutter_map_take(echo, step->sensor, &step->scan->plots[echo->plot]);
             echo->is_target |= (uint8_t)by_target;
             taken[echo->plot / 32] |= 1u << echo->plot % 32;

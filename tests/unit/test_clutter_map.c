@@ -588,6 +588,85 @@ static void what_stands_explains_no_fast_range_rate(void **state)
     assert_true(repeats_at_range_rate(0.0) > 50.0 * repeats_at_range_rate(100.0));
 }
 
+/* A radar of 24 GHz in a room, 20 scans a second: reflectors that are seen from the first scan on, with a range rate of 0. */
+#define REFLECTORS 6
+
+static void see_in_room(double x_m, double y_m, double speed_mps)
+{
+    const double range_m = hypot(x_m, y_m), sigma_m = 0.15;
+    const double dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
+    struct rho_plot *plot = add(x_m + dx_m, y_m + dy_m, sigma_m);
+    const double rate_mps = 0.1 * normal();
+
+    plot->range_rate_mps = (float)(speed_mps * x_m / range_m + rate_mps);
+    plot->sigma_range_rate_mps = 0.1f;
+}
+
+/* Believed tracks near the place. */
+static int num_in_room(double x_m, double y_m)
+{
+    int num = 0;
+
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        const struct rho_track_report *track = &report.tracks[i];
+
+        num += track->status != RHO_TRACK_TENTATIVE &&
+               hypot((double)track->state[0] - x_m, (double)track->state[1] - y_m) < 1.0;
+    }
+    return num;
+}
+
+/* Someone walks out 8 m, stands for 6 s and walks on. */
+static double walked_m(double t_s)
+{
+    return 1.2 * (fmin(t_s, 7.0) + fmax(t_s - 13.0, 0.0));
+}
+
+static void reflectors_in_a_room_hold_no_tracks(void **state)
+{
+    const struct rho_sensor radar = {.pd = 0.9f, .range_max_m = 80.0f};
+    int early = 0, late = 0, walks = 0;
+
+    (void)state;
+    draw(77);
+    rho_initiator_config_default(&initiation);
+    config.v_max_mps = initiation.v_max_mps = 30.0f;
+    config.accel_max_mps2 = 8.0f;
+    begin();
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+    for (int k = 0; k < 400; k++) {
+        const double t_s = 0.05 * k;
+        const int stands = t_s > 7.0 && t_s < 13.0;
+
+        for (int i = 0; i < REFLECTORS; i++) {
+            if (uniform(0.0, 1.0) < 0.8) {
+                see_in_room(20.0 + 8.0 * i, 12.0 * (i % 3) - 15.0, 0.0);
+            }
+        }
+        if (uniform(0.0, 1.0) < 0.9) {
+            see_in_room(30.0 + walked_m(t_s), 25.0, stands ? 0.0 : 1.2);
+        }
+        for (int i = 0; i < 5; i++) {
+            const double x_m = uniform(5.0, 70.0);
+
+            see_in_room(x_m, uniform(-40.0, 40.0), uniform(-20.0, 20.0));
+        }
+        step_scan(
+            (struct rho_scan){.time_us = llround(1e6 * t_s), .measures = RHO_MEASURES_RANGE_RATE});
+        for (int i = 0; i < REFLECTORS; i++) {
+            const int num = num_in_room(20.0 + 8.0 * i, 12.0 * (i % 3) - 15.0);
+
+            early += k < 60 ? num : 0;
+            late += k < 60 ? 0 : num;
+        }
+        walks += num_in_room(30.0 + walked_m(t_s), 25.0) == 1;
+    }
+    assert_true(early > REFLECTORS * 10); /* nothing tells them from targets that stand */
+    assert_int_equal(late, 0);
+    assert_true(walks > 380); /* of 400 */
+    assert_true(map_of()->exact_plots > 0.9f * map_of()->rate_plots);
+}
+
 /* ---- the same again --------------------------------------------------------------------------- */
 
 static void the_same_scans_make_the_same_map(void **state)
@@ -667,6 +746,7 @@ int main(void)
         cmocka_unit_test(scans_of_more_plots_than_there_is_room_for),
         cmocka_unit_test(sectors_of_a_turn_look_once),
         cmocka_unit_test(what_stands_explains_no_fast_range_rate),
+        cmocka_unit_test(reflectors_in_a_room_hold_no_tracks),
         cmocka_unit_test(the_same_scans_make_the_same_map),
     };
 
