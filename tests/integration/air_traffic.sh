@@ -20,9 +20,9 @@ run evaluate sky/truth.csv sky/tracks.csv --json
 check "most aircraft have tracks" json stdout 'o["completeness"] > 0.85 and o["false_per_scan"] < 2'
 run simulate air-traffic -o again --seed 3 --set targets=20 --set num_scans=50 --set sigma_m=40 --set true_pd=0.9
 check "the same seed gives the same bytes" diff -r "$folder/sky/plots.csv" "$folder/again/plots.csv"
-run simulate formation -o pair --set merge_m=500 --set clutter_per_scan=0 --set true_pd=1
+run simulate formation -o pair --set radars.0.resolution_m=500 --set clutter=[] --set radars.0.pd=1
 check "those that fly together give one plot" sh -c "
-    awk -F, 'NR > 1 { rows[\$1]++ } END { for (t in rows) one += rows[t] == 1; exit one < 31 }' '$folder/pair/plots.csv'"
+    awk -F, 'NR > 1 && \$3 { rows[\$1]++ } END { for (t in rows) one += rows[t] == 1; exit one < 31 }' '$folder/pair/plots.csv'"
 for bad in targets=-1 merge_m=-1 fade_scans=0.5 crossing_share=2 persistent_sources=0.5; do
     run simulate air-traffic -o bad --set "$bad"
     check "simulate refuses $bad" says 2 "rhotrack: --set $bad: *"

@@ -122,12 +122,10 @@ check 'set goes before the config file in any order' json stdout \
     'o["sigma_m"]["value"] == 30 and o["sigma_m"]["source"] == "set" and o["sensor.3.pd"]["value"] == 0.6'
 
 # ---- what a scenario does not use ----
-refuse 'a parameter of another scenario' 'simulate formation: true_time_bias_s has no effect here; it is for two-radars' \
-    simulate formation -o none --set true_time_bias_s=1
-refuse 'of several others' 'simulate formation: targets has no effect here; it is for air-traffic, *' \
-    simulate formation -o none --set targets=3
-refuse 'a whole word counts' 'simulate formation: crossing_share has no effect here; it is for air-traffic' \
-    simulate formation -o none --set crossing_share=0.3
+refuse 'a parameter of another scenario' 'simulate air-traffic: true_time_bias_s has no effect here; it is for two-radars' \
+    simulate air-traffic -o none --set true_time_bias_s=1
+refuse 'of several others' 'simulate air-traffic: range_rate has no effect here; it is for polar, doppler, rotating' \
+    simulate air-traffic -o none --set range_rate=1
 scenario_refuses() { # SCENARIO KEY PATTERN
     refuse "$1: $2" "simulate $1: $2 has no effect here; $3" simulate "$1" -o none --set "$2=0.1"
 }
@@ -145,11 +143,11 @@ printf 'sigma_m = 20\npd = 0.8\n' >trackers.ini
 run simulate polar -o trackers --config trackers.ini
 check "a tracker's file is not complained of" test "$status" -eq 0 -a ! -s stderr
 printf 'late_ms = 5\nsigma_m = 20\nclutter_per_scan = 3\n' >shared.ini
-run simulate formation -o some --config shared.ini
+run simulate air-traffic -o some --set num_scans=3 --config shared.ini
 check 'a file is for several scenarios: said' matches "$(cat stderr)" \
-    'rhotrack: simulate formation: late_ms of --config has no effect here; it is for two-radars'
+    'rhotrack: simulate air-traffic: late_ms of --config has no effect here; it is for two-radars'
 check 'and done' test -s some/plots.csv
-run simulate formation -o formation --set num_scans=3 --set crossing_deg=3
+run simulate air-traffic -o own --set num_scans=3 --set crossing_share=0.3
 check 'its own' exits 0
 
 refuse_config() { # name, pattern, text of the file

@@ -19,7 +19,7 @@ expect_exit() {
 }
 
 # --- simulate
-for scenario in crossing clutter air-traffic formation; do
+for scenario in crossing clutter air-traffic; do
     check "simulate $scenario" "$RHOTRACK" simulate "$scenario" --seed 3 -o "$folder/$scenario"
     check "track $scenario with its scenario.ini" "$RHOTRACK" track "$folder/$scenario/plots.csv" \
         --config "$folder/$scenario/scenario.ini" -o "$folder/$scenario/tracks.csv"

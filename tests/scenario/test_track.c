@@ -250,7 +250,6 @@ static void neighbours_at_a_small_angle_keep_their_tracks(void **state)
     (void)state;
 
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 20);
-    parameters_suggest(&parameters, PARAMETER_CROSSING_DEG, 20);
     outcome = follow_seeds("crossing-angle", &parameters, 40, 8);
     assert_true(outcome.targets_found >= 77);
     assert_true(outcome.switches <= 8);

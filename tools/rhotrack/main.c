@@ -77,7 +77,7 @@ static const struct command commands[] = {
      "A scene is a file NAME.json, or the name of one that ships; all stands in it\n"
      "(tools/scenes/README.md).\n"
      "\n"
-     "Scenarios: air-traffic, formation; polar, doppler, rotating (a turning radar's plots,\n"
+     "Scenarios: air-traffic; polar, doppler, rotating (a turning radar's plots,\n"
      "polar.csv) and two-radars (of two, with biases); their parameters are set by --set.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
      "oBjsC", "tracks against the truth",

@@ -154,7 +154,7 @@
     X(PERSISTENT_SOURCES, "persistent_sources", "-", 0, 0, 1e4, 1, 0,                              \
       "simulate air-traffic: things that stand, seen in 9 scans of 10")                            \
     X(MERGE_M, "merge_m", "m", 0, 0, 1e5, 0, 0,                                                    \
-      "simulate air-traffic, formation: closer targets give one plot")                             \
+      "simulate air-traffic: closer targets give one plot")                                        \
     X(CROSSING_SHARE, "crossing_share", "-", 0.2, 0, 1, 0, 0,                                      \
       "simulate air-traffic: share of targets that start so that they meet another")               \
     X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
@@ -166,11 +166,7 @@
     X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0,                                                   \
       "simulate: number of targets, where the scenario leaves it open")                            \
     X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
-      "simulate formation: distance of the two targets; two-radars: least")                        \
-    X(CROSSING_DEG, "crossing_deg", "deg", 10, 0, 180, 0, 0,                                       \
-      "simulate formation: angle between the tracks")                                              \
-    X(SPEED_MPS, "speed_mps", "m/s", 250, 0.1, 2e4, 0, 0,                                          \
-      "simulate formation: speed of the targets")                                                  \
+      "simulate two-radars: least distance of two targets")                                        \
     X(REFERENCE_SENSOR, "reference_sensor", "-", 0, -2147483648.0, 2147483647, 1, 0,               \
       "register: the radar whose time counts as right; unset: the lowest number")                  \
     X(SECTORS_PER_TURN, "sectors_per_turn", "-", 32, 1, 360, 1, 0,                                 \

@@ -102,11 +102,7 @@ static const struct scenario {
          "aircraft that take off, turn, hold, cross, land, come and go: always so many in the air",
      .customs = &air_traffic,
      .plan = plan_air_traffic},
-    {.name = "formation",
-     .stream = 16,
-     .text = "two aircraft that come together, fly side by side for half the time, and part",
-     .customs = &formation,
-     .plan = plan_formation},
+    {.name = "formation", .stream = 16, .customs = &formation, .plan = plan_formation},
     {.name = "two-radars",
      .stream = 17,
      .text = "two turning radars with biases, and the aircraft that both see; a share of it "
@@ -213,8 +209,6 @@ void scenario_suggest(const char *name, struct parameters *parameters)
         parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, scenario->customs->accel_max_mps2);
     }
     parameters_suggest(parameters, PARAMETER_TARGETS, is_radar(scenario) ? 3 : 50);
-    parameters_suggest(parameters, PARAMETER_SPEED_MPS, 250);
-    parameters_suggest(parameters, PARAMETER_CROSSING_DEG, 10);
     parameters_suggest(parameters, PARAMETER_SPACING_M,
                        scenario->plan == plan_formation ? 400.0 : 50.0);
     suggest_area(parameters, &scenario->customs->box);

@@ -6,6 +6,8 @@
 #include "scenario_plan.h"
 
 #define DEG_RAD 0.017453292519943295
+#define PAIR_MPS 250.0
+#define CROSSING_RAD (10.0 * DEG_RAD) /* of two paths */
 
 static size_t count_of(const struct parameters *parameters, enum parameter_id id)
 {
@@ -31,12 +33,11 @@ struct scenario_plan plan_crossing(const struct parameters *parameters, struct r
 struct scenario_plan plan_parallel(const struct parameters *parameters, struct random *random)
 {
     (void)random;
-    double speed_mps = parameters->value[PARAMETER_SPEED_MPS];
     struct scenario_plan plan = plan_of(parameters, 2);
-    plan_straight(&plan, 0, (struct scenario_state){-1500, speed_mps, 0, 0});
+    plan_straight(&plan, 0, (struct scenario_state){-1500, PAIR_MPS, 0, 0});
     plan_straight(
         &plan, 1,
-        (struct scenario_state){-1500, speed_mps, parameters->value[PARAMETER_SPACING_M], 0});
+        (struct scenario_state){-1500, PAIR_MPS, parameters->value[PARAMETER_SPACING_M], 0});
     return plan;
 }
 
@@ -47,10 +48,9 @@ struct scenario_plan plan_crossing_angle(const struct parameters *parameters, st
     struct scenario_plan plan = plan_of(parameters, 2);
     double half_s = plan.interval_s * ((double)plan.num_scans - 1.0) / 2.0;
     for (size_t target = 0; target < 2; target++) {
-        double heading_rad =
-            parameters->value[PARAMETER_CROSSING_DEG] * DEG_RAD * (target == 0 ? 0.5 : -0.5);
-        double vx_mps = parameters->value[PARAMETER_SPEED_MPS] * cos(heading_rad);
-        double vy_mps = parameters->value[PARAMETER_SPEED_MPS] * sin(heading_rad);
+        double heading_rad = CROSSING_RAD * (target == 0 ? 0.5 : -0.5);
+        double vx_mps = PAIR_MPS * cos(heading_rad);
+        double vy_mps = PAIR_MPS * sin(heading_rad);
         plan_straight(&plan, target,
                       (struct scenario_state){-vx_mps * half_s, vx_mps, -vy_mps * half_s, vy_mps});
     }
@@ -61,8 +61,7 @@ struct scenario_plan plan_crossing_angle(const struct parameters *parameters, st
 static struct scenario_state formation_at(const struct parameters *parameters, double t_s,
                                           double join_s, double part_s, double side)
 {
-    double speed_mps = parameters->value[PARAMETER_SPEED_MPS];
-    double angle_rad = parameters->value[PARAMETER_CROSSING_DEG] * DEG_RAD / 2.0;
+    double speed_mps = PAIR_MPS, angle_rad = CROSSING_RAD / 2.0;
     double before_s = fmax(0.0, join_s - t_s), after_s = fmax(0.0, t_s - part_s);
     double away_mps = speed_mps * sin(angle_rad), along_mps = speed_mps * cos(angle_rad);
     bool is_together = t_s >= join_s && t_s <= part_s;

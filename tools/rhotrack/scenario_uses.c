@@ -6,11 +6,10 @@
 #include "common.h"
 #include "scenario.h"
 
-#define ON_PLANE "air-traffic, formation" /* formation: with merge_m a sky of its own */
 #define TURNING "polar, doppler, rotating"
 
 #define RADARS "two-radars"
-#define WITH_AREA ON_PLANE ", " TURNING
+#define WITH_AREA "air-traffic, " TURNING
 
 struct use {
     enum parameter_id id;
@@ -20,23 +19,21 @@ struct use {
 
 /* All use num_scans and interval_s. */
 static const struct use uses[] = {
-    {PARAMETER_CLUTTER_PER_KM2, ON_PLANE ", polar, doppler", NULL},
-    {PARAMETER_CLUTTER_PER_SCAN, ON_PLANE ", two-radars, " TURNING, NULL},
-    {PARAMETER_TRUE_PD, ON_PLANE ", " TURNING, NULL},
-    {PARAMETER_TRUE_SIGMA_M, ON_PLANE, NULL},
-    {PARAMETER_FADES_PER_HOUR, ON_PLANE, NULL},
-    {PARAMETER_FADE_SCANS, ON_PLANE, NULL},
-    {PARAMETER_SPOTS, ON_PLANE, NULL},
-    {PARAMETER_SPOT_CLUTTER, ON_PLANE, NULL},
-    {PARAMETER_PERSISTENT_SOURCES, ON_PLANE, NULL},
-    {PARAMETER_MERGE_M, ON_PLANE, NULL},
+    {PARAMETER_CLUTTER_PER_KM2, "air-traffic, polar, doppler", NULL},
+    {PARAMETER_CLUTTER_PER_SCAN, "air-traffic, two-radars, " TURNING, NULL},
+    {PARAMETER_TRUE_PD, "air-traffic, " TURNING, NULL},
+    {PARAMETER_TRUE_SIGMA_M, "air-traffic", NULL},
+    {PARAMETER_FADES_PER_HOUR, "air-traffic", NULL},
+    {PARAMETER_FADE_SCANS, "air-traffic", NULL},
+    {PARAMETER_SPOTS, "air-traffic", NULL},
+    {PARAMETER_SPOT_CLUTTER, "air-traffic", NULL},
+    {PARAMETER_PERSISTENT_SOURCES, "air-traffic", NULL},
+    {PARAMETER_MERGE_M, "air-traffic", NULL},
     {PARAMETER_CROSSING_SHARE, "air-traffic", NULL},
     {PARAMETER_RANGE_RATE, TURNING, NULL},
     {PARAMETER_STATIC_CLUTTER, "doppler", NULL},
     {PARAMETER_TARGETS, "air-traffic, two-radars, " TURNING, NULL},
-    {PARAMETER_SPACING_M, "formation, two-radars", NULL},
-    {PARAMETER_CROSSING_DEG, "formation", NULL},
-    {PARAMETER_SPEED_MPS, "formation", NULL},
+    {PARAMETER_SPACING_M, "two-radars", NULL},
     {PARAMETER_SECTORS_PER_TURN, "rotating, two-radars", NULL},
     {PARAMETER_SECOND_INTERVAL_S, "two-radars", NULL},
     {PARAMETER_TRUE_RANGE_BIAS_M, "two-radars", NULL},
@@ -51,16 +48,11 @@ static const struct use uses[] = {
  * go to scenario.ini.
  */
 static const struct use trackers_uses[] = {
-    {PARAMETER_SIGMA_M, ON_PLANE, NULL},
-    {PARAMETER_SIGMA_RANGE_M, TURNING, RADARS},
-    {PARAMETER_SIGMA_AZIMUTH_RAD, TURNING, RADARS},
-    {PARAMETER_SIGMA_RANGE_RATE_MPS, TURNING, NULL},
-    {PARAMETER_PD, "air-traffic, formation", RADARS},
-    {PARAMETER_RANGE_MIN_M, TURNING, RADARS},
-    {PARAMETER_RANGE_MAX_M, TURNING, RADARS},
-    {PARAMETER_AREA_X_MIN_M, WITH_AREA, NULL},
-    {PARAMETER_AREA_X_MAX_M, WITH_AREA, NULL},
-    {PARAMETER_AREA_Y_MIN_M, WITH_AREA, NULL},
+    {PARAMETER_SIGMA_M, "air-traffic", NULL},       {PARAMETER_SIGMA_RANGE_M, TURNING, RADARS},
+    {PARAMETER_SIGMA_AZIMUTH_RAD, TURNING, RADARS}, {PARAMETER_SIGMA_RANGE_RATE_MPS, TURNING, NULL},
+    {PARAMETER_PD, "air-traffic", RADARS},          {PARAMETER_RANGE_MIN_M, TURNING, RADARS},
+    {PARAMETER_RANGE_MAX_M, TURNING, RADARS},       {PARAMETER_AREA_X_MIN_M, WITH_AREA, NULL},
+    {PARAMETER_AREA_X_MAX_M, WITH_AREA, NULL},      {PARAMETER_AREA_Y_MIN_M, WITH_AREA, NULL},
     {PARAMETER_AREA_Y_MAX_M, WITH_AREA, NULL},
 };
 
