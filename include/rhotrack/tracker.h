@@ -70,7 +70,8 @@ struct rho_tracker_config {
      * faster by a tenth, and by two standard deviations */
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
-    /* best: mean time between manoeuvres, 0 .. 1e5; where that is less than they last, as long as these */
+    /* best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they last, as long as these. What
+     * keeps straight for a minute counts as calm (imm.h) whatever this is */
     float steady_s;
 #if RHO_SECTORS
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */

@@ -7,7 +7,8 @@
  *
  *      hit   hit   leaves coverage                           the radar is silent, and back
  *       |-----|-----x. . . . . . . . . . . x ends             |-----|-----x . . . . . . . . . . |  claims a plot: goes on
- *             '------ coast_scans_max -----'                                                    |  claims none: ends
+ *             '------ coast_scans_max -----'                                                    |  misses: tentative;
+ *                                                                                               |  the third one: ends
  *
  * Where a sensor that sees its place might still look, it has UNLOOKED times as long. How often sensors look at a place is
  * measured: from one scan that holds a fixed direction to the next one; and how often the track is hit, where that is longer: a
@@ -37,6 +38,9 @@
 
 /* Times that a track may coast, while a sensor that sees its place might still look. */
 #define UNLOOKED 4.0f
+
+/* Misses in a row that end a track that was not seen for so long. */
+#define OVERDUE_MISSES 3
 
 /* Plots of clutter in a gate that make its plot a doubtful one, of a target that was not seen for long. */
 #define DOUBTFUL_PLOTS 0.1f
@@ -197,8 +201,8 @@ static void note_hit(struct rho_track *track, int64_t time_us)
 }
 
 /*
- * A target that was out of sight for longer than tracks may coast is rather gone than not: what is seen now, where clutter may be
- * seen as well, has to be seen once more before it is believed again. Where so much would end a track, misses alone do.
+ * A target that was out of sight for longer than tracks may coast is rather gone than not: where it is missed now, or clutter may
+ * be seen as well, it has to be seen once more before it is believed again. Where so much would end a track, misses alone do.
  */
 static void doubt(struct rho_track *track, const struct rho_track_limits *limits)
 {
@@ -235,8 +239,8 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
-    return is_overdue &&
-           (track->misses_in_row > 2 || unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
+    return is_overdue && (track->misses_in_row >= OVERDUE_MISSES ||
+                          unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
 }
 
 /* ---- places ------------------------------------------------------------------------------------- */
