@@ -225,7 +225,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 360 bytes.
+ * bytes cleared. Stack: 380 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
