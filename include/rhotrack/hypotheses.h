@@ -125,7 +125,7 @@ struct rho_hypotheses_estimate {
 };
 
 /* Prepares an empty pool; the model is copied. Errors: NULL, SIZE, CONFIG. Cost: clears the object.
- * Stack: 220 bytes. */
+ * Stack: 240 bytes. */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
                                                    const struct rho_imm_model *model);
 

@@ -6,14 +6,14 @@
  * `steady` is a Kalman filter [x y z vx vy vz] with little white acceleration. The manoeuvring model has the acceleration
  * beside these, [x y z vx vy vz ax ay az], which decays with memory_s and is driven by white noise. A target changes
  * between both as a Markov chain in continuous time, so that any interval will do: at each prediction the two estimates are
- * mixed by the probabilities of a change, and at each update the models' probabilities move by how well they had predicted the
- * plot.
+ * mixed by the probabilities of a change, and at each update the models' probabilities move by how well they had predicted
+ * the plot.
  *
- * Most targets keep straight for minutes, some hardly for seconds, and nobody says which. So the chain has three states: a steady
- * target is calm or agile, and both share the steady filter. Who stays steady becomes calm (settle_s); a calm one begins to
- * manoeuvre more seldom (calm_s) than an agile one (steady_s), and its steady model is quieter. Plots do not tell calm from agile:
- * `calm` moves with time and with the end of manoeuvres alone. A manoeuvre that is all but refuted gives nothing back to the steady
- * model, whose estimate would lose by it.
+ * Most targets keep straight for minutes, some for seconds. So the chain has three states: a steady target is calm or agile,
+ * and both share the steady filter. An agile target that stays steady becomes calm (settle_s); a calm one begins to manoeuvre
+ * more seldom (calm_s) than an agile one (steady_s), and its steady model is quieter. Plots do not tell calm from agile: `calm`
+ * moves with time and with the ends of manoeuvres alone. A manoeuvre that is all but refuted gives nothing back to the steady
+ * model, whose estimate would be the worse for it.
  *
  * While all noise was isotropic the axes are independent, and are kept so: three small filters a model (decoupled). The
  * first plot with noise of another form couples them for good.
@@ -46,26 +46,27 @@ struct rho_imm_model {
     float calm_density;  /* the same of a calm target: 0 .. quiet_density */
     float drive_density; /* white noise that drives a manoeuvre's acceleration, (m/s^2)^2/s: >= 0 */
     float memory_s;      /* time in which an acceleration decays to 1/e: > 0 */
-    float steady_s, maneuver_s; /* mean times that a target keeps to either model: > 0 */
-    float calm_s;   /* steady_s of a calm target; 0: none is, and the chain has two states */
+    /* mean times between manoeuvres of an agile target, and that one takes: > 0 */
+    float steady_s, maneuver_s;
+    /* steady_s of a calm target, no less than that; 0: none is calm, and the chain has two states */
+    float calm_s;
     float settle_s; /* mean time after which a steady target is a calm one: > 0 where calm_s is */
-    float speed_sigma_mps;      /* of the velocity of an axis that was measured once */
-    float accel_sigma_mps2;     /* of the acceleration at the start */
-    float
-        speed_max_mps; /* hypotheses that are surely faster lose weight; 0, as by default: none does */
+    float speed_sigma_mps;  /* of the velocity of an axis that was measured once */
+    float accel_sigma_mps2; /* of the acceleration at the start */
+    float speed_max_mps; /* hypotheses that are surely faster lose weight; 0 (default): none does */
 };
 
 /* What one interval does to every estimate, computed once. */
 struct rho_imm_step {
     float dt_s;
-    float begins,
-        ends; /* probabilities that a target that was steady manoeuvres at its end, and the other way */
-    float calm_begins, settles; /* that a calm one manoeuvres; that an agile one is calm */
-    float odds_over; /* manoeuvres of lower odds give nothing back to the steady model */
+    /* probabilities that an agile target manoeuvres at its end, and that a manoeuvre has ended */
+    float begins, ends;
+    float calm_begins, settles; /* that a calm target manoeuvres; that an agile one is calm */
+    float odds_over;            /* manoeuvres of lower odds give nothing back to the steady model */
     float quiet_density, calm_density; /* the steady model's, of agile and calm targets */
     float position_by_accel, velocity_by_accel, accel_by_accel;
     float noise[RHO_TRIANGLE(3)];       /* of position, velocity, acceleration of an axis */
-    float quiet_noise[RHO_TRIANGLE(2)]; /* the steady model's, of position and velocity, a unit of its density */
+    float quiet_noise[RHO_TRIANGLE(2)]; /* of position and velocity, for a steady density of 1 */
 };
 
 struct rho_imm {
@@ -73,7 +74,7 @@ struct rho_imm {
     float state[RHO_IMM_STATES]; /* of the manoeuvring model */
     float covariance[RHO_TRIANGLE(RHO_IMM_STATES)];
     float probability; /* of the manoeuvring model */
-    float calm;        /* share of steady targets that is calm */
+    float calm;        /* probability that the target is calm if it is steady */
     uint8_t is_coupled;
 };
 
@@ -96,9 +97,9 @@ struct rho_imm_match {
 
 /*
  * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.8 accel_max that is
- * remembered for 0.35 v_max / accel_max, 3 s at least; 0.47 v_max / accel_max in either model, 4 s at least, and calm for 300 s
- * (or that, where it is longer), after 60 s; quiet acceleration of 1 m^2/s^3, calm 0.01 (less below 2, 0.2 m/s^2); at the start, speed
- * sd v_max and acceleration sd accel_max.
+ * remembered for 0.35 v_max / accel_max, 3 s at least; 0.47 v_max / accel_max in either model, 4 s at least; calm targets after
+ * 60 s, which stay so for 300 s; quiet acceleration of 1 m^2/s^3, calm 0.01 (less where accel_max is below 2, 0.2 m/s^2); at the
+ * start, speed sd v_max and acceleration sd accel_max. Stack: 110 bytes.
  */
 void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps);
 
@@ -111,7 +112,10 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model);
  */
 void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s);
 
-/* Both models start from an estimate, each as likely as the other, calm as likely as agile; acceleration 0 with the model's sd. */
+/*
+ * Both models start from an estimate, each as likely as the other, calm as likely as agile where the model has calm targets;
+ * acceleration 0 with the model's sd.
+ */
 void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
                    const struct rho_kalman *estimate);
 

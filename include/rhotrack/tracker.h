@@ -70,7 +70,8 @@ struct rho_tracker_config {
      * faster by a tenth, and by two standard deviations */
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
-    /* best: mean time between manoeuvres, 0 .. 1e5; where that is less than they last, as long as these */
+    /* best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they last, as long as these. What
+     * keeps straight for a minute counts as calm (imm.h) whatever this is */
     float steady_s;
 #if RHO_SECTORS
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
@@ -227,7 +228,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 360 bytes.
+ * bytes cleared. Stack: 380 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);

@@ -33,14 +33,14 @@
 #define CALM_DENSITY 0.01f
 #define QUIET_SHARE 0.5f
 
-/* Calm targets keep straight for minutes: airliners, ships. An agile one that kept straight for a minute is one of them. */
+/* Calm targets keep straight for minutes: airliners, ships. An agile one that has kept straight for a minute is held for one. */
 #define CALM_S 300.0f
 #define SETTLE_S 60.0f
 
 /*
- * Odds of a manoeuvre below which none gives anything back to the steady model: there the little that is left of it adds the
- * square of its distance to the steady estimate's variance, scan by scan, and is what keeps straight targets from being known well.
- * On the odds, not on the probability, which never falls so low where scans follow each other fast.
+ * Odds of a manoeuvre below which it gives nothing back to the steady model: the little that is left of it would add the square of
+ * its distance to the steady variance, scan by scan, and keep straight targets from being known well. The bound is on the odds
+ * since the probability never falls far where scans follow each other fast.
  */
 #define ODDS_OVER 0.16f
 
@@ -159,12 +159,13 @@ static void double_step(struct rho_imm_step *step)
     step->dt_s *= 2.0f;
 }
 
+/* Probability that something has happened that takes mean_s on average. */
 static float passed(float dt_s, float mean_s)
 {
     return 1.0f - rho_exp(-dt_s / mean_s);
 }
 
-/* A Markov chain: what has begun and ended since, where none of both had. A calm target is never less steady than another. */
+/* The Markov chain: what has begun and ended since. A calm target is never less steady than an agile one. */
 static void open_changes(struct rho_imm_step *step, const struct rho_imm_model *model)
 {
     const float begins = step->dt_s / model->steady_s, ends = step->dt_s / model->maneuver_s;

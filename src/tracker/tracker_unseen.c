@@ -7,7 +7,8 @@
  *
  *      hit   hit   leaves coverage                           the radar is silent, and back
  *       |-----|-----x. . . . . . . . . . . x ends             |-----|-----x . . . . . . . . . . |  claims a plot: goes on
- *             '------ coast_scans_max -----'                                                    |  missed: tentative, three times: ends
+ *             '------ coast_scans_max -----'                                                    |  misses: tentative;
+ *                                                                                               |  the third one: ends
  *
  * Where a sensor that sees its place might still look, it has UNLOOKED times as long. How often sensors look at a place is
  * measured: from one scan that holds a fixed direction to the next one; and how often the track is hit, where that is longer: a
@@ -38,11 +39,11 @@
 /* Times that a track may coast, while a sensor that sees its place might still look. */
 #define UNLOOKED 4.0f
 
+/* Misses in a row that end a track that was not seen for so long. */
+#define OVERDUE_MISSES 3
+
 /* Plots of clutter in a gate that make its plot a doubtful one, of a target that was not seen for long. */
 #define DOUBTFUL_PLOTS 0.1f
-
-/* Misses in a row that end a target that was not seen for long: it may be there, and missed as ever. */
-#define LATE_MISSES 3
 
 /* A place that is not known to a quarter of what its sensor sees is none. */
 #define UNKNOWN_SHARE 1.0f
@@ -236,9 +237,8 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
-    return is_overdue &&
-           (track->misses_in_row >= LATE_MISSES ||
-            unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
+    return is_overdue && (track->misses_in_row >= OVERDUE_MISSES ||
+                          unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
 }
 
 /* ---- places ------------------------------------------------------------------------------------- */

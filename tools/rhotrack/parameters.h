@@ -56,7 +56,7 @@
     X(ACCEL_MAX_MPS2, "accel_max_mps2", "m/s^2", 30, 0, 1000, 0, 1,                                \
       "manoeuvres that maintenance follows")                                                       \
     X(STEADY_S, "steady_s", "s", 0, 0, 1e5, 0, 1,                                                  \
-      "mean time between manoeuvres; 0: as long as they last")                                     \
+      "mean time between manoeuvres of agile targets; 0: as long as they last")                    \
     X(INITIATORS, "initiators", "-", 0, 0, 1, 1, 1,                                                \
       "tracks start from the plots of each sensor by itself, or of all together")                  \
     X(PROCESS_NOISE_MPS2, "process_noise_mps2", "m/s^2", 0, 0, 1000, 0, 1,                         \
