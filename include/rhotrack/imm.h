@@ -107,7 +107,7 @@ void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, fl
 int rho_imm_model_is_usable(const struct rho_imm_model *model);
 
 /*
- * Fills *step for an interval, -1e5 .. 1e5 s. Backwards there is no noise and no change. Cost: about 500 instructions, and
+ * Fills *step for an interval, -1e5 .. 1e5 s. Backwards there is no noise and no change. Cost: about 750 instructions, and
  * 100 for each doubling beyond memory_s / 2. Stack: 160 bytes.
  */
 void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s);

@@ -291,12 +291,6 @@ struct exchange {
     struct mixing steady, manoeuvre;
 };
 
-/* A part's share of the whole: 0 where rounding left nothing in the whole, NaN where that is NaN. */
-static inline float share(float part, float whole)
-{
-    return whole <= 0.0f ? 0.0f : part / whole;
-}
-
 /* The probabilities of calm, agile and manoeuvring targets move on as a Markov chain; each filter takes what comes from the other. */
 static struct exchange change(struct rho_imm *imm, const struct rho_imm_step *step)
 {
@@ -307,9 +301,11 @@ static struct exchange change(struct rho_imm *imm, const struct rho_imm_step *st
     /* summed up, not taken off 1: nothing may cancel where a model is all but certain */
     const float calm_stays = calm * (1.0f - step->calm_begins);
     const float agile_stays = agile * (1.0f - step->begins);
-    const float is_steady = ends + calm_stays + agile_stays, is = begins + (was - ends);
-    const float steady = share(ends, is_steady), manoeuvre = share(begins, is);
-    imm->calm = share(calm_stays + agile_stays * step->settles, is_steady);
+    const float stay = calm_stays + agile_stays, is = begins + (was - ends);
+    /* rounding may leave nobody in a state: a share of nothing is 0 */
+    const float is_steady = ends + stay + FLT_MIN;
+    const float steady = ends / is_steady, manoeuvre = begins / (is + FLT_MIN);
+    imm->calm = (calm_stays + agile_stays * step->settles) / is_steady;
     imm->probability = is;
     return (struct exchange){
         .into_steady = steady,
@@ -378,14 +374,13 @@ static inline void move_manoeuvre(struct axis *at, struct accel *by,
     by->aa = raised(by->aa + step->noise[5]);
 }
 
-/* The same of the steady model's, with the noise of a density. */
-static inline void move_steady(struct axis *at, const struct rho_imm_step *step, float density)
+/* The same of the steady model's. */
+static inline void move_steady(struct axis *at, float dt, const float noise[RHO_TRIANGLE(2)])
 {
-    const float dt = step->dt_s;
     at->p += dt * at->v;
-    at->pp = raised(at->pp + dt * (2.0f * at->vp + dt * at->vv) + density * step->quiet_noise[0]);
-    at->vp += dt * at->vv + density * step->quiet_noise[1];
-    at->vv = raised(at->vv + density * step->quiet_noise[2]);
+    at->pp = raised(at->pp + dt * (2.0f * at->vp + dt * at->vv) + noise[0]);
+    at->vp += dt * at->vv + noise[1];
+    at->vv = raised(at->vv + noise[2]);
 }
 
 /* What is left must be finite, and the variances within the limit; they are above 0 where they are numbers. */
@@ -399,9 +394,10 @@ static inline int are_good(const struct checks *checks)
     return checks->good && checks->places >= -FLT_MAX && checks->places <= FLT_MAX;
 }
 
-/* An axis of both models by itself, mixed where there is an exchange. */
+/* An axis of both models by itself, mixed where there is an exchange; with the steady model's noise. */
 static void predict_axis(struct rho_imm *imm, int axis, const struct exchange *by,
-                         const struct rho_imm_step *step, struct checks *checks)
+                         const struct rho_imm_step *step, const float quiet_noise[RHO_TRIANGLE(2)],
+                         struct checks *checks)
 {
     struct rho_kalman *kalman = &imm->steady;
     if (!is_open(imm, axis)) {
@@ -414,8 +410,7 @@ static void predict_axis(struct rho_imm *imm, int axis, const struct exchange *b
     if (by) {
         mix_axis(&steady, &manoeuvre, &more, by);
     }
-    move_steady(&steady, step,
-                step->quiet_density + imm->calm * (step->calm_density - step->quiet_density));
+    move_steady(&steady, step->dt_s, quiet_noise);
     move_manoeuvre(&manoeuvre, &more, step);
     put_axis(kalman->state, kalman->covariance, axis, &steady);
     put_axis(imm->state, imm->covariance, axis, &manoeuvre);
@@ -500,8 +495,13 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
     if (imm->is_coupled) {
         move_pairs(imm, step);
     }
+    const float density =
+        step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);
+    const float quiet_noise[RHO_TRIANGLE(2)] = {density * step->quiet_noise[0],
+                                                density * step->quiet_noise[1],
+                                                density * step->quiet_noise[2]};
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        predict_axis(imm, axis, mixing, step, &checks);
+        predict_axis(imm, axis, mixing, step, quiet_noise, &checks);
     }
     return are_good(&checks) ? RHO_OK : RHO_ERROR_VALUE;
 }
