@@ -29,16 +29,16 @@ in_readme() {
     done
 }
 
-square() { # half a side in m: the area of a scenario
-    echo "--set area_x_min_m=-$1 --set area_x_max_m=$1 --set area_y_min_m=-$1 --set area_y_max_m=$1"
+# scene traffic with eight targets and 100 clutter plots a scan: half a side of its area in m, seconds between scans, scans
+record_traffic() { # name, half a side, interval, scans
+    local box="[-$2,$2,-$2,$2]"
+    record "$1" traffic plots --set targets.0.count=8 --set clutter.0.plots=100 --set radars.0.interval_s="$3" \
+        --set duration_s=$(($3 * $4)) --set area="$box" --set targets.0.box_m="$box" --set targets.0.keep_box_m="$box"
 }
 
 record_loads() {
-    # shellcheck disable=SC2046 # words on purpose
     record turning polar polar --set targets=8 --set num_scans=60 &&
-        record sparse traffic plots --set targets=8 --set clutter_per_scan=100 &&
-        record dense traffic plots --set targets=8 --set clutter_per_scan=100 --set interval_s=4 --set num_scans=60 $(square 30000) &&
-        record denser traffic plots --set targets=8 --set clutter_per_scan=100 --set interval_s=2 --set num_scans=30 $(square 10000)
+        record_traffic sparse 250000 10 120 && record_traffic dense 30000 4 60 && record_traffic denser 10000 2 30
 }
 
 check 'the records are made' record_loads
