@@ -164,8 +164,9 @@ struct rho_tracker {
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
-    /* tracks that were missed until they ended before they had 16 hits, and those that had, of the last half an hour */
+    /* tracks that misses ended before they had 16 hits, and those that had; of the last half an hour */
     float died_young, grown;
+    float wanted_per_hour; /* false tracks, by the last initiator */
     int64_t youth_us;
     uint32_t num_paces;
     struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */

@@ -71,10 +71,19 @@ static int is_sound_node(const struct rho_hypothesis *at)
            rho_is_within(at->imm.calm, 0.0f, 1.0f);
 }
 
+static int is_sound_step(const struct rho_imm_step *step)
+{
+    return rho_is_within(step->dt_s, -1e13f, 1e13f) && rho_is_within(step->begins, 0.0f, 1.0f) &&
+           rho_is_within(step->ends, 0.0f, 1.0f) && rho_is_within(step->calm_begins, 0.0f, 1.0f) &&
+           rho_is_within(step->settles, 0.0f, 1.0f) && rho_is_within(step->odds_over, 0.0f, 1.0f) &&
+           rho_is_within(step->quiet_density, 0.0f, 1e8f) &&
+           rho_is_within(step->calm_density, 0.0f, step->quiet_density);
+}
+
 int rho_hypotheses_is_sound(const struct rho_hypotheses *pool)
 {
     if (pool->magic != RHO_HYPOTHESES_MAGIC || !rho_imm_model_is_usable(&pool->model) ||
-        !rho_is_within(pool->step.dt_s, -1e13f, 1e13f) || !has_each_node_once(pool)) {
+        !is_sound_step(&pool->step) || !has_each_node_once(pool)) {
         return 0;
     }
     for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {

@@ -159,13 +159,16 @@ static void double_step(struct rho_imm_step *step)
     step->dt_s *= 2.0f;
 }
 
-/* Probability that something has happened that takes mean_s on average. */
+/* Probability that something which takes mean_s on average has happened. */
 static float passed(float dt_s, float mean_s)
 {
     return 1.0f - rho_exp(-dt_s / mean_s);
 }
 
-/* The Markov chain: what has begun and ended since. A calm target is never less steady than an agile one. */
+/*
+ * The Markov chain: what has begun and ended since. Of a calm target a manoeuvre counts that began, also where it has ended: after a
+ * long silence nothing else holds what it did. A calm target is never less steady than an agile one.
+ */
 static void open_changes(struct rho_imm_step *step, const struct rho_imm_model *model)
 {
     const float begins = step->dt_s / model->steady_s, ends = step->dt_s / model->maneuver_s;
@@ -180,6 +183,7 @@ static void open_changes(struct rho_imm_step *step, const struct rho_imm_model *
         const float moved = 1.0f - rho_exp(-(begins + ends));
         step->begins = begins / (begins + ends) * moved;
         step->ends = ends / (begins + ends) * moved;
+        step->calm_begins = step->calm_begins < step->begins ? step->calm_begins : step->begins;
     }
 }
 

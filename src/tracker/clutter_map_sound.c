@@ -38,7 +38,8 @@ int rho_clutter_map_is_sound(const struct rho_clutter_map *map)
     if (!rho_is_stored_time(map->time_us) ||
         !rho_is_within(map->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) ||
         !rho_is_within(map->rate_plots, 0.0f, 1e9f) ||
-        !rho_is_within(map->exact_plots, 0.0f, 1e9f) || !rho_are_finite(&map->scans_to_blocks, 1)) {
+        !rho_is_within(map->exact_plots, 0.0f, map->rate_plots) ||
+        !rho_are_finite(&map->scans_to_blocks, 1)) {
         return 0;
     }
     for (unsigned block = 0; block < 3; block++) {

@@ -483,7 +483,9 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
             }
         }
         if (is_seen && echo->weight > WEIGHT_MIN && !(by_target && !(v_min2 > 0.0f))) {
-            learn_rate(step, echo, &step->scan->plots[echo->plot]);
+            if (!by_target && !echo->is_target) {
+                learn_rate(step, echo, &step->scan->plots[echo->plot]);
+            }
             rho_clutter_map_take(echo, step->sensor, &step->scan->plots[echo->plot]);
             echo->is_target |= (uint8_t)by_target;
             taken[echo->plot / 32] |= 1u << echo->plot % 32;

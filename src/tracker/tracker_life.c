@@ -28,7 +28,6 @@
 void rho_tracker_end_track(struct step *step, struct rho_track *track)
 {
     struct rho_report *report = step->report;
-    rho_tracker_note_death(step, track);
     if (track->is_believed) {
         report->ended[report->num_ended++] = track->track_id;
     }
@@ -86,6 +85,7 @@ static void judge(struct step *step, struct rho_track *track, const struct rho_t
     own.doubt_mnat = rho_tracker_is_too_young(step, track) ? 0 : limits->doubt_mnat;
     rho_tracker_note_growth(step, track);
     if (rho_track_judge(track, &own) == RHO_TRACK_FREE) {
+        rho_tracker_note_death(step, track);
         rho_tracker_end_track(step, track);
     } else if (track->is_believed != was_believed) {
         step->tracker->counters.tracks_confirmed =
@@ -136,16 +136,20 @@ void rho_tracker_age(struct step *step)
         if (track->status == RHO_TRACK_FREE) {
             continue;
         }
-        if (step->scan && track->plot < 0 && rho_tracker_is_reached(step, i) &&
-            rho_tracker_scan_looked_at(step, track)) {
+        /* a frame has counted its own */
+        const int is_missed =
+            track->plot < 0 &&
+            (step->scan ? rho_tracker_is_reached(step, i) && rho_tracker_scan_looked_at(step, track)
+                        : track->misses_in_row > 0);
+        if (step->scan && is_missed) {
             /* what a miss says of a track of hypotheses is in its score already */
             rho_track_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                                       ? 0
                                       : rho_tracker_mnat(-step->log_miss));
         }
         rho_tracker_note_sight(step, track);
-        const int is_unseen =
-            rho_tracker_is_long_unseen(step, track, &limits) || rho_tracker_is_nowhere(step, track);
+        const int is_unseen = rho_tracker_is_long_unseen(step, track, is_missed, &limits) ||
+                              rho_tracker_is_nowhere(step, track);
         const int is_too_fast = is_too_fast_for_long(step, track);
         judge(step, track, &limits);
         if (track->status != RHO_TRACK_FREE &&

@@ -44,8 +44,8 @@ struct step {
     struct rho_track_model model;
     float log_pd;
     float log_miss; /* ln(1 - pd) */
-    float asked_nat,
-        miss_nat; /* of a young track: evidence to be believed, 0: none is asked; what a miss takes from it */
+    float asked_nat; /* evidence that a young track needs to be believed; 0: none is asked */
+    float miss_nat;  /* what a miss takes from it */
     /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; the range rates that a target may have, m/s */
     float log_height, log_rates;
 #if RHO_AMBIGUOUS_RANGE_RATES
@@ -218,7 +218,7 @@ int rho_tracker_is_reached(const struct step *step, unsigned row);
 void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id);
 void rho_tracker_note_pace(struct rho_tracker *tracker, const struct rho_sensor *sensor,
                            int64_t time_us, float sector_from_rad, float sector_to_rad);
-int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
+int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track, int is_missed,
                                const struct rho_track_limits *limits);
 /* The track's place is not known to a part of what its sensor sees. */
 int rho_tracker_is_nowhere(const struct step *step, const struct rho_track *track);

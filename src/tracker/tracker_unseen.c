@@ -39,7 +39,7 @@
 /* Times that a track may coast, while a sensor that sees its place might still look. */
 #define UNLOOKED 4.0f
 
-/* Misses in a row that end a track that was not seen for so long. */
+/* Misses in a row, those before the silence too, that end a track that was not seen for so long. */
 #define OVERDUE_MISSES 3
 
 /* Plots of clutter in a gate that make its plot a doubtful one, of a target that was not seen for long. */
@@ -211,7 +211,7 @@ static void doubt(struct rho_track *track, const struct rho_track_limits *limits
     }
 }
 
-int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
+int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track, int is_missed,
                                const struct rho_track_limits *limits)
 {
     if (step->is_late) {
@@ -226,8 +226,7 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
     const int is_overdue =
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
     if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
-        (track->plot < 0 ? track->misses_in_row > 0
-                         : rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
+        (track->plot < 0 ? is_missed : rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
         doubt(track, limits);
     }
     if (track->plot >= 0) {

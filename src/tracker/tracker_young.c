@@ -12,10 +12,11 @@
  * with p what grown tracks are seen. Three hits are 3.6. Where D tracks died young and G grew up, of the last half an hour, a
  * track is believed from
  *
- *      e = 3.6 + ln(20 (D - sqrt(D)) / (G + 2))
+ *      e = 3.6 + ln(20 (D - W - sqrt(D) / 2) / (G + 2))
  *
- * on: one in twenty of those that are believed will be none (Wald). sqrt(D) of them may have been chance; where tracks hardly ever
- * die young, nothing is asked. Until then a track is tentative, as one in doubt is.
+ * on, or from 16 hits on: one in twenty of those that are believed will be none (Wald). W of them are those that false_tracks_per_hour
+ * allows for, and half a standard deviation may have been chance; where no more tracks die young, nothing is asked. Until then a track is tentative, as one in doubt is. A track has died young whose score
+ * was one that confirms, and that misses have ended before 16 hits with e below 0.
  */
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
@@ -23,18 +24,22 @@
 /* A track of so many hits has grown up. */
 #define GROWN_HITS 16
 
-/* What is no target is seen so often as targets, times. */
+/* Things that are no targets are seen so many times as often as targets are. */
 #define SELDOM 0.3f
 #define HIT_NAT 1.2039728f /* ln(1 / SELDOM) */
 #define START_NAT (3.0f * HIT_NAT)
 
-/* So many of those believed to one that is not. */
+/* Of so many tracks that are believed one may be of no target. */
 #define ODDS 20.0f
 #define GROWN_PRIOR 2.0f
 
+/* So many standard deviations of the count of deaths may be chance. */
+#define CHANCE_SIGMAS 0.5f
+
+/* Counts fade to 1/e in so long. */
 #define MEMORY_S 1600.0f
 
-/* What grown tracks are seen: counts beside theirs. */
+/* How often grown tracks are seen: hits and misses that count beside theirs. */
 #define PRIOR_HITS 9.0f
 #define PRIOR_MISSES 1.0f
 
@@ -49,7 +54,7 @@ static float miss_nat(const struct rho_tracker *tracker)
     float hits = PRIOR_HITS, misses = PRIOR_MISSES;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->hits >= GROWN_HITS) {
+        if (track->hits >= GROWN_HITS && track->hits < UINT16_MAX) { /* counts end there */
             hits += (float)track->hits;
             misses += (float)track->misses;
         }
@@ -60,22 +65,33 @@ static float miss_nat(const struct rho_tracker *tracker)
 void rho_tracker_weigh_youth(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    if (step->time_us > tracker->youth_us) {
+    if (!(tracker->died_young + tracker->grown > 0.0f)) {
+        tracker->youth_us = step->time_us; /* nothing to forget yet */
+    } else if (step->time_us > tracker->youth_us) {
         const float kept =
             rho_exp(-rho_seconds_between(tracker->youth_us, step->time_us) / MEMORY_S);
         tracker->died_young *= kept;
         tracker->grown *= kept;
         tracker->youth_us = step->time_us;
     }
-    const float more_than_chance = tracker->died_young - rho_sqrt(tracker->died_young);
+    if (step->initiator) {
+        tracker->wanted_per_hour = step->initiator->config.false_tracks_per_hour;
+    }
+    const float sensors = tracker->num_paces > 1 ? (float)tracker->num_paces : 1.0f;
+    const float wanted = tracker->wanted_per_hour * sensors * (MEMORY_S / 3600.0f);
+    const float more_than_chance =
+        tracker->died_young - wanted - CHANCE_SIGMAS * rho_sqrt(tracker->died_young);
     const float odds = ODDS * more_than_chance / (tracker->grown + GROWN_PRIOR);
     step->miss_nat = miss_nat(tracker);
-    step->asked_nat = odds > 1.0f ? START_NAT + rho_log(odds) : 0.0f;
+    /* where the threshold is set by hand, nobody has said how many are wanted */
+    step->asked_nat =
+        odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
 }
 
 int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track)
 {
-    return step->asked_nat > 0.0f && evidence(step, track) < step->asked_nat;
+    return step->asked_nat > 0.0f && track->hits < GROWN_HITS &&
+           evidence(step, track) < step->asked_nat;
 }
 
 void rho_tracker_note_growth(struct step *step, const struct rho_track *track)

@@ -395,7 +395,7 @@ if [ -n "$python" ] && [ -x /usr/bin/lcm-gen ]; then
     /usr/bin/lcm-gen -p --ppath . "$types"/*.lcm >/dev/null
     run convert crossing/plots.csv one.lcm
     "$python" others.py read one.lcm >read.csv
-    check "Python's EventLog reads our log" cmp crossing/plots.csv read.csv
+    check "Python's EventLog reads our log" cmp <(cut -d, -f1-5 crossing/plots.csv | grep -v ',,,$') read.csv # without target_id, and rows of scans alone
     "$python" others.py write python.lcm
     run convert python.lcm out.csv
     check "we read a log by Python's EventLog" says 0 'rhotrack: python.lcm: 3 messages on other channels left out'

@@ -331,7 +331,7 @@ static inline int reference_returns(const struct rho_imm_model *model, double pr
 
 /*
  * Probabilities of a change by the state before and after. Agile targets and manoeuvres alternate as a chain of two in continuous
- * time; calm ones leave by their own rate; an agile target that stays steady settles.
+ * time; calm ones leave by their own rate, no sooner than agile ones; an agile target that stays steady settles.
  */
 static inline void reference_chain(const struct rho_imm_model *model, double dt, int returns,
                                    double change[3][3])
@@ -341,7 +341,8 @@ static inline void reference_chain(const struct rho_imm_model *model, double dt,
     const int has_calm = model->calm_s > 0.0f;
     const double settles = has_calm ? -expm1(-dt / model->settle_s) : 0.0;
     const double calm_begins =
-        has_calm ? -expm1(-dt / fmax(model->calm_s, model->steady_s)) : begins * moved;
+        has_calm ? fmin(-expm1(-dt / fmax(model->calm_s, model->steady_s)), begins * moved)
+                 : begins * moved;
     const double ended = returns ? ends * moved : 0.0, stays = 1.0 - begins * moved;
     const double rows[3][3] = {{1.0 - calm_begins, 0.0, calm_begins},
                                {stays * settles, stays * (1.0 - settles), begins * moved},

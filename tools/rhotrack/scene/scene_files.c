@@ -307,8 +307,11 @@ static void write_settings(const struct scene *scene, const char *name, const ch
     if (scene->num_radars > 0 && scene->sensors[0].is_cartesian) {
         fprintf(output.file, "sigma_m = %.9g\npd = %.9g\n", scene->sensors[0].told.sigma_m,
                 scene->sensors[0].told.pd);
-        if (measures_velocity(scene)) {
-            fprintf(output.file, "sigma_mps = %.9g\n", scene->sensors[0].told.sigma_mps);
+        for (size_t i = 0; i < scene->num_radars; i++) {
+            if (scene->sensors[i].sigma_mps > 0.0) {
+                fprintf(output.file, "sigma_mps = %.9g\n", scene->sensors[i].told.sigma_mps);
+                break;
+            }
         }
     }
     if (scene->has_area) {

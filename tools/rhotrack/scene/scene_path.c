@@ -694,12 +694,14 @@ static void read_path(struct json_object *object, struct target_item *item,
 
     item->from_s = json_number(object, "from_s", -1e6, 1e6, 0);
     item->until_s = json_number(object, "until_s", -1e6, 1e6, INFINITY);
-    if (item->until_s <= item->from_s) {
-        json_fail_key(object, "until_s", "is not after from_s");
-    }
     read_shake(object, item);
     if (json_has(object, "points")) {
         read_points(object, item);
+    }
+    if (item->until_s <= item->from_s) {
+        json_fail_key(object, "until_s", "is not after from_s");
+    }
+    if (item->num_points > 0) {
         return;
     }
     if (json_has(object, "parent")) {

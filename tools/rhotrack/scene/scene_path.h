@@ -42,7 +42,6 @@ void path_free(struct scene_path *path);
 struct path_step {
     double for_s; /* 0: until the speed or the turn is there */
     double along_mps2, across_mps2, turn_radps;
-    bool has_accel;
     double accel_mps2[3]; /* x, y, z */
     bool has_speed;
     double to_speed_mps;

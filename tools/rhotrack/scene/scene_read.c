@@ -129,7 +129,9 @@ static void read_told(struct json_object *object, struct scene_sensor *sensor)
         told->sigma_rad = json_number(&below, "sigma_rad", 1e-6, 0.5, told->sigma_rad);
     } else if (sensor->is_cartesian) {
         told->sigma_m = json_number(&below, "sigma_m", 1e-3, 1e5, told->sigma_m);
-        told->sigma_mps = json_number(&below, "sigma_mps", 1e-3, 1e5, told->sigma_mps);
+        if (sensor->sigma_mps > 0.0) {
+            told->sigma_mps = json_number(&below, "sigma_mps", 1e-3, 1e5, told->sigma_mps);
+        }
     } else {
         told->sigma_range_m = json_number(&below, "sigma_range_m", 1e-3, 1e5, told->sigma_range_m);
         told->sigma_azimuth_rad =
