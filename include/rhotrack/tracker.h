@@ -21,8 +21,9 @@
  * rho_tracker_look_of gives a sensor's); the noise of its plots counts for more where it was described.
  * What a sensor was said to see (rho_tracker_set_sensor) bounds its plots, its misses, and how long tracks live without either:
  * one that no sensor can see ends after coast_scans_max scans' time, one that a sensor sees but does not look at after four times
- * that, or at its first miss; seen again after so long, amid clutter, it is tentative until it is seen once more. A track whose
- * place is known to no better than its sensor's range ends, too. Time is that of the scans: a silent sensor's tracks end at
+ * that. Looked at again after so long, and missed, or seen amid clutter, it is tentative until it is seen once more; at its third miss
+ * in a row it ends. Where more confirmed tracks die young than false_tracks_per_hour allows for, a new one stays tentative until it is
+ * seen as often as targets are, or 16 times. A track whose place is known to no better than its sensor's range ends, too. Time is that of the scans: a silent sensor's tracks end at
  * the others' steps, or at its own next one.
  * Who steps a scan twice has it counted twice, but for the newest one of a sensor: rho_feed tells them apart.
  * Several radars: each scan is stepped by itself, in the order of time, with the initiator of its sensor or a common one.
@@ -71,7 +72,7 @@ struct rho_tracker_config {
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /* best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they last, as long as these. What
-     * keeps straight for a minute counts as calm (imm.h) whatever this is */
+     * keeps straight becomes calm in a minute on average, and keeps straight for max(300 s, steady_s) then (imm.h) */
     float steady_s;
 #if RHO_SECTORS
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */

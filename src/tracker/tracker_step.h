@@ -43,7 +43,7 @@ struct step {
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
     struct rho_track_model model;
     float log_pd;
-    float log_miss; /* ln(1 - pd) */
+    float log_miss;  /* ln(1 - pd) */
     float asked_nat; /* evidence that a young track needs to be believed; 0: none is asked */
     float miss_nat;  /* what a miss takes from it */
     /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; the range rates that a target may have, m/s */

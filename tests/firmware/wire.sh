@@ -20,7 +20,7 @@ check 'a record is made' record popup popup plots --set radars.0.sigma_mps=1
 scans=161
 stack_most=4096
 speed=16
-replay_all_tracks() { "$images/replay-radar" popup.lcm expected.lcm radar_range_m=150000; } # as main.c knows it
+replay_all_tracks() { "$images/replay-radar" popup.lcm expected.lcm radars=1; }
 check 'the replay gives the tracks expected' replay_all_tracks
 
 # Takes messages with the Python package until it is told to end: how many of each channel, and the last list's scan.

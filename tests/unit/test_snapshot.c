@@ -681,6 +681,12 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     NONSENSE(0, rho_tracker, hypotheses.spare[0], uint16_t, chain.tracker.hypotheses.spare[1]);
     NONSENSE(0, rho_tracker, hypotheses.num_of[0], uint8_t, 200);
     NONSENSE(0, rho_tracker, hypotheses.model.memory_s, float, nan);
+    NONSENSE(0, rho_tracker, hypotheses.step.calm_begins, float, 2.0f);
+    NONSENSE(0, rho_tracker, hypotheses.step.quiet_density, float, nan);
+    NONSENSE(0, rho_tracker, died_young, float, nan);
+    NONSENSE(0, rho_tracker, grown, float, -1.0f);
+    NONSENSE(0, rho_tracker, wanted_per_hour, float, nan);
+    NONSENSE(0, rho_tracker, youth_us, int64_t, INT64_MAX);
 #if RHO_MAX_ECHOES > 0
     unsigned echo = 0;
     while (chain.tracker.clutter_map.echoes[echo].hits == 0) {
@@ -692,6 +698,8 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     assert_nonsense(0, in_tracker + offsetof(struct rho_echo, region), &region, 1);
     assert_nonsense(0, in_tracker + offsetof(struct rho_echo, along), &nan, sizeof nan);
     NONSENSE(0, rho_tracker, clutter_map.tables[0][1].looks[0][0], float, nan);
+    NONSENSE(0, rho_tracker, clutter_map.exact_plots, float,
+             chain.tracker.clutter_map.rate_plots + 1.0f);
 #endif
     NONSENSE(1, rho_initiator, magic, uint32_t, 0);
     NONSENSE(1, rho_initiator, config.scans, uint16_t, RHO_MAX_SCANS + 1);

@@ -1,25 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The radar node: hears scans over LCM, publishes tracks. Where to start from for a node of your own: the radars that
- * it knows are in the table below, the tracker's settings in start(), the hardware in board/.
+ * it knows are in radars.h, the tracker's settings in start(), the hardware in board/.
  */
 #include "board/board.h"
 #include "node.h"
+#include "radars.h"
 #include "rhotrack/udpm.h"
 
 #define REPORT_INTERVAL_US 1000000
-
-/* One radar at the origin. Sensors that are not in the table are taken at their word, with the feed's defaults. */
-static const struct rho_feed_sensor radars[] = {
-    {.sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 150000.0f},
-     .noise = {.sigma_m = 20.0f,
-               .sigma_mps = 1.0f,
-               .sigma_range_m = 15.0f,
-               .sigma_azimuth_rad = 0.003f,
-               .sigma_elevation_rad = 0.003f,
-               .sigma_range_rate_mps = 1.0f,
-               .sigma_rad = 0.002f}},
-};
 
 static void send_datagram(void *context, const uint8_t *datagram, size_t size)
 {

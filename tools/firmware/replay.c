@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * replay: the node on a record instead of a network, on any machine: `replay IN.lcm OUT.lcm [NAME=VALUE ...]`. Names are
- * gate (best, hough, nearest; the latter two with input estimation), v_min_mps, v_max_mps, accel_mps2, radar_range_m (the radar
- * that main.c knows, and its reach);
- * whole numbers.
+ * gate (best, hough, nearest; the latter two with input estimation), v_min_mps, v_max_mps, accel_mps2, in whole numbers; radars=1: it
+ * knows those of radars.h.
  *
  * IN.lcm is an LCM log of scans; each message goes into the node as the datagram that it would be, at the time at which
  * it was recorded. OUT.lcm holds the node's own datagrams as messages, and beside them on the channel FATES what the
@@ -14,6 +13,7 @@
 
 #include "board/files.h"
 #include "node.h"
+#include "radars.h"
 #include "rhotrack/udpm.h"
 
 #define LOG_SYNC 0xEDA1DA01u
@@ -143,24 +143,6 @@ static int gate_of(const char *name)
     return gate;
 }
 
-/* Radar 1 at the origin, as main.c knows it, that sees so far. */
-static void know_radar(struct node_config *config, float range_max_m)
-{
-    static struct rho_feed_sensor radar;
-    radar = (struct rho_feed_sensor){
-        .sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = range_max_m},
-        .noise = {.sigma_m = 20.0f,
-                  .sigma_mps = 1.0f,
-                  .sigma_range_m = 15.0f,
-                  .sigma_azimuth_rad = 0.003f,
-                  .sigma_elevation_rad = 0.003f,
-                  .sigma_range_rate_mps = 1.0f,
-                  .sigma_rad = 0.002f},
-    };
-    config->sensors = &radar;
-    config->num_sensors = 1;
-}
-
 /* Returns 0 where there is no such setting. */
 static int set(struct node_config *config, const char *argument)
 {
@@ -177,8 +159,9 @@ static int set(struct node_config *config, const char *argument)
         config->tracker.v_max_mps = config->initiator.v_max_mps;
     } else if (length == 10 && strncmp(argument, "accel_mps2", length) == 0) {
         config->tracker.accel_max_mps2 = whole_number(value + 1);
-    } else if (length == 13 && strncmp(argument, "radar_range_m", length) == 0) {
-        know_radar(config, whole_number(value + 1));
+    } else if (length == 6 && strncmp(argument, "radars", length) == 0) {
+        config->sensors = radars;
+        config->num_sensors = value[1] == '1' ? sizeof radars / sizeof *radars : 0;
     } else {
         return 0;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_passive: a search of bearings, and the push of a frame, over several batches of scenario passive-clutter; and of a
+ * bench_passive: a search of bearings, and the push of a frame, over several batches of scene passive-clutter; and of a
  * batch as full as the capacities allow, bearings anywhere: sharp ones, and the least certain that there may be, near to
  * which everything is.
  */
