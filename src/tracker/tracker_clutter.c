@@ -21,8 +21,9 @@
 
 /* Hits of a track from which it is a target's, if it is not too slow. */
 #define TARGET_HITS 12
-/* A track has moved where it is so many standard deviations, of both places, from where it started. */
-#define MOVED_SIGMAS 4.0f
+/* A track has moved where it is so many standard deviations, of both places, from where it started; where its first plots held one of
+ * clutter, five may be chance. */
+#define MOVED_SIGMAS 8.0f
 /* Gate of an echo: squared distance, in variances; e^-(this / 2) of the density is left out. */
 #define GATE_CHI2 18.0f
 #define GATE_SIGMAS 4.2426407f
