@@ -48,7 +48,6 @@
 #define STROBE_RANGES_MIN 6u
 /* Plots without clutter near them: the least density that is believed, plots a m^2. */
 #define DENSITY_MIN 1e-12f
-
 /* ---- look ------------------------------------------------------------------------------------- */
 
 static float range_max_of(const struct step *step)
@@ -62,15 +61,30 @@ static float range_max_of(const struct step *step)
     return 0.5f * rho_sqrt(width_m * width_m + height_m * height_m);
 }
 
+float rho_tracker_believed_density(const struct step *step, const struct rho_plot *plot)
+{
+    const float density = rho_tracker_usual_density(step, plot->x_m, plot->y_m);
+    return density > DENSITY_MIN ? density : DENSITY_MIN;
+}
+
 /* What a plot's range rate says for the echo, over what it says for clutter that is spread over all rates: if it is just the echo's
  * speed, as a reflector's; and if not. */
 struct rate_ratios {
     float exact, other;
 };
 
-static float normal_density(float off, float variance)
+/* Density of a range rate that is normal, over that of clutter, which is spread over all rates. */
+static float over_all_rates(const struct step *step, float off_mps, float variance)
 {
-    return rho_exp(-0.5f * off * off / variance) * rho_inverse_sqrt(RHO_TWO_PI * variance);
+    return rho_exp(rho_tracker_log_range_rates(step)) *
+           (rho_exp(-0.5f * off_mps * off_mps / variance) *
+            rho_inverse_sqrt(RHO_TWO_PI * variance));
+}
+
+float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance)
+{
+    return 1.0f - RATE_SHARE +
+           RATE_SHARE * over_all_rates(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
 }
 
 static struct rate_ratios rate_ratios(const struct step *step, const struct rho_echo *echo,
@@ -79,12 +93,8 @@ static struct rate_ratios rate_ratios(const struct step *step, const struct rho_
     const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
-    const float rates_mps = rho_exp(rho_tracker_log_range_rates(step));
-    return (struct rate_ratios){
-        rates_mps * normal_density(off_mps, variance),
-        1.0f - RATE_SHARE +
-            RATE_SHARE * rates_mps *
-                normal_density(off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS)};
+    return (struct rate_ratios){over_all_rates(step, off_mps, variance),
+                                rho_tracker_rate_ratio(step, off_mps, variance)};
 }
 
 /* The share of echoes' plots whose rate is just their speed, as learned. */
@@ -299,8 +309,7 @@ static void weigh(struct step *step)
             continue;
         }
         const struct rho_plot *plot = &step->scan->plots[i];
-        float density = rho_tracker_usual_density(step, plot->x_m, plot->y_m);
-        density = density > DENSITY_MIN ? density : DENSITY_MIN;
+        const float density = rho_tracker_believed_density(step, plot);
         if (map->best_per_m2[i] > 0.0f) {
             struct rho_echo *echo = &map->echoes[map->best_echo[i]];
             const float weight = map->best_per_m2[i] / (density + map->denser[i]);

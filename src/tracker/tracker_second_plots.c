@@ -30,12 +30,6 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
 /* A track teaches from so many hits: another target that flies beside it has its own track then. */
 #define TEACHER_HITS 8
 
-/* Range rates of second plots: half of them are the first's, to so many m/s beside the noise; half are any. */
-#define RATE_SIGMA_MPS 1.0f
-#define RATE_SHARE 0.5f
-/* Plots without clutter near them: the least density that is believed, plots a m^2. */
-#define DENSITY_MIN 1e-12f
-
 /* A track that has been seen more often is not taken for another's twin. */
 #define TWIN_HITS_MAX 12
 /* ln of the odds of one target against two: where the younger track ends, the least that is remembered, and what one scan may tell
@@ -141,27 +135,16 @@ static float density_at(const struct rho_second_plots *table, struct offset offs
            (first->sigma_range_m * first->sigma_cross_m);
 }
 
-/* What range rates say for two plots of one target: their density over that of clutter, which is spread over all rates. */
+/* What range rates say for two plots of one target. */
 static float range_rate_ratio(const struct step *step, uint32_t measures,
                               const struct rho_plot *first, const struct rho_plot *second)
 {
     if (!(measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    const float variance = first->sigma_range_rate_mps * first->sigma_range_rate_mps +
-                           second->sigma_range_rate_mps * second->sigma_range_rate_mps +
-                           RATE_SIGMA_MPS * RATE_SIGMA_MPS;
-    const float off_mps = second->range_rate_mps - first->range_rate_mps;
-    return 1.0f - RATE_SHARE +
-           RATE_SHARE *
-               rho_exp(rho_tracker_log_range_rates(step) - 0.5f * off_mps * off_mps / variance) *
-               rho_inverse_sqrt(RHO_TWO_PI * variance);
-}
-
-static float clutter_at(const struct step *step, const struct rho_plot *plot)
-{
-    const float density = rho_tracker_usual_density(step, plot->x_m, plot->y_m);
-    return density > DENSITY_MIN ? density : DENSITY_MIN;
+    return rho_tracker_rate_ratio(step, second->range_rate_mps - first->range_rate_mps,
+                                  first->sigma_range_rate_mps * first->sigma_range_rate_mps +
+                                      second->sigma_range_rate_mps * second->sigma_range_rate_mps);
 }
 
 /* The code of ln(e^repeats + ratio). */
@@ -232,7 +215,7 @@ static float both_nat(const struct step *step, const struct rho_second_plots *ta
     if (is_near(offset)) {
         ratio = rate_of(table, elder) * density_at(table, offset, first) *
                 range_rate_ratio(step, step->scan->measures, first, second) /
-                clutter_at(step, second) *
+                rho_tracker_believed_density(step, second) *
                 rho_exp(-rho_tracker_repeats_nat(step, (uint32_t)track->plot));
     }
     return rho_log(1.0f + ratio) + rho_log(elder_ways / ways) - gain_nat;
@@ -342,7 +325,7 @@ static float meet(struct step *step, const struct rho_second_plots *table, unsig
     }
     const float ratio = rate_of(table, track) * density_at(table, offset, first) *
                         range_rate_ratio(step, step->scan->measures, first, second) /
-                        clutter_at(step, second);
+                        rho_tracker_believed_density(step, second);
     float *denser = &tracker->clutter_map.denser[other];
     const float known = rho_exp(*denser);
     if (step->report->fates[other] == RHO_FATE_HELD) {
@@ -459,7 +442,7 @@ static void look_near_in(struct step *step, const struct rho_second_plots *table
         if (is_near(offset)) {
             const float ratio = rate_of(table, 0) * density_at(table, offset, &first) *
                                 range_rate_ratio(step, scan->measures, &first, &plot) /
-                                clutter_at(step, &plot);
+                                rho_tracker_believed_density(step, &plot);
             scan->repeats[i] = repeats_with(scan->repeats[i], ratio);
         }
     }

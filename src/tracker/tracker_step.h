@@ -277,6 +277,11 @@ void rho_tracker_keep_repeats(struct step *step);
 void rho_tracker_learn_clutter(struct step *step);
 /* ln of how much denser clutter is at this plot than near it. */
 float rho_tracker_repeats_nat(const struct step *step, uint32_t row);
+/* Density of clutter where the plot is, but never 0: a plot without clutter near it. */
+float rho_tracker_believed_density(const struct step *step, const struct rho_plot *plot);
+/* What a range rate says that is off from the one expected, over what it says for clutter, which is spread over all rates: half of
+ * such rates are as expected, with 1 m/s beside the variance, and half are any. */
+float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance);
 /* Where a track starts. */
 void rho_tracker_note_place(struct rho_track *track);
 /* How far echoes explained the candidate's plots. */
