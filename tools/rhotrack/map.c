@@ -31,6 +31,25 @@ void map_set_extent(struct map *map, double side_m)
     fprintf(map->script, "set xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n", unit, unit);
 }
 
+struct map_box map_box_empty(void)
+{
+    return (struct map_box){INFINITY, -INFINITY, INFINITY, -INFINITY};
+}
+
+void map_box_include(struct map_box *box, double x_m, double y_m)
+{
+    box->x_min_m = fmin(box->x_min_m, x_m);
+    box->x_max_m = fmax(box->x_max_m, x_m);
+    box->y_min_m = fmin(box->y_min_m, y_m);
+    box->y_max_m = fmax(box->y_max_m, y_m);
+}
+
+void map_box_widen(struct map_box *box, double margin_m)
+{
+    map_box_include(box, box->x_min_m - margin_m, box->y_min_m - margin_m);
+    map_box_include(box, box->x_max_m + margin_m, box->y_max_m + margin_m);
+}
+
 struct map map_start(FILE *script, const struct plot_data *data)
 {
     struct map map = {script, 1.0};

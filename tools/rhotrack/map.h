@@ -9,6 +9,16 @@
 
 #define MAP_KILOMETRES_FROM_M 4000.0
 
+/* What must be seen, in metres. */
+struct map_box {
+    double x_min_m, x_max_m, y_min_m, y_max_m;
+};
+
+/* A box without any place; with one more; wider by a margin on all sides. */
+struct map_box map_box_empty(void);
+void map_box_include(struct map_box *box, double x_m, double y_m);
+void map_box_widen(struct map_box *box, double margin_m);
+
 struct map {
     FILE *script;  /* gnuplot commands */
     double unit_m; /* 1 or 1000 */

@@ -10,39 +10,26 @@
 
 /* ---- what is seen ----------------------------------------------------------------------------- */
 
-struct frame {
-    double x_min_m, x_max_m, y_min_m, y_max_m;
-};
-
-static void include(struct frame *frame, double x_m, double y_m)
-{
-    frame->x_min_m = fmin(frame->x_min_m, x_m);
-    frame->x_max_m = fmax(frame->x_max_m, x_m);
-    frame->y_min_m = fmin(frame->y_min_m, y_m);
-    frame->y_max_m = fmax(frame->y_max_m, y_m);
-}
-
-static void include_points(struct frame *frame, const struct plot_point *list, size_t count)
+static void include_points(struct map_box *frame, const struct plot_point *list, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        include(frame, list[i].x_m, list[i].y_m);
+        map_box_include(frame, list[i].x_m, list[i].y_m);
     }
 }
 
-static struct frame frame_of(const struct plot_data *data)
+static struct map_box frame_of(const struct plot_data *data)
 {
-    struct frame frame = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    struct map_box frame = map_box_empty();
     include_points(&frame, data->bearings.sensors, data->bearings.num_sensors);
     include_points(&frame, data->plots.list, data->plots.count);
     include_points(&frame, data->truth.list, data->truth.count);
     if (data->plots.count + data->truth.count == 0) {
         for (size_t i = 0; i < data->bearings.count; i++) {
-            include(&frame, data->bearings.list[i].end_x_m, data->bearings.list[i].end_y_m);
+            map_box_include(&frame, data->bearings.list[i].end_x_m, data->bearings.list[i].end_y_m);
         }
     }
     double margin_m = MARGIN * fmax(frame.x_max_m - frame.x_min_m, frame.y_max_m - frame.y_min_m);
-    include(&frame, frame.x_min_m - margin_m, frame.y_min_m - margin_m);
-    include(&frame, frame.x_max_m + margin_m, frame.y_max_m + margin_m);
+    map_box_widen(&frame, margin_m);
     return frame;
 }
 
@@ -124,7 +111,7 @@ void plot_bearings(struct picture *picture, const struct plot_data *data)
 {
     const struct plot_rays *rays = &data->bearings;
     struct map map = map_start(picture->script, data);
-    struct frame frame = frame_of(data);
+    struct map_box frame = frame_of(data);
     for (size_t i = 0; i < rays->num_sensors; i++) {
         put_rays(&map, rays, i);
     }

@@ -61,41 +61,28 @@ static struct place *find_sensors(const struct clutter_echo *echoes, size_t coun
 
 /* ---- what is seen ----------------------------------------------------------------------------- */
 
-struct box {
-    double x_min_m, x_max_m, y_min_m, y_max_m;
-};
-
-static void include(struct box *box, double x_m, double y_m)
+static struct map_box box_of(const struct clutter_echo *echoes, size_t count,
+                             const struct place *sensors, size_t num_sensors,
+                             const struct plot_points *plots)
 {
-    box->x_min_m = fmin(box->x_min_m, x_m);
-    box->x_max_m = fmax(box->x_max_m, x_m);
-    box->y_min_m = fmin(box->y_min_m, y_m);
-    box->y_max_m = fmax(box->y_max_m, y_m);
-}
-
-static struct box box_of(const struct clutter_echo *echoes, size_t count,
-                         const struct place *sensors, size_t num_sensors,
-                         const struct plot_points *plots)
-{
-    struct box box = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    struct map_box box = map_box_empty();
     double margin_m;
 
     for (size_t i = 0; i < count; i++) {
-        include(&box, (double)echoes[i].x_m, (double)echoes[i].y_m);
+        map_box_include(&box, (double)echoes[i].x_m, (double)echoes[i].y_m);
     }
     for (size_t i = 0; i < num_sensors; i++) {
-        include(&box, sensors[i].x_m, sensors[i].y_m);
+        map_box_include(&box, sensors[i].x_m, sensors[i].y_m);
     }
     for (size_t i = 0; i < plots->count; i++) {
-        include(&box, plots->list[i].x_m, plots->list[i].y_m);
+        map_box_include(&box, plots->list[i].x_m, plots->list[i].y_m);
     }
     if (!(box.x_min_m <= box.x_max_m)) {
-        include(&box, 0.0, 0.0);
+        map_box_include(&box, 0.0, 0.0);
     }
     margin_m =
         fmax(MARGIN_MIN_M, MARGIN * fmax(box.x_max_m - box.x_min_m, box.y_max_m - box.y_min_m));
-    include(&box, box.x_min_m - margin_m, box.y_min_m - margin_m);
-    include(&box, box.x_max_m + margin_m, box.y_max_m + margin_m);
+    map_box_widen(&box, margin_m);
     return box;
 }
 
@@ -199,7 +186,7 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
 {
     size_t num_sensors;
     struct place *sensors = find_sensors(echoes, count, parameters, &num_sensors);
-    const struct box box = box_of(echoes, count, sensors, num_sensors, &data->plots);
+    const struct map_box box = box_of(echoes, count, sensors, num_sensors, &data->plots);
     struct map map = map_start(picture->script, data);
 
     map_set_extent(&map, fmax(box.x_max_m - box.x_min_m, box.y_max_m - box.y_min_m));
