@@ -9,17 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check.h"
 #include "rhotrack/feed.h"
 #include "rhotrack/message.h"
 #include "rhotrack/types.h"
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            fprintf(stderr, "line %d: %s\n", __LINE__, #condition);                                \
-            abort();                                                                               \
-        }                                                                                          \
-    } while (0)
 
 #define SENSORS 5
 #define SLOT_FREE 0 /* of a slot's private state */

@@ -1,17 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Any bytes as an Ethernet frame of the firmware example: what is accepted lies within them, and is built again. */
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "../../tools/firmware/board/udp_frame.h"
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            abort();                                                                               \
-        }                                                                                          \
-    } while (0)
+#include "check.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -5,18 +5,11 @@
  */
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "check.h"
 #include "rhotrack/snapshot.h"
 #include "rhotrack/tracker.h"
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            abort();                                                                               \
-        }                                                                                          \
-    } while (0)
 
 #define PI 3.14159265358979323846
 #define SCENES 4

@@ -1,17 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Any bytes as a datagram: what is accepted lies within them, and is built again from its parts. */
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "check.h"
 #include "rhotrack/udpm.h"
-
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        if (!(condition)) {                                                                        \
-            abort();                                                                               \
-        }                                                                                          \
-    } while (0)
 
 static void check_begin(const uint8_t *data, size_t size)
 {
