@@ -46,6 +46,11 @@
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
 #endif
 
+/* Such maps of an initiator: radars that share one (their scans in one window) have one each, up to so many. 1 .. 8. */
+#ifndef RHO_MAX_DENSITY_MAPS
+#define RHO_MAX_DENSITY_MAPS RHO_CONFIG_PICK(1, 2)
+#endif
+
 /* Cells along each side of the map that remembers clutter for a hundred scans. 0: left out of the program (400 bytes on a
  * Cortex-M4). RAM: 2 bytes a cell. 0 .. 1024. */
 #ifndef RHO_MAX_CLUTTER_CELLS
@@ -249,6 +254,9 @@
 #if RHO_MAX_CANDIDATES < 1 || RHO_MAX_CANDIDATES > 4096
 #error "RHO_MAX_CANDIDATES must be 1 .. 4096"
 #endif
+#if RHO_MAX_DENSITY_MAPS < 1 || RHO_MAX_DENSITY_MAPS > 8
+#error "RHO_MAX_DENSITY_MAPS must be 1 .. 8"
+#endif
 #if RHO_MAX_DENSITY_CELLS < 1 || RHO_MAX_DENSITY_CELLS > 64
 #error "RHO_MAX_DENSITY_CELLS must be 1 .. 64"
 #endif
@@ -363,8 +371,8 @@
     (RHO_MAX_SCANS * (31 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160 + 36 * RHO_SECTORS) + 96)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
-     2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS +                                           \
-     2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + 420)
+     RHO_MAX_DENSITY_MAPS * (2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 68) +             \
+     2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + 380)
 #define RHO_RAM_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define RHO_RAM_ACCUMULATOR_BYTES                                                                  \
     (6 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024 +                              \

@@ -72,22 +72,19 @@ struct rho_initiator_work {
 };
 
 /*
- * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's, their
- * noise has its directions, and they look even in range rather than on the ground, range and azimuth.
+ * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's, or of a few
+ * that have a map each, their noise has its directions, and they look even in range rather than on the ground, range and
+ * azimuth.
  */
 struct rho_density_map {
     float mean;        /* plots a scan and unit of content */
     float prior_plots; /* weight of the mean against a cell's own count */
-#if RHO_SECTORS
     float scans; /* that were counted: of a turn that is only begun its share */
-#endif
     float content;                            /* of the whole map: m^2, or m rad */
     float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from there */
     float u0, v0, width, height;
     uint16_t is_polar, columns, rows;
-    /* by the age order of that search's scans: plots of the scan's sensor over those of all, a scan; 0: no scan */
-    float sensor_ratio[RHO_MAX_SCANS];
-    int32_t sensor_id[RHO_MAX_SCANS];
+    int32_t sensor_id; /* whose plots it counts, where there are several maps */
     /* plots in the window, saturating; cell row * columns + column, u along the columns */
     uint16_t count[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
 };
@@ -115,7 +112,11 @@ struct rho_initiator {
     struct rho_initiator_config config;
     struct rho_initiator_work work;
     float density_per_m2; /* plots a scan, mean over the area, of the last search */
-    struct rho_density_map density;
+    uint32_t num_maps; /* 1: of all sensors; several: one a sensor; 0: nothing was searched yet */
+    struct rho_density_map density[RHO_MAX_DENSITY_MAPS];
+    /* by the age order of that search's scans: plots of the scan's sensor over those of all, a scan; 0: no scan */
+    float sensor_ratio[RHO_MAX_SCANS];
+    int32_t sensor_id[RHO_MAX_SCANS];
 #if RHO_SECTORS
     uint32_t has_turn; /* map and thresholds are those of the turn that the newest scan is of */
 #endif
@@ -170,9 +171,9 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
  * Density of a sensor's plots near a place, plots a m^2 and scan, as of the last search: the map's cell over the
  * window, drawn towards the mean as far as the cells scatter no more than chance makes them, or what has left the window
  * there over the last hundred scans, where that is more (RHO_MAX_CLUTTER_CELLS); times what the sensor
- * sees more or less than the others. A sensor that the window does not hold counts as the mean. 0 before the first
- * search.
- * Cost: RHO_MAX_SCANS, for a radar an arctangent and a square root.
+ * sees more or less than the others, or from a map of its own. A sensor that the window does not hold counts as the mean.
+ * 0 before the first search.
+ * Cost: RHO_MAX_SCANS, for a map about a radar an arctangent and a square root.
  */
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m);

@@ -4,7 +4,7 @@
  *
  * The map has cells of equal sides over the area; or, about a radar, cells of range and azimuth: false alarms are often
  * spread evenly over a radar's resolution cells rather than over the ground, and end at its range, not at the sides
- * of a square. The plots tell which is likelier.
+ * of a square. The plots tell which is likelier. Several radars have a map each, where all have cells of range and azimuth.
  */
 #include <string.h>
 
@@ -80,6 +80,24 @@ static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m
            cell_at(u, map->u0, map->width, map->columns);
 }
 
+/* A build with one map has no code for several. */
+static int has_several(const struct rho_initiator *initiator)
+{
+    return RHO_MAX_DENSITY_MAPS > 1 && initiator->num_maps > 1;
+}
+
+/* The map that counts a sensor's plots: its own, or that of all. */
+static const struct rho_density_map *map_of(const struct rho_initiator *initiator,
+                                            int32_t sensor_id)
+{
+    for (unsigned i = 1; has_several(initiator) && i < initiator->num_maps; i++) {
+        if (initiator->density[i].sensor_id == sensor_id) {
+            return &initiator->density[i];
+        }
+    }
+    return &initiator->density[0];
+}
+
 /* ---- laying it out ---------------------------------------------------------------------------- */
 
 static int is_same_place(const struct rho_sensor *a, const struct rho_sensor *b)
@@ -88,20 +106,41 @@ static int is_same_place(const struct rho_sensor *a, const struct rho_sensor *b)
     return a->sensor_id == b->sensor_id && dx_m * dx_m + dy_m * dy_m < 1.0f;
 }
 
-/* One radar whose plots have noise of their own directions, and which stayed where it is. */
-static const struct rho_sensor *only_radar(const struct search *search)
+/* The radars that the window's scans are of. */
+struct radars {
+    const struct rho_sensor *of[RHO_MAX_DENSITY_MAPS];
+    unsigned count;
+};
+
+static int add_radar(struct radars *radars, const struct rho_sensor *sensor)
+{
+    for (unsigned i = 0; i < radars->count; i++) {
+        if (radars->of[i]->sensor_id == sensor->sensor_id) {
+            return is_same_place(radars->of[i], sensor);
+        }
+    }
+    if (radars->count == RHO_MAX_DENSITY_MAPS) {
+        return 0;
+    }
+    radars->of[radars->count++] = sensor;
+    return 1;
+}
+
+/* Whether the scans are of radars that stayed where they are, no more of them than there are maps, and the plots have noise of
+ * their own directions. */
+static int are_radars(const struct search *search, struct radars *radars)
 {
     struct rho_window *window = &search->initiator->window;
-    const struct rho_sensor *first = &rho_window_scan_at(window, 0)->sensor;
     int is_radar = 0;
+    radars->count = 0;
     for (unsigned m = 0; m < window->num_scans && !search->is_isotropic; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         is_radar |= !scan->is_isotropic;
-        if (!is_same_place(&scan->sensor, first)) {
+        if (!add_radar(radars, &scan->sensor)) {
             return 0;
         }
     }
-    return is_radar ? first : 0;
+    return is_radar;
 }
 
 /* The window's plots as the radar sees them. */
@@ -109,6 +148,7 @@ struct view {
     float plots, sum_x, sum_y; /* of unit vectors */
     float nearest_m, farthest_m, sum_log_range;
     float middle_rad, left_rad, right_rad; /* a sector that holds all, from its middle */
+    struct rho_extent extent;
 };
 
 static void look(struct view *view, float dx_m, float dy_m, int has_middle)
@@ -134,14 +174,16 @@ static void look(struct view *view, float dx_m, float dy_m, int has_middle)
 static struct view view_of(const struct search *search, const struct rho_sensor *radar)
 {
     struct rho_window *window = &search->initiator->window;
-    struct view view = {.plots = 0.0f};
+    struct view view = {.plots = 0.0f, .extent = {1.0f, 0.0f, 1.0f, 0.0f}};
     for (int has_middle = 0; has_middle < 2; has_middle++) {
         view.middle_rad = has_middle ? rho_atan2(view.sum_y, view.sum_x) : 0.0f;
         for (unsigned m = 0; m < window->num_scans; m++) {
             const struct rho_window_scan *scan = rho_window_scan_at(window, m);
-            for (unsigned i = 0; i < scan->num_plots; i++) {
-                look(&view, scan->plots[i].x_m - radar->x_m, scan->plots[i].y_m - radar->y_m,
-                     has_middle);
+            for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
+                 i++) {
+                const struct rho_window_plot *plot = &scan->plots[i];
+                look(&view, plot->x_m - radar->x_m, plot->y_m - radar->y_m, has_middle);
+                rho_extent_add(&view.extent, plot->x_m, plot->y_m);
             }
         }
     }
@@ -173,16 +215,17 @@ static void lay_sector(const struct rho_sensor *radar, const struct view *view,
 
 /* Where the plots are likelier if they are even in range and azimuth, 1 / (content range) a square metre, than if
  * they are even over the area. Returns 0 where they are not. */
-static int lay_polar(const struct search *search, const struct rho_sensor *radar)
+static int lay_polar(const struct search *search, const struct rho_sensor *radar, int is_alone,
+                     struct rho_density_map *map)
 {
-    struct rho_density_map *map = &search->initiator->density;
     struct view view = view_of(search, radar);
+    float area_m2 = is_alone ? rho_initiator_area_m2(search->initiator)
+                             : rho_extent_area_m2(&view.extent, 1.0f);
     if (view.plots < POLAR_PLOTS_MIN) {
         return 0;
     }
     lay_sector(radar, &view, map);
-    return view.sum_log_range + view.plots * rho_log(map->content) <
-           view.plots * rho_log(rho_initiator_area_m2(search->initiator));
+    return view.sum_log_range + view.plots * rho_log(map->content) < view.plots * rho_log(area_m2);
 }
 
 static void lay_square(const struct rho_initiator *initiator, struct rho_density_map *map)
@@ -197,14 +240,21 @@ static void lay_square(const struct rho_initiator *initiator, struct rho_density
     map->content = rho_initiator_area_m2(initiator);
 }
 
-/* Where the map lies follows from all plots held, whichever are counted. */
-static void lay_map(struct search *search)
+/* Where a map lies follows from all plots held, whichever are counted. Radars that all look even in range have one each; else
+ * one is for all. */
+static void lay_maps(struct search *search)
 {
-    struct rho_density_map *map = &search->initiator->density;
-    const struct rho_sensor *radar = only_radar(search);
-    memset(map, 0, sizeof *map);
-    if (!radar || !lay_polar(search, radar)) {
-        lay_square(search->initiator, map);
+    struct rho_initiator *initiator = search->initiator;
+    struct radars radars;
+    int is_polar = are_radars(search, &radars);
+    memset(initiator->density, 0, sizeof initiator->density);
+    for (unsigned i = 0; i < radars.count && is_polar; i++) {
+        is_polar = lay_polar(search, radars.of[i], radars.count == 1, &initiator->density[i]);
+        initiator->density[i].sensor_id = radars.of[i]->sensor_id;
+    }
+    initiator->num_maps = is_polar ? (uint16_t)radars.count : 1;
+    if (!is_polar) {
+        lay_square(initiator, &initiator->density[0]);
     }
 }
 
@@ -221,44 +271,31 @@ static void lay_cells(struct rho_density_map *map, uint32_t num_plots)
 
 /* ---- counting --------------------------------------------------------------------------------- */
 
-/* Plots that are not skipped: of each scan, and into the map. */
-static void count_plots(struct rho_initiator *initiator, uint16_t skip_flags, int into_map,
-                        uint32_t by_scan[RHO_MAX_SCANS])
+/* Plots of a scan that are not skipped; into its map, or not. */
+static uint32_t count_plots(struct rho_initiator *initiator, unsigned m, uint16_t skip_flags,
+                            struct rho_density_map *map)
 {
-    struct rho_density_map *map = &initiator->density;
-    for (unsigned m = 0; m < initiator->window.num_scans; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
-        by_scan[m] = 0;
-        for (unsigned i = 0; i < scan->num_plots; i++) {
-            const struct rho_window_plot *plot = &scan->plots[i];
-            if (scan->marks[i] & skip_flags) {
-                continue;
-            }
-            by_scan[m]++;
-            if (into_map) {
-                float per_m2;
-                uint16_t *count = &map->count[map_cell(map, plot->x_m, plot->y_m, &per_m2)];
-                *count = (uint16_t)(*count < UINT16_MAX ? *count + 1u : UINT16_MAX);
-            }
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
+    uint32_t plots = 0;
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const struct rho_window_plot *plot = &scan->plots[i];
+        if (scan->marks[i] & skip_flags) {
+            continue;
+        }
+        plots++;
+        if (map) {
+            float per_m2;
+            uint16_t *count = &map->count[map_cell(map, plot->x_m, plot->y_m, &per_m2)];
+            *count = (uint16_t)(*count < UINT16_MAX ? *count + 1u : UINT16_MAX);
         }
     }
+    return plots;
 }
 
-/* Whole turns that the map counts. */
-static float scans_of(const struct rho_initiator *initiator)
+static float mean_cell_count(const struct rho_density_map *map)
 {
-#if RHO_SECTORS
-    return initiator->density.scans;
-#else
-    return (float)initiator->window.num_scans;
-#endif
-}
-
-static float mean_cell_count(const struct rho_initiator *initiator)
-{
-    const struct rho_density_map *map = &initiator->density;
     float cells = (float)map->columns * (float)map->rows;
-    return map->mean * map->content * scans_of(initiator) / cells;
+    return map->mean * map->content * map->scans / cells;
 }
 
 /*
@@ -266,11 +303,10 @@ static float mean_cell_count(const struct rho_initiator *initiator)
  * (variance - mean) over the cells. Where counts scatter no more than chance makes them, the mean is believed; where
  * clutter is patchy, the cells are.
  */
-static float prior_plots(const struct rho_initiator *initiator)
+static float prior_plots(const struct rho_density_map *map)
 {
-    const struct rho_density_map *map = &initiator->density;
     unsigned cells = (unsigned)map->columns * map->rows;
-    float mean = mean_cell_count(initiator), variance = 0.0f;
+    float mean = mean_cell_count(map), variance = 0.0f;
     if (cells < 2) {
         return PRIOR_PLOTS_MAX; /* one cell is the mean */
     }
@@ -283,6 +319,7 @@ static float prior_plots(const struct rho_initiator *initiator)
                                                          : PRIOR_PLOTS_MAX;
 }
 
+/* Whole turns that are held. */
 static float scans_held(const struct search *search)
 {
 #if RHO_SECTORS
@@ -292,17 +329,16 @@ static float scans_held(const struct search *search)
 #endif
 }
 
-static float mean_density(const struct search *search, float plots, float content)
+static float mean_density(const struct search *search, float plots, float scans, float content)
 {
-    float mean =
-        (plots + (search->keeps_rate ? PLOTS_UNSEEN : 0.0f)) / (scans_held(search) * content);
+    float mean = (plots + (search->keeps_rate ? PLOTS_UNSEEN : 0.0f)) / (scans * content);
     float floor = search->keeps_rate ? 0.0f : 1.0f / content;
     return mean > floor ? mean : floor;
 }
 
 /*
  * Plots a scan of each scan's sensor over those of all: one scan like the mean counts beside the sensor's own. 1 where
- * there is one sensor.
+ * there is one sensor, or each has its map.
  */
 static void measure_sensors(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
                             uint32_t plots)
@@ -318,32 +354,55 @@ static void measure_sensors(struct search *search, const uint32_t by_scan[RHO_MA
             }
         }
         float share = plots > 0 ? own * (float)search->num_scans / (float)plots : scans;
-        initiator->density.sensor_id[m] = sensor_id;
-        initiator->density.sensor_ratio[m] = (share + 1.0f) / (scans + 1.0f);
-        search->log_ratio[m] = rho_log(initiator->density.sensor_ratio[m]);
+        initiator->sensor_id[m] = sensor_id;
+        initiator->sensor_ratio[m] =
+            has_several(initiator) ? 1.0f : (share + 1.0f) / (scans + 1.0f);
+        search->log_ratio[m] = rho_log(initiator->sensor_ratio[m]);
     }
 }
 
-/* Counts the plots that are not skipped, and more_plots beside, over the map as it was laid. */
+/* Counts the scans' plots that are a map's, and what part of all scans held that is. */
+static void measure_map(struct search *search, struct rho_density_map *map, uint16_t skip_flags,
+                        const uint32_t by_scan[RHO_MAX_SCANS], float more_plots)
+{
+    struct rho_initiator *initiator = search->initiator;
+    float scans = 0.0f, all = (float)search->num_scans;
+    uint32_t plots = 0;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (map_of(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
+            plots += by_scan[m];
+            scans += 1.0f;
+        }
+    }
+    lay_cells(map, plots);
+    map->scans = scans_held(search) * scans / all;
+    map->mean =
+        mean_density(search, (float)plots + more_plots * scans / all, map->scans, map->content);
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (map_of(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
+            (void)count_plots(initiator, m, skip_flags, map);
+        }
+    }
+    map->prior_plots = prior_plots(map);
+}
+
+/* Counts the plots that are not skipped, and more_plots beside, over the maps as they were laid. */
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
 {
     struct rho_initiator *initiator = search->initiator;
     uint32_t by_scan[RHO_MAX_SCANS] = {0}, plots = 0;
-    count_plots(initiator, skip_flags, 0, by_scan);
     for (unsigned m = 0; m < search->num_scans; m++) {
+        by_scan[m] = count_plots(initiator, m, skip_flags, 0);
         plots += by_scan[m];
     }
-    lay_cells(&initiator->density, plots);
 #if RHO_SECTORS
-    initiator->density.scans = search->scans_seen;
     search->is_continued = 0; /* all plots are in the map now */
 #endif
-    initiator->density.mean =
-        mean_density(search, (float)plots + more_plots, initiator->density.content);
-    initiator->density_per_m2 =
-        mean_density(search, (float)plots + more_plots, rho_initiator_area_m2(initiator));
-    count_plots(initiator, skip_flags, 1, by_scan);
-    initiator->density.prior_plots = prior_plots(initiator);
+    initiator->density_per_m2 = mean_density(search, (float)plots + more_plots, scans_held(search),
+                                             rho_initiator_area_m2(initiator));
+    for (unsigned i = 0; i < initiator->num_maps; i++) {
+        measure_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
+    }
     measure_sensors(search, by_scan, plots);
 }
 
@@ -352,45 +411,75 @@ void rho_initiator_begin_density(struct search *search)
 #if RHO_SECTORS
     if (search->is_continued) {
         for (unsigned m = 0; m < search->num_scans; m++) {
-            search->log_ratio[m] = rho_log(search->initiator->density.sensor_ratio[m]);
+            search->log_ratio[m] = rho_log(search->initiator->sensor_ratio[m]);
         }
         return;
     }
 #endif
-    lay_map(search);
+    lay_maps(search);
     rho_initiator_measure_density(search, RHO_WINDOW_INITIATED, 0.0f);
 }
 
 /* ---- asking ----------------------------------------------------------------------------------- */
 
 /* The density where a cell of the map counts so many plots. */
-static float density_of(const struct rho_initiator *initiator, float count)
+static float density_of(const struct rho_density_map *map, float count)
 {
-    float prior = initiator->density.prior_plots;
-    return initiator->density.mean * (count + prior) / (mean_cell_count(initiator) + prior);
+    float prior = map->prior_plots;
+    return map->mean * (count + prior) / (mean_cell_count(map) + prior);
+}
+
+/* A radar has no clutter beyond its range. */
+static int is_beyond(const struct rho_density_map *map, float x_m, float y_m)
+{
+    return map->is_polar &&
+           distance_m(x_m - map->sensor_x_m, y_m - map->sensor_y_m) > map->u0 + map->width;
+}
+
+/* A place's density in the scans of one map. */
+static float density_in(const struct rho_density_map *map, float x_m, float y_m)
+{
+    float per_m2;
+    unsigned cell = map_cell(map, x_m, y_m, &per_m2);
+    return density_of(map, (float)map->count[cell]) * per_m2;
+}
+
+/* The same in the mean of all scans held, before it is asked what is remembered. */
+static float held_density(const struct rho_initiator *initiator, float x_m, float y_m)
+{
+    float sum = 0.0f, scans = 0.0f, first = density_in(&initiator->density[0], x_m, y_m);
+    if (!has_several(initiator)) {
+        return first;
+    }
+    for (unsigned i = 0; i < initiator->num_maps; i++) {
+        const struct rho_density_map *map = &initiator->density[i];
+        sum += is_beyond(map, x_m, y_m) ? 0.0f : map->scans * density_in(map, x_m, y_m);
+        scans += map->scans;
+    }
+    return sum > 0.0f ? sum / scans : first;
 }
 
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m)
 {
-    float per_m2;
-    unsigned cell = map_cell(&initiator->density, x_m, y_m, &per_m2);
-    float density = density_of(initiator, (float)initiator->density.count[cell]) * per_m2;
-    return rho_initiator_remembered(initiator, x_m, y_m, density);
+    return rho_initiator_remembered(initiator, x_m, y_m, held_density(initiator, x_m, y_m));
 }
 
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m)
 {
-    const struct rho_density_map *map = &initiator->density;
-    if (map->columns == 0) {
+    const struct rho_density_map *map = map_of(initiator, sensor_id);
+    float ratio = 1.0f;
+    if (initiator->num_maps == 0) {
         return 0.0f;
     }
-    float ratio = 1.0f;
     for (unsigned m = 0; m < RHO_MAX_SCANS; m++) {
-        if (map->sensor_ratio[m] > 0.0f && map->sensor_id[m] == sensor_id) {
-            ratio = map->sensor_ratio[m];
+        if (initiator->sensor_ratio[m] > 0.0f && initiator->sensor_id[m] == sensor_id) {
+            ratio = initiator->sensor_ratio[m];
             break;
         }
+    }
+    if (has_several(initiator) && map->sensor_id == sensor_id) {
+        ratio = density_in(map, x_m, y_m) / held_density(initiator, x_m, y_m);
     }
     return rho_initiator_mean_density(initiator, x_m, y_m) * ratio;
 }
@@ -406,27 +495,44 @@ static int is_in_map(const struct search *search, unsigned m)
 #endif
 }
 
+/* How many plots of the set are in a cell of the map. */
+static unsigned own_plots(const struct search *search, const struct plot_set *set,
+                          const struct rho_density_map *map, unsigned cell)
+{
+    unsigned own = 0;
+    for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, k);
+        if ((set->mask >> k & 1u) && is_in_map(search, k) &&
+            map_of(search->initiator, scan->sensor.sensor_id) == map) {
+            const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
+            float per_m2;
+            own += map_cell(map, other->x_m, other->y_m, &per_m2) == cell;
+        }
+    }
+    return own;
+}
+
 /* The density that hit m of a set is measured against: the set's own plots are taken out of its cell, where they are in
  * it. */
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set, unsigned m)
 {
+    struct rho_initiator *initiator = search->initiator;
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
     const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-    const struct rho_density_map *map = &search->initiator->density;
-    float per_m2, other_per_m2;
-    unsigned cell = map_cell(map, plot->x_m, plot->y_m, &per_m2), own = 0;
-    for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
-        if ((set->mask >> k & 1u) && is_in_map(search, k)) {
-            const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
-            own += map_cell(map, other->x_m, other->y_m, &other_per_m2) == cell;
-        }
+    const struct rho_density_map *map = map_of(initiator, scan->sensor.sensor_id);
+    float per_m2;
+    unsigned cell = map_cell(map, plot->x_m, plot->y_m, &per_m2), count = map->count[cell];
+    unsigned own = own_plots(search, set, map, cell);
+    float density = density_of(map, (float)(count > own ? count - own : 0u)) * per_m2;
+    if (!has_several(initiator)) {
+        density = rho_initiator_remembered(initiator, plot->x_m, plot->y_m, density);
+    } else {
+        float held = held_density(initiator, plot->x_m, plot->y_m);
+        density *= rho_initiator_remembered(initiator, plot->x_m, plot->y_m, held) / held;
     }
-    unsigned count = map->count[cell];
-    float density = density_of(search->initiator, (float)(count > own ? count - own : 0u)) * per_m2;
-    density = rho_initiator_remembered(search->initiator, plot->x_m, plot->y_m, density);
     float log_density = rho_log(density) + search->log_ratio[m];
 #if RHO_MAX_ECHOES > 0
-    log_density += (float)rho_window_scan_at(&search->initiator->window, m)->repeats[set->plot[m]] /
-                   RHO_WINDOW_REPEATS_PER_NAT;
+    log_density += (float)scan->repeats[set->plot[m]] / RHO_WINDOW_REPEATS_PER_NAT;
 #endif
     return log_density;
 }

@@ -24,17 +24,23 @@ static int is_sound_map(const struct rho_density_map *map)
         (map->columns == 0) != (map->rows == 0)) {
         return 0;
     }
-#if RHO_SECTORS
-    if (!rho_is_within(map->scans, 0.0f, (float)RHO_MAX_SCANS)) {
-        return 0;
-    }
-#endif
     return is_finite(map->mean) && is_finite(map->prior_plots) && is_finite(map->content) &&
            rho_is_coordinate(map->sensor_x_m) && rho_is_coordinate(map->sensor_y_m) &&
            rho_is_within(map->middle_rad, -10.0f, 10.0f) && is_finite(map->u0) &&
            is_finite(map->v0) && rho_is_within(map->width, 0.0f, 1e30f) &&
            rho_is_within(map->height, 0.0f, 1e30f) &&
-           rho_are_finite(map->sensor_ratio, RHO_MAX_SCANS);
+           rho_is_within(map->scans, 0.0f, (float)RHO_MAX_SCANS);
+}
+
+static int are_sound_maps(const struct rho_initiator *initiator)
+{
+    for (unsigned i = 0; i < initiator->num_maps && i < RHO_MAX_DENSITY_MAPS; i++) {
+        if (!is_sound_map(&initiator->density[i])) {
+            return 0;
+        }
+    }
+    return initiator->num_maps <= RHO_MAX_DENSITY_MAPS &&
+           rho_are_finite(initiator->sensor_ratio, RHO_MAX_SCANS);
 }
 
 static int has_sound_memory(const struct rho_initiator *initiator)
@@ -74,7 +80,7 @@ static int has_sound_turn(const struct rho_initiator *initiator)
     const unsigned num_scans = initiator->window.num_scans;
     const unsigned least = num_scans < 3 ? num_scans : 3u;
     return !initiator->has_turn ||
-           (num_scans > 0 && initiator->density.columns > 0 && initiator->min_scans >= least);
+           (num_scans > 0 && initiator->num_maps > 0 && initiator->min_scans >= least);
 #else
     (void)initiator;
     return 1;
@@ -92,7 +98,7 @@ int rho_initiator_is_sound(const struct rho_initiator *initiator)
     }
     if (initiator->num_candidates > RHO_MAX_CANDIDATES || initiator->min_scans > RHO_MAX_SCANS ||
         !is_score(initiator->start_mnat) || !is_score(initiator->confirm_mnat) ||
-        !is_finite(initiator->density_per_m2) || !is_sound_map(&initiator->density) ||
+        !is_finite(initiator->density_per_m2) || !are_sound_maps(initiator) ||
         !has_sound_memory(initiator) || !has_sound_turn(initiator)) {
         return 0;
     }

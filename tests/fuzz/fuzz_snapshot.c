@@ -201,7 +201,7 @@ static const struct region regions[] = {
     {IN_TRACKER(assignment), 200},
     {IN_TRACKER(hypotheses), offsetof(struct rho_hypotheses, nodes)},
     {IN_TRACKER(hypotheses.nodes), sizeof(struct rho_hypothesis) * RHO_MAX_HYPOTHESES},
-    {IN_INITIATOR(magic), offsetof(struct rho_initiator, density.count)},
+    {IN_INITIATOR(magic), offsetof(struct rho_initiator, density[0].count)},
     {IN_INITIATOR(candidates), 2 * sizeof(struct rho_candidate)},
     {IN_INITIATOR(window), offsetof(struct rho_window, ring) + SCAN_HEAD + 64},
     {IN_INITIATOR(window.ring[1]), SCAN_HEAD + 64},

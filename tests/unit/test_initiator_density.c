@@ -207,6 +207,73 @@ static void a_hot_spot_in_range_and_azimuth_is_seen_where_it_is(void **state)
     assert_float_equal(cold, plain, 0.5 * plain);
 }
 
+/* ---- two radars ------------------------------------------------------------------------------- */
+
+#if RHO_MAX_DENSITY_MAPS > 1
+/* Each with clutter of its own number, even in its own range and azimuth. */
+static void radars_window(const struct rho_sensor radars[2], const int counts[2],
+                          enum rho_search kind)
+{
+    struct rho_initiator_config config = usual();
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        add_polar_clutter(&radars[k % 2], counts[k % 2], 0, 100.0);
+        push_scan((struct rho_scan){.sensor_id = radars[k % 2].sensor_id}, SCAN_S * k,
+                  &radars[k % 2]);
+    }
+    search(kind);
+}
+
+/* The mean of a radar's densities at a range, over what they are, as mean_share. */
+static double share_of(const struct rho_sensor *radar, double range_m, int count)
+{
+    double sum = 0.0;
+    for (double azimuth = -3.0; azimuth < 3.1; azimuth += 0.5) {
+        double density = density_at(radar->sensor_id, radar->x_m + range_m * cos(azimuth),
+                                    radar->y_m + range_m * sin(azimuth));
+        sum += density * 2.0 * PI * range_m * RANGE_M / count / 13.0;
+    }
+    return sum;
+}
+
+static void two_radars_have_their_own_clutter_each(void **state)
+{
+    (void)state;
+    struct rho_sensor radars[2] = {sensor_at(-3000.0, 0.0), sensor_at(3000.0, 0.0)};
+    static const int counts[2] = {100, 30};
+    static const double ranges_m[] = {300.0, 1000.0, 2500.0, 5000.0, 9000.0};
+    double sums[2][NUM(ranges_m)] = {{0.0}};
+    radars[1].sensor_id = 2;
+    for (int window = 0; window < 20; window++) {
+        random_state = (uint64_t)window + 1;
+        radars_window(radars, counts, window % 2 ? RHO_SEARCH_NEWEST : RHO_SEARCH_BATCH);
+        for (size_t i = 0; i < 2 * NUM(ranges_m); i++) {
+            sums[i % 2][i / 2] += share_of(&radars[i % 2], ranges_m[i / 2], counts[i % 2]) / 20.0;
+        }
+    }
+    for (size_t i = 0; i < 2 * NUM(ranges_m); i++) {
+        assert_float_equal(sums[i % 2][i / 2], 1.0, 0.2);
+    }
+}
+
+/* Where only one of the two sees, the mean scan has half of its clutter; of a third sensor nothing else is known. */
+static void beyond_a_radar_s_range_the_mean_scan_has_none_of_its_clutter(void **state)
+{
+    (void)state;
+    struct rho_sensor radars[2] = {sensor_at(-3000.0, 0.0), sensor_at(3000.0, 0.0)};
+    static const int counts[2] = {30, 30};
+    radars[0].sensor_id = 1;
+    radars[1].sensor_id = 2;
+    for (int window = 0; window < 10; window++) {
+        radars_window(radars, counts, RHO_SEARCH_BATCH);
+        double own = density_at(2, 10500.0, 0.0);
+        assert_true(density_at(1, 10500.0, 0.0) > 0.0);
+        assert_float_equal(rho_initiator_density(&initiator, 99, 10500.0f, 0.0f), 0.5 * own,
+                           0.05 * own);
+    }
+}
+#endif
+
 /* ---- not a radar's ---------------------------------------------------------------------------- */
 
 /* Five plots a scan are one cell, of the same density all over, where the map is the ground's. */
@@ -275,6 +342,10 @@ int main(void)
         cmocka_unit_test(
             isotropic_noise_several_radars_and_radars_outside_make_a_map_of_the_ground),
         cmocka_unit_test(a_radar_with_clutter_even_on_the_ground_has_a_map_of_the_ground),
+#if RHO_MAX_DENSITY_MAPS > 1
+        cmocka_unit_test(two_radars_have_their_own_clutter_each),
+        cmocka_unit_test(beyond_a_radar_s_range_the_mean_scan_has_none_of_its_clutter),
+#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -91,12 +91,19 @@ struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id)
     return chain->initiator;
 }
 
+struct rho_initiator *chain_initiator_of(struct chain *chain, const struct rho_scan *scan)
+{
+    return chain_initiator(chain, chain->has_pairs ? chain_window_of(chain->tracker, scan)
+                                                   : scan->sensor_id);
+}
+
 void chain_open(struct chain *chain, const struct parameters *parameters)
 {
     struct rho_tracker_config maintain;
     parameters_to_initiator(parameters, &chain->start);
     parameters_to_tracker(parameters, &maintain);
-    chain->has_one_initiator = parameters->value[PARAMETER_INITIATORS] > 0.0;
+    chain->has_pairs = parameters->value[PARAMETER_INITIATORS] == INITIATORS_PAIRS;
+    chain->has_one_initiator = parameters->value[PARAMETER_INITIATORS] == INITIATORS_ONE;
     chain->has_sensor = false;
     chain->num_initiators = 0;
     chain->initiator = add_initiator(chain, 0)->initiator;
@@ -117,9 +124,9 @@ void chain_open_passive(struct chain *chain, const struct parameters *parameters
 
 void chain_step(struct chain *chain, const struct rho_scan *scan)
 {
-    must_succeed(rho_tracker_step(chain->tracker, chain_initiator(chain, scan->sensor_id), scan,
-                                  chain->report),
-                 "step");
+    must_succeed(
+        rho_tracker_step(chain->tracker, chain_initiator_of(chain, scan), scan, chain->report),
+        "step");
 }
 
 void chain_step_frame(struct chain *chain, const struct rho_frame *frame)

@@ -6,7 +6,10 @@
 #include "parameters.h"
 #include "scenario.h"
 
-/* Who starts a sensor's tracks. */
+/* Whose plots start tracks together: the parameter initiators. */
+enum { INITIATORS_PAIRS, INITIATORS_SENSOR, INITIATORS_ONE };
+
+/* Who starts the tracks of a sensor, or of the two that share its window (chain_window_of). */
 struct chain_initiator {
     int32_t sensor_id;
     struct rho_initiator *initiator;
@@ -14,10 +17,10 @@ struct chain_initiator {
 
 struct chain {
     struct rho_initiator *initiator; /* that of the newest scan */
-    /* one a sensor, in the order in which these came; or one for all */
+    /* one a window, in the order in which these came; or one for all */
     struct chain_initiator *initiators;
     size_t num_initiators, num_allocated, capacity;
-    bool has_one_initiator, has_sensor;
+    bool has_one_initiator, has_pairs, has_sensor;
     struct rho_initiator_config start;
     struct rho_passive *passive; /* NULL before chain_open_passive */
     struct rho_tracker *tracker;
@@ -37,8 +40,14 @@ void chain_open(struct chain *chain, const struct parameters *parameters);
 /* The same with bearings: the tracks that these start. After chain_open. */
 void chain_open_passive(struct chain *chain, const struct parameters *parameters);
 
-/* A sensor's initiator, which is the chain's from then on. */
+/* That of a window, which is the chain's from then on. */
 struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id);
+
+/* The sensor by which a scan's window is named: the scan's own, or the one described earlier that sees the same. */
+int32_t chain_window_of(const struct rho_tracker *tracker, const struct rho_scan *scan);
+
+/* Where a scan's plots start tracks: before its step, after its sensor was described. */
+struct rho_initiator *chain_initiator_of(struct chain *chain, const struct rho_scan *scan);
 
 /* One step; the report is the chain's. */
 void chain_step(struct chain *chain, const struct rho_scan *scan);

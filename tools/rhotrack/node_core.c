@@ -195,8 +195,8 @@ static void step_scan(struct node_core *core, const struct rho_scan *scan,
         return;
     }
     start_us = clock_us();
-    if (rho_tracker_step(chain->tracker, chain_initiator(chain, scan->sensor_id), scan,
-                         chain->report) != RHO_OK) {
+    if (rho_tracker_step(chain->tracker, chain_initiator_of(chain, scan), scan, chain->report) !=
+        RHO_OK) {
         core->counters.scans_refused++;
         return;
     }

@@ -34,7 +34,7 @@ static const char *choices_of(enum parameter_id id)
     case PARAMETER_PRUNE:
         return "safe|literal|none";
     case PARAMETER_INITIATORS:
-        return "sensor|one";
+        return "pairs|sensor|one";
     case PARAMETER_GATE:
         return "best|hough|nearest|none";
     case PARAMETER_INPUT_MODEL:

@@ -57,8 +57,8 @@
       "manoeuvres that maintenance follows")                                                       \
     X(STEADY_S, "steady_s", "s", 0, 0, 1e5, 0, 1,                                                  \
       "mean time between manoeuvres of agile targets; 0: as long as they last")                    \
-    X(INITIATORS, "initiators", "-", 0, 0, 1, 1, 1,                                                \
-      "tracks start from the plots of each sensor by itself, or of all together")                  \
+    X(INITIATORS, "initiators", "-", 0, 0, 2, 1, 1,                                                \
+      "tracks start from the plots of two radars that see the same, of each sensor, or of all")    \
     X(PROCESS_NOISE_MPS2, "process_noise_mps2", "m/s^2", 0, 0, 1000, 0, 1,                         \
       "acceleration that the initiation window allows for; 0: straight")                           \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * chain_windows: which sensors' plots start tracks together.
+ *
+ * Two radars that see much the same ground start tracks from one window: with twice as many plots a second they find targets
+ * sooner. They pair in the order in which they were described, so that whoever comes later changes no pair. Three are too many
+ * for a window of seven scans, and the faster of two whose turns differ much would leave the other no room.
+ */
+#include <math.h>
+
+#include "chain.h"
+
+/* The places' distance and the ranges' difference, together, are at most this share of the shorter range: then each sees about half
+ * of what the other sees. */
+#define APART_MAX 0.8f
+/* Turns of one during a turn of the other. */
+#define TURNS_MAX 1.5f
+
+static bool is_whole_turn(float from_rad, float to_rad)
+{
+    return from_rad == to_rad; /* how both scans and descriptions say it */
+}
+
+static const struct rho_sensor *find_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (unsigned i = 0; i < tracker->num_sensors; i++) {
+        if (tracker->sensors[i].sensor_id == sensor_id) {
+            return &tracker->sensors[i];
+        }
+    }
+    return NULL;
+}
+
+/* Time from one look to the next; 0: not known yet. */
+static float interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        if (tracker->paces[i].sensor_id == sensor_id) {
+            return tracker->paces[i].interval_s;
+        }
+    }
+    return 0.0f;
+}
+
+static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sensor *one,
+                         const struct rho_sensor *other)
+{
+    const float apart_m = hypotf(one->x_m - other->x_m, one->y_m - other->y_m);
+    const float one_s = interval_s(tracker, one->sensor_id);
+    const float other_s = interval_s(tracker, other->sensor_id);
+    const bool is_known = one_s > 0.0f && other_s > 0.0f;
+
+    return is_whole_turn(one->sector_from_rad, one->sector_to_rad) &&
+           is_whole_turn(other->sector_from_rad, other->sector_to_rad) &&
+           apart_m + fabsf(one->range_max_m - other->range_max_m) <=
+               APART_MAX * fminf(one->range_max_m, other->range_max_m) &&
+           (!is_known || fmaxf(one_s, other_s) <= TURNS_MAX * fminf(one_s, other_s));
+}
+
+int32_t chain_window_of(const struct rho_tracker *tracker, const struct rho_scan *scan)
+{
+    bool is_paired[RHO_MAX_SENSORS] = {false};
+
+    if (!is_whole_turn(scan->sector_from_rad, scan->sector_to_rad) ||
+        !find_sensor(tracker, scan->sensor_id)) {
+        return scan->sensor_id;
+    }
+    for (unsigned i = 0; i < tracker->num_sensors; i++) {
+        const struct rho_sensor *one = &tracker->sensors[i];
+
+        for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
+            const struct rho_sensor *other = &tracker->sensors[j];
+
+            is_paired[i] = !is_paired[j] && see_the_same(tracker, one, other);
+            is_paired[j] |= is_paired[i];
+            if (is_paired[i] && other->sensor_id == scan->sensor_id) {
+                return one->sensor_id;
+            }
+        }
+    }
+    return scan->sensor_id;
+}
