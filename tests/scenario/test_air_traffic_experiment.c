@@ -14,8 +14,8 @@
 #include <string.h>
 
 #include "experiment_air_traffic.h"
-#include "scene/scene_simulation.h"
 #include "poisson.h"
+#include "scene/scene_simulation.h"
 
 #define SEED 7
 

@@ -169,10 +169,9 @@ static void test_large_biases_and_the_reference(void **state)
     const struct telling telling = {.is_backwards = false};
 
     (void)state;
-    const char *sets[] = {
-        "radars.0.range_bias_m=400", "radars.0.azimuth_bias_rad=-0.00872665",
-        "radars.1.range_bias_m=-400", "radars.1.azimuth_bias_rad=0.00872665",
-        "radars.1.time_bias_s=1.5"};
+    const char *sets[] = {"radars.0.range_bias_m=400", "radars.0.azimuth_bias_rad=-0.00872665",
+                          "radars.1.range_bias_m=-400", "radars.1.azimuth_bias_rad=0.00872665",
+                          "radars.1.time_bias_s=1.5"};
     struct heard heard = hear(0, sets, 5);
     struct register_result result = estimate(&heard, &telling);
     check(&heard, &result, 4.0);

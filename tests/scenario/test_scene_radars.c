@@ -49,12 +49,12 @@ static struct errors errors_of(const struct scene_run *run, size_t radar)
             range_m = hypot(x_m, y_m);
             add_moment(&errors.range,
                        (plot->range_m - range_m - sensor->range_bias_m) / sensor->sigma_range_m);
-            add_moment(&errors.azimuth, remainder(plot->azimuth_rad - atan2(y_m, x_m) -
-                                                      sensor->azimuth_bias_rad,
-                                                  PORTABLE_TURN) /
-                                            sensor->sigma_azimuth_rad);
-            add_moment(&errors.rate, plot->range_rate_mps -
-                                         (x_m * at.vx_mps + y_m * at.vy_mps) / range_m);
+            add_moment(&errors.azimuth,
+                       remainder(plot->azimuth_rad - atan2(y_m, x_m) - sensor->azimuth_bias_rad,
+                                 PORTABLE_TURN) /
+                           sensor->sigma_azimuth_rad);
+            add_moment(&errors.rate,
+                       plot->range_rate_mps - (x_m * at.vx_mps + y_m * at.vy_mps) / range_m);
         }
     }
     return errors;
@@ -215,8 +215,7 @@ static void a_share_arrives_late(void **state)
         first_s = fmin(first_s, run->scans[i].sensor == 1 ? run->scans[i].end_s : INFINITY);
     }
     for (size_t i = 0; i < other->num_scans; i++) {
-        others_s =
-            fmin(others_s, other->scans[i].sensor == 1 ? other->scans[i].end_s : INFINITY);
+        others_s = fmin(others_s, other->scans[i].sensor == 1 ? other->scans[i].end_s : INFINITY);
     }
     assert_share(late, run->num_scans, 0.2);
     assert_true(first_s >= 0.125 && first_s < 4.125 && fabs(first_s - others_s) > 1e-3);

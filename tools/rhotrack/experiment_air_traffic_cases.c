@@ -13,7 +13,10 @@ const double air_cutoffs_m[AIR_CUTOFFS] = {1000.0, 200.0};
 
 #define GRID(targets, clutter, scans, share)                                                       \
     {                                                                                              \
-        AIR_GRID, "as assumed", targets, clutter, scans, share, true, {NULL}                       \
+        AIR_GRID, "as assumed", targets, clutter, scans, share, true,                              \
+        {                                                                                          \
+            NULL                                                                                   \
+        }                                                                                          \
     }
 #define STRESS(name, ...)                                                                          \
     {                                                                                              \
@@ -30,8 +33,8 @@ const double air_cutoffs_m[AIR_CUTOFFS] = {1000.0, 200.0};
         }                                                                                          \
     }
 #define SPOT(x_km, y_km)                                                                           \
-    ",{\"kind\":\"cell\",\"shape\":\"disc\",\"radius_m\":20e3,\"plots\":20,\"at_m\":[" #x_km "e3," #y_km   \
-    "e3]}"
+    ",{\"kind\":\"cell\",\"shape\":\"disc\",\"radius_m\":20e3,\"plots\":20,\"at_m\":[" #x_km       \
+    "e3," #y_km "e3]}"
 
 const struct air_case air_cases[] = {
     GRID(10, 0, SCANS, 1),

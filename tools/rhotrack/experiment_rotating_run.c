@@ -75,9 +75,8 @@ static struct scene_plot seen_at(struct following *all, const struct scene_plot 
 
         seen.range_m =
             hypot(at.x_m, at.y_m) + all->radar->sigma_range_m * random_normal(&all->random);
-        seen.azimuth_rad =
-            portable_wrap(atan2(at.y_m, at.x_m) +
-                          all->radar->sigma_azimuth_rad * random_normal(&all->random));
+        seen.azimuth_rad = portable_wrap(atan2(at.y_m, at.x_m) + all->radar->sigma_azimuth_rad *
+                                                                     random_normal(&all->random));
     }
     seen.t_s = scan_s;
     return seen;

@@ -28,8 +28,8 @@ static void run_one(void *context, size_t worker, size_t index)
     if (experiment->chains[worker].tracker == NULL) {
         experiment->chains[worker] = chain_start();
     }
-    experiment->runs[index] = radars_run_all(experiment->scene, experiment->seed, index,
-                                             &experiment->chains[worker]);
+    experiment->runs[index] =
+        radars_run_all(experiment->scene, experiment->seed, index, &experiment->chains[worker]);
 }
 
 static void add(struct radars_figures *sum, const struct radars_figures *figures)

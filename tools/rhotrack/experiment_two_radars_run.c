@@ -65,8 +65,7 @@ static double true_bias(const struct scene_sensor *radar, size_t kind)
     return biases[kind];
 }
 
-static struct radars_found found_of(const struct scene *scene,
-                                    const struct register_result *result)
+static struct radars_found found_of(const struct scene *scene, const struct register_result *result)
 {
     struct radars_found found = {.is_any = result->targets > 0,
                                  .targets = (double)result->targets,
@@ -288,8 +287,7 @@ static struct scene_scan *order_scans(const struct scene_run *run, bool is_as_ar
     return scans;
 }
 
-static struct rho_sensor sensor_of(const struct radars_case *of,
-                                   const struct scene_sensor *told,
+static struct rho_sensor sensor_of(const struct radars_case *of, const struct scene_sensor *told,
                                    const struct radars_found *found, size_t radar)
 {
     struct rho_sensor sensor = scene_known_sensor(told);

@@ -51,8 +51,8 @@ struct scene_sensor {
     double x_m, y_m;
     bool turns; /* else it looks everywhere at each scan's time */
     bool is_counter_clockwise;
-    size_t sectors; /* scans of a turn */
-    double turn_s;  /* of a sensor that does not turn, the time between scans */
+    size_t sectors;            /* scans of a turn */
+    double turn_s;             /* of a sensor that does not turn, the time between scans */
     double start_s, start_rad; /* of a run: drawn between */
     struct json_span starts_s, starts_rad;
     struct scene_coverage coverage;

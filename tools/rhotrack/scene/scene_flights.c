@@ -106,8 +106,7 @@ static void reach_speed(struct sky *sky, double speed_mps)
 static double turn_rate(struct sky *sky)
 {
     double speed_mps = path_speed_mps(&sky->draft, sky->draft.until_s);
-    double rate_radps =
-        draw(sky, TURN_MIN_RADPS, fmin(TURN_MAX_RADPS, TURN_MAX_MPS2 / speed_mps));
+    double rate_radps = draw(sky, TURN_MIN_RADPS, fmin(TURN_MAX_RADPS, TURN_MAX_MPS2 / speed_mps));
 
     return random_below(sky->random, 2) == 0 ? rate_radps : -rate_radps;
 }

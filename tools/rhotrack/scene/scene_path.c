@@ -200,7 +200,8 @@ static double change_speed(struct scene_path *path, double t_s, double to_mps, d
 
 static double follow_step(struct scene_path *path, double t_s, const struct path_step *step)
 {
-    double speed_mps = path_speed_mps(path, t_s), turn_radps = step->turn_radps, for_s = step->for_s;
+    double speed_mps = path_speed_mps(path, t_s), turn_radps = step->turn_radps,
+           for_s = step->for_s;
     double along_mps2 = step->along_mps2;
 
     if (step->has_speed) {
@@ -227,7 +228,7 @@ static double follow_step(struct scene_path *path, double t_s, const struct path
             double middle_mps = speed_mps + along_mps2 * part_s * ((double)i + 0.5);
 
             path_go_on(path, t_s + part_s * (double)i, along_mps2,
-                  middle_mps > STANDS_MPS ? step->across_mps2 / middle_mps : 0.0);
+                       middle_mps > STANDS_MPS ? step->across_mps2 / middle_mps : 0.0);
         }
     } else {
         path_go_on(path, t_s, along_mps2, turn_radps);
@@ -357,7 +358,8 @@ static double draw_side(const struct target_item *item, const struct scene_path 
 static double draw_turn(const struct target_item *item, struct scene_path *path, double t_s,
                         struct random *random)
 {
-    double across_mps2 = draw_between(random, item->turn_across), speed_mps = path_speed_mps(path, t_s);
+    double across_mps2 = draw_between(random, item->turn_across),
+           speed_mps = path_speed_mps(path, t_s);
     double side = draw_side(item, path, t_s, random), for_s;
     double turn_radps = speed_mps > STANDS_MPS ? across_mps2 / speed_mps : 0.0;
 
@@ -374,7 +376,8 @@ static double draw_turn(const struct target_item *item, struct scene_path *path,
 static double draw_stop(const struct target_item *item, struct scene_path *path, double t_s,
                         struct random *random)
 {
-    double speed_mps = path_speed_mps(path, t_s), along_mps2 = draw_between(random, item->stop_along);
+    double speed_mps = path_speed_mps(path, t_s),
+           along_mps2 = draw_between(random, item->stop_along);
 
     t_s = change_speed(path, t_s, 0.0, along_mps2) + draw_between(random, item->stop_for);
     return change_speed(path, t_s, speed_mps, along_mps2);
@@ -436,8 +439,8 @@ static bool keeps_at(const struct target_item *item, const struct motion *at)
     double range_m = portable_hypot(at->x_m - item->about_x_m, at->y_m - item->about_y_m);
 
     return (!item->has_keep || is_in_span(range_m, item->keep.lo, item->keep.hi)) &&
-           (!item->has_keep_box || (is_in_span(at->x_m, box_m[0], box_m[1]) &&
-                                    is_in_span(at->y_m, box_m[2], box_m[3])));
+           (!item->has_keep_box ||
+            (is_in_span(at->x_m, box_m[0], box_m[1]) && is_in_span(at->y_m, box_m[2], box_m[3])));
 }
 
 /* Never nearer than spacing_m to those that are there already. */
@@ -462,10 +465,9 @@ static bool keeps_within(const struct target_item *item, const struct scene_path
                          double end_s, const struct scene_paths *others)
 {
     double first_s = fmax(0.0, path->from_s);
-    bool is_kept = item->has_keep || item->has_keep_box || item->num_keep_discs > 0 ||
-                   item->spacing_m > 0.0;
-    size_t count =
-        is_kept && end_s >= first_s ? (size_t)((end_s - first_s) / KEEP_STEP_S) + 1 : 0;
+    bool is_kept =
+        item->has_keep || item->has_keep_box || item->num_keep_discs > 0 || item->spacing_m > 0.0;
+    size_t count = is_kept && end_s >= first_s ? (size_t)((end_s - first_s) / KEEP_STEP_S) + 1 : 0;
     size_t in_all = 0;
 
     for (size_t i = 0; i < count; i++) {
@@ -484,14 +486,15 @@ static bool keeps_within(const struct target_item *item, const struct scene_path
 
 static const char *kept_by(const struct target_item *item)
 {
-    return item->spacing_m > 0.0        ? "its place, spacing_m from others"
-           : item->num_keep_discs > 0   ? "keep_discs_m"
-           : item->has_keep_box         ? "keep_box_m"
-                                        : "keep_range_m";
+    return item->spacing_m > 0.0      ? "its place, spacing_m from others"
+           : item->num_keep_discs > 0 ? "keep_discs_m"
+           : item->has_keep_box       ? "keep_box_m"
+                                      : "keep_range_m";
 }
 
-static struct scene_path random_path(const struct target_draft *draft, double from_s, double until_s,
-                                     const struct scene_paths *others, struct random *random)
+static struct scene_path random_path(const struct target_draft *draft, double from_s,
+                                     double until_s, const struct scene_paths *others,
+                                     struct random *random)
 {
     double end_s = fmin(until_s, draft->duration_s);
 
@@ -508,8 +511,7 @@ static struct scene_path random_path(const struct target_draft *draft, double fr
     fail(EXIT_USAGE,
          "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
          "less speed, or turns, which lead back",
-         draft->file, draft->index, DRAFTS_MAX,
-         kept_by(draft->item));
+         draft->file, draft->index, DRAFTS_MAX, kept_by(draft->item));
 }
 
 /* ---- all paths ------------------------------------------------------------------------------------ */
@@ -521,7 +523,8 @@ void paths_keep(struct scene_paths *paths, struct scene_path path)
 }
 
 /* Where one ends, after a pause, the next one begins. The first one is somewhere in its life. */
-static void draw_member(struct scene_paths *paths, const struct target_draft *draft, struct random *random)
+static void draw_member(struct scene_paths *paths, const struct target_draft *draft,
+                        struct random *random)
 {
     const struct target_item *item = draft->item;
     double life_s = item->has_life ? draw_between(random, item->life) : INFINITY;
@@ -854,6 +857,9 @@ static void read_discs(struct json_object *object, struct target_item *item)
         }
     }
     item->num_keep_discs = list.count;
+    if (json_has(object, "keep_all_share") && list.count == 0) {
+        json_fail_key(object, "keep_all_share", "needs keep_discs_m");
+    }
     item->keep_all_share = json_number(object, "keep_all_share", 0, 1, 0);
 }
 

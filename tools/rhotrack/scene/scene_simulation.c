@@ -123,15 +123,14 @@ struct simulation *scene_simulation(const struct scene *scene, uint64_t seed, ui
     struct simulation *simulation = must_calloc(1, sizeof *simulation);
     size_t room = 0;
 
-    *simulation = (struct simulation){.num_scans = run->num_scans,
-                                      .num_targets = run->num_paths,
-                                      .sigma_m = sensor->told.sigma_m,
-                                      .area = {scene->area_m[0], scene->area_m[1],
-                                               scene->area_m[2], scene->area_m[3]},
-                                      .interval_s = sensor->turn_s,
-                                      .radar = radar_of(sensor),
-                                      .scans = must_calloc(run->num_scans + 1,
-                                                           sizeof *simulation->scans)};
+    *simulation = (struct simulation){
+        .num_scans = run->num_scans,
+        .num_targets = run->num_paths,
+        .sigma_m = sensor->told.sigma_m,
+        .area = {scene->area_m[0], scene->area_m[1], scene->area_m[2], scene->area_m[3]},
+        .interval_s = sensor->turn_s,
+        .radar = radar_of(sensor),
+        .scans = must_calloc(run->num_scans + 1, sizeof *simulation->scans)};
     for (size_t i = 0; i < run->num_scans; i++) {
         simulation->scans[i] = scan_of(sensor, &run->scans[i]);
         add_truth(run, simulation->scans[i].t_s, simulation, &room);
@@ -179,14 +178,14 @@ struct rho_scan scene_scan(const struct scene_run *run, const struct scene_scan 
     for (size_t i = 0; i < scan->num_plots; i++) {
         const struct scene_plot *plot = &scan->plots[i];
         int64_t time_us = llround((plot->t_s + sensor->time_bias_s) * 1e6);
-        struct rho_polar_plot polar = {
-            .offset_us = (int32_t)(time_us - out.time_us),
-            .range_m = (float)plot->range_m,
-            .azimuth_rad = (float)plot->azimuth_rad,
-            .range_rate_mps = (float)plot->range_rate_mps,
-            .sigma_range_m = (float)sensor->told.sigma_range_m,
-            .sigma_azimuth_rad = (float)sensor->told.sigma_azimuth_rad,
-            .sigma_range_rate_mps = (float)sensor->told.sigma_range_rate_mps};
+        struct rho_polar_plot polar = {.offset_us = (int32_t)(time_us - out.time_us),
+                                       .range_m = (float)plot->range_m,
+                                       .azimuth_rad = (float)plot->azimuth_rad,
+                                       .range_rate_mps = (float)plot->range_rate_mps,
+                                       .sigma_range_m = (float)sensor->told.sigma_range_m,
+                                       .sigma_azimuth_rad = (float)sensor->told.sigma_azimuth_rad,
+                                       .sigma_range_rate_mps =
+                                           (float)sensor->told.sigma_range_rate_mps};
 
         must_succeed(
             rho_measurement_from_polar(&polar, out.measures, known, &plots[out.num_plots++]),
