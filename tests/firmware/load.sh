@@ -37,7 +37,7 @@ record_traffic() { # name, half a side, interval, scans
 }
 
 record_loads() {
-    record turning polar polar --set targets=8 --set num_scans=60 &&
+    record turning polar plots --set targets.0.count=8 --set duration_s=240 &&
         record_traffic sparse 250000 10 120 && record_traffic dense 30000 4 60 && record_traffic denser 10000 2 30
 }
 

@@ -19,7 +19,7 @@ record_all() {
     record table3 radar plots &&
         record passive passive-three bearings --set duration_s=200 &&
         record popup popup plots --set radars.0.sigma_mps=1 --set clutter.0.count=30 &&
-        record turning polar polar --set targets=8 --set num_scans=30
+        record turning polar plots --set targets.0.count=8 --set duration_s=120
 }
 
 # What the node is told of the targets of a record.

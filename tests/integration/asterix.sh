@@ -7,12 +7,12 @@ tests=$(dirname "$(realpath "$0")")
 . "$(dirname "$0")/checks.bash"
 write="$tests/write_asterix.py"
 
-run simulate polar -o sim --seed 1 --set targets=20 --set range_rate=1
-python3 "$write" sim/polar.csv turns.ast
-python3 "$write" sim/polar.csv norths.ast --sectors 1
-python3 "$write" sim/polar.csv bare.ast --sectors 0
+run simulate polar -o sim --seed 2 --set settings.scan_interval_s=4 --set targets.0.count=20 --set radars.0.sigma_range_rate_mps=1
+python3 "$write" sim/plots.csv turns.ast
+python3 "$write" sim/plots.csv norths.ast --sectors 1
+python3 "$write" sim/plots.csv bare.ast --sectors 0
 awk -F, -v OFS=, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "range_rate_mps") rate = i} NR % 5 == 0 {$rate = ""} {print}' \
-    sim/polar.csv >some.csv # as replies without Doppler are
+    sim/plots.csv >some.csv # as replies without Doppler are
 python3 "$write" some.csv some.ast
 
 # ---- The same plots ----
@@ -37,7 +37,7 @@ PYTHON
 for name in turns norths bare; do
     run convert "$name.ast" "$name.csv"
     check "$name: convert ends well" exits 0
-    check "$name: every plot is as it was sent, to the format's steps" python3 same.py sim/polar.csv "$name.csv"
+    check "$name: every plot is as it was sent, to the format's steps" python3 same.py sim/plots.csv "$name.csv"
 done
 run convert turns.ast whole.csv --set asterix_scans=turn
 check 'a turn is a scan where that is asked for, and begins with a row that saw nothing' \
@@ -57,20 +57,20 @@ check 'a recording is known by what is in it' cmp turns.csv no_ending.csv
 
 # ---- The same tracks ----
 run track turns.ast --config sim/scenario.ini -o turns.tracks.csv
-check 'sectors: 20 targets, 20 tracks' grep -q '480 scans, 1791 plots, 20 tracks confirmed' stderr
+check 'sectors: 20 targets, 20 tracks' grep -q '480 scans, 1821 plots, 20 tracks confirmed' stderr
 for name in norths bare; do
     run track "$name.ast" --config sim/scenario.ini
-    check "$name: 20 targets, 20 tracks" grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
+    check "$name: 20 targets, 20 tracks" grep -q '15 scans, 1821 plots, 20 tracks confirmed' stderr
 done
 run track some.ast --config sim/scenario.ini
-check 'a plot in five without Doppler: 20 targets, 20 tracks' grep -q '480 scans, 1791 plots, 20 tracks confirmed' stderr
+check 'a plot in five without Doppler: 20 targets, 20 tracks' grep -q '480 scans, 1821 plots, 20 tracks confirmed' stderr
 run track turns.csv --config sim/scenario.ini
 check 'a recording is tracked as the CSV file that it converts to' writes_same_as turns.tracks.csv
 run convert turns.ast turns.lcm
 run track turns.lcm --config sim/scenario.ini
-check 'and as the log' grep -q '480 scans, 1791 plots, 20 tracks confirmed' stderr
+check 'and as the log' grep -q '480 scans, 1821 plots, 20 tracks confirmed' stderr
 run track whole.csv --config sim/scenario.ini
-check 'turns: 20 targets, 20 tracks' grep -q '15 scans, 1791 plots, 20 tracks confirmed' stderr
+check 'turns: 20 targets, 20 tracks' grep -q '15 scans, 1821 plots, 20 tracks confirmed' stderr
 run initiate turns.ast --config sim/scenario.ini
 check 'initiate reads recordings: of 15 turns the last' grep -q 'the last 7 of 15 scans' stderr
 run initiate some.ast --config sim/scenario.ini
@@ -80,14 +80,14 @@ run track SHOUTED.AST --config sim/scenario.ini
 check 'a name in capitals is the same' writes_same_as turns.tracks.csv
 run convert turns.ast SHOUTED.LCM
 run track SHOUTED.LCM --config sim/scenario.ini
-check 'of outputs as well' grep -q '480 scans, 1791 plots, 20 tracks confirmed' stderr
+check 'of outputs as well' grep -q '480 scans, 1821 plots, 20 tracks confirmed' stderr
 run plot scans turns.ast -o turns.svg
 check 'plot scans reads them' exits 0
 run track turns.ast --follow
 check 'follow does not' says 2 'rhotrack: turns.ast: --follow takes CSV files, and this is a recording in ASTERIX'
 
 # ---- Places ----
-python3 "$write" sim/polar.csv placed.ast --place 47.5,8.5,430 --sac 200 --sic 7
+python3 "$write" sim/plots.csv placed.ast --place 47.5,8.5,430 --sac 200 --sic 7
 run convert placed.ast placed.csv
 check 'the radar is at its place, and has its number' grep -q '^43200.000000,-14329,,,,,47.49999[0-9]*,8.50000[0-9]*,430,' placed.csv
 run track placed.ast --config sim/scenario.ini -o placed.tracks.csv
@@ -115,7 +115,7 @@ pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("sout
 assert all(abs(float(b["y_m"]) - float(a["y_m"]) - 55588) < 300 for a, b in pairs)'
 
 # A radar that does not say where it stands, beside one that does, in one file or two.
-python3 "$write" sim/polar.csv lost.ast --sac 200 --sic 8
+python3 "$write" sim/plots.csv lost.ast --sac 200 --sic 8
 cat placed.ast lost.ast >pair.ast
 lost='sensor -14328 does not say where it stands, and is taken to be at the origin; sensor.-14328.lat_deg and lon_deg say it'
 for command in track register; do
@@ -206,8 +206,8 @@ for output in csv lcm geojson; do
     run convert tracks.ast "no.$output"
     check "convert to $output neither" says 2 "rhotrack: tracks.ast: $no_tracks"
 done
-run convert sim/polar.csv polar.ast
-check 'plots are no tracks' says 2 'rhotrack: sim/polar.csv: not one list of tracks in it*'
+run convert sim/plots.csv polar.ast
+check 'plots are no tracks' says 2 'rhotrack: sim/plots.csv: not one list of tracks in it*'
 check 'and leave no file' test ! -e polar.ast
 
 # ---- Bad recordings ----
@@ -286,7 +286,7 @@ for name in bad_record bad_length; do
     run convert "$name.ast" "$name.csv"
     check "$name: refused" bash -c '[ '"$status"' -eq 2 ] && grep -qE "^rhotrack: '"$name"'.ast: byte [0-9]+: " stderr'
     run convert "$name.ast" "$name.csv" --keep-going
-    check "$name: with --keep-going one plot less" test "$(awk -F, '$3 != ""' "$name.csv" | wc -l)" -eq 1791
+    check "$name: with --keep-going one plot less" test "$(awk -F, '$3 != ""' "$name.csv" | wc -l)" -eq 1821
     check "$name: which is said" grep -qE "^rhotrack: $name.ast: [0-9]+ bytes skipped at 1 bad places" stderr
 done
 run convert with_others.ast with_others.csv
@@ -324,7 +324,7 @@ kill -INT "$live"
 wait "$live"
 check 'publish udp:// ends well' test $? -eq 0
 check 'it counted all plots, one bad datagram' grep -q '1 datagrams bad' live.err
-check 'and sent all sectors' grep -q '2288 datagrams, 1791 plots of 1 radars, 480 scans sent' live.err
+check 'and sent all sectors' grep -q '2318 datagrams, 1821 plots of 1 radars, 480 scans sent' live.err
 run convert live.lcm live.csv
 check 'the messages have the plots of the recording, at times of today' python3 -c '
 import csv

@@ -63,3 +63,10 @@ finish() {
     [ "$failed" -eq 0 ]
     exit
 }
+
+# unnumbered PLOTS COLUMNS TURN_S: simulated plots of a radar that turns, in a form without numbers of scans: these first columns,
+# and each turn's own row at its start.
+unnumbered() {
+    awk -F, -v OFS=, -v columns="$2" -v turn="$3" '
+        NR > 1 && $3 == "" { $1 = sprintf("%.6f", $1 - turn) } { NF = columns; print }' "$1"
+}

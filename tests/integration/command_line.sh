@@ -121,34 +121,12 @@ run config --json --set sigma_m=30 --config good.ini --set sensor.3.pd=0.6
 check 'set goes before the config file in any order' json stdout \
     'o["sigma_m"]["value"] == 30 and o["sigma_m"]["source"] == "set" and o["sensor.3.pd"]["value"] == 0.6'
 
-# ---- what a scenario does not use ----
-refuse 'a parameter of another scenario' 'simulate air-traffic: true_time_bias_s has no effect here; it is for two-radars' \
-    simulate air-traffic -o none --set true_time_bias_s=1
-refuse 'of several others' 'simulate air-traffic: range_rate has no effect here; it is for polar, doppler, rotating' \
-    simulate air-traffic -o none --set range_rate=1
-scenario_refuses() { # SCENARIO KEY PATTERN
-    refuse "$1: $2" "simulate $1: $2 has no effect here; $3" simulate "$1" -o none --set "$2=0.1"
-}
-scenario_refuses polar true_sigma_m 'it is for *'
-for scenario in polar doppler rotating two-radars; do
-    scenario_refuses $scenario sigma_m 'it is for *'
-done
-for key in sigma_range_m sigma_azimuth_rad pd range_min_m; do
-    scenario_refuses two-radars $key "set sensor.N.$key"
-done
-refuse 'two-radars: range_max_m' 'simulate two-radars: range_max_m has no effect here; set sensor.N.range_max_m' \
-    simulate two-radars -o none --set range_max_m=90000
+# ---- what is said of a scene stands in the scene ----
+refuse 'parameters of scenarios that are scenes' "--set num_scans=3: unknown parameter 'num_scans'*" config --set num_scans=3
+printf 'sigma_m = 20\n' >trackers.ini
+refuse "a tracker's file" 'simulate: a scene takes no --config; what it tells stands in its settings' \
+    simulate polar -o none --config trackers.ini
 check 'nothing is written' test ! -e none
-printf 'sigma_m = 20\npd = 0.8\n' >trackers.ini
-run simulate polar -o trackers --config trackers.ini
-check "a tracker's file is not complained of" test "$status" -eq 0 -a ! -s stderr
-printf 'late_ms = 5\nsigma_m = 20\nclutter_per_scan = 3\n' >shared.ini
-run simulate air-traffic -o some --set num_scans=3 --config shared.ini
-check 'a file is for several scenarios: said' matches "$(cat stderr)" \
-    'rhotrack: simulate air-traffic: late_ms of --config has no effect here; it is for two-radars'
-check 'and done' test -s some/plots.csv
-run simulate air-traffic -o own --set num_scans=3 --set crossing_share=0.3
-check 'its own' exits 0
 
 refuse_config() { # name, pattern, text of the file
     printf "$3" >bad.ini

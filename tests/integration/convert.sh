@@ -49,17 +49,22 @@ there_and_back() { # csv, further arguments
     exits 0 && cmp one.lcm two.lcm
 }
 
+# in_time FILE: in_time.csv, its rows in the order of time, as those of a log are.
+in_time() { (head -n 1 "$1" && sed 1d "$1" | sort -s -t, -k 1,1n) >in_time.csv; }
+
 # ---- what simulate makes, and real plots ----
 for scenario in crossing radar clutter polar passive-two passive-three passive-clutter popup; do
     run simulate "$scenario" -o "$scenario"
-    for file in "$scenario"/{plots,polar,bearings,truth}.csv; do
+    for file in "$scenario"/{plots,bearings,truth}.csv; do
         [ -f "$file" ] && [ "$(wc -l <"$file")" -gt 1 ] || continue # clutter has no targets
         check "$file: the log is the same" there_and_back "$file" --config "$scenario/scenario.ini"
-        check "$file: the values are the same" same_values "$file" back.csv
+        in_time "$file"
+        check "$file: the values are the same" same_values in_time.csv back.csv
     done
 done
-run simulate polar -o rates --set range_rate=1
-check 'range rates: the log is the same' there_and_back rates/polar.csv --config rates/scenario.ini
+run simulate polar -o rates --set radars.0.sigma_range_rate_mps=1 --set settings.scan_interval_s=4
+unnumbered rates/plots.csv 5 4 >rates/polar.csv
+check 'range rates: the log is the same' there_and_back rates/plots.csv --config rates/scenario.ini
 
 # ---- scans of one plot ----
 run convert rates/polar.csv rates.lcm
@@ -69,7 +74,7 @@ run convert rates/polar.csv rates.lcm --config rates/scenario.ini
 check 'with it nothing is asked' test "$status" -eq 0 -a ! -s stderr
 for scenario in two-radars rotating; do
     run simulate $scenario -o $scenario
-    run convert $scenario/polar.csv one.lcm
+    run convert $scenario/plots.csv one.lcm
     check "nor of sectors: $scenario" test "$status" -eq 0 -a ! -s stderr
 done
 awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"; for (k = 0; k < 40; k++) print 4 * k ",1," 100 * k ",0" }' >slow.csv
@@ -88,7 +93,8 @@ assert done.returncode == 2 and done.stderr.startswith("rhotrack: convert: an LC
 END
 run convert slow.csv slow.lcm
 check 'a pipe will do' bash -c "'$program' convert slow.csv - | cmp - slow.lcm"
-check 'range rates: the values are the same' same_values rates/polar.csv back.csv
+in_time rates/plots.csv
+check 'range rates: the values are the same' same_values in_time.csv back.csv
 run simulate popup -o fast --set radars.0.sigma_mps=1
 check 'velocities: the log is the same' there_and_back fast/plots.csv
 check 'velocities: the values are the same' same_values fast/plots.csv back.csv
@@ -97,14 +103,14 @@ check 'real plots: the values are the same' same_values "$vectors/radar-table3.c
 run track "$vectors/radar-table3.csv" -o expected.csv
 run track back.csv -o found.csv
 check 'real plots: the same tracks' cmp expected.csv found.csv
-run track polar/polar.csv --config polar/scenario.ini --covariance -o tracks.csv
+run track polar/plots.csv --config polar/scenario.ini --covariance -o tracks.csv
 check 'tracks: the log is the same' there_and_back tracks.csv
 check 'tracks: the values are the same' same_values tracks.csv back.csv
-run convert polar/polar.csv one.lcm --config polar/scenario.ini
+run convert polar/plots.csv one.lcm --config polar/scenario.ini
 run convert one.lcm back.csv
 run track back.csv --config polar/scenario.ini --covariance -o found.csv
 check 'own times: the same tracks' cmp tracks.csv found.csv
-run track polar/polar.csv --config polar/scenario.ini -o tracks.csv
+run track polar/plots.csv --config polar/scenario.ini -o tracks.csv
 check 'tracks without covariance: the log is the same' there_and_back tracks.csv
 check 'tracks without covariance: the sigmas are the same' same_values tracks.csv back.csv
 run convert one.lcm back.csv
@@ -112,15 +118,15 @@ check 'without --covariance no column of it' bash -c '! grep -q cov_ back.csv'
 
 # ---- a radar that turns: rows of a scan go back behind the one that has its time ----
 run simulate rotating -o rotating
-check 'sectors: the log is the same' there_and_back rotating/polar.csv --config rotating/scenario.ini
-{ head -n 1 rotating/polar.csv && sed 1d rotating/polar.csv | sort -s -t, -k 1,1n; } >sorted.csv
-check 'sectors: the values are the same' same_values sorted.csv back.csv
-run track rotating/polar.csv --config rotating/scenario.ini --covariance -o expected.csv
+check 'sectors: the log is the same' there_and_back rotating/plots.csv --config rotating/scenario.ini
+in_time rotating/plots.csv
+check 'sectors: the values are the same' same_values in_time.csv back.csv
+run track rotating/plots.csv --config rotating/scenario.ini --covariance -o expected.csv
 for file in one.lcm back.csv; do
     run track "$file" --config rotating/scenario.ini --covariance -o found.csv
     check "sectors: the same tracks of $file" cmp expected.csv found.csv
 done
-run publish rotating/polar.csv --config rotating/scenario.ini --speed 0 --lcm 'file://published.lcm?mode=w'
+run publish rotating/plots.csv --config rotating/scenario.ini --speed 0 --lcm 'file://published.lcm?mode=w'
 check 'publish takes them' exits 0
 run node --lcm 'file://published.lcm?speed=0' --config rotating/scenario.ini --log node.lcm
 "$program" convert node.lcm found.csv --kind tracks --covariance 2>stderr
@@ -129,10 +135,10 @@ cut -d, -f1-12 found.csv | grep -v ,deleted, >found_states.csv
 check 'sectors: a node makes the same tracks' cmp expected_states.csv found_states.csv
 
 # ---- received_s ----
-run simulate two-radars --set num_scans=12 -o late
-check 'received_s: the log is the same' there_and_back late/polar.csv --config late/scenario.ini
-check 'received_s: the values are the same' same_values late/polar.csv back.csv
-run track late/polar.csv --config late/scenario.ini -o expected.csv
+run simulate two-radars --set duration_s=120 -o late
+check 'received_s: the log is the same' there_and_back late/plots.csv --config late/scenario.ini
+check 'received_s: the values are the same' same_values late/plots.csv back.csv
+run track late/plots.csv --config late/scenario.ini -o expected.csv
 run track back.csv --config late/scenario.ini -o found.csv
 check 'received_s: the same tracks' cmp expected.csv found.csv
 printf 't_s,received_s,sensor_id,x_m,y_m\n1,1.5,1,10,20\n3,3.5,1,30,40\n2,4,1,50,60\n2,4,1,70,80\n' >received.csv

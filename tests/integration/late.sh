@@ -97,8 +97,8 @@ run convert apart.csv apart.lcm
 check 'in a log' same apart.lcm
 
 # ---- more than a feed has room for: 11 sectors a second, some 3 s late ----
-run simulate two-radars --set late_ms=3000 --set num_scans=15 --seed 5 -o busy
-run convert busy/polar.csv busy.lcm --config busy/scenario.ini
+run simulate two-radars --set radars.0.late_s=3 --set radars.1.late_s=3 --set settings.hold_ms=3000 --set duration_s=150 --seed 5 -o busy
+run convert busy/plots.csv busy.lcm --config busy/scenario.ini
 for late_max_s in 20 0; do
     run track busy.lcm --config busy/scenario.ini --set late_max_s=$late_max_s --json
     check "a log's scans wait for hold_ms, late_max_s $late_max_s" json stdout \
@@ -110,7 +110,8 @@ run node --lcm 'file://busy.lcm?speed=0' --config busy/scenario.ini --set hold_m
 check 'and nothing where there is room' bash -c '! grep -q "no room for more" stderr'
 
 # ---- each row received on its own: a radar that turns, whose plots are gathered over a turn ----
-run simulate doppler -o turning
+run simulate doppler --set settings.scan_interval_s=4 -o turning
+unnumbered turning/plots.csv 5 4 >turning/polar.csv
 turning=(--config turning/scenario.ini)
 run track turning/polar.csv "${turning[@]}" -o expected.csv
 awk -F, 'NR == 1 { print $0 ",received_s"; next } { printf "%s,%.6f\n", $0, $1 + 0.05 }' turning/polar.csv >evenly.csv
@@ -134,16 +135,16 @@ for file in evenly unevenly; do
 done
 # ---- what is said of it ----
 # Two radars by sectors, a fifth of the scans 300 ms late: all are used, none is lost.
-run simulate two-radars --set num_scans=6 -o two
-run convert two/polar.csv two.lcm
+run simulate two-radars --set duration_s=60 --seed 2 -o two
+run convert two/plots.csv two.lcm
 run track two.lcm --config two/scenario.ini -o two_tracks.csv
 check 'a log out of order: all is used' grep -Eqx 'rhotrack: two.lcm: [0-9]{2,} scans out of order' stderr
 check 'nothing is said to be lost or late' bash -c '! grep -Eq "lost$|dropped|scans late" stderr'
 # The 40th scan of radar 2 is lost.
-lost=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } $at["sensor_id"] == 2 { print $at["scan"] }' two/polar.csv |
+lost=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } $at["sensor_id"] == 2 { print $at["scan"] }' two/plots.csv |
     sort -nu | sed -n 40p)
 awk -F, -v lost="$lost" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; print; next }
-    !($at["sensor_id"] == 2 && $at["scan"] == lost)' two/polar.csv >gap.csv
+    !($at["sensor_id"] == 2 && $at["scan"] == lost)' two/plots.csv >gap.csv
 run convert gap.csv gap.lcm
 run track gap.lcm --config two/scenario.ini -o two_tracks.csv
 check 'one that is lost is counted once' grep -Eqx 'rhotrack: gap.lcm: [0-9]+ scans out of order, 1 scans lost' stderr

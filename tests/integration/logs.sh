@@ -34,7 +34,7 @@ same_tracks() { # scenario, options
 }
 
 make_files radar plots
-make_files polar polar --set range_rate=1
+make_files polar plots --set radars.0.sigma_range_rate_mps=1
 make_files weave plots --set duration_s=15
 make_files passive-three bearings --set duration_s=140
 same_tracks radar --gate nearest
@@ -45,7 +45,7 @@ done
 
 # A CSV file of a log says which rows are one scan, whatever their own times.
 run convert polar/in.lcm polar/numbered.csv
-run track polar/numbered.csv --config polar/scenario.ini --set scan_interval_s=0 --covariance -o polar/same.csv
+run track polar/numbered.csv --config polar/scenario.ini --covariance -o polar/same.csv
 check 'rows of one number are one scan' made_same polar/tracks.csv polar/same.csv
 cat >late.csv <<CSV
 t_s,sensor_id,x_m,y_m,scan

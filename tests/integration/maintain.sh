@@ -132,8 +132,8 @@ check 'plots of two sensors go to one track' awk -F, 'NR > 1 && ($2 != 1 || $18 
     END { exit ($4 - 7900)^2 + ($5 - 4000)^2 + ($6 - 3000)^2 > 900 || ($7 - 200)^2 > 400 }' stdout
 
 # A radar's plots, each at its own time, with range rates: a lone target.
-run simulate polar --seed 3 --set targets=1 --set clutter_per_scan=0 --set true_pd=1 --set range_rate=1 -o polar
-run maintain polar/polar.csv --gate nearest --config polar/scenario.ini -o out.csv
+run simulate polar --seed 3 --set targets.0.count=1 --set clutter=[] --set radars.0.pd=1 --set radars.0.sigma_range_rate_mps=1 -o polar
+run maintain polar/plots.csv --gate nearest --config polar/scenario.ini -o out.csv
 run evaluate polar/truth.csv out.csv --json
 check 'polar plots' json stdout 'o["completeness"] > 0.9 and o["rmse_m"] < 200'
 

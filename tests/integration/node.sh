@@ -111,10 +111,10 @@ fi
 
 # ---- a radar that turns, sector by sector ----
 "$program" simulate rotating -o rotating
-run track rotating/polar.csv --config rotating/scenario.ini
+run track rotating/plots.csv --config rotating/scenario.ini
 cp stdout rotating.csv
 start turning --config rotating/scenario.ini
-run publish rotating/polar.csv --config rotating/scenario.ini --speed 30
+run publish rotating/plots.csv --config rotating/scenario.ini --speed 30
 check 'rows of a sector may go back behind the one that has its time' exits 0
 sleep 0.7
 stop INT "$node"

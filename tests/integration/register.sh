@@ -6,22 +6,24 @@
 . "$(dirname "$0")/checks.bash"
 
 # ---- simulate two-radars ----
+prompt=(--set radars.0.late_share=0 --set radars.1.late_share=0)
+whole=(--set radars.0.sectors=1 --set radars.1.sectors=1)
 run simulate two-radars -o late
 check 'a fifth of the scans arrives 300 ms late, and none before it ends' awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
     $(at["received_s"]) + 0 < last { exit 1 } { last = $(at["received_s"]) }
     $(at["range_m"]) == "" { scans++; after = $(at["received_s"]) - $1; late += after > 0.299
         if (after < -1e-6 || (after > 1e-6 && after < 0.299) || after > 0.301) exit 1 }
-    END { exit !(scans == 6688 && late / scans > 0.17 && late / scans < 0.23) }' late/polar.csv
+    END { exit !(scans == 6688 && late / scans > 0.17 && late / scans < 0.23) }' late/plots.csv
 check 'scenario.ini says how long to wait' grep -qx 'hold_ms = 300' late/scenario.ini
 check 'and nothing of the biases' bash -c '! grep -q bias late/scenario.ini'
 check 'the sectors of each radar are numbered from 1, each once' awk -F, '
     NR > 1 && $3 == "" { if (seen[$2 "," $9]++) exit 1; count[$2]++; if ($9 + 0 > most[$2]) most[$2] = $9 + 0 }
-    END { for (s in count) if (count[s] != most[s] || count[s] < 1900) exit 1 }' late/polar.csv
-run simulate two-radars --set late_share=0 -o sectors
-check 'without late data there is no column received_s' bash -c '! head -n 1 sectors/polar.csv | grep -q received_s'
-run simulate two-radars --set late_share=0 --set sectors_per_turn=1 -o turns
-run track turns/polar.csv --config turns/scenario.ini
+    END { for (s in count) if (count[s] != most[s] || count[s] < 1900) exit 1 }' late/plots.csv
+run simulate two-radars "${prompt[@]}" -o sectors
+check 'without late data there is no column received_s' bash -c '! head -n 1 sectors/plots.csv | grep -q received_s'
+run simulate two-radars "${prompt[@]}" "${whole[@]}" -o turns
+run track turns/plots.csv --config turns/scenario.ini
 check 'whole turns are scans' grep -q 'rhotrack: 20[89] scans' stderr
 
 # ---- register ----
@@ -31,33 +33,33 @@ for r, s in zip(o["radars"], (1, -1))) and abs(o["radars"][1]["time_bias_s"]) < 
 and o["radars"][0]["time_bias_s"] == 0 and o["reference_sensor"] == 1 and o["targets"] >= 19'
 good=${good//$'\n'/ }
 for kind in sectors turns; do
-    run register "$kind/polar.csv" --config "$kind/scenario.ini" --json -o "$kind.ini"
+    run register "$kind/plots.csv" --config "$kind/scenario.ini" --json -o "$kind.ini"
     cp stdout "$kind.json"
     check "$kind: biases within their sigmas" json "$kind.json" "$good"
 done
-awk -F, 'NR == 1 || $2 == 1' sectors/polar.csv >first.csv
-awk -F, 'NR == 1 || $2 == 2' sectors/polar.csv >second.csv
+awk -F, 'NR == 1 || $2 == 1' sectors/plots.csv >first.csv
+awk -F, 'NR == 1 || $2 == 2' sectors/plots.csv >second.csv
 run register second.csv first.csv --config sectors/scenario.ini --json
 check 'two files are as one' cmp stdout sectors.json
-run register sectors/polar.csv --config sectors/scenario.ini --config sectors.ini --json
+run register sectors/plots.csv --config sectors/scenario.ini --config sectors.ini --json
 check 'with the biases configured they come out again, in all' json stdout "$good"
-run register sectors/polar.csv --config sectors/scenario.ini --set reference_sensor=2
+run register sectors/plots.csv --config sectors/scenario.ini --set reference_sensor=2
 check 'another reference' grep -q '^the time of radar 2 counts as right' stdout
-run register sectors/polar.csv --config sectors/scenario.ini
+run register sectors/plots.csv --config sectors/scenario.ini
 check 'a table' bash -c 'grep -Eq "^ +1 .* 0\.0000 +-$" stdout && grep -q "^20 targets in common" stdout'
 
 # ---- a clock that is off ----
-run simulate two-radars --set late_share=0 --set true_time_bias_s=-1 -o behind
-check 'then the file is in the order of arrival' bash -c 'head -n 1 behind/polar.csv | grep -q received_s'
-run track behind/polar.csv --config behind/scenario.ini --json -o raw.csv
+run simulate two-radars "${prompt[@]}" --set radars.1.time_bias_s=-1 -o behind
+check 'then the file is in the order of arrival' bash -c 'head -n 1 behind/plots.csv | grep -q received_s'
+run track behind/plots.csv --config behind/scenario.ini --json -o raw.csv
 check 'which track reads; scans that are said to be a second old are late' json stdout \
     'o["counters"]["scans_retrodicted"] > 1000 and o["scans"] == 6688'
-run register behind/polar.csv --config behind/scenario.ini --json -o behind.ini
+run register behind/plots.csv --config behind/scenario.ini --json -o behind.ini
 off='(lambda b: abs(b["time_bias_s"] + 1) < 4 * b["time_bias_sigma_s"] < 0.1)(o["radars"][1])'
 check 'register finds it' json stdout "$off and ${good%% and abs(o\[\"radars\"\]\[1*}"
-run register behind/polar.csv --config behind/scenario.ini --config behind.ini --json
+run register behind/plots.csv --config behind/scenario.ini --config behind.ini --json
 check 'and finds it again, in all, where it is told of it' json stdout "$off"
-run track behind/polar.csv --config behind/scenario.ini --config behind.ini --json -o right.csv
+run track behind/plots.csv --config behind/scenario.ini --config behind.ini --json -o right.csv
 check 'with it nothing is late but by what it is not known to' json stdout \
     'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["fates"]["stale"] < 60'
 run evaluate behind/truth.csv right.csv
@@ -85,23 +87,22 @@ rm shifted.svg
 run plot errors truth.csv shifted.csv -o shifted.svg
 check 'plot errors: or refused, as by evaluate' says 2 'rhotrack: shifted.csv:2: the truth has no such time within 1 ms (time_tolerance_s)'
 check 'plot errors: then nothing is left' bash -c '! ls shifted.svg* none.svg* 2>/dev/null'
-run convert behind/polar.csv behind.lcm --config behind/scenario.ini
+run convert behind/plots.csv behind.lcm --config behind/scenario.ini
 run track behind.lcm --config behind/scenario.ini --config behind.ini --json -o log.csv
 check 'and from a log' json stdout 'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["scans"] == 6688'
 run register behind.lcm --config behind/scenario.ini --config behind.ini --json
 check 'register of the log' json stdout "$off"
 
 # ---- what comes very late ----
-run simulate two-radars --set late_ms=15000 --set sectors_per_turn=1 -o very_late
-check 'nothing waits longer than hold_ms may be' grep -qx 'hold_ms = 10000' very_late/scenario.ini
-run track very_late/polar.csv --config very_late/scenario.ini --json -o tracks.csv
+run simulate two-radars --set radars.0.late_s=15 --set radars.1.late_s=15 "${whole[@]}" -o very_late
+run track very_late/plots.csv --config very_late/scenario.ini --set hold_ms=10000 --json -o tracks.csv
 check 'what comes later still is late' json stdout 'o["counters"]["scans_retrodicted"] > 10 and o["counters"]["scans_late"] == 0'
 
 # ---- what it is for ----
-run track turns/polar.csv --config turns/scenario.ini -o raw.csv
+run track turns/plots.csv --config turns/scenario.ini -o raw.csv
 run evaluate turns/truth.csv raw.csv --json
 cp stdout raw.json
-run track turns/polar.csv --config turns/scenario.ini --config turns.ini -o right.csv
+run track turns/plots.csv --config turns/scenario.ini --config turns.ini -o right.csv
 run evaluate turns/truth.csv right.csv --set time_tolerance_s=0.1 --json
 check 'tracks are nearer to the truth with them' json stdout \
     "o[\"rmse_m\"] < 0.9 * $(python3 -c 'import json; print(json.load(open("raw.json"))["rmse_m"])')"
@@ -124,34 +125,34 @@ check 'Cartesian plots' says 2 'rhotrack: register: sensor 1: its plots are not 
 run simulate passive-two -o passive
 run register passive/bearings.csv
 check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, and no bearings'
-run register sectors/polar.csv --config sectors/scenario.ini --set reference_sensor=7
+run register sectors/plots.csv --config sectors/scenario.ini --set reference_sensor=7
 check 'a reference that is not there' says 2 'rhotrack: reference_sensor 7 is none of *'
-cut -d, -f1-4,7-9 sectors/polar.csv >placeless.csv
+cut -d, -f1-4,7-9 sectors/plots.csv >placeless.csv
 run register placeless.csv
 check 'radars without places' says 2 'rhotrack: register: where do radars * and * stand? *'
-run simulate two-radars --set late_share=0 --set targets=0 -o empty
-run register sectors/polar.csv --config sectors/scenario.ini -o sectors_again.ini
+run simulate two-radars "${prompt[@]}" --set targets=[] -o empty
+run register sectors/plots.csv --config sectors/scenario.ini -o sectors_again.ini
 mv stdout table
-run register sectors/polar.csv --config sectors/scenario.ini -o -
+run register sectors/plots.csv --config sectors/scenario.ini -o -
 check 'with -o - the INI file is standard output' writes_same_as sectors_again.ini
 check 'and the table standard error' cmp table stderr
-run register sectors/polar.csv --config sectors/scenario.ini -o - --json
+run register sectors/plots.csv --config sectors/scenario.ini -o - --json
 check 'JSON has no room there' says 2 'rhotrack: register: --json and -o - both write on standard output'
-run register empty/polar.csv --config empty/scenario.ini -o none.ini
+run register empty/plots.csv --config empty/scenario.ini -o none.ini
 check 'no common target' says 1 'rhotrack: register: no target was tracked by two radars *'
 check 'no file then' test ! -e none.ini
-run simulate two-radars --set late_share=0 --set targets=1 --set num_scans=12 -o one
-run register one/polar.csv --config one/scenario.ini -o none.ini
+run simulate two-radars "${prompt[@]}" --set targets.0.count=1 --set duration_s=120 -o one
+run register one/plots.csv --config one/scenario.ini -o none.ini
 check 'one target for two minutes tells nothing' exits 1
 check 'each bias is said to be not known' test "$(grep -c 'not known' stdout)" -eq 5
 check 'no file then either' test ! -e none.ini
-ln -s sectors/polar.csv link.csv
+ln -s sectors/plots.csv link.csv
 run register first.csv second.csv ./second.csv --config sectors/scenario.ini
 check 'a file twice' says 2 'rhotrack: register: ./second.csv is given twice, and its plots would count twice'
-run register sectors/polar.csv link.csv --config sectors/scenario.ini
+run register sectors/plots.csv link.csv --config sectors/scenario.ini
 check 'by another name' says 2 'rhotrack: register: link.csv is given twice, *'
 for ending in csv lcm ast geojson svg JSON; do
-    run register sectors/polar.csv --config sectors/scenario.ini -o "none.$ending"
+    run register sectors/plots.csv --config sectors/scenario.ini -o "none.$ending"
     check "an INI file by the name of $ending" says 2 \
         "rhotrack: none.$ending: register writes an INI file, and .${ending,,} is the ending of another"
     check "and no file: $ending" test ! -e "none.$ending"

@@ -67,13 +67,30 @@ refuse 'points that go back in time' '1: targets?0?.points: times must grow' "$p
 refuse 'points and legs' '1: targets?0?.legs: does not go with points' "$plane, \"targets\": [{\"points\": [], \"legs\": []}]}"
 refuse 'too much' '1: 2.5e+07 scans *' "{\"version\": 1, \"duration_s\": 1e5, \"radars\": [{\"interval_s\": 0.004, \"sigma_range_m\": 30, \"sigma_azimuth_rad\": 0.003}]}"
 refuse 'a goal that is none' "1: goal.completness: unknown key, did you mean 'completeness'?" "$start, \"goal\": {\"completness\": 3}}"
+refuse 'flights without a box' '1: targets?0?: box_m is missing' "$start, \"targets\": [{\"flights\": 3}]}"
+refuse 'flights that last no time' '1: targets?0?: least_s is missing' "$start, \"targets\": [{\"flights\": 3, \"box_m\": [0, 9, 0, 9]}]}"
+refuse 'flights and a count' '1: targets?0?.flights: does not go with count' "$start, \"targets\": [{\"flights\": 3, \"count\": 3}]}"
+refuse 'a disc of three numbers' '1: targets?0?.keep_discs_m?0?: *' \
+    "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_discs_m\": [[1, 2, 3]]}]}"
+refuse 'a disc inside out' '1: targets?0?.keep_discs_m: must be ?x, y, from, to?' \
+    "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_discs_m\": [[1, 2, 4, 3]]}]}"
+refuse 'a share of no disc' '1: targets?0?.keep_all_share: needs keep_discs_m' \
+    "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_all_share\": 0.5}]}"
+refuse 'a beginning the wrong way' '1: radars?0?.start_s: the first, 4, is above the second, 2' "${start%\}\]}, \"start_s\": [4, 2]}]}"
+refuse 'range rates of two kinds' '1: clutter?0?.range_rate_sigma_mps: does not go with range_rate_max_mps' \
+    "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5, \"range_rate_max_mps\": 5, \"range_rate_sigma_mps\": 1}]}"
+for keep in '"keep_discs_m": [[0, 0, 60, 70]]' '"spacing_m": 200'; do
+    printf '%s' "$start, \"targets\": [{\"count\": 2, \"range_m\": 50, \"speed_mps\": 0, $keep}]}" >wrong.json
+    run simulate wrong.json -o none
+    check "no room: $keep" says 2 'rhotrack: wrong.json: targets?0?: none of 10000 random paths keeps *'
+done
 printf '%s' "$start, \"targets\": [{\"count\": 1, \"range_m\": 50, \"speed_mps\": 30, \"keep_range_m\": 60}]}" >wrong.json
 run simulate wrong.json -o none
 check 'paths that cannot be' says 2 'rhotrack: wrong.json: targets?0?: none of 10000 random paths *'
 run simulate nowhere.json -o none
 check 'no such file' says 2 'rhotrack: nowhere.json: *'
 run simulate towrs -o none
-check 'no such scene' says 2 'rhotrack: no scenario or scene `towrs`, did you mean `towers`?*'
+check 'no such scene' says 2 'rhotrack: no scene `towrs`, did you mean `towers`?*'
 printf 'v_min_mps = 3\n' >some.ini
 run simulate towers --config some.ini -o none
 check 'a scene takes no parameters' says 2 'rhotrack: simulate: a scene takes no --config*'

@@ -27,7 +27,7 @@
 #define SCENE(duration, radars, rest)                                                              \
     "{\"version\": 1, \"duration_s\": " duration ", \"radars\": [" radars "]" rest "}"
 
-static struct scene *scene_of(const char *text)
+static inline struct scene *scene_of(const char *text)
 {
     return scene_read("test.json", must_copy(text), strlen(text), NULL, 0);
 }
@@ -36,19 +36,19 @@ struct moments {
     double count, sum, squares;
 };
 
-static void add_moment(struct moments *moments, double value)
+static inline void add_moment(struct moments *moments, double value)
 {
     moments->count += 1.0;
     moments->sum += value;
     moments->squares += value * value;
 }
 
-static double mean_of(const struct moments *moments)
+static inline double mean_of(const struct moments *moments)
 {
     return moments->sum / moments->count;
 }
 
-static double sigma_of(const struct moments *moments)
+static inline double sigma_of(const struct moments *moments)
 {
     double mean = mean_of(moments);
 

@@ -15,6 +15,7 @@
 
 #include "experiment_air_traffic.h"
 #include "poisson.h"
+#include "scene/scene_simulation.h"
 
 #define SEED 7
 
@@ -25,8 +26,7 @@ static struct air_case case_of(double targets, double clutter, size_t num_scans)
                              .clutter = clutter,
                              .num_scans = num_scans,
                              .share = 1,
-                             .has_limit = true,
-                             .settings = {{0, NAN}}};
+                             .has_limit = true};
 }
 
 static struct air_result run(const struct air_case *of)
@@ -119,8 +119,9 @@ static void the_limit_knows_no_clutter(void **state)
 static void the_limit_starts_at_so_many_hits(void **state)
 {
     struct air_case of = case_of(20, 0, 40);
-    struct parameters parameters = air_parameters(&of);
-    struct simulation *simulation = scenario_simulate("air-traffic", &parameters, SEED, 0);
+    struct scene *scene = air_scene(&of);
+    struct parameters parameters = air_parameters(scene);
+    struct simulation *simulation = scene_simulation(scene, SEED, 0);
     struct chain chain = chain_start();
     (void)state;
 
@@ -140,9 +141,37 @@ static void the_limit_starts_at_so_many_hits(void **state)
     }
     chain_free(&chain);
     simulation_free(simulation);
+    scene_free(scene);
 }
 
 /* ---- pairs, clutter --------------------------------------------------------------------------- */
+
+/* Apart, side by side from a quarter to three quarters of the time, apart; at one speed. */
+static void a_formation_meets_flies_side_by_side_and_parts(void **state)
+{
+    struct parameters parameters;
+    struct simulation *simulation;
+    (void)state;
+
+    parameters_default(&parameters);
+    scenario_suggest("formation", &parameters);
+    parameters_suggest(&parameters, PARAMETER_SPACING_M, 300);
+    simulation = scenario_simulate("formation", &parameters, SEED, 0);
+    assert_int_equal(simulation->num_scans, 61);
+    for (size_t scan = 0; scan < 61; scan++) {
+        const struct truth_point *one = &simulation->truth[2 * scan], *other = one + 1;
+        double off_scans = fmax(0.0, fabs((double)scan - 30.0) - 15.0);
+        double spacing_m = 300.0 + off_scans * 10.0 * 2.0 * 250.0 * sin(0.08726646259971647);
+        assert_true(fabs(one->y_m - other->y_m - spacing_m) < 1e-6);
+        assert_true(fabs(one->x_m - other->x_m) < 1e-6);
+        assert_true(fabs(hypot(one->vx_mps, one->vy_mps) - 250.0) < 1e-9);
+        if (scan > 0) {
+            assert_true(fabs(hypot(one->x_m - one[-2].x_m, one->y_m - one[-2].y_m) - 2500.0) <
+                        1e-6);
+        }
+    }
+    simulation_free(simulation);
+}
 
 static void pairs_are_told_apart(void **state)
 {
@@ -266,6 +295,7 @@ int main(void)
         cmocka_unit_test(figures_are_the_limits_where_nothing_else_is_to_be_seen),
         cmocka_unit_test(the_limit_knows_no_clutter),
         cmocka_unit_test(the_limit_starts_at_so_many_hits),
+        cmocka_unit_test(a_formation_meets_flies_side_by_side_and_parts),
         cmocka_unit_test(pairs_are_told_apart),
         cmocka_unit_test(clutter_alone_gives_few_tracks),
         cmocka_unit_test(limits_of_a_poisson_mean),

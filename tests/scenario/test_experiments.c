@@ -48,11 +48,11 @@ static void add(struct sums *sums, const struct polar_result *result)
 
 static struct sums run_case(size_t number, double clutter)
 {
-    struct parameters parameters = polar_parameters(clutter);
+    struct parameters parameters;
     struct chain chain = chain_start();
     struct sums sums = {0};
     for (uint64_t run = 0; run < RUNS; run++) {
-        struct simulation *simulation = scenario_simulate("polar", &parameters, SEED, run);
+        struct simulation *simulation = polar_simulation(clutter, 0.0, SEED, run, &parameters);
         struct polar_result result =
             polar_run(&polar_cases[number], &parameters, simulation, &chain);
         add(&sums, &result);
@@ -121,8 +121,8 @@ static void range_rates_confirm_sooner_and_sharpen(void **state)
 
 static void the_truth_of_polar_targets_is_the_simulations(void **state)
 {
-    struct parameters parameters = polar_parameters(100.0);
-    struct simulation *simulation = scenario_simulate("polar", &parameters, SEED, 0);
+    struct parameters parameters;
+    struct simulation *simulation = polar_simulation(100.0, 0.0, SEED, 0, &parameters);
     (void)state;
     assert_int_equal(simulation->num_truth, simulation->num_scans * simulation->num_targets);
     for (size_t i = 0; i < simulation->num_truth; i++) {
@@ -154,8 +154,8 @@ static void check_plot(const struct polar_case *of, const struct simulated_plot 
 static void a_case_tells_the_library_what_it_says(void **state)
 {
     static struct rho_plot plots[RHO_MAX_PLOTS];
-    struct parameters parameters = polar_parameters(300.0);
-    struct simulation *simulation = scenario_simulate("polar", &parameters, SEED, 1);
+    struct parameters parameters;
+    struct simulation *simulation = polar_simulation(300.0, 0.0, SEED, 1, &parameters);
     (void)state;
     for (size_t number = 0; number < POLAR_CASES; number++) {
         const struct polar_case *of = &polar_cases[number];

@@ -15,8 +15,8 @@
 
 #include "chain.h"
 #include "cholesky.h"
-#include "record_scans.h"
 #include "register.h"
+#include "scene/scene_simulation.h"
 
 #define SEED 4711
 #define RUNS 12
@@ -38,13 +38,27 @@ static int free_chain(void **state)
     return 0;
 }
 
-static struct parameters parameters_of_scenario(void)
-{
+/* A run of the scene two-radars, with these changes to it. */
+struct heard {
+    struct scene *scene;
+    struct scene_run *run;
     struct parameters parameters;
+};
 
-    parameters_default(&parameters);
-    scenario_suggest("two-radars", &parameters);
-    return parameters;
+static struct heard hear(uint64_t run, const char *const *sets, size_t num_sets)
+{
+    struct heard heard = {.scene = scene_find("two-radars", sets, num_sets)};
+
+    heard.run = scene_watch(heard.scene, SEED, run);
+    parameters_default(&heard.parameters);
+    scene_suggest(heard.scene, &heard.parameters);
+    return heard;
+}
+
+static void forget(struct heard *heard)
+{
+    scene_run_free(heard->run);
+    scene_free(heard->scene);
 }
 
 /* How the scans are told to register. */
@@ -54,17 +68,16 @@ struct telling {
     double sigma_factor;      /* of the noise that the plots are said to have; 0: 1 */
 };
 
-static void add(struct register_data *data, const struct scenario_record *record, size_t number,
-                const struct telling *telling)
+static void add(struct register_data *data, const struct scene_run *run,
+                const struct scene_scan *seen, const struct telling *telling)
 {
-    const struct record_arrival *arrival = &record->arrivals[number];
-    struct rho_sensor sensor = record_sensor(&record->antennas[arrival->antenna]);
+    struct rho_sensor sensor = scene_known_sensor(&run->scene->sensors[seen->sensor]);
     struct rho_scan scan;
 
     sensor.range_bias_m = telling->biases.range_bias_m;
     sensor.azimuth_bias_rad = telling->biases.azimuth_bias_rad;
     sensor.time_bias_s = telling->biases.time_bias_s;
-    scan = record_scan(record, arrival, &sensor, chain.plots);
+    scan = scene_scan(run, seen, &sensor, chain.plots);
     for (uint32_t i = 0; telling->sigma_factor > 0.0 && i < scan.num_plots; i++) {
         chain.plots[i].sigma_range_m *= (float)telling->sigma_factor;
         chain.plots[i].sigma_cross_m *= (float)telling->sigma_factor;
@@ -72,31 +85,29 @@ static void add(struct register_data *data, const struct scenario_record *record
     assert_null(register_add(data, &scan, &sensor));
 }
 
-static struct register_result estimate(const struct simulation *simulation,
-                                       const struct parameters *parameters,
-                                       const struct telling *telling)
+static struct register_result estimate(const struct heard *heard, const struct telling *telling)
 {
-    struct register_data *data = register_start(parameters);
-    size_t count = simulation->record->num_arrivals;
+    struct register_data *data = register_start(&heard->parameters);
+    const struct scene_run *run = heard->run;
 
-    for (size_t i = 0; i < count; i++) {
-        add(data, simulation->record, telling->is_backwards ? count - 1 - i : i, telling);
+    for (size_t i = 0; i < run->num_scans; i++) {
+        add(data, run, &run->scans[telling->is_backwards ? run->num_scans - 1 - i : i], telling);
     }
     struct register_result result = register_estimate(data, &chain);
     register_free(data);
     return result;
 }
 
-static double true_bias(const struct scenario_antenna *antenna, size_t kind)
+static double true_bias(const struct scene_sensor *radar, size_t kind)
 {
-    const double biases[NUM_REGISTER_KINDS] = {antenna->range_bias_m, antenna->azimuth_bias_rad,
-                                               antenna->time_bias_s};
+    const double biases[NUM_REGISTER_KINDS] = {radar->range_bias_m, radar->azimuth_bias_rad,
+                                               radar->time_bias_s};
 
     return biases[kind];
 }
 
 /* Every bias is known, and within so many sigmas. Returns the sum of squared errors in sigmas, of 5 biases. */
-static double check(const struct simulation *simulation, const struct register_result *result,
+static double check(const struct heard *heard, const struct register_result *result,
                     double most_sigmas)
 {
     double sum = 0.0;
@@ -105,7 +116,7 @@ static double check(const struct simulation *simulation, const struct register_r
     for (size_t radar = 0; radar < 2; radar++) {
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
             const struct register_bias *bias = &result->radars[radar].biases[kind];
-            double truth = true_bias(&simulation->record->antennas[radar], kind);
+            double truth = true_bias(&heard->scene->sensors[radar], kind);
             double off = bias->value - truth;
 
             assert_true(bias->is_known);
@@ -125,27 +136,26 @@ static double check(const struct simulation *simulation, const struct register_r
 /* Sigmas of 3 m, 0.004 degrees and 19 ms. 400 runs have errors over sigmas of variance 0.99 +- 0.03. */
 static void test_errors_are_as_their_sigmas_say(void **state)
 {
-    struct parameters parameters = parameters_of_scenario();
     const struct telling telling = {.is_backwards = false};
     double sum = 0.0, range_m2 = 0.0, azimuth_rad2 = 0.0;
 
     (void)state;
     for (uint64_t run = 0; run < RUNS; run++) {
-        struct simulation *simulation = scenario_simulate("two-radars", &parameters, SEED, run);
-        struct register_result result = estimate(simulation, &parameters, &telling);
+        struct heard heard = hear(run, NULL, 0);
+        struct register_result result = estimate(&heard, &telling);
 
         assert_true(result.targets >= 19 && result.targets <= 20);
         assert_true(result.misfit > 0.95 && result.misfit < 1.08);
-        sum += check(simulation, &result, 4.5);
+        sum += check(&heard, &result, 4.5);
         for (size_t radar = 0; radar < 2; radar++) {
-            const struct scenario_antenna *antenna = &simulation->record->antennas[radar];
+            const struct scene_sensor *sensor = &heard.scene->sensors[radar];
             const struct register_bias *biases = result.radars[radar].biases;
 
-            range_m2 += pow(biases[REGISTER_RANGE].value - antenna->range_bias_m, 2.0);
-            azimuth_rad2 += pow(biases[REGISTER_AZIMUTH].value - antenna->azimuth_bias_rad, 2.0);
+            range_m2 += pow(biases[REGISTER_RANGE].value - sensor->range_bias_m, 2.0);
+            azimuth_rad2 += pow(biases[REGISTER_AZIMUTH].value - sensor->azimuth_bias_rad, 2.0);
         }
         register_result_free(&result);
-        simulation_free(simulation);
+        forget(&heard);
     }
     print_message("errors over sigmas: variance %.3f of %d\n", sum / (5 * RUNS), 5 * RUNS);
     assert_true(fabs(sum / (5 * RUNS) - 1.0) < 4.0 * sqrt(2.0 / (5 * RUNS)));
@@ -156,39 +166,37 @@ static void test_errors_are_as_their_sigmas_say(void **state)
 /* Large biases of all kinds; the other radar's time as the reference turns the sign. */
 static void test_large_biases_and_the_reference(void **state)
 {
-    struct parameters parameters = parameters_of_scenario();
     const struct telling telling = {.is_backwards = false};
 
     (void)state;
-    parameters_suggest(&parameters, PARAMETER_TRUE_RANGE_BIAS_M, 400.0);
-    parameters_suggest(&parameters, PARAMETER_TRUE_AZIMUTH_BIAS_RAD, -0.5 * DEG_RAD);
-    parameters_suggest(&parameters, PARAMETER_TRUE_TIME_BIAS_S, 1.5);
-    struct simulation *simulation = scenario_simulate("two-radars", &parameters, SEED, 0);
-    struct register_result result = estimate(simulation, &parameters, &telling);
-    check(simulation, &result, 4.0);
+    const char *sets[] = {"radars.0.range_bias_m=400", "radars.0.azimuth_bias_rad=-0.00872665",
+                          "radars.1.range_bias_m=-400", "radars.1.azimuth_bias_rad=0.00872665",
+                          "radars.1.time_bias_s=1.5"};
+    struct heard heard = hear(0, sets, 5);
+    struct register_result result = estimate(&heard, &telling);
+    check(&heard, &result, 4.0);
     register_result_free(&result);
 
-    parameters_set(&parameters, "reference_sensor=2");
-    result = estimate(simulation, &parameters, &telling);
+    parameters_set(&heard.parameters, "reference_sensor=2");
+    result = estimate(&heard, &telling);
     assert_int_equal(result.reference, 1);
-    simulation->record->antennas[0].time_bias_s = -1.5;
-    simulation->record->antennas[1].time_bias_s = 0.0;
-    check(simulation, &result, 4.0);
+    heard.scene->sensors[0].time_bias_s = -1.5;
+    heard.scene->sensors[1].time_bias_s = 0.0;
+    check(&heard, &result, 4.0);
     register_result_free(&result);
-    simulation_free(simulation);
+    forget(&heard);
 }
 
 /* The biases that are configured are part of what is told; the order of the scans is none of its matter. */
 static void test_configured_biases_and_order_change_nothing(void **state)
 {
-    struct parameters parameters = parameters_of_scenario();
     const struct telling plain = {.is_backwards = false};
     const struct telling other = {
         .is_backwards = true,
         .biases = {.range_bias_m = 30.0f, .azimuth_bias_rad = -0.001f, .time_bias_s = 0.0f}};
-    struct simulation *simulation = scenario_simulate("two-radars", &parameters, SEED, 1);
-    struct register_result one = estimate(simulation, &parameters, &plain);
-    struct register_result two = estimate(simulation, &parameters, &other);
+    struct heard heard = hear(1, NULL, 0);
+    struct register_result one = estimate(&heard, &plain);
+    struct register_result two = estimate(&heard, &other);
 
     (void)state;
     for (size_t radar = 0; radar < 2; radar++) {
@@ -202,17 +210,16 @@ static void test_configured_biases_and_order_change_nothing(void **state)
     }
     register_result_free(&one);
     register_result_free(&two);
-    simulation_free(simulation);
+    forget(&heard);
 }
 
 /* Plots that are said to be twice as good as they are: the sigmas of the biases come from what they are. */
 static void test_noise_is_measured(void **state)
 {
-    struct parameters parameters = parameters_of_scenario();
     const struct telling plain = {.is_backwards = false}, better = {.sigma_factor = 0.5};
-    struct simulation *simulation = scenario_simulate("two-radars", &parameters, SEED, 2);
-    struct register_result one = estimate(simulation, &parameters, &plain);
-    struct register_result two = estimate(simulation, &parameters, &better);
+    struct heard heard = hear(2, NULL, 0);
+    struct register_result one = estimate(&heard, &plain);
+    struct register_result two = estimate(&heard, &better);
 
     (void)state;
     print_message("misfit %.3f and %.3f\n", one.misfit, two.misfit);
@@ -220,23 +227,21 @@ static void test_noise_is_measured(void **state)
     assert_true(two.misfit > 1.6 && two.misfit < 2.1);
     assert_true(two.radars[0].biases[REGISTER_RANGE].sigma >
                 0.8 * one.radars[0].biases[REGISTER_RANGE].sigma);
-    check(simulation, &two, 4.5);
+    check(&heard, &two, 4.5);
     register_result_free(&one);
     register_result_free(&two);
-    simulation_free(simulation);
+    forget(&heard);
 }
 
 /* One target for four minutes: not one bias is known better than by a plot; without targets there is nothing in common. */
 static void test_says_what_it_cannot_know(void **state)
 {
-    struct parameters parameters = parameters_of_scenario();
     const struct telling telling = {.is_backwards = false};
 
     (void)state;
-    parameters_suggest(&parameters, PARAMETER_TARGETS, 1);
-    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 24);
-    struct simulation *simulation = scenario_simulate("two-radars", &parameters, SEED, 3);
-    struct register_result result = estimate(simulation, &parameters, &telling);
+    const char *one[] = {"targets.0.count=1", "duration_s=240"};
+    struct heard heard = hear(3, one, 2);
+    struct register_result result = estimate(&heard, &telling);
     assert_int_equal(result.targets, 1);
     for (size_t radar = 0; radar < 2; radar++) {
         for (size_t kind = 0; kind < REGISTER_TIME; kind++) {
@@ -248,21 +253,22 @@ static void test_says_what_it_cannot_know(void **state)
         }
     }
     register_result_free(&result);
-    simulation_free(simulation);
+    forget(&heard);
 
-    parameters_suggest(&parameters, PARAMETER_TARGETS, 0);
-    simulation = scenario_simulate("two-radars", &parameters, SEED, 4);
-    result = estimate(simulation, &parameters, &telling);
+    const char *nobody[] = {"targets=[]"};
+    heard = hear(4, nobody, 1);
+    result = estimate(&heard, &telling);
     assert_int_equal(result.targets, 0);
     assert_int_equal(result.plots, 0);
     assert_false(result.radars[1].biases[REGISTER_RANGE].is_known);
     register_result_free(&result);
-    simulation_free(simulation);
+    forget(&heard);
 }
 
 static void test_refuses_what_it_cannot_use(void **state)
 {
-    struct parameters parameters = parameters_of_scenario();
+    struct parameters parameters;
+    parameters_default(&parameters);
     struct register_data *data = register_start(&parameters);
     struct rho_plot plot = chain_plot(1000.0, 2000.0, 10.0);
     struct rho_scan scan = {.sensor_id = 5, .num_plots = 1, .plots = &plot};

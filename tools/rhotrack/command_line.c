@@ -11,7 +11,6 @@
 #include "common.h"
 #include "hint.h"
 #include "method.h"
-#include "scenario.h"
 
 enum { NUM_OPTIONS = 23, RUNS_MAX = 1000000 };
 
@@ -279,7 +278,7 @@ static void read_options(struct command_line *line, const struct command *comman
             fail(EXIT_USAGE, "%s takes no --%s; see rhotrack %s --help", command->name,
                  name_of(letter), command->name);
         }
-        if (letter == 's' && command->run == command_simulate) {
+        if (letter == 's' && command->run == command_simulate) { /* changes the scene */
             line->scene_sets =
                 must_grow(line->scene_sets, line->num_scene_sets, &room, sizeof *line->scene_sets);
             line->scene_sets[line->num_scene_sets++] = optarg;
@@ -287,18 +286,6 @@ static void read_options(struct command_line *line, const struct command *comman
             take_option(line, (char)letter, optarg);
         }
     }
-}
-
-/* --set of a scene changes the scene, which is not read yet; of a scenario, the parameters. */
-static void settle_sets(struct command_line *line)
-{
-    if (line->num_arguments == 1 && !scenario_is_known(line->arguments[0])) {
-        return;
-    }
-    for (size_t i = 0; i < line->num_scene_sets; i++) {
-        parameters_set(&line->parameters, line->scene_sets[i]);
-    }
-    line->num_scene_sets = 0;
 }
 
 /* Where nobody set the origin of the local frame it is where the first radar of a recording says that it stands. */
@@ -326,7 +313,6 @@ void command_line_read(struct command_line *line, const struct command *command,
     read_options(line, command, argc, argv);
     line->arguments = argv + optind;
     line->num_arguments = argc - optind;
-    settle_sets(line);
     if (line->num_arguments < command->min_arguments) {
         fail(EXIT_USAGE, "%s: too few arguments; usage: rhotrack %s %s", command->name,
              command->name, command->usage);

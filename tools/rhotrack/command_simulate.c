@@ -5,24 +5,7 @@
 #include "commands.h"
 #include "common.h"
 #include "hint.h"
-#include "scenario.h"
 #include "scene/scene.h"
-#include "simulation_output.h"
-
-/* Of a scene where there is one, else of a scenario. */
-static void write_run(const struct command_line *line, const struct scene *scene,
-                      const char *folder, uint64_t run)
-{
-    const char *name = line->arguments[0];
-
-    if (scene) {
-        scene_simulate(scene, name, folder, line->seed, run);
-        return;
-    }
-    struct simulation *simulation = scenario_simulate(name, &line->parameters, line->seed, run);
-    simulation_write(name, simulation, &line->parameters, folder);
-    simulation_free(simulation);
-}
 
 static void write_runs(const struct command_line *line, const struct scene *scene)
 {
@@ -31,7 +14,7 @@ static void write_runs(const struct command_line *line, const struct scene *scen
         char name[32];
         snprintf(name, sizeof name, "run-%04ld", run);
         char *folder = path_join(line->output, name);
-        write_run(line, scene, folder, (uint64_t)run);
+        scene_simulate(scene, line->arguments[0], folder, line->seed, (uint64_t)run);
         free(folder);
         progress_show(&progress, (uint64_t)run + 1);
     }
@@ -40,39 +23,25 @@ static void write_runs(const struct command_line *line, const struct scene *scen
 
 static _Noreturn void fail_with_list(void)
 {
-    fprintf(stderr, "rhotrack: simulate: give one scenario or scene and -o DIR; the scenarios:\n");
-    for (size_t i = 0; scenario_name(i) != NULL; i++) {
-        fprintf(stderr, "  %-15s %s\n", scenario_name(i), scenario_text(i));
-    }
-    fprintf(stderr, "the scenes, besides files NAME.json:\n");
+    fprintf(stderr, "rhotrack: simulate: give one scene and -o DIR; the scenes, besides files "
+                    "NAME.json:\n");
     for (size_t i = 0; scene_shipped_name(i) != NULL; i++) {
         fprintf(stderr, "  %s\n", scene_shipped_name(i));
     }
     exit(EXIT_USAGE);
 }
 
-/* Of scenarios, then of scenes. */
-static const char *any_name(size_t index)
-{
-    size_t num_scenarios = 0;
-
-    while (scenario_name(num_scenarios) != NULL) {
-        num_scenarios++;
-    }
-    return index < num_scenarios ? scenario_name(index) : scene_shipped_name(index - num_scenarios);
-}
-
 static _Noreturn void fail_unknown(const char *name)
 {
-    const char *hint = hint_nearest(name, any_name);
+    const char *hint = hint_nearest(name, scene_shipped_name);
     char list[2048];
     size_t used = 0;
 
-    for (size_t i = 0; any_name(i) != NULL && used < sizeof list; i++) {
+    for (size_t i = 0; scene_shipped_name(i) != NULL && used < sizeof list; i++) {
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i > 0 ? ", " : "",
-                                 any_name(i));
+                                 scene_shipped_name(i));
     }
-    fail(EXIT_USAGE, "no scenario or scene `%s`%s%s%s; there are: %s, and files NAME.json", name,
+    fail(EXIT_USAGE, "no scene `%s`%s%s%s; there are: %s, and files NAME.json", name,
          hint ? ", did you mean `" : "", hint ? hint : "", hint ? "`?" : "", list);
 }
 
@@ -92,31 +61,21 @@ static void refuse_config(const struct command_line *line)
 
 int command_simulate(struct command_line *line)
 {
-    struct scene *scene = NULL;
+    struct scene *scene;
 
     if (line->num_arguments != 1 || line->output == NULL) {
         fail_with_list();
     }
-    if (!scenario_is_known(line->arguments[0])) {
-        scene = scene_find(line->arguments[0], line->scene_sets, line->num_scene_sets);
-    }
-    if (!scene && !scenario_is_known(line->arguments[0])) {
+    scene = scene_find(line->arguments[0], line->scene_sets, line->num_scene_sets);
+    if (!scene) {
         fail_unknown(line->arguments[0]);
     }
-    if (scene) {
-        refuse_config(line);
-    } else {
-        scenario_suggest(line->arguments[0], &line->parameters);
-        parameters_check(&line->parameters);
-        scenario_check_uses(line->arguments[0], &line->parameters);
-    }
+    refuse_config(line);
     if (line->runs > 1) {
         write_runs(line, scene);
     } else {
-        write_run(line, scene, line->output, 0);
+        scene_simulate(scene, line->arguments[0], line->output, line->seed, 0);
     }
-    if (scene) {
-        scene_free(scene);
-    }
+    scene_free(scene);
     return 0;
 }

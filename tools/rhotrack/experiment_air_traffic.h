@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * experiment_air_traffic: the whole chain on the scenario air-traffic, beside the same filter with true association.
+ * experiment_air_traffic: the whole chain on the scene air-traffic, beside the same filter with true association.
  *
  * Parts: `grid` (aircraft and clutter), `stress` (what else goes wrong), `pairs` (two close together), `operation` (detection
  * against false tracks), `clutter` (false tracks an hour without a target), `rivals` (Stone Soup).
@@ -15,6 +15,7 @@
 #include "chain.h"
 #include "evaluation.h"
 #include "grid.h"
+#include "scene/scene.h"
 #include "verdicts.h"
 
 /* ---- traffic ---------------------------------------------------------------------------------- */
@@ -23,23 +24,18 @@
 extern const double air_cutoffs_m[AIR_CUTOFFS]; /* the first is the one that tables show */
 
 #define AIR_FOUND_SCANS 12 /* of a target's life, in which it may be found */
-#define AIR_SETTINGS 4
+#define AIR_SETS 3
 
 enum air_group { AIR_GRID = 0, AIR_STRESS, AIR_OPERATION };
-
-struct air_setting {
-    enum parameter_id id;
-    double value;
-};
 
 struct air_case {
     enum air_group group;
     const char *name;
-    double targets, clutter;
+    double targets, clutter; /* targets 0: clutter alone, which is not simulated */
     size_t num_scans;
     size_t share; /* one run of so many of the experiment's */
     bool has_limit;
-    struct air_setting settings[AIR_SETTINGS]; /* value NAN past the last */
+    const char *sets[AIR_SETS]; /* of the scene, as `simulate` takes them; NULL past the last */
 };
 extern const struct air_case air_cases[];
 size_t air_num_cases(void);
@@ -65,8 +61,9 @@ struct air_result {
 /* This thread's time of the processor, in which other programs on the machine do not count. */
 double air_clock_us(void);
 
-/* Parameters of a case, as one would type them. */
-struct parameters air_parameters(const struct air_case *of);
+/* The scene of a case, which the caller frees, and what a tracker is told of it. */
+struct scene *air_scene(const struct air_case *of);
+struct parameters air_parameters(const struct scene *scene);
 
 /* Of an evaluation's result; and for means over runs: adds (squares of distances), then divides. */
 struct air_figures air_figures_of(const struct evaluation *evaluation);

@@ -11,36 +11,30 @@
 
 const double air_cutoffs_m[AIR_CUTOFFS] = {1000.0, 200.0};
 
-#define PLAIN                                                                                      \
-    {                                                                                              \
-        {                                                                                          \
-            0, NONE                                                                                \
-        }                                                                                          \
-    }
 #define GRID(targets, clutter, scans, share)                                                       \
     {                                                                                              \
-        AIR_GRID, "as assumed", targets, clutter, scans, share, true, PLAIN                        \
+        AIR_GRID, "as assumed", targets, clutter, scans, share, true,                              \
+        {                                                                                          \
+            NULL                                                                                   \
+        }                                                                                          \
     }
 #define STRESS(name, ...)                                                                          \
     {                                                                                              \
         AIR_STRESS, name, 50, 100, SCANS, 1, true,                                                 \
         {                                                                                          \
-            __VA_ARGS__,                                                                           \
-            {                                                                                      \
-                0, NONE                                                                            \
-            }                                                                                      \
+            __VA_ARGS__                                                                            \
         }                                                                                          \
     }
-#define OPERATION(name, per_hour)                                                                  \
+#define OPERATION(name)                                                                            \
     {                                                                                              \
         AIR_OPERATION, name, 50, 1000, SCANS, 1, false,                                            \
         {                                                                                          \
-            {PARAMETER_FALSE_TRACKS_PER_HOUR, per_hour},                                           \
-            {                                                                                      \
-                0, NONE                                                                            \
-            }                                                                                      \
+            "settings.false_tracks_per_hour=" name                                                 \
         }                                                                                          \
     }
+#define SPOT(x_km, y_km)                                                                           \
+    ",{\"kind\":\"cell\",\"shape\":\"disc\",\"radius_m\":20e3,\"plots\":20,\"at_m\":[" #x_km       \
+    "e3," #y_km "e3]}"
 
 const struct air_case air_cases[] = {
     GRID(10, 0, SCANS, 1),
@@ -59,24 +53,25 @@ const struct air_case air_cases[] = {
     GRID(1000, 100, SCANS_LARGE, 4),
     GRID(1000, 1000, SCANS_LARGE, 4),
     GRID(1000, 5000, SCANS_LARGE, 4),
-    STRESS("fades: 4 an hour, 3 scans", {PARAMETER_FADES_PER_HOUR, 4}),
-    STRESS("5 hot spots, 20 plots each", {PARAMETER_SPOTS, 5}, {PARAMETER_SPOT_CLUTTER, 20}),
-    STRESS("50 persistent sources", {PARAMETER_PERSISTENT_SOURCES, 50}),
-    STRESS("merged plots within 1 km, half cross", {PARAMETER_MERGE_M, 1000},
-           {PARAMETER_CROSSING_SHARE, 0.5}),
-    STRESS("sigma assumed 0.7 of the true one", {PARAMETER_SIGMA_M, 35},
-           {PARAMETER_TRUE_SIGMA_M, 50}),
-    STRESS("sigma assumed 1.5 of the true one", {PARAMETER_SIGMA_M, 75},
-           {PARAMETER_TRUE_SIGMA_M, 50}),
-    STRESS("P_D 0.8, 0.95 assumed", {PARAMETER_TRUE_PD, 0.8}),
-    STRESS("P_D 0.95, 0.8 assumed", {PARAMETER_PD, 0.8}, {PARAMETER_TRUE_PD, 0.95}),
-    OPERATION("0.01", 0.01),
-    OPERATION("0.1", 0.1),
-    OPERATION("1", 1),
-    OPERATION("10", 10),
-    OPERATION("100", 100),
-    OPERATION("1000", 1000),
-    OPERATION("10000", 10000),
+    STRESS("fades: 4 an hour, 3 scans",
+           "events=[{\"kind\":\"fades\",\"per_hour\":4,\"for_s\":[5,55]}]"),
+    STRESS("5 hot spots, 20 plots each",
+           "clutter=[{\"kind\":\"uniform\",\"plots\":100}" SPOT(-170, 40) SPOT(-60, -200)
+               SPOT(20, 110) SPOT(130, -70) SPOT(210, 180) "]"),
+    STRESS("50 persistent sources", "clutter.1={\"kind\":\"standing\",\"count\":50,\"pd\":0.9}"),
+    STRESS("merged plots within 1 km, half cross", "radars.0.resolution_m=1000",
+           "targets.0.crossing_share=0.5"),
+    STRESS("sigma assumed 0.7 of the true one", "radars.0.told={\"sigma_m\":35}"),
+    STRESS("sigma assumed 1.5 of the true one", "radars.0.told={\"sigma_m\":75}"),
+    STRESS("P_D 0.8, 0.95 assumed", "radars.0.pd=0.8", "radars.0.told={\"pd\":0.95}"),
+    STRESS("P_D 0.95, 0.8 assumed", "radars.0.told={\"pd\":0.8}"),
+    OPERATION("0.01"),
+    OPERATION("0.1"),
+    OPERATION("1"),
+    OPERATION("10"),
+    OPERATION("100"),
+    OPERATION("1000"),
+    OPERATION("10000"),
 };
 
 size_t air_num_cases(void)

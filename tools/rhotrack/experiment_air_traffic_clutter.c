@@ -9,13 +9,15 @@
 struct air_alarm_result air_alarm_run(const struct air_alarm *of, uint64_t seed, uint64_t run,
                                       struct chain *chain)
 {
-    struct air_case like = {.clutter = of->clutter, .settings = {{0, NAN}}};
-    struct parameters parameters = air_parameters(&like);
+    const struct air_case like = {.sets = {NULL}};
+    struct scene *scene = air_scene(&like);
+    struct parameters parameters = air_parameters(scene);
     struct random random = random_start(seed, (uint64_t)of->clutter, run);
     double interval_s = parameters.value[PARAMETER_INTERVAL_S];
     struct air_alarm_result result = {.scans = AIR_ALARM_SCANS,
                                       .hours = AIR_ALARM_SCANS * interval_s / 3600.0};
 
+    scene_free(scene);
     parameters_suggest(&parameters, PARAMETER_FALSE_TRACKS_PER_HOUR, of->wanted_per_hour);
     chain_open(chain, &parameters);
     for (size_t i = 0; i < AIR_ALARM_SCANS; i++) {

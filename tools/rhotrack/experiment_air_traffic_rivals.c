@@ -15,7 +15,7 @@
 #include "common.h"
 #include "evaluation_input.h"
 #include "experiment_air_traffic.h"
-#include "simulation_output.h"
+#include "scene/scene_simulation.h"
 #include "workers.h"
 
 #define TARGETS 50
@@ -213,16 +213,16 @@ static void add(struct air_rival *sum, const char *name, const struct air_rival 
 /* rhotrack, and the files for the others. */
 static struct air_rival run_own(uint64_t seed, size_t run, const char *folder, struct chain *chain)
 {
-    struct air_case of = {.targets = TARGETS,
-                          .clutter = CLUTTER,
-                          .num_scans = AIR_RIVAL_SCANS,
-                          .settings = {{0, NAN}}};
-    struct parameters parameters = air_parameters(&of);
-    struct simulation *simulation = scenario_simulate("air-traffic", &parameters, seed, run);
+    const struct air_case of = {
+        .targets = TARGETS, .clutter = CLUTTER, .num_scans = AIR_RIVAL_SCANS};
+    struct scene *scene = air_scene(&of);
+    struct parameters parameters = air_parameters(scene);
+    struct simulation *simulation = scene_simulation(scene, seed, run);
     struct air_result result = air_simulated(&parameters, simulation, false, chain);
 
-    simulation_write("air-traffic", simulation, &parameters, folder);
+    scene_simulate(scene, "air-traffic", folder, seed, run);
     simulation_free(simulation);
+    scene_free(scene);
     return (struct air_rival){.figures = result.tracks[0], .us = result.us};
 }
 

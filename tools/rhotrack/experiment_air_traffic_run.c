@@ -6,19 +6,34 @@
 
 #include "common.h"
 #include "experiment_air_traffic.h"
+#include "scene/scene_simulation.h"
 
-struct parameters air_parameters(const struct air_case *of)
+struct scene *air_scene(const struct air_case *of)
+{
+    const char *sets[3 + AIR_SETS];
+    char targets[40], clutter[40], duration[40];
+    size_t count = 0;
+
+    if (of->targets > 0.0) {
+        snprintf(targets, sizeof targets, "targets.0.flights=%g", of->targets);
+        snprintf(clutter, sizeof clutter, "clutter.0.plots=%g", of->clutter);
+        snprintf(duration, sizeof duration, "duration_s=%zu", 10 * of->num_scans);
+        sets[count++] = targets;
+        sets[count++] = clutter;
+        sets[count++] = duration;
+    }
+    for (size_t i = 0; i < AIR_SETS && of->sets[i]; i++) {
+        sets[count++] = of->sets[i];
+    }
+    return scene_find("air-traffic", sets, count);
+}
+
+struct parameters air_parameters(const struct scene *scene)
 {
     struct parameters parameters;
 
     parameters_default(&parameters);
-    scenario_suggest("air-traffic", &parameters);
-    parameters_suggest(&parameters, PARAMETER_TARGETS, of->targets);
-    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, of->clutter);
-    parameters_suggest(&parameters, PARAMETER_NUM_SCANS, (double)of->num_scans);
-    for (size_t i = 0; i < AIR_SETTINGS && !isnan(of->settings[i].value); i++) {
-        parameters_suggest(&parameters, of->settings[i].id, of->settings[i].value);
-    }
+    scene_suggest(scene, &parameters);
     return parameters;
 }
 
@@ -244,11 +259,13 @@ struct air_result air_simulated(const struct parameters *parameters,
 struct air_result air_run(const struct air_case *of, uint64_t seed, uint64_t run,
                           struct chain *chain)
 {
-    struct parameters parameters = air_parameters(of);
-    struct simulation *simulation = scenario_simulate("air-traffic", &parameters, seed, run);
+    struct scene *scene = air_scene(of);
+    struct parameters parameters = air_parameters(scene);
+    struct simulation *simulation = scene_simulation(scene, seed, run);
     struct air_result result = air_simulated(&parameters, simulation, of->has_limit, chain);
 
     simulation_free(simulation);
+    scene_free(scene);
     if (of->group == AIR_OPERATION) {
         struct air_alarm alone = {of->clutter, parameters.value[PARAMETER_FALSE_TRACKS_PER_HOUR]};
         struct air_alarm_result alarms = air_alarm_run(&alone, seed, run, chain);

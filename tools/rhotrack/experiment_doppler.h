@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * experiment_doppler: what range rates are worth. The clutter at which the scenario `doppler` without them just meets its
+ * experiment_doppler: what range rates are worth. The clutter at which the scene `doppler` without them just meets its
  * bars is looked for; then ten times as much, with range rates, ambiguous ones, and none.
  */
 #ifndef RHOTRACK_TOOL_EXPERIMENT_DOPPLER_H

@@ -5,6 +5,7 @@
 
 #include "common.h"
 #include "experiment_doppler.h"
+#include "scene/scene_simulation.h"
 #include "workers.h"
 
 const struct polar_case doppler_cases[DOPPLER_CASES] = {
@@ -20,6 +21,7 @@ const double doppler_clutter[DOPPLER_LEVELS] = {50.0, 75.0, 100.0, 150.0, 200.0,
 
 struct measuring {
     const struct polar_case *of;
+    const struct scene *scene;
     struct parameters parameters;
     uint64_t seed;
     struct polar_result *results; /* by run */
@@ -29,8 +31,7 @@ struct measuring {
 static void run_one(void *context, size_t worker, size_t run)
 {
     struct measuring *measuring = context;
-    struct simulation *simulation =
-        scenario_simulate("doppler", &measuring->parameters, measuring->seed, run);
+    struct simulation *simulation = scene_simulation(measuring->scene, measuring->seed, run);
     struct chain *chain = &measuring->chains[worker];
 
     if (chain->tracker == NULL) {
@@ -75,12 +76,17 @@ static struct doppler_figures figures_of(const struct measuring *measuring, size
 struct doppler_figures doppler_measure(const struct polar_case *of, double clutter,
                                        double static_clutter, uint64_t seed, size_t num_runs)
 {
-    struct measuring measuring = {.of = of, .seed = seed};
+    char moving[40], still[40];
+    const char *sets[] = {moving, still};
+
+    snprintf(moving, sizeof moving, "clutter.0.plots=%g", clutter);
+    snprintf(still, sizeof still, "clutter.1.plots=%g", static_clutter);
+    struct scene *scene = scene_find("doppler", sets, 2);
+    struct measuring measuring = {.of = of, .scene = scene, .seed = seed};
 
     parameters_default(&measuring.parameters);
-    scenario_suggest("doppler", &measuring.parameters);
+    scene_suggest(scene, &measuring.parameters);
     parameters_suggest(&measuring.parameters, PARAMETER_CLUTTER_PER_SCAN, clutter);
-    parameters_suggest(&measuring.parameters, PARAMETER_STATIC_CLUTTER, static_clutter);
     measuring.results = must_calloc(num_runs, sizeof *measuring.results);
     workers_run(num_runs, "runs", run_one, &measuring);
     struct doppler_figures figures = figures_of(&measuring, num_runs);
@@ -90,6 +96,7 @@ struct doppler_figures doppler_measure(const struct polar_case *of, double clutt
         chain_free(&measuring.chains[i]);
     }
     free(measuring.results);
+    scene_free(scene);
     return figures;
 }
 

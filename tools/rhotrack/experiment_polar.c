@@ -28,8 +28,9 @@ static void run_one(void *context, size_t worker, size_t index)
 {
     struct experiment *experiment = context;
     size_t level = index / experiment->num_runs, run = index % experiment->num_runs;
-    struct parameters parameters = polar_parameters(polar_clutter[level]);
-    struct simulation *simulation = scenario_simulate("polar", &parameters, experiment->seed, run);
+    struct parameters parameters;
+    struct simulation *simulation =
+        polar_simulation(polar_clutter[level], 0.0, experiment->seed, run, &parameters);
     if (experiment->chains[worker].tracker == NULL) {
         experiment->chains[worker] = chain_start();
     }

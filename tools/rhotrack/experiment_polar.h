@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * experiment_polar: the scenario `polar` as a radar's user meets it: initiation from seven turns, and tracks over all
+ * experiment_polar: the scene `polar` as a radar's user meets it: initiation from seven turns, and tracks over all
  * of them, with each plot's own covariance or one isotropic sigma, with and without range rate.
  */
 #ifndef RHOTRACK_TOOL_EXPERIMENT_POLAR_H
@@ -57,8 +57,10 @@ struct polar_result {
     struct polar_errors errors;
 };
 
-/* Parameters of the scenario with so much clutter: `rhotrack simulate polar --set clutter_per_scan=...`. */
-struct parameters polar_parameters(double clutter);
+/* A run with so much clutter and range rates, and what a tracker is told: `rhotrack simulate polar --set clutter.0.plots=...`.
+ * pd 0: the scene's. */
+struct simulation *polar_simulation(double clutter, double pd, uint64_t seed, uint64_t run,
+                                    struct parameters *parameters);
 
 /* The radar as the case tells of it; without a span the library is told nothing. */
 struct rho_sensor polar_sensor(const struct polar_case *of, const struct parameters *parameters);

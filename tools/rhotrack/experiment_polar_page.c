@@ -160,9 +160,9 @@ static void draw_gates(const struct simulation *simulation, const char *path)
 
 static void draw_run(uint64_t seed, const char *map, const char *gates)
 {
-    struct parameters parameters = polar_parameters(polar_clutter[POLAR_LEVELS - 1]);
-    parameters_suggest(&parameters, PARAMETER_TRUE_PD, 1.0);
-    struct simulation *simulation = scenario_simulate("polar", &parameters, seed, 0);
+    struct parameters parameters;
+    struct simulation *simulation =
+        polar_simulation(polar_clutter[POLAR_LEVELS - 1], 1.0, seed, 0, &parameters);
     struct chain chain = chain_start();
     polar_search(&polar_cases[0], &parameters, simulation, &chain);
     draw_map(simulation, chain.initiator, map);
@@ -235,7 +235,7 @@ static void write_page(const struct polar_summary *summaries, const struct verdi
               "fit knows which plots are the target's, and the clutter's true density.");
     page_table(&page, &initiation);
     page_heading(&page, "Tracks");
-    page_text(&page, "The tracker with the scenario's own parameters and one false track an hour "
+    page_text(&page, "The tracker with the scene's own parameters and one false track an hour "
                      "wanted. The double filter takes the plots that the track took.");
     page_table(&page, &tracks);
     page_figure(&page, "errors.svg",

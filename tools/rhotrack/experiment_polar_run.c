@@ -7,6 +7,7 @@
 #include "clairvoyant_polar.h"
 #include "common.h"
 #include "experiment_polar.h"
+#include "scene/scene_simulation.h"
 
 #define MIN_SCANS 5
 #define SCORE_MIN_NAT 0.0
@@ -23,13 +24,23 @@ const struct polar_case polar_cases[POLAR_CASES] = {
     {"one isotropic sigma, range rate", true, true, 0.0},
 };
 
-struct parameters polar_parameters(double clutter)
+struct simulation *polar_simulation(double clutter, double pd, uint64_t seed, uint64_t run,
+                                    struct parameters *parameters)
 {
-    struct parameters parameters;
-    parameters_default(&parameters);
-    scenario_suggest("polar", &parameters);
-    parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, clutter);
-    return parameters;
+    char plots[40], detected[40];
+    const char *sets[] = {"radars.0.sigma_range_rate_mps=1", plots, detected};
+    struct scene *scene;
+    struct simulation *simulation;
+
+    snprintf(plots, sizeof plots, "clutter.0.plots=%g", clutter);
+    snprintf(detected, sizeof detected, "radars.0.pd=%g", pd);
+    scene = scene_find("polar", sets, pd > 0.0 ? 3 : 2);
+    parameters_default(parameters);
+    scene_suggest(scene, parameters);
+    parameters_suggest(parameters, PARAMETER_CLUTTER_PER_SCAN, clutter);
+    simulation = scene_simulation(scene, seed, run);
+    scene_free(scene);
+    return simulation;
 }
 
 /* ---- the data --------------------------------------------------------------------------------- */
@@ -166,6 +177,7 @@ static void match(const struct simulation *simulation, const struct rho_initiato
     result->false_candidates = initiator->num_candidates - result->found;
 }
 
+/* One a turn: a target at the turn's border may be seen twice. */
 static size_t plots_of(const struct simulation *simulation, int target,
                        double times_s[POLAR_WINDOW], struct simulated_plot plots[POLAR_WINDOW])
 {
@@ -176,6 +188,7 @@ static size_t plots_of(const struct simulation *simulation, int target,
             if (scan->plots[i].target_id == target) {
                 times_s[count] = scan->t_s + scan->plots[i].offset_s;
                 plots[count++] = scan->plots[i];
+                break;
             }
         }
     }

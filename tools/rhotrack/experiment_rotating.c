@@ -37,9 +37,7 @@ struct verdicts rotating_verdicts(const struct rotating_figures *figures)
 {
     const struct rotating_figures *sectors = &figures[ROTATING_SECTORS];
     const struct rotating_figures *at_once = &figures[ROTATING_AT_ONCE];
-    const struct parameters parameters = rotating_parameters();
-    double sector_ms =
-        1e3 * parameters.value[PARAMETER_INTERVAL_S] / parameters.value[PARAMETER_SECTORS_PER_TURN];
+    double sector_ms = 1e3 * sectors->sector_s;
     struct verdicts verdicts = verdicts_start();
 
     verdicts_at_most(&verdicts, at_once->found - sectors->found, LOSS_MAX,
@@ -79,9 +77,6 @@ static void print_as_json(const struct rotating_figures *figures, struct verdict
 /* The time of each step of a run, by the time that has passed in the scenario. */
 static void draw_load(const struct rotating_figures *figures, const char *path)
 {
-    const struct parameters parameters = rotating_parameters();
-    double sector_s =
-        parameters.value[PARAMETER_INTERVAL_S] / parameters.value[PARAMETER_SECTORS_PER_TURN];
     struct picture picture = picture_open(path, 1000, 420);
     FILE *file = picture.script;
 
@@ -89,7 +84,8 @@ static void draw_load(const struct rotating_figures *figures, const char *path)
         fprintf(file, "$case%zu << EOD\n", i);
         for (size_t k = 0; k < figures[i].num_sectors; k++) {
             if (isfinite(figures[i].step_us[k])) {
-                fprintf(file, "%.3f %.6f\n", (double)k * sector_s, figures[i].step_us[k] * 1e-3);
+                fprintf(file, "%.3f %.6f\n", (double)k * figures[i].sector_s,
+                        figures[i].step_us[k] * 1e-3);
             }
         }
         fprintf(file, "EOD\n");

@@ -8,7 +8,7 @@
 
 #include "chain.h"
 #include "grid.h"
-#include "scenario_rotating.h"
+#include "scene/scene_watch.h"
 #include "verdicts.h"
 
 enum rotating_case {
@@ -32,16 +32,13 @@ struct rotating_result {
     double latency_max_us; /* from a plot's time to the end of the step that took it */
 };
 
-struct parameters rotating_parameters(void);
+/* The scene, which the caller frees, and what a tracker is told of it. */
+struct scene *rotating_scene(void);
+struct parameters rotating_parameters(const struct scene *scene);
 
-/* The flights and what the antenna saw of them: the same for all cases of a run. */
-struct rotating_scene rotating_scene_of(const struct parameters *parameters, uint64_t seed,
-                                        uint64_t run, struct antenna_view *view);
-
-/* step_us: the time of each step so far, of which the least counts; room for the view's sectors, INFINITY at first. */
+/* step_us: the time of each step so far, of which the least counts; room for the run's scans, INFINITY at first. */
 struct rotating_result rotating_follow(enum rotating_case of, const struct parameters *parameters,
-                                       const struct rotating_scene *scene,
-                                       const struct antenna_view *view, struct chain *chain,
+                                       const struct scene_run *run, struct chain *chain,
                                        double *step_us);
 
 /* One case over all runs. */
@@ -51,6 +48,7 @@ struct rotating_figures {
     /* the first of these, sector by sector: the step in which it was the first one; INFINITY: it was not */
     double *step_us;
     size_t num_sectors;
+    double sector_s;
 };
 
 /* ROTATING_CASES, to be freed by rotating_figures_free. */

@@ -7,7 +7,8 @@
 #include "experiment_rotating.h"
 #include "random.h"
 #include "rhotrack/measurement.h"
-#include "scenario.h"
+#include "scene/portable_math.h"
+#include "scene/scene_simulation.h"
 #include "workers.h"
 
 #define STREAM 0x726f74   /* of random numbers */
@@ -19,32 +20,26 @@
 
 const char *const rotating_names[ROTATING_CASES] = {"sectors", "whole turns", "all at once"};
 
-struct parameters rotating_parameters(void)
+struct scene *rotating_scene(void)
+{
+    return scene_find("rotating", NULL, 0);
+}
+
+struct parameters rotating_parameters(const struct scene *scene)
 {
     struct parameters parameters;
 
     parameters_default(&parameters);
-    scenario_suggest("rotating", &parameters);
-    parameters_suggest(&parameters, PARAMETER_PD, parameters.value[PARAMETER_TRUE_PD]);
+    scene_suggest(scene, &parameters);
     return parameters;
-}
-
-struct rotating_scene rotating_scene_of(const struct parameters *parameters, uint64_t seed,
-                                        uint64_t run, struct antenna_view *view)
-{
-    struct random random = random_start(seed, STREAM, run);
-    struct rotating_scene scene = rotating_draw(parameters, &random);
-    struct antenna_targets targets = rotating_targets(&scene);
-
-    *view = antenna_watch(&scene.antenna, &targets, scene.num_turns, &random);
-    return scene;
 }
 
 /* ---- scans ------------------------------------------------------------------------------------ */
 
 struct following {
     enum rotating_case of;
-    const struct rotating_scene *scene;
+    const struct scene_run *run;
+    const struct scene_sensor *radar;
     struct chain *chain;
     struct random random; /* of the noise of what is measured again */
     struct rotating_result result;
@@ -55,47 +50,45 @@ struct following {
     } known[TRACKS_MAX]; /* confirmed tracks */
 };
 
-static struct rho_plot plot_of(const struct scenario_antenna *antenna,
-                               const struct antenna_plot *plot, double scan_s)
+static struct rho_plot plot_of(const struct scene_sensor *radar, const struct scene_plot *plot,
+                               double scan_s)
 {
     struct rho_polar_plot polar = {.offset_us = (int32_t)lround((plot->t_s - scan_s) * 1e6),
                                    .range_m = (float)plot->range_m,
                                    .azimuth_rad = (float)plot->azimuth_rad,
-                                   .range_rate_mps = (float)plot->range_rate_mps,
-                                   .sigma_range_m = (float)antenna->sigma_range_m,
-                                   .sigma_azimuth_rad = (float)antenna->sigma_azimuth_rad,
-                                   .sigma_range_rate_mps = (float)antenna->sigma_range_rate_mps};
+                                   .sigma_range_m = (float)radar->sigma_range_m,
+                                   .sigma_azimuth_rad = (float)radar->sigma_azimuth_rad};
     struct rho_plot out;
 
-    must_succeed(rho_measurement_from_polar(
-                     &polar, antenna->has_range_rate ? RHO_MEASURES_RANGE_RATE : 0u, NULL, &out),
-                 "rho_measurement_from_polar");
+    must_succeed(rho_measurement_from_polar(&polar, 0, NULL, &out), "rho_measurement_from_polar");
     return out;
 }
 
 /* The same target, seen at the scan's time; clutter is the same at any time. */
-static struct antenna_plot seen_at(struct following *all, const struct antenna_plot *plot,
-                                   double scan_s)
+static struct scene_plot seen_at(struct following *all, const struct scene_plot *plot,
+                                 double scan_s)
 {
-    struct antenna_plot seen = *plot;
+    struct scene_plot seen = *plot;
 
     if (plot->target_id >= 0) {
-        struct truth_point truth = rotating_truth(all->scene, (size_t)plot->target_id, scan_s);
-        seen = antenna_measure(&all->scene->antenna, scan_s, &truth, &all->random);
+        struct motion at = path_at(&all->run->paths[plot->target_id], scan_s);
+
+        seen.range_m =
+            hypot(at.x_m, at.y_m) + all->radar->sigma_range_m * random_normal(&all->random);
+        seen.azimuth_rad = portable_wrap(atan2(at.y_m, at.x_m) + all->radar->sigma_azimuth_rad *
+                                                                     random_normal(&all->random));
     }
     seen.t_s = scan_s;
     return seen;
 }
 
 /* The plots of some sectors as one scan at the end of the last. */
-static struct rho_scan scan_of(struct following *all, const struct antenna_sector *sectors,
+static struct rho_scan scan_of(struct following *all, const struct scene_scan *sectors,
                                size_t count)
 {
-    const struct scenario_antenna *antenna = &all->scene->antenna;
     double scan_s = sectors[count - 1].end_s;
     struct rho_scan scan = {.time_us = llround(scan_s * 1e6),
-                            .sensor_id = antenna->sensor_id,
-                            .measures = antenna->has_range_rate ? RHO_MEASURES_RANGE_RATE : 0u,
+                            .sensor_id = all->radar->sensor_id,
                             .plots = all->chain->plots};
 
     if (all->of == ROTATING_SECTORS) {
@@ -104,10 +97,10 @@ static struct rho_scan scan_of(struct following *all, const struct antenna_secto
     }
     for (size_t i = 0; i < count; i++) {
         for (size_t k = 0; k < sectors[i].num_plots && scan.num_plots < RHO_MAX_PLOTS; k++) {
-            struct antenna_plot plot = all->of == ROTATING_AT_ONCE
-                                           ? seen_at(all, &sectors[i].plots[k], scan_s)
-                                           : sectors[i].plots[k];
-            all->chain->plots[scan.num_plots++] = plot_of(antenna, &plot, scan_s);
+            struct scene_plot plot = all->of == ROTATING_AT_ONCE
+                                         ? seen_at(all, &sectors[i].plots[k], scan_s)
+                                         : sectors[i].plots[k];
+            all->chain->plots[scan.num_plots++] = plot_of(all->radar, &plot, scan_s);
         }
     }
     return scan;
@@ -117,13 +110,13 @@ static struct rho_scan scan_of(struct following *all, const struct antenna_secto
 
 /* The target nearest to a track; -1: none is near. */
 static int target_of(const struct following *all, const struct rho_track_report *report, double t_s,
-                     struct truth_point *truth)
+                     struct motion *truth)
 {
     double least_m = TOLERANCE_M;
     int nearest = -1;
 
-    for (size_t i = 0; i < all->scene->num_flights; i++) {
-        struct truth_point at = rotating_truth(all->scene, i, t_s);
+    for (size_t i = 0; i < all->run->num_paths; i++) {
+        struct motion at = path_at(&all->run->paths[i], t_s);
         double off_m = hypot(report->state[0] - at.x_m, report->state[1] - at.y_m);
 
         if (off_m < least_m) {
@@ -161,7 +154,7 @@ static int look(struct following *all, double t_s)
 
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const struct rho_track_report *track = &report->tracks[i];
-        struct truth_point truth = {0};
+        struct motion truth = {0};
 
         if (track->status != RHO_TRACK_CONFIRMED && track->status != RHO_TRACK_COASTING) {
             continue;
@@ -209,21 +202,24 @@ static void time_step(struct following *all, const struct rho_scan *scan, double
 }
 
 struct rotating_result rotating_follow(enum rotating_case of, const struct parameters *parameters,
-                                       const struct rotating_scene *scene,
-                                       const struct antenna_view *view, struct chain *chain,
+                                       const struct scene_run *run, struct chain *chain,
                                        double *step_us)
 {
-    struct following all = {
-        .of = of, .scene = scene, .chain = chain, .random = random_start(STREAM, 1, 1)};
-    size_t sectors = scene->antenna.sectors, count = of == ROTATING_SECTORS ? 1 : sectors;
+    const struct scene_sensor *radar = &run->scene->sensors[0];
+    struct following all = {.of = of,
+                            .run = run,
+                            .radar = radar,
+                            .chain = chain,
+                            .random = random_start(run->seed, STREAM, run->run)};
+    size_t sectors = radar->sectors, count = of == ROTATING_SECTORS ? 1 : sectors;
 
     open_chain(chain, parameters);
-    all.result.targets = (int)scene->num_flights;
-    for (size_t first = 0; first + count <= view->num_sectors; first += count) {
-        struct rho_scan scan = scan_of(&all, &view->sectors[first], count);
+    all.result.targets = (int)run->num_paths;
+    for (size_t first = 0; first + count <= run->num_scans; first += count) {
+        struct rho_scan scan = scan_of(&all, &run->scans[first], count);
 
         time_step(&all, &scan, &step_us[first]);
-        all.result.tracked = look(&all, view->sectors[first + count - 1].end_s);
+        all.result.tracked = look(&all, run->scans[first + count - 1].end_s);
         if (first + count == WINDOW * sectors) {
             all.result.found = all.result.tracked;
         }
@@ -237,6 +233,7 @@ struct rotating_result rotating_follow(enum rotating_case of, const struct param
 /* ---- all runs --------------------------------------------------------------------------------- */
 
 struct measuring {
+    const struct scene *scene;
     struct parameters parameters;
     uint64_t seed;
     struct rotating_result *results; /* by run, case */
@@ -256,60 +253,55 @@ static double *no_times(size_t count)
 static void run_one(void *context, size_t worker, size_t run)
 {
     struct measuring *measuring = context;
-    struct antenna_view view;
-    struct rotating_scene scene =
-        rotating_scene_of(&measuring->parameters, measuring->seed, run, &view);
+    struct scene_run *seen = scene_watch(measuring->scene, measuring->seed, run);
 
     if (measuring->chains[worker].tracker == NULL) {
         measuring->chains[worker] = chain_start();
     }
     for (size_t i = 0; i < ROTATING_CASES; i++) {
-        double *step_us = no_times(view.num_sectors);
+        double *step_us = no_times(seen->num_scans);
 
         measuring->results[run * ROTATING_CASES + i] =
-            rotating_follow((enum rotating_case)i, &measuring->parameters, &scene, &view,
+            rotating_follow((enum rotating_case)i, &measuring->parameters, seen,
                             &measuring->chains[worker], step_us);
         free(step_us);
     }
-    antenna_view_free(&view);
-    rotating_free(&scene);
+    scene_run_free(seen);
 }
 
 /* Alone, the least of some rounds for each step: what other programs take does not count. */
 static void time_steps(struct measuring *measuring, struct rotating_figures *figures)
 {
     for (uint64_t run = 0; run < TIMED_RUNS; run++) {
-        struct antenna_view view;
-        struct rotating_scene scene =
-            rotating_scene_of(&measuring->parameters, measuring->seed, run, &view);
+        struct scene_run *seen = scene_watch(measuring->scene, measuring->seed, run);
 
         for (size_t i = 0; i < ROTATING_CASES; i++) {
-            double *step_us = no_times(view.num_sectors);
+            double *step_us = no_times(seen->num_scans);
             struct rotating_result result = {0};
 
             for (int round = 0; round < TIMED_ROUNDS; round++) {
-                result = rotating_follow((enum rotating_case)i, &measuring->parameters, &scene,
-                                         &view, &measuring->chains[0], step_us);
+                result = rotating_follow((enum rotating_case)i, &measuring->parameters, seen,
+                                         &measuring->chains[0], step_us);
             }
             figures[i].step_max_us = fmax(figures[i].step_max_us, result.step_max_us);
             figures[i].latency_max_ms =
                 fmax(figures[i].latency_max_ms, result.latency_max_us * 1e-3);
             if (run == 0) {
                 figures[i].step_us = step_us;
-                figures[i].num_sectors = view.num_sectors;
+                figures[i].num_sectors = seen->num_scans;
             } else {
                 free(step_us);
             }
         }
-        antenna_view_free(&view);
-        rotating_free(&scene);
+        scene_run_free(seen);
     }
 }
 
 static struct rotating_figures figures_of(const struct measuring *measuring, size_t of,
                                           size_t num_runs)
 {
-    struct rotating_figures figures = {0};
+    const struct scene_sensor *radar = &measuring->scene->sensors[0];
+    struct rotating_figures figures = {.sector_s = radar->turn_s / (double)radar->sectors};
     double targets = 0.0, m2 = 0.0, m2ps2 = 0.0, count = 0.0;
 
     for (size_t run = 0; run < num_runs; run++) {
@@ -332,7 +324,9 @@ static struct rotating_figures figures_of(const struct measuring *measuring, siz
 
 struct rotating_figures *rotating_measure(uint64_t seed, size_t num_runs)
 {
-    struct measuring measuring = {.parameters = rotating_parameters(), .seed = seed};
+    struct scene *scene = rotating_scene();
+    struct measuring measuring = {
+        .scene = scene, .parameters = rotating_parameters(scene), .seed = seed};
     struct rotating_figures *figures = must_calloc(ROTATING_CASES, sizeof *figures);
 
     measuring.results = must_calloc(num_runs * ROTATING_CASES, sizeof *measuring.results);
@@ -348,6 +342,7 @@ struct rotating_figures *rotating_measure(uint64_t seed, size_t num_runs)
         chain_free(&measuring.chains[i]);
     }
     free(measuring.results);
+    scene_free(scene);
     return figures;
 }
 

@@ -16,7 +16,7 @@
 
 struct experiment {
     uint64_t seed;
-    struct parameters parameters;
+    struct scene *scene;
     struct radars_run *runs;
     struct chain chains[WORKERS_MAX];
 };
@@ -28,8 +28,8 @@ static void run_one(void *context, size_t worker, size_t index)
     if (experiment->chains[worker].tracker == NULL) {
         experiment->chains[worker] = chain_start();
     }
-    experiment->runs[index] = radars_run_all(&experiment->parameters, experiment->seed, index,
-                                             &experiment->chains[worker]);
+    experiment->runs[index] =
+        radars_run_all(experiment->scene, experiment->seed, index, &experiment->chains[worker]);
 }
 
 static void add(struct radars_figures *sum, const struct radars_figures *figures)
@@ -287,7 +287,7 @@ int experiment_two_radars(const struct command_line *line)
     struct verdicts verdicts;
 
     experiment->seed = line->seed;
-    experiment->parameters = radars_parameters();
+    experiment->scene = radars_scene();
     experiment->runs = must_calloc(num_runs, sizeof *experiment->runs);
     workers_run(num_runs, "runs", run_one, experiment);
     summary = summarise(experiment, num_runs);
@@ -303,6 +303,7 @@ int experiment_two_radars(const struct command_line *line)
     for (size_t i = 0; i < WORKERS_MAX; i++) {
         chain_free(&experiment->chains[i]);
     }
+    scene_free(experiment->scene);
     free(experiment->runs);
     free(experiment);
     return 0;

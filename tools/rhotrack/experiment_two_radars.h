@@ -13,7 +13,7 @@
 #include "chain.h"
 #include "grid.h"
 #include "register.h"
-#include "scenario_record.h"
+#include "scene/scene_watch.h"
 #include "verdicts.h"
 
 #define RADARS 2
@@ -57,15 +57,16 @@ struct radars_run {
     struct radars_found found;
 };
 
-/* The scenario's parameters. */
-struct parameters radars_parameters(void);
+/* The scene, which the caller frees, and what a tracker is told of it. */
+struct scene *radars_scene(void);
+struct parameters radars_parameters(const struct scene *scene);
 
 /* All cases of one run; reports: RHO_MAX_PLOTS plots of the chain are used. */
-struct radars_run radars_run_all(const struct parameters *parameters, uint64_t seed, uint64_t run,
+struct radars_run radars_run_all(const struct scene *scene, uint64_t seed, uint64_t run,
                                  struct chain *chain);
 
-/* What register finds in the record. */
-struct register_result radars_register(const struct scenario_record *record,
+/* What register finds in a run. */
+struct register_result radars_register(const struct scene_run *run,
                                        const struct parameters *parameters, struct chain *chain);
 
 /* ---- over all runs: experiment_two_radars.c ---------------------------------------------------- */

@@ -14,48 +14,53 @@
 
 /* ---- one run ---------------------------------------------------------------------------------- */
 
-static void put_paths(FILE *file, const struct simulation *simulation)
+static void put_way(FILE *file, const struct scene_path *path, double from_s, double until_s,
+                    double step_s)
 {
-    size_t step = simulation->targets_a_scan;
+    for (double t_s = from_s; t_s <= until_s; t_s += step_s) {
+        struct motion at = path_at(path, t_s);
 
+        fprintf(file, "%.4f %.4f\n", KM(at.x_m), KM(at.y_m));
+    }
+}
+
+static void put_paths(FILE *file, const struct scene_run *run)
+{
     fprintf(file, "$paths << EOD\n");
-    for (size_t target = 0; target < step; target++) {
-        for (size_t i = 0; i < simulation->num_times; i += 50) {
-            const struct truth_point *at = &simulation->truth[i * step + target];
-
-            fprintf(file, "%.3f %.3f\n", KM(at->x_m), KM(at->y_m));
-        }
+    for (size_t target = 0; target < run->num_paths; target++) {
+        put_way(file, &run->paths[target], 0.0, run->scene->duration_s, 5.0);
         fprintf(file, "\n\n");
     }
     fprintf(file, "EOD\n");
 }
 
-static void put_radars(FILE *file, const struct scenario_record *record)
+static void put_radars(FILE *file, const struct scene *scene)
 {
     fprintf(file, "$reach << EOD\n");
-    for (size_t a = 0; a < record->num_antennas; a++) {
-        const struct scenario_antenna *antenna = &record->antennas[a];
+    for (size_t a = 0; a < RADARS; a++) {
+        const struct scene_sensor *radar = &scene->sensors[a];
 
         for (int i = 0; i <= 90; i++) {
-            fprintf(file, "%.3f %.3f\n",
-                    KM(antenna->x_m + antenna->range_max_m * cos(4.0 * i * DEG_RAD)),
-                    KM(antenna->y_m + antenna->range_max_m * sin(4.0 * i * DEG_RAD)));
+            double range_m = radar->coverage.range_m.hi;
+
+            fprintf(file, "%.3f %.3f\n", KM(radar->x_m + range_m * cos(4.0 * i * DEG_RAD)),
+                    KM(radar->y_m + range_m * sin(4.0 * i * DEG_RAD)));
         }
         fprintf(file, "\n\n");
     }
     fprintf(file, "EOD\n$radars << EOD\n");
-    for (size_t a = 0; a < record->num_antennas; a++) {
-        fprintf(file, "%.3f %.3f\n", KM(record->antennas[a].x_m), KM(record->antennas[a].y_m));
+    for (size_t a = 0; a < RADARS; a++) {
+        fprintf(file, "%.3f %.3f\n", KM(scene->sensors[a].x_m), KM(scene->sensors[a].y_m));
     }
     fprintf(file, "EOD\n");
 }
 
-static void draw_map(const struct simulation *simulation, const char *path)
+static void draw_map(const struct scene_run *run, const char *path)
 {
     struct picture picture = picture_open(path, 900, 800);
 
-    put_paths(picture.script, simulation);
-    put_radars(picture.script, simulation->record);
+    put_paths(picture.script, run);
+    put_radars(picture.script, run->scene);
     fprintf(picture.script,
             "set size ratio -1\nset xlabel 'x east (km)'\nset ylabel 'y north (km)'\n"
             "plot $reach with lines lw 1.5 dt 2 lc rgb '#808080' title 'how far they see', \\\n"
@@ -67,79 +72,64 @@ static void draw_map(const struct simulation *simulation, const char *path)
 /* ---- one aircraft ----------------------------------------------------------------------------- */
 
 /* The target that is nearest to a place half-way between the radars, and north, at half time. */
-static size_t choose_target(const struct simulation *simulation, double *middle_s)
+static size_t choose_target(const struct scene_run *run, double middle_s)
 {
-    size_t step = simulation->targets_a_scan, chosen = 0;
-    const struct truth_point *truth = &simulation->truth[simulation->num_times / 2 * step];
     double nearest_m = INFINITY;
+    size_t chosen = 0;
 
-    for (size_t target = 0; target < step; target++) {
-        double distance_m = hypot(truth[target].x_m - 40000.0, truth[target].y_m - 40000.0);
+    for (size_t target = 0; target < run->num_paths; target++) {
+        struct motion at = path_at(&run->paths[target], middle_s);
+        double distance_m = hypot(at.x_m - 40000.0, at.y_m - 40000.0);
 
         if (distance_m < nearest_m) {
             nearest_m = distance_m;
             chosen = target;
         }
     }
-    *middle_s = truth->t_s;
     return chosen;
 }
 
-static void put_plots(FILE *file, const struct simulation *simulation, size_t target,
+static void put_plots(FILE *file, const struct scene_run *run, size_t radar, size_t target,
                       double middle_s, const struct radars_found *found)
 {
-    const struct scenario_record *record = simulation->record;
+    const struct scene_sensor *sensor = &run->scene->sensors[radar];
+    double off_m = sensor->range_bias_m + (found ? found->off[radar][REGISTER_RANGE] : 0.0);
+    double off_rad = sensor->azimuth_bias_rad + (found ? found->off[radar][REGISTER_AZIMUTH] : 0.0);
 
-    for (size_t a = 0; a < RADARS; a++) {
-        const struct scenario_antenna *antenna = &record->antennas[a];
-        double range_bias_m = antenna->range_bias_m + (found ? found->off[a][REGISTER_RANGE] : 0.0);
-        double azimuth_bias_rad =
-            antenna->azimuth_bias_rad + (found ? found->off[a][REGISTER_AZIMUTH] : 0.0);
+    fprintf(file, "$%s%zu << EOD\n", found ? "right" : "raw", radar + 1);
+    for (size_t i = 0; i < run->num_scans; i++) {
+        const struct scene_scan *scan = &run->scans[i];
 
-        fprintf(file, "$%s%zu << EOD\n", found ? "right" : "raw", a + 1);
-        for (size_t i = 0; i < record->views[a].num_sectors; i++) {
-            for (size_t j = 0; j < record->views[a].sectors[i].num_plots; j++) {
-                const struct antenna_plot *plot = &record->views[a].sectors[i].plots[j];
-                double range_m = plot->range_m - (found ? range_bias_m : 0.0);
-                double azimuth_rad = plot->azimuth_rad - (found ? azimuth_bias_rad : 0.0);
+        for (size_t k = 0; scan->sensor == radar && k < scan->num_plots; k++) {
+            const struct scene_plot *plot = &scan->plots[k];
+            double range_m = plot->range_m - (found ? off_m : 0.0);
+            double azimuth_rad = plot->azimuth_rad - (found ? off_rad : 0.0);
 
-                if (plot->target_id == (int)target && fabs(plot->t_s - middle_s) < ZOOM_S / 2.0) {
-                    fprintf(file, "%.4f %.4f\n", KM(antenna->x_m + range_m * cos(azimuth_rad)),
-                            KM(antenna->y_m + range_m * sin(azimuth_rad)));
-                }
+            if (plot->target_id == (int)target && fabs(plot->t_s - middle_s) < ZOOM_S / 2.0) {
+                fprintf(file, "%.4f %.4f\n", KM(sensor->x_m + range_m * cos(azimuth_rad)),
+                        KM(sensor->y_m + range_m * sin(azimuth_rad)));
             }
-        }
-        fprintf(file, "EOD\n");
-    }
-}
-
-static void put_truth(FILE *file, const struct simulation *simulation, size_t target,
-                      double middle_s)
-{
-    size_t step = simulation->targets_a_scan;
-
-    fprintf(file, "$truth << EOD\n");
-    for (size_t i = 0; i < simulation->num_times; i++) {
-        const struct truth_point *at = &simulation->truth[i * step + target];
-
-        if (fabs(at->t_s - middle_s) < ZOOM_S / 2.0) {
-            fprintf(file, "%.4f %.4f\n", KM(at->x_m), KM(at->y_m));
         }
     }
     fprintf(file, "EOD\n");
 }
 
 /* As measured (found NULL), or with the biases taken off. */
-static void draw_plots(const struct simulation *simulation, const struct radars_found *found,
+static void draw_plots(const struct scene_run *run, const struct radars_found *found,
                        const char *path)
 {
     struct picture picture = picture_open(path, 900, 600);
     const char *kind = found ? "right" : "raw";
-    double middle_s;
-    size_t target = choose_target(simulation, &middle_s);
+    double middle_s = 0.5 * run->scene->duration_s;
+    size_t target = choose_target(run, middle_s);
 
-    put_plots(picture.script, simulation, target, middle_s, found);
-    put_truth(picture.script, simulation, target, middle_s);
+    for (size_t radar = 0; radar < RADARS; radar++) {
+        put_plots(picture.script, run, radar, target, middle_s, found);
+    }
+    fprintf(picture.script, "$truth << EOD\n");
+    put_way(picture.script, &run->paths[target], middle_s - ZOOM_S / 2.0, middle_s + ZOOM_S / 2.0,
+            0.5);
+    fprintf(picture.script, "EOD\n");
     fprintf(picture.script,
             "set size ratio -1\nset xlabel 'x east (km)'\nset ylabel 'y north (km)'\n"
             "set key top left\n"
@@ -224,17 +214,17 @@ void radars_page(const struct radars_summary *summary, const struct verdicts *ve
 {
     static const char *const names[] = {"map.svg",   "raw.svg",     "right.svg",
                                         "range.svg", "azimuth.svg", "index.html"};
-    struct parameters parameters = radars_parameters();
-    struct simulation *simulation = scenario_simulate("two-radars", &parameters, summary->seed, 0);
+    struct scene *scene = radars_scene();
+    struct scene_run *run = scene_watch(scene, summary->seed, 0);
     char *paths[sizeof names / sizeof names[0]];
 
     make_folder(folder);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         paths[i] = path_join(folder, names[i]);
     }
-    draw_map(simulation, paths[0]);
-    draw_plots(simulation, NULL, paths[1]);
-    draw_plots(simulation, &summary->runs[0].found, paths[2]);
+    draw_map(run, paths[0]);
+    draw_plots(run, NULL, paths[1]);
+    draw_plots(run, &summary->runs[0].found, paths[2]);
     draw_errors(summary, REGISTER_RANGE, "error of the range bias (m)", 1.0, paths[3]);
     draw_errors(summary, REGISTER_AZIMUTH, "error of the azimuth bias (degrees)", DEG_RAD,
                 paths[4]);
@@ -242,5 +232,6 @@ void radars_page(const struct radars_summary *summary, const struct verdicts *ve
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         free(paths[i]);
     }
-    simulation_free(simulation);
+    scene_run_free(run);
+    scene_free(scene);
 }

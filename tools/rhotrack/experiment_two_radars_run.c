@@ -2,11 +2,12 @@
 /* experiment_two_radars_run: one run: register, then the tracker over the same plots in all cases. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "common.h"
 #include "evaluation.h"
 #include "experiment_two_radars.h"
-#include "record_scans.h"
+#include "scene/scene_simulation.h"
 
 #define LOOK_S 1.0      /* tracks are looked at so often */
 #define BORDER_M 2000.0 /* so near to the end of a radar's reach a target counts for nothing */
@@ -20,27 +21,31 @@ const struct radars_case radars_cases[RADARS_CASES] = {
     {"both, known, scans as they arrive", 3, BIASES_KNOWN, true},
 };
 
-struct parameters radars_parameters(void)
+struct scene *radars_scene(void)
+{
+    return scene_find("two-radars", NULL, 0);
+}
+
+struct parameters radars_parameters(const struct scene *scene)
 {
     struct parameters parameters;
 
     parameters_default(&parameters);
-    scenario_suggest("two-radars", &parameters);
+    scene_suggest(scene, &parameters);
     return parameters;
 }
 
 /* ---- register --------------------------------------------------------------------------------- */
 
-struct register_result radars_register(const struct scenario_record *record,
+struct register_result radars_register(const struct scene_run *run,
                                        const struct parameters *parameters, struct chain *chain)
 {
     struct register_data *data = register_start(parameters);
     struct register_result result;
 
-    for (size_t i = 0; i < record->num_arrivals; i++) {
-        const struct record_arrival *arrival = &record->arrivals[i];
-        struct rho_sensor sensor = record_sensor(&record->antennas[arrival->antenna]);
-        struct rho_scan scan = record_scan(record, arrival, &sensor, chain->plots);
+    for (size_t i = 0; i < run->num_scans; i++) {
+        struct rho_sensor sensor = scene_known_sensor(&run->scene->sensors[run->scans[i].sensor]);
+        struct rho_scan scan = scene_scan(run, &run->scans[i], &sensor, chain->plots);
         const char *wrong = register_add(data, &scan, &sensor);
 
         if (wrong) {
@@ -52,16 +57,15 @@ struct register_result radars_register(const struct scenario_record *record,
     return result;
 }
 
-static double true_bias(const struct scenario_antenna *antenna, size_t kind)
+static double true_bias(const struct scene_sensor *radar, size_t kind)
 {
-    const double biases[NUM_REGISTER_KINDS] = {antenna->range_bias_m, antenna->azimuth_bias_rad,
-                                               antenna->time_bias_s};
+    const double biases[NUM_REGISTER_KINDS] = {radar->range_bias_m, radar->azimuth_bias_rad,
+                                               radar->time_bias_s};
 
     return biases[kind];
 }
 
-static struct radars_found found_of(const struct scenario_record *record,
-                                    const struct register_result *result)
+static struct radars_found found_of(const struct scene *scene, const struct register_result *result)
 {
     struct radars_found found = {.is_any = result->targets > 0,
                                  .targets = (double)result->targets,
@@ -72,7 +76,7 @@ static struct radars_found found_of(const struct scenario_record *record,
             const struct register_bias *bias = &result->radars[i].biases[kind];
 
             found.is_known[i][kind] = bias->is_known;
-            found.off[i][kind] = bias->value - true_bias(&record->antennas[i], kind);
+            found.off[i][kind] = bias->value - true_bias(&scene->sensors[i], kind);
             found.sigma[i][kind] = bias->sigma;
         }
     }
@@ -83,50 +87,50 @@ static struct radars_found found_of(const struct scenario_record *record,
 
 struct looking {
     const struct radars_case *of;
-    const struct simulation *simulation;
-    const struct scenario_antenna *antennas;
+    const struct scene_run *run;
     struct chain *chain;
     struct radars_figures *figures;
     struct evaluation *evaluation;
     double cutoff_m, looked_s;
-    size_t time; /* of the truth */
+    struct motion *truth; /* of all targets, at the time that is looked at */
     struct evaluation_point *targets, *tracks;
     size_t num_targets, num_tracks;
     bool *is_common; /* of the targets */
 };
 
-static bool sees(const struct scenario_antenna *antenna, const struct truth_point *at)
+/* Bits: 1 the first radar, 2 the second. */
+static unsigned seen_by(const struct scene *scene, const struct motion *at)
 {
-    double range_m = hypot(at->x_m - antenna->x_m, at->y_m - antenna->y_m);
+    unsigned seen = 0;
 
-    return range_m >= antenna->range_min_m + BORDER_M && range_m <= antenna->range_max_m - BORDER_M;
+    for (unsigned i = 0; i < RADARS; i++) {
+        const struct scene_sensor *radar = &scene->sensors[i];
+        double range_m = hypot(at->x_m - radar->x_m, at->y_m - radar->y_m);
+
+        if (range_m >= radar->coverage.range_m.lo + BORDER_M &&
+            range_m <= radar->coverage.range_m.hi - BORDER_M) {
+            seen |= 1u << i;
+        }
+    }
+    return seen;
 }
 
-/* Targets at a scan's time that the case's radars see. Scans come in the order of time, or a bit out of it. */
+/* Targets at a time that the case's radars see. */
 static void take_targets(struct looking *looking, double t_s)
 {
-    const struct simulation *simulation = looking->simulation;
-    size_t step = simulation->targets_a_scan;
-    const struct truth_point *truth;
-
-    while (looking->time + 1 < simulation->num_times &&
-           simulation->truth[(looking->time + 1) * step].t_s < t_s + 1e-7) {
-        looking->time++;
-    }
-    truth = &simulation->truth[looking->time * step];
     looking->num_targets = 0;
-    for (size_t i = 0; i < step; i++) {
-        unsigned seen = sees(&looking->antennas[0], &truth[i]) ? 1u : 0u;
+    for (size_t i = 0; i < looking->run->num_paths; i++) {
+        struct motion at = looking->truth[i] = path_at(&looking->run->paths[i], t_s);
+        unsigned seen = seen_by(looking->run->scene, &at);
 
-        seen |= sees(&looking->antennas[1], &truth[i]) ? 2u : 0u;
         if (seen & looking->of->radars) {
             looking->is_common[looking->num_targets] = seen == 3u;
             looking->targets[looking->num_targets++] =
-                (struct evaluation_point){.id = truth[i].target_id,
-                                          .x_m = truth[i].x_m,
-                                          .y_m = truth[i].y_m,
-                                          .vx_mps = truth[i].vx_mps,
-                                          .vy_mps = truth[i].vy_mps};
+                (struct evaluation_point){.id = (int32_t)i,
+                                          .x_m = at.x_m,
+                                          .y_m = at.y_m,
+                                          .vx_mps = at.vx_mps,
+                                          .vy_mps = at.vy_mps};
         }
     }
 }
@@ -134,19 +138,16 @@ static void take_targets(struct looking *looking, double t_s)
 /* A track of a target that does not count, at a border, counts for nothing either. */
 static bool is_at_border(const struct looking *looking, double x_m, double y_m)
 {
-    const struct simulation *simulation = looking->simulation;
-    size_t step = simulation->targets_a_scan;
-    const struct truth_point *truth = &simulation->truth[looking->time * step];
     double nearest_m = INFINITY;
     bool is_counted = false;
 
-    for (size_t i = 0; i < step; i++) {
-        double distance_m = hypot(x_m - truth[i].x_m, y_m - truth[i].y_m);
+    for (size_t i = 0; i < looking->run->num_paths; i++) {
+        const struct motion *at = &looking->truth[i];
+        double distance_m = hypot(x_m - at->x_m, y_m - at->y_m);
 
         if (distance_m < nearest_m) {
             nearest_m = distance_m;
-            is_counted = ((looking->of->radars & 1u) && sees(&looking->antennas[0], &truth[i])) ||
-                         ((looking->of->radars & 2u) && sees(&looking->antennas[1], &truth[i]));
+            is_counted = (looking->of->radars & seen_by(looking->run->scene, at)) != 0;
         }
     }
     return nearest_m <= looking->cutoff_m && !is_counted;
@@ -257,6 +258,7 @@ static void finish(struct looking *looking)
     figures->tracks = (double)result.tracks;
     figures->late = (double)counters->scans_late;
     evaluation_free(looking->evaluation);
+    free(looking->truth);
     free(looking->targets);
     free(looking->tracks);
     free(looking->is_common);
@@ -264,48 +266,38 @@ static void finish(struct looking *looking)
 
 /* ---- scans ------------------------------------------------------------------------------------ */
 
-struct ordered {
-    int64_t time_us;
-    struct record_arrival arrival;
-};
-
 static int by_time(const void *a, const void *b)
 {
-    const struct ordered *one = a, *other = b;
+    const struct scene_scan *one = a, *other = b;
 
-    if (one->time_us != other->time_us) {
-        return one->time_us > other->time_us ? 1 : -1;
+    if (one->end_s < other->end_s || one->end_s > other->end_s) {
+        return one->end_s > other->end_s ? 1 : -1;
     }
-    return (one->arrival.antenna > other->arrival.antenna) -
-           (one->arrival.antenna < other->arrival.antenna);
+    return (one->sensor > other->sensor) - (one->sensor < other->sensor);
 }
 
-static struct ordered *order_scans(const struct scenario_record *record, bool is_as_arrived)
+static struct scene_scan *order_scans(const struct scene_run *run, bool is_as_arrived)
 {
-    struct ordered *scans = must_calloc(record->num_arrivals + 1, sizeof *scans);
+    struct scene_scan *scans = must_calloc(run->num_scans + 1, sizeof *scans);
 
-    for (size_t i = 0; i < record->num_arrivals; i++) {
-        scans[i] =
-            (struct ordered){record_scan_us(record, &record->arrivals[i]), record->arrivals[i]};
-    }
-    if (!is_as_arrived && record->num_arrivals > 0) {
-        qsort(scans, record->num_arrivals, sizeof *scans, by_time);
+    memcpy(scans, run->scans, run->num_scans * sizeof *scans);
+    if (!is_as_arrived && run->num_scans > 0) {
+        qsort(scans, run->num_scans, sizeof *scans, by_time);
     }
     return scans;
 }
 
-static struct rho_sensor sensor_of(const struct radars_case *of,
-                                   const struct scenario_antenna *antenna,
+static struct rho_sensor sensor_of(const struct radars_case *of, const struct scene_sensor *told,
                                    const struct radars_found *found, size_t radar)
 {
-    struct rho_sensor sensor = record_sensor(antenna);
+    struct rho_sensor sensor = scene_known_sensor(told);
     double biases[NUM_REGISTER_KINDS] = {0};
 
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         if (of->biases == BIASES_KNOWN) {
-            biases[kind] = true_bias(antenna, kind);
+            biases[kind] = true_bias(told, kind);
         } else if (of->biases == BIASES_FOUND && found->is_known[radar][kind]) {
-            biases[kind] = true_bias(antenna, kind) + found->off[radar][kind];
+            biases[kind] = true_bias(told, kind) + found->off[radar][kind];
         }
     }
     sensor.range_bias_m = (float)biases[REGISTER_RANGE];
@@ -316,43 +308,37 @@ static struct rho_sensor sensor_of(const struct radars_case *of,
 
 static void open_looking(struct looking *looking, const struct parameters *parameters)
 {
-    size_t count = looking->simulation->targets_a_scan;
+    size_t count = looking->run->num_paths;
 
     looking->cutoff_m = parameters->value[PARAMETER_GOSPA_CUTOFF_M];
     looking->looked_s = -INFINITY;
     looking->evaluation = evaluation_start(looking->cutoff_m);
+    looking->truth = must_calloc(count + 1, sizeof *looking->truth);
     looking->targets = must_calloc(count + 1, sizeof *looking->targets);
     looking->is_common = must_calloc(count + 1, sizeof *looking->is_common);
     looking->tracks = must_calloc(RHO_MAX_TRACKS, sizeof *looking->tracks);
 }
 
-static struct radars_figures run_case(const struct radars_case *of,
-                                      const struct simulation *simulation,
+static struct radars_figures run_case(const struct radars_case *of, const struct scene_run *run,
                                       const struct parameters *parameters,
                                       const struct radars_found *found, struct chain *chain)
 {
-    const struct scenario_record *record = simulation->record;
     struct radars_figures figures = {0};
-    struct ordered *scans = order_scans(record, of->is_as_arrived);
-    struct looking looking = {.of = of,
-                              .simulation = simulation,
-                              .antennas = record->antennas,
-                              .chain = chain,
-                              .figures = &figures};
+    struct scene_scan *scans = order_scans(run, of->is_as_arrived);
+    struct looking looking = {.of = of, .run = run, .chain = chain, .figures = &figures};
     struct rho_sensor sensors[RADARS];
 
     open_looking(&looking, parameters);
     chain_open(chain, parameters);
     for (size_t i = 0; i < RADARS; i++) {
-        sensors[i] = sensor_of(of, &record->antennas[i], found, i);
+        sensors[i] = sensor_of(of, &run->scene->sensors[i], found, i);
         must_succeed(rho_tracker_set_sensor(chain->tracker, &sensors[i]), "sensor");
     }
-    for (size_t i = 0; i < record->num_arrivals; i++) {
-        size_t radar = scans[i].arrival.antenna;
+    for (size_t i = 0; i < run->num_scans; i++) {
+        size_t radar = scans[i].sensor;
 
         if (of->radars & 1u << radar) {
-            struct rho_scan scan =
-                record_scan(record, &scans[i].arrival, &sensors[radar], chain->plots);
+            struct rho_scan scan = scene_scan(run, &scans[i], &sensors[radar], chain->plots);
 
             chain_step(chain, &scan);
             figures.scans += 1.0;
@@ -364,17 +350,18 @@ static struct radars_figures run_case(const struct radars_case *of,
     return figures;
 }
 
-struct radars_run radars_run_all(const struct parameters *parameters, uint64_t seed, uint64_t run,
+struct radars_run radars_run_all(const struct scene *scene, uint64_t seed, uint64_t run,
                                  struct chain *chain)
 {
-    struct simulation *simulation = scenario_simulate("two-radars", parameters, seed, run);
-    struct register_result result = radars_register(simulation->record, parameters, chain);
-    struct radars_run out = {.found = found_of(simulation->record, &result)};
+    struct parameters parameters = radars_parameters(scene);
+    struct scene_run *seen = scene_watch(scene, seed, run);
+    struct register_result result = radars_register(seen, &parameters, chain);
+    struct radars_run out = {.found = found_of(scene, &result)};
 
     for (size_t i = 0; i < RADARS_CASES; i++) {
-        out.figures[i] = run_case(&radars_cases[i], simulation, parameters, &out.found, chain);
+        out.figures[i] = run_case(&radars_cases[i], seen, &parameters, &out.found, chain);
     }
     register_result_free(&result);
-    simulation_free(simulation);
+    scene_run_free(seen);
     return out;
 }

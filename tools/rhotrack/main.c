@@ -68,17 +68,14 @@ static const struct command commands[] = {
      "with\n"
      "--seed). hough, nearest and none run a Kalman filter with input estimation.\n"
      "\n" INPUT_FORMATS "\n" TRACK_FORMATS},
-    {"simulate", command_simulate, "SCENARIO|SCENE -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
+    {"simulate", command_simulate, "SCENE -o DIR [--runs N] [--seed S]", 1, 1, "orSsC",
      "made-up targets, noise, misses and clutter",
-     "Writes DIR/plots.csv and DIR/truth.csv of a scenario or scene; with several runs "
+     "Writes DIR/plots.csv, DIR/bearings.csv and DIR/truth.csv of a scene; with several runs "
      "DIR/run-0000/\n"
      "and so on. The same seed gives the same data.\n"
      "\n"
      "A scene is a file NAME.json, or the name of one that ships; all stands in it\n"
-     "(tools/scenes/README.md).\n"
-     "\n"
-     "Scenarios: air-traffic; polar, doppler, rotating (a turning radar's plots,\n"
-     "polar.csv) and two-radars (of two, with biases); their parameters are set by --set.\n"},
+     "(tools/scenes/README.md), and --set changes it, as in --set radars.0.pd=0.7.\n"},
     {"evaluate", command_evaluate, "TRUTH TRACKS [-o FILE.svg|FILE.csv] [--by-target]", 2, 2,
      "oBjsC", "tracks against the truth",
      "GOSPA and its parts, OSPA, completeness, switches, fragments, delay, false tracks, errors "

@@ -135,53 +135,8 @@
     X(GATE_THETA_DEG, "gate_theta_deg", "deg", 5, 0.1, 90, 0, 1, "hough: cell of theta")           \
     X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
       "distance beyond which a track and a target are not paired")                                 \
-    X(CLUTTER_PER_KM2, "clutter_per_km2", "1/km^2", 0, 0, 1e4, 0, 0,                               \
-      "simulate: mean clutter plots a scan and area")                                              \
-    X(CLUTTER_PER_SCAN, "clutter_per_scan", "-", 0, 0, 1e4, 0, 0,                                  \
-      "simulate: mean clutter plots a scan")                                                       \
-    X(TRUE_PD, "true_pd", "-", 0.99, 0, 1, 0, 0,                                                   \
-      "simulate: probability of detection that happens; air-traffic, unset: pd")                   \
-    X(TRUE_SIGMA_M, "true_sigma_m", "m", 10, 0.001, 1e5, 0, 0,                                     \
-      "simulate: position noise that happens, each axis; unset: sigma_m")                          \
-    X(FADES_PER_HOUR, "fades_per_hour", "1/h", 0, 0, 3600, 0, 0,                                   \
-      "simulate air-traffic: fades of each target, in which it is not seen")                       \
-    X(FADE_SCANS, "fade_scans", "-", 3, 1, 1000, 0, 0,                                             \
-      "simulate air-traffic: scans of a fade, mean")                                               \
-    X(SPOTS, "spots", "-", 0, 0, 1000, 1, 0,                                                       \
-      "simulate air-traffic: hot spots of clutter, 20 km in radius")                               \
-    X(SPOT_CLUTTER, "spot_clutter", "-", 0, 0, 1e4, 0, 0,                                          \
-      "simulate air-traffic: mean clutter plots a scan in each of them")                           \
-    X(PERSISTENT_SOURCES, "persistent_sources", "-", 0, 0, 1e4, 1, 0,                              \
-      "simulate air-traffic: things that stand, seen in 9 scans of 10")                            \
-    X(MERGE_M, "merge_m", "m", 0, 0, 1e5, 0, 0,                                                    \
-      "simulate air-traffic: closer targets give one plot")                                        \
-    X(CROSSING_SHARE, "crossing_share", "-", 0.2, 0, 1, 0, 0,                                      \
-      "simulate air-traffic: share of targets that start so that they meet another")               \
-    X(NUM_SCANS, "num_scans", "-", 0, 1, 1e6, 1, 0, "simulate: scans of the scenario")             \
-    X(RANGE_RATE, "range_rate", "-", 0, 0, 1, 1, 0,                                                \
-      "simulate polar, rotating, doppler: 1: the radar measures range rate")                       \
-    X(STATIC_CLUTTER, "static_clutter", "-", 0, 0, 1e4, 0, 0,                                      \
-      "simulate doppler: mean clutter plots a scan more, that stand still")                        \
-    X(INTERVAL_S, "interval_s", "s", 0, 0.001, 3600, 0, 0, "simulate: time between scans")         \
-    X(TARGETS, "targets", "-", 0, 0, 5000, 1, 0,                                                   \
-      "simulate: number of targets, where the scenario leaves it open")                            \
-    X(SPACING_M, "spacing_m", "m", 50, 1, 1e5, 0, 0,                                               \
-      "simulate two-radars: least distance of two targets")                                        \
     X(REFERENCE_SENSOR, "reference_sensor", "-", 0, -2147483648.0, 2147483647, 1, 0,               \
       "register: the radar whose time counts as right; unset: the lowest number")                  \
-    X(SECTORS_PER_TURN, "sectors_per_turn", "-", 32, 1, 360, 1, 0,                                 \
-      "simulate two-radars, rotating: scans of a turn; 1: a turn is a scan")                       \
-    X(SECOND_INTERVAL_S, "second_interval_s", "s", 4, 0.001, 3600, 0, 0,                           \
-      "simulate two-radars: a turn of the second radar")                                           \
-    X(TRUE_RANGE_BIAS_M, "true_range_bias_m", "m", 50, -1e4, 1e4, 0, 0,                            \
-      "simulate two-radars: the first radar's, the second's is its negative")                      \
-    X(TRUE_AZIMUTH_BIAS_RAD, "true_azimuth_bias_rad", "rad", 0.001745, -0.5, 0.5, 0, 0,            \
-      "simulate two-radars: the same in azimuth")                                                  \
-    X(TRUE_TIME_BIAS_S, "true_time_bias_s", "s", 0, -10, 10, 0, 0,                                 \
-      "simulate two-radars: the second radar's clock is so much ahead")                            \
-    X(LATE_SHARE, "late_share", "-", 0.2, 0, 1, 0, 0,                                              \
-      "simulate two-radars: share of scans that arrive late_ms late")                              \
-    X(LATE_MS, "late_ms", "ms", 300, 0, 60000, 0, 0, "simulate two-radars: how late")              \
     X(TIME_TOLERANCE_S, "time_tolerance_s", "s", 0.001, 0.001, 60, 0, 1,                           \
       "evaluate: the truth's times have the nearest tracks, so far off at most, led there")
 
@@ -189,7 +144,17 @@ enum parameter_id {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,
     PARAMETERS(X)
 #undef X
-        NUM_PARAMETERS
+        NUM_PARAMETERS,
+    /* What experiments in C draw scenarios with (scenario.h); no user sets it. */
+    PARAMETER_CLUTTER_PER_KM2 = NUM_PARAMETERS,
+    PARAMETER_CLUTTER_PER_SCAN,
+    PARAMETER_TRUE_PD,
+    PARAMETER_MERGE_M,
+    PARAMETER_NUM_SCANS,
+    PARAMETER_INTERVAL_S,
+    PARAMETER_TARGETS,
+    PARAMETER_SPACING_M,
+    NUM_VALUES
 };
 
 enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONFIG, SOURCE_SET };
@@ -244,8 +209,8 @@ struct sensor_parameters {
 };
 
 struct parameters {
-    double value[NUM_PARAMETERS];
-    enum parameter_source source[NUM_PARAMETERS];
+    double value[NUM_VALUES];
+    enum parameter_source source[NUM_VALUES];
     size_t num_sensors;
     struct sensor_parameters sensors[RHO_MAX_SENSORS];
 };

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scenario: targets, noise, misses and clutter, from a name, parameters and a seed.
+ * scenario: targets, noise, misses and clutter of experiments in C, from a name, parameters and a seed. What `simulate` offers
+ * are scenes (scene/scene.h).
  *
- * Scenarios: crossing, parallel, crossing-angle, traffic, air-traffic, polar, formation, two-radars, rotating, doppler;
- * the passive ones of experiments are in scenario_plan.h. The same seed gives the same data on every machine.
+ * Scenarios: crossing, parallel, crossing-angle, traffic, formation; the passive ones are in scenario_plan.h. The same seed
+ * gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H
@@ -29,15 +30,12 @@ struct simulated_plot {
     double range_m, azimuth_rad, range_rate_mps;
 };
 
-/* A radar in the origin that turns counter-clockwise, from +x at the scan's time on, once an interval. */
+/* A radar in the origin that turns, a scan a turn. */
 struct scenario_radar {
     bool is_used; /* else plots are Cartesian */
     bool has_range_rate;
     double sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps;
     double range_min_m, range_max_m; /* of the clutter, which is uniform in range and azimuth */
-    double clutter_rate_max_mps;     /* its range rates are uniform within, either way */
-    double static_mean;              /* more clutter, plots a turn, that stands still */
-    double span_mps;                 /* range rates are measured up to multiples of it; 0: all */
 };
 
 #define SCENARIO_SENSORS_MAX 4
@@ -76,14 +74,11 @@ struct scenario_box {
     double x_min_m, x_max_m, y_min_m, y_max_m;
 };
 
-struct scenario_record; /* scenario_record.h */
-
 struct simulation {
     size_t num_scans, num_targets, num_truth, num_looks;
-    size_t
-        targets_a_scan; /* num_truth = num_scans x targets_a_scan; less than num_targets where they come and go */
+    /* num_truth = num_scans x targets_a_scan; less than num_targets where they come and go */
+    size_t targets_a_scan;
     double sigma_m;           /* noise that a tracker should reckon with */
-    double pd;                /* the same, where it is told, else 0 */
     struct scenario_box area; /* clutter is spread over it */
     double interval_s;
     struct scenario_radar radar;
@@ -91,22 +86,10 @@ struct simulation {
     struct simulated_scan *scans; /* without plots where passive is used */
     struct simulated_look *looks; /* num_looks = num_scans x passive.num_sensors: by time, sensor */
     struct truth_point *truth;    /* by time, then target */
-    struct scenario_record *record; /* of turning radars, in place of scans and looks, or NULL */
-    size_t num_times;               /* of the truth, with a record */
 };
-
-/* Names and one-line texts of the scenarios that `simulate` offers; NULL past the last. */
-const char *scenario_name(size_t index);
-const char *scenario_text(size_t index);
-
-/* Whether it offers a scenario of that name. */
-bool scenario_is_known(const char *name);
 
 /* The scenario's customary parameters (suggested, so that --set wins). Unknown name: exit 2 with the list. */
 void scenario_suggest(const char *name, struct parameters *parameters);
-
-/* Exit 2 where a parameter made for other scenarios is set by --set; one that --config sets is named on standard error. */
-void scenario_check_uses(const char *name, const struct parameters *parameters);
 
 /* One run: the data of (seed, run), the same whatever other runs are made. */
 struct simulation *scenario_simulate(const char *name, const struct parameters *parameters,

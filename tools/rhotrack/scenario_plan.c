@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "common.h"
-#include "scenario_record.h"
 
 const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2] = {
     {{-23793, 24841}, {-2548, 21411}, {-7021, 14156}},
@@ -45,7 +44,6 @@ struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double int
 
 void plan_free(struct scenario_plan *plan)
 {
-    sky_free(&plan->sky);
     free(plan->truth);
     plan->truth = NULL;
 }
@@ -201,9 +199,9 @@ void plan_clutter(struct simulated_scan *scan, const struct scenario_box *box, u
 }
 
 static void add_detection(const struct scenario_plan *plan, struct simulated_scan *scan,
-                          const struct truth_point *truth, struct random *random)
+                          const struct truth_point *truth, double pd, struct random *random)
 {
-    bool is_seen = random_uniform(random) < plan->pd;
+    bool is_seen = random_uniform(random) < pd;
     double noise_x_m = plan->noise_m * random_normal(random);
     double noise_y_m = plan->noise_m * random_normal(random);
     if (is_seen) {
@@ -223,6 +221,22 @@ void plan_shuffle(struct simulated_scan *scan, struct random *random)
     }
 }
 
+/* Of two that are close, one plot between them where either is seen. */
+static bool add_merged(const struct scenario_plan *plan, struct simulated_scan *scan,
+                       const struct truth_point *truth, struct random *random)
+{
+    struct truth_point middle = truth[0];
+
+    if (plan->num_targets != 2 ||
+        hypot(truth[0].x_m - truth[1].x_m, truth[0].y_m - truth[1].y_m) >= plan->merge_m) {
+        return false;
+    }
+    middle.x_m = 0.5 * (truth[0].x_m + truth[1].x_m);
+    middle.y_m = 0.5 * (truth[0].y_m + truth[1].y_m);
+    add_detection(plan, scan, &middle, 1.0 - (1.0 - plan->pd) * (1.0 - plan->pd), random);
+    return true;
+}
+
 static void simulate_scan(const struct scenario_plan *plan, size_t index,
                           struct simulated_scan *scan, struct random *random)
 {
@@ -230,8 +244,10 @@ static void simulate_scan(const struct scenario_plan *plan, size_t index,
     uint64_t num_spot = random_poisson(random, plan->spot_mean);
     scan->t_s = (double)index * plan->interval_s;
     scan->plots = must_calloc(plan->num_targets + num_clutter + num_spot + 1, sizeof *scan->plots);
-    for (size_t target = 0; target < plan->num_targets; target++) {
-        add_detection(plan, scan, plan_truth(plan, index, target), random);
+    if (!add_merged(plan, scan, plan_truth(plan, index, 0), random)) {
+        for (size_t target = 0; target < plan->num_targets; target++) {
+            add_detection(plan, scan, plan_truth(plan, index, target), plan->pd, random);
+        }
     }
     plan_clutter(scan, &plan->box, num_clutter, random);
     plan_clutter(scan, &plan->spot, num_spot, random);
@@ -246,10 +262,8 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
     simulation->targets_a_scan = plan->num_targets;
     simulation->num_truth = plan->num_scans * plan->num_targets;
     simulation->sigma_m = plan->sigma_m;
-    simulation->pd = plan->told_pd;
     simulation->area = plan->box;
     simulation->interval_s = plan->interval_s;
-    simulation->radar = plan->radar;
     simulation->passive = plan->passive;
     simulation->num_looks = plan->num_scans * plan->passive.num_sensors;
     simulation->looks = must_calloc(simulation->num_looks + 1, sizeof *simulation->looks);
@@ -261,10 +275,6 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
             size_t first = scan * plan->passive.num_sensors;
             simulation->scans[scan].t_s = (double)scan * plan->interval_s;
             plan_look_of_sensors(plan, scan, &simulation->looks[first], random);
-        } else if (plan->radar.is_used) {
-            plan_turn_of_radar(plan, scan, &simulation->scans[scan], random);
-        } else if (plan->sky.is_used) {
-            plan_look_at_sky(plan, scan, &simulation->scans[scan]);
         } else {
             simulate_scan(plan, scan, &simulation->scans[scan], random);
         }
@@ -283,6 +293,5 @@ void simulation_free(struct simulation *simulation)
     free(simulation->looks);
     free(simulation->scans);
     free(simulation->truth);
-    record_free(simulation->record);
     free(simulation);
 }

@@ -20,22 +20,6 @@
  * Table 3. */
 extern const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2];
 
-struct sky_place {
-    double x_m, y_m;
-};
-
-/* What else befalls plots, drawn beforehand. Its plots are Cartesian. */
-struct scenario_sky {
-    bool is_used;
-    uint64_t seed;      /* of detections and clutter */
-    double merge_m;     /* targets closer give one plot; 0: none do */
-    size_t num_spots;   /* discs with more clutter */
-    double spot_mean;   /* plots a scan, each */
-    size_t num_sources; /* that give a plot in nine scans of ten */
-    struct sky_place *spots, *sources;
-    unsigned char *is_faded; /* as truth: not seen whatever pd */
-};
-
 struct scenario_plan {
     size_t num_scans, num_targets; /* targets at a time */
     size_t num_identities;         /* over all scans; num_targets where none comes or goes */
@@ -43,14 +27,12 @@ struct scenario_plan {
     double sigma_m; /* as the tracker is told */
     double noise_m; /* that is added to the positions, each axis */
     double pd;
-    double told_pd;                  /* to the tracker; 0: nothing */
+    double merge_m;                  /* two targets that are closer give one plot; 0: they do not */
     struct scenario_box box;         /* of the clutter */
     double clutter_mean;             /* plots a scan */
     struct scenario_box spot;        /* more clutter there */
     double spot_mean;                /* plots a scan; 0: none */
-    struct scenario_radar radar;     /* where it is used: its noise, its clutter */
-    struct scenario_passive passive; /* the same */
-    struct scenario_sky sky;         /* the same, by plan_sky */
+    struct scenario_passive passive; /* where it is used: its noise, its clutter */
     struct truth_point *truth;       /* num_scans x num_targets, by time, then target */
 };
 
@@ -113,23 +95,6 @@ struct scenario_plan plan_crossing_angle(const struct parameters *parameters,
 struct scenario_plan plan_formation(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_traffic(const struct parameters *parameters, struct random *random);
 
-/* Scenarios polar and doppler. scenario_radar.c */
-struct scenario_plan plan_polar(const struct parameters *parameters, struct random *random);
-struct scenario_plan plan_doppler(const struct parameters *parameters, struct random *random);
-void suggest_radar(struct parameters *parameters, double range_max_m);
-
-/* Where their targets are. */
-#define POLAR_NEAR_M 20000.0
-#define POLAR_FAR_M 60000.0
-
-/* Anywhere between, any heading, drawn again until the whole straight path lies there. */
-struct scenario_state plan_straight_around(const struct parameters *parameters, double duration_s,
-                                           struct random *random);
-
-/* One turn of the plan's radar, from scan `index` on: in the order of time. scenario_radar.c */
-void plan_turn_of_radar(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan,
-                        struct random *random);
-
 /* Where the targets of passive sensors start; they are drawn anew where they end at a lower x. */
 struct scenario_region {
     double x_min_m, x_max_m, y_min_m, y_max_m;
@@ -158,27 +123,5 @@ struct simulation *simulate_passive(const struct scenario_bearings *of,
 /* What the plan's passive sensors see at scan `index`: a look a sensor. scenario_bearings.c */
 void plan_look_of_sensors(const struct scenario_plan *plan, size_t index,
                           struct simulated_look *looks, struct random *random);
-
-/* ---- Turning radars, sector by sector ---------------------------------------------------------- */
-
-/* Scenario two-radars. scenario_two_radars.c */
-struct simulation *simulate_two_radars(const struct parameters *parameters, struct random *random);
-void suggest_two_radars(struct parameters *parameters);
-
-/* Scenario rotating. scenario_rotating.c */
-struct simulation *simulate_rotating(const struct parameters *parameters, struct random *random);
-
-/* ---- Many targets: scenario_air_traffic.c, scenario_sky.c ----------------------------------------- */
-
-/* Flights of the scenario air-traffic, always `targets` in the air. */
-struct scenario_plan plan_air_traffic(const struct parameters *parameters, struct random *random);
-
-/* Fades, merged plots, hot spots, persistent sources from the parameters; the plan has its paths and box. */
-void plan_sky(struct scenario_plan *plan, const struct parameters *parameters,
-              struct random *random);
-void sky_free(struct scenario_sky *sky);
-
-/* The plots of scan `index` of a plan with such a sky. */
-void plan_look_at_sky(const struct scenario_plan *plan, size_t index, struct simulated_scan *scan);
 
 #endif

@@ -51,9 +51,10 @@ struct scene_sensor {
     double x_m, y_m;
     bool turns; /* else it looks everywhere at each scan's time */
     bool is_counter_clockwise;
-    size_t sectors; /* scans of a turn */
-    double turn_s;  /* of a sensor that does not turn, the time between scans */
-    double start_s, start_rad;
+    size_t sectors;            /* scans of a turn */
+    double turn_s;             /* of a sensor that does not turn, the time between scans */
+    double start_s, start_rad; /* of a run: drawn between */
+    struct json_span starts_s, starts_rad;
     struct scene_coverage coverage;
     struct scene_curve pd;
     double sigma_m, sigma_range_m, sigma_azimuth_rad, sigma_rad;
@@ -91,7 +92,7 @@ struct scene_clutter {
     double box_m[4]; /* uniform, standing, spikes: x_min, x_max, y_min, y_max in place of within */
     bool is_disc;    /* cell: even in a disc, else Gaussian */
     double x_m, y_m, vx_mps, vy_mps, radius_m; /* cell, flock */
-    double rate_sigma_mps;                     /* cell: spread of its range rates */
+    double rate_sigma_mps; /* cell: spread of its range rates; uniform: in place of rate_max_mps */
     double rate_max_mps;   /* uniform: its range rates are uniform within, either way */
     uint64_t count;        /* standing, flock; about-targets: a scan, of each target */
     double (*places_m)[2]; /* standing: listed ones, or NULL */

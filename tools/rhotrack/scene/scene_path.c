@@ -141,8 +141,8 @@ static void add_leg(struct scene_path *path, struct path_leg leg)
     path->legs[path->num_legs++] = leg;
 }
 
-static void begin_path(struct scene_path *path, double x_m, double y_m, double speed_mps,
-                       double heading_rad)
+void path_begin(struct scene_path *path, double x_m, double y_m, double speed_mps,
+                double heading_rad)
 {
     add_leg(path, (struct path_leg){.t_s = path->from_s,
                                     .x_m = x_m,
@@ -151,8 +151,7 @@ static void begin_path(struct scene_path *path, double x_m, double y_m, double s
                                     .heading_rad = heading_rad});
 }
 
-/* From t_s on it moves on so; a leg that would begin where the last one does takes its place. */
-static void go_on(struct scene_path *path, double t_s, double along_mps2, double turn_radps)
+void path_go_on(struct scene_path *path, double t_s, double along_mps2, double turn_radps)
 {
     struct path_leg *last = &path->legs[path->num_legs - 1];
     struct motion at = leg_at(last, t_s);
@@ -176,7 +175,7 @@ static void go_on(struct scene_path *path, double t_s, double along_mps2, double
     }
 }
 
-static double speed_at(const struct scene_path *path, double t_s)
+double path_speed_mps(const struct scene_path *path, double t_s)
 {
     return leg_speed_mps(&path->legs[path->num_legs - 1], t_s);
 }
@@ -184,11 +183,11 @@ static double speed_at(const struct scene_path *path, double t_s)
 /* Until the speed is another; returns when. */
 static double change_speed(struct scene_path *path, double t_s, double to_mps, double along_mps2)
 {
-    double change_mps = to_mps - speed_at(path, t_s), for_s = fabs(change_mps) / along_mps2;
+    double change_mps = to_mps - path_speed_mps(path, t_s), for_s = fabs(change_mps) / along_mps2;
 
     if (for_s > 0.0) {
-        go_on(path, t_s, change_mps > 0.0 ? along_mps2 : -along_mps2, 0.0);
-        go_on(path, t_s + for_s, 0.0, 0.0);
+        path_go_on(path, t_s, change_mps > 0.0 ? along_mps2 : -along_mps2, 0.0);
+        path_go_on(path, t_s + for_s, 0.0, 0.0);
         path->legs[path->num_legs - 1].speed_mps = to_mps;
     }
     return t_s + for_s;
@@ -201,7 +200,8 @@ static double change_speed(struct scene_path *path, double t_s, double to_mps, d
 
 static double follow_step(struct scene_path *path, double t_s, const struct path_step *step)
 {
-    double speed_mps = speed_at(path, t_s), turn_radps = step->turn_radps, for_s = step->for_s;
+    double speed_mps = path_speed_mps(path, t_s), turn_radps = step->turn_radps,
+           for_s = step->for_s;
     double along_mps2 = step->along_mps2;
 
     if (step->has_speed) {
@@ -227,15 +227,15 @@ static double follow_step(struct scene_path *path, double t_s, const struct path
             double part_s = for_s / (double)parts;
             double middle_mps = speed_mps + along_mps2 * part_s * ((double)i + 0.5);
 
-            go_on(path, t_s + part_s * (double)i, along_mps2,
-                  middle_mps > STANDS_MPS ? step->across_mps2 / middle_mps : 0.0);
+            path_go_on(path, t_s + part_s * (double)i, along_mps2,
+                       middle_mps > STANDS_MPS ? step->across_mps2 / middle_mps : 0.0);
         }
     } else {
-        go_on(path, t_s, along_mps2, turn_radps);
+        path_go_on(path, t_s, along_mps2, turn_radps);
         memcpy(path->legs[path->num_legs - 1].accel_mps2, step->accel_mps2,
                sizeof step->accel_mps2);
     }
-    go_on(path, t_s + for_s, 0.0, 0.0);
+    path_go_on(path, t_s + for_s, 0.0, 0.0);
     if (step->has_speed) {
         path->legs[path->num_legs - 1].speed_mps = step->to_speed_mps;
     }
@@ -299,13 +299,13 @@ static struct scene_path described_path(const struct target_item *item, size_t i
         const struct path_leg *leg = leg_of(parent, item->from_s);
         struct motion at = path_at(parent, item->from_s);
 
-        begin_path(&path, at.x_m, at.y_m,
+        path_begin(&path, at.x_m, at.y_m,
                    fmax(0.0, leg_speed_mps(leg, item->from_s) + item->speed_change_mps),
                    leg_heading_rad(leg, item->from_s) + item->heading_change_rad);
         path.legs[0].z_m = at.z_m;
         path.legs[0].vz_mps = at.vz_mps;
     } else {
-        begin_path(&path, item->x_m, item->y_m, item->speed_mps, item->heading_rad);
+        path_begin(&path, item->x_m, item->y_m, item->speed_mps, item->heading_rad);
         path.legs[0].z_m = item->z_m;
         path.legs[0].vz_mps = item->vz_mps;
     }
@@ -338,7 +338,7 @@ static void draw_start(const struct target_item *item, struct scene_path *path,
     if (item->is_relative) {
         heading_rad += portable_atan2(item->about_y_m - y_m, item->about_x_m - x_m);
     }
-    begin_path(path, x_m, y_m, speed_mps, portable_wrap(heading_rad));
+    path_begin(path, x_m, y_m, speed_mps, portable_wrap(heading_rad));
 }
 
 /* To which side a turn goes: far out back to the centre, else to either. */
@@ -358,7 +358,8 @@ static double draw_side(const struct target_item *item, const struct scene_path 
 static double draw_turn(const struct target_item *item, struct scene_path *path, double t_s,
                         struct random *random)
 {
-    double across_mps2 = draw_between(random, item->turn_across), speed_mps = speed_at(path, t_s);
+    double across_mps2 = draw_between(random, item->turn_across),
+           speed_mps = path_speed_mps(path, t_s);
     double side = draw_side(item, path, t_s, random), for_s;
     double turn_radps = speed_mps > STANDS_MPS ? across_mps2 / speed_mps : 0.0;
 
@@ -367,15 +368,16 @@ static double draw_turn(const struct target_item *item, struct scene_path *path,
     } else {
         for_s = turn_radps > 0.0 ? draw_between(random, item->turn_rad) / turn_radps : 0.0;
     }
-    go_on(path, t_s, 0.0, side * turn_radps);
-    go_on(path, t_s + for_s, 0.0, 0.0);
+    path_go_on(path, t_s, 0.0, side * turn_radps);
+    path_go_on(path, t_s + for_s, 0.0, 0.0);
     return t_s + for_s;
 }
 
 static double draw_stop(const struct target_item *item, struct scene_path *path, double t_s,
                         struct random *random)
 {
-    double speed_mps = speed_at(path, t_s), along_mps2 = draw_between(random, item->stop_along);
+    double speed_mps = path_speed_mps(path, t_s),
+           along_mps2 = draw_between(random, item->stop_along);
 
     t_s = change_speed(path, t_s, 0.0, along_mps2) + draw_between(random, item->stop_for);
     return change_speed(path, t_s, speed_mps, along_mps2);
@@ -412,39 +414,86 @@ static void draw_manoeuvres(const struct target_item *item, struct scene_path *p
     }
 }
 
-static bool keeps_within(const struct target_item *item, const struct scene_path *path,
-                         double end_s)
+static bool is_in_span(double number, double lo, double hi)
 {
-    double first_s = fmax(0.0, path->from_s);
-    size_t count = (item->has_keep || item->has_keep_box) && end_s >= first_s
-                       ? (size_t)((end_s - first_s) / KEEP_STEP_S) + 1
-                       : 0;
+    return number >= lo && number <= hi;
+}
+
+/* In how many of the rings a place is. */
+static size_t count_discs(const struct target_item *item, const struct motion *at)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < item->num_keep_discs; i++) {
+        const double *disc_m = item->keep_discs_m[i];
+        double range_m = portable_hypot(at->x_m - disc_m[0], at->y_m - disc_m[1]);
+
+        count += is_in_span(range_m, disc_m[2], disc_m[3]);
+    }
+    return count;
+}
+
+static bool keeps_at(const struct target_item *item, const struct motion *at)
+{
     const double *box_m = item->keep_box_m;
+    double range_m = portable_hypot(at->x_m - item->about_x_m, at->y_m - item->about_y_m);
 
-    for (size_t i = 0; i < count; i++) {
-        double t_s = first_s + (double)i * KEEP_STEP_S;
-        struct motion at = path_at(path, t_s);
-        double range_m = portable_hypot(at.x_m - item->about_x_m, at.y_m - item->about_y_m);
+    return (!item->has_keep || is_in_span(range_m, item->keep.lo, item->keep.hi)) &&
+           (!item->has_keep_box ||
+            (is_in_span(at->x_m, box_m[0], box_m[1]) && is_in_span(at->y_m, box_m[2], box_m[3])));
+}
 
-        if (item->has_keep && (range_m < item->keep.lo || range_m > item->keep.hi)) {
-            return false;
-        }
-        if (item->has_keep_box &&
-            (at.x_m < box_m[0] || at.x_m > box_m[1] || at.y_m < box_m[2] || at.y_m > box_m[3])) {
-            return false;
+/* Never nearer than spacing_m to those that are there already. */
+static bool is_apart(const struct target_item *item, const struct motion *at, double t_s,
+                     const struct scene_paths *others)
+{
+    for (size_t i = 0; item->spacing_m > 0.0 && i < others->count; i++) {
+        const struct scene_path *other = &others->paths[i];
+
+        if (t_s >= other->from_s && t_s < other->until_s) {
+            struct motion its = path_at(other, t_s);
+
+            if (portable_hypot(at->x_m - its.x_m, at->y_m - its.y_m) < item->spacing_m) {
+                return false;
+            }
         }
     }
     return true;
 }
 
-struct draft {
-    const char *file;
-    const struct target_item *item;
-    size_t index;
-    double duration_s;
-};
+static bool keeps_within(const struct target_item *item, const struct scene_path *path,
+                         double end_s, const struct scene_paths *others)
+{
+    double first_s = fmax(0.0, path->from_s);
+    bool is_kept =
+        item->has_keep || item->has_keep_box || item->num_keep_discs > 0 || item->spacing_m > 0.0;
+    size_t count = is_kept && end_s >= first_s ? (size_t)((end_s - first_s) / KEEP_STEP_S) + 1 : 0;
+    size_t in_all = 0;
 
-static struct scene_path random_path(const struct draft *draft, double from_s, double until_s,
+    for (size_t i = 0; i < count; i++) {
+        double t_s = first_s + (double)i * KEEP_STEP_S;
+        struct motion at = path_at(path, t_s);
+        size_t discs = count_discs(item, &at);
+
+        if (!keeps_at(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
+            !is_apart(item, &at, t_s, others)) {
+            return false;
+        }
+        in_all += discs == item->num_keep_discs;
+    }
+    return (double)in_all >= item->keep_all_share * (double)count;
+}
+
+static const char *kept_by(const struct target_item *item)
+{
+    return item->spacing_m > 0.0      ? "its place, spacing_m from others"
+           : item->num_keep_discs > 0 ? "keep_discs_m"
+           : item->has_keep_box       ? "keep_box_m"
+                                      : "keep_range_m";
+}
+
+static struct scene_path random_path(const struct target_draft *draft, double from_s,
+                                     double until_s, const struct scene_paths *others,
                                      struct random *random)
 {
     double end_s = fmin(until_s, draft->duration_s);
@@ -454,7 +503,7 @@ static struct scene_path random_path(const struct draft *draft, double from_s, d
 
         draw_start(draft->item, &path, random);
         draw_manoeuvres(draft->item, &path, end_s, random);
-        if (keeps_within(draft->item, &path, end_s)) {
+        if (keeps_within(draft->item, &path, end_s, others)) {
             return path;
         }
         path_free(&path);
@@ -462,25 +511,20 @@ static struct scene_path random_path(const struct draft *draft, double from_s, d
     fail(EXIT_USAGE,
          "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
          "less speed, or turns, which lead back",
-         draft->file, draft->index, DRAFTS_MAX,
-         draft->item->has_keep_box ? "keep_box_m" : "keep_range_m");
+         draft->file, draft->index, DRAFTS_MAX, kept_by(draft->item));
 }
 
 /* ---- all paths ------------------------------------------------------------------------------------ */
 
-struct paths {
-    size_t count, room;
-    struct scene_path *paths;
-};
-
-static void keep_path(struct paths *paths, struct scene_path path)
+void paths_keep(struct scene_paths *paths, struct scene_path path)
 {
     paths->paths = must_grow(paths->paths, paths->count, &paths->room, sizeof *paths->paths);
     paths->paths[paths->count++] = path;
 }
 
 /* Where one ends, after a pause, the next one begins. The first one is somewhere in its life. */
-static void draw_member(struct paths *paths, const struct draft *draft, struct random *random)
+static void draw_member(struct scene_paths *paths, const struct target_draft *draft,
+                        struct random *random)
 {
     const struct target_item *item = draft->item;
     double life_s = item->has_life ? draw_between(random, item->life) : INFINITY;
@@ -493,7 +537,7 @@ static void draw_member(struct paths *paths, const struct draft *draft, struct r
         double until_s = from_s + life_s;
 
         if (until_s > 0.0) {
-            keep_path(paths, random_path(draft, from_s, until_s, random));
+            paths_keep(paths, random_path(draft, from_s, until_s, paths, random));
         }
         from_s = until_s;
         if (!item->is_replaced) {
@@ -511,15 +555,19 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
                                 double duration_s, uint64_t seed, uint64_t run, uint64_t source,
                                 size_t *count)
 {
-    struct paths paths = {.count = 0};
+    struct scene_paths paths = {.count = 0};
     size_t *first = must_calloc(targets->count + 1, sizeof *first);
 
     for (size_t i = 0; i < targets->count; i++) {
         const struct target_item *item = &targets->items[i];
-        const struct draft draft = {file, item, i, duration_s};
+        const struct target_draft draft = {file, item, i, duration_s};
 
         first[i] = paths.count;
-        if (item->count == 0) {
+        if (item->flights > 0) {
+            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, 0);
+
+            flights_draw(&draft, &paths, &random);
+        } else if (item->count == 0) {
             const struct scene_path *parent =
                 item->has_parent ? &paths.paths[first[item->parent]] : NULL;
             struct scene_path path = described_path(item, i, parent);
@@ -528,7 +576,7 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
             if (item->shake_s > 0.0) {
                 draw_shakes(&path, item, duration_s, &random);
             }
-            keep_path(&paths, path);
+            paths_keep(&paths, path);
         }
         for (size_t k = 0; k < item->count; k++) {
             struct random random = scene_stream(seed, run, STREAM_PATH, source, i, k);
@@ -786,6 +834,35 @@ static void read_lives(struct json_object *object, struct target_item *item)
     }
 }
 
+static void read_box(struct json_object *object, struct target_item *item)
+{
+    const double *box_m = item->box_m;
+
+    item->has_box = json_numbers(object, "box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->box_m);
+    if (item->has_box && (box_m[0] > box_m[1] || box_m[2] > box_m[3])) {
+        json_fail_key(object, "box_m", "must be [x_min, x_max, y_min, y_max]");
+    }
+}
+
+static void read_discs(struct json_object *object, struct target_item *item)
+{
+    struct json_list list = json_list_of(object, "keep_discs_m", KEEP_DISCS_MAX);
+
+    for (size_t i = 0; i < list.count; i++) {
+        double *disc_m = item->keep_discs_m[i];
+
+        json_element_numbers(&list, i, 4, -PLACE_MAX_M, PLACE_MAX_M, disc_m);
+        if (disc_m[2] > disc_m[3] || disc_m[3] < 0.0) {
+            json_fail(&list.place, "must be [x, y, from, to]");
+        }
+    }
+    item->num_keep_discs = list.count;
+    if (json_has(object, "keep_all_share") && list.count == 0) {
+        json_fail_key(object, "keep_all_share", "needs keep_discs_m");
+    }
+    item->keep_all_share = json_number(object, "keep_all_share", 0, 1, 0);
+}
+
 static void read_group(struct json_object *object, struct target_item *item)
 {
     static const struct json_span all_round = {-PORTABLE_PI, PORTABLE_PI};
@@ -793,15 +870,13 @@ static void read_group(struct json_object *object, struct target_item *item)
     item->count = json_count(object, "count", 1, GROUP_MAX, 0);
     read_lives(object, item);
     read_place(object, "about_m", &item->about_x_m, &item->about_y_m);
-    item->has_box = json_numbers(object, "box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->box_m);
+    read_box(object, item);
     item->range = json_between(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->azimuth = json_between(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
     json_exclude(object, "box_m", "range_m");
     json_exclude(object, "box_m", "azimuth_rad");
     if (!item->has_box) {
         json_require(object, "range_m");
-    } else if (item->box_m[0] > item->box_m[1] || item->box_m[2] > item->box_m[3]) {
-        json_fail_key(object, "box_m", "must be [x_min, x_max, y_min, y_max]");
     }
     json_require(object, "speed_mps");
     item->speed = json_between(object, "speed_mps", 0, SPEED_MAX_MPS, (struct json_span){0});
@@ -813,9 +888,21 @@ static void read_group(struct json_object *object, struct target_item *item)
     item->keep = json_between(object, "keep_range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->has_keep_box =
         json_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
+    read_discs(object, item);
+    item->spacing_m = json_number(object, "spacing_m", 0, PLACE_MAX_M, 0);
     read_turns(object, item);
     read_changes(object, item);
     read_stops(object, item);
+}
+
+static void read_flights(struct json_object *object, struct target_item *item)
+{
+    item->flights = json_count(object, "flights", 1, GROUP_MAX, 0);
+    json_require(object, "box_m");
+    read_box(object, item);
+    json_require(object, "least_s");
+    item->flights_least = json_number(object, "least_s", 1, 1e5, 0);
+    item->crossing_share = json_number(object, "crossing_share", 0, 1, 0);
 }
 
 struct scene_targets targets_read(struct json_object *object, const char *key)
@@ -828,7 +915,10 @@ struct scene_targets targets_read(struct json_object *object, const char *key)
         struct target_item *item = &targets.items[targets.count];
 
         json_text(&one, "text", NULL);
-        if (json_has(&one, "count")) {
+        json_exclude(&one, "count", "flights");
+        if (json_has(&one, "flights")) {
+            read_flights(&one, item);
+        } else if (json_has(&one, "count")) {
             read_group(&one, item);
         } else {
             read_path(&one, item, &targets);

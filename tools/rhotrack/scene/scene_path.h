@@ -35,8 +35,22 @@ struct scene_path {
     struct motion *shakes;
 };
 
+/* Those of a run, in memory that grows; a target's identity is its index. */
+struct scene_paths {
+    size_t count, room;
+    struct scene_path *paths;
+};
+
 struct motion path_at(const struct scene_path *path, double t_s);
 void path_free(struct scene_path *path);
+void paths_keep(struct scene_paths *paths, struct scene_path path);
+
+/* The first leg, from from_s on; and another one from t_s on, as fast and in the direction as the last one is then. A leg
+ * that would begin where the last one does takes its place. */
+void path_begin(struct scene_path *path, double x_m, double y_m, double speed_mps,
+                double heading_rad);
+void path_go_on(struct scene_path *path, double t_s, double along_mps2, double turn_radps);
+double path_speed_mps(const struct scene_path *path, double t_s); /* in the last leg */
 
 /* One leg of a described path. */
 struct path_step {
@@ -48,9 +62,14 @@ struct path_step {
     double turn_rad; /* 0: for_s */
 };
 
-/* An element of targets[]: one path, or a group of random ones. */
+#define KEEP_DISCS_MAX 8
+
+/* An element of targets[]: one path, a group of random ones, or flights. */
 struct target_item {
-    size_t count; /* 0: one path */
+    size_t count;         /* 0: one path, or flights */
+    size_t flights;       /* always so many in the air, in box_m; 0: none */
+    double flights_least; /* seconds that each lasts */
+    double crossing_share;
     double from_s, until_s;
     double x_m, y_m, speed_mps, heading_rad;
     bool has_parent;
@@ -78,6 +97,10 @@ struct target_item {
     struct json_span keep;
     bool has_keep_box;
     double keep_box_m[4];
+    size_t num_keep_discs;
+    double keep_discs_m[KEEP_DISCS_MAX][4]; /* x, y, from, to: always in one of these rings, */
+    double keep_all_share;                  /* and this share of its life in all of them */
+    double spacing_m;                       /* to those before it */
     bool has_turns, has_turn_for;
     struct json_span turn_every, turn_across, turn_rad, turn_for;
     bool has_changes;
@@ -90,6 +113,18 @@ struct scene_targets {
     size_t count;
     struct target_item *items;
 };
+
+/* What paths are drawn of. */
+struct target_draft {
+    const char *file;
+    const struct target_item *item;
+    size_t index; /* in targets[] */
+    double duration_s;
+};
+
+/* Flights from before 0 s until the end. Exit 2 where none fits into box_m. scene_flights.c */
+void flights_draw(const struct target_draft *draft, struct scene_paths *paths,
+                  struct random *random);
 
 struct scene_targets targets_read(struct json_object *object, const char *key);
 void targets_free(struct scene_targets *targets);

@@ -161,10 +161,13 @@ static void read_antenna(struct json_object *object, struct scene_sensor *sensor
     if (sensor->turns) {
         sensor->sectors = (size_t)json_count(object, "sectors", 1, 360, 1);
         sensor->is_counter_clockwise = json_flag(object, "is_counter_clockwise", false);
-        sensor->start_rad =
-            json_number(object, "start_rad", -PORTABLE_TURN, PORTABLE_TURN, PORTABLE_PI / 2.0);
+        sensor->starts_rad = json_between(object, "start_rad", -PORTABLE_TURN, PORTABLE_TURN,
+                                          (struct json_span){PORTABLE_PI / 2.0, PORTABLE_PI / 2.0});
     }
-    sensor->start_s = json_number(object, "start_s", -3600, DURATION_MAX_S, 0);
+    sensor->starts_s =
+        json_between(object, "start_s", -3600, DURATION_MAX_S, (struct json_span){0, 0});
+    sensor->start_s = sensor->starts_s.lo;
+    sensor->start_rad = sensor->starts_rad.lo;
     sensor->late_share = json_number(object, "late_share", 0, 1, 0);
     sensor->late_s = json_number(object, "late_s", 0, 60, 0);
 }
@@ -304,6 +307,8 @@ static void read_uniform(struct json_object *object, struct scene_clutter *clutt
     clutter->plots = json_number(object, "plots", 0, PLOTS_MAX, 0);
     clutter->plots_per_km2 = json_number(object, "plots_per_km2", 0, 1e4, 0);
     clutter->rate_max_mps = json_number(object, "range_rate_max_mps", 0, 2e4, 0);
+    json_exclude(object, "range_rate_max_mps", "range_rate_sigma_mps");
+    clutter->rate_sigma_mps = json_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
     read_where(object, clutter);
 }
 

@@ -583,7 +583,9 @@ static void draw_uniform(struct watch *watch, const struct scene_clutter *clutte
     const struct scene_coverage *coverage = &sensor->coverage;
     double rate_max_mps =
         clutter->rate_max_mps > 0.0 ? clutter->rate_max_mps : watch->scene->v_max_mps;
-    double rate_mps = random_between(random, -rate_max_mps, rate_max_mps);
+    double rate_mps = clutter->rate_sigma_mps > 0.0
+                          ? clutter->rate_sigma_mps * random_normal(random)
+                          : random_between(random, -rate_max_mps, rate_max_mps);
 
     if (clutter->has_box || sensor->is_cartesian) {
         const double *box_m = clutter->has_box ? clutter->box_m : watch->scene->area_m;
@@ -882,12 +884,15 @@ struct scene_run *scene_watch(const struct scene *scene, uint64_t seed, uint64_t
         fades[i] = draw_fades(scene, &run->paths[i], i, seed, run_number);
     }
     for (size_t i = 0; i < scene->num_sensors; i++) {
-        const struct scene_sensor *sensor = &scene->sensors[i];
+        struct scene_sensor sensor = scene->sensors[i];
+        struct random random = scene_stream(seed, run_number, STREAM_START, i, 0, 0);
         struct watch watch = {
-            .scene = scene, .sensor = sensor, .index = i, .seed = seed, .run = run_number};
+            .scene = scene, .sensor = &sensor, .index = i, .seed = seed, .run = run_number};
 
-        watch.turns = num_turns(scene, sensor);
-        watch.end_s = sensor->start_s + (double)watch.turns * sensor->turn_s;
+        sensor.start_s = draw_between(&random, sensor.starts_s);
+        sensor.start_rad = draw_between(&random, sensor.starts_rad);
+        watch.turns = num_turns(scene, &sensor);
+        watch.end_s = sensor.start_s + (double)watch.turns * sensor.turn_s;
         if (watch.turns > 0) {
             watch_all(&watch, run, fades);
             keep_scans(run, &watch, &room);
