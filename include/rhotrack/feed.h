@@ -72,6 +72,10 @@
 /* Of a sensor's scans that were not believed, so many are remembered: others between them do no harm. */
 #define RHO_FEED_STRAYS 4
 
+/* A sensor heard for so long is as good as one heard for hours. Before the second, all are equals. */
+#define RHO_FEED_TRUST_US 600000000u
+#define RHO_FEED_EQUALS_US 60000000u
+
 /* Noise where the messages say 0; each above 0 and within the limits of types.h. */
 struct rho_feed_noise {
     float sigma_m, sigma_mps; /* of plots */
@@ -99,6 +103,9 @@ struct rho_feed_config {
     uint32_t flood_per_s;  /* 1 .. 1e6 */
     uint32_t follow_scans; /* 2 .. 255 */
     uint32_t is_told; /* 1: items have a sensor also where `other` is all that is known of it */
+    uint32_t stranger_plots_per_s; /* 1 .. 1e6: of all newcomers that are not described, together */
+    uint16_t num_allowed;          /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
+    int16_t allowed[RHO_MAX_SENSORS]; /* sensor_ids; messages of any other are not looked at */
     struct rho_feed_sensor
         other; /* holds for sensors that are not described; its sensor_id is not looked at */
 };
@@ -107,13 +114,16 @@ struct rho_feed_config {
 struct rho_feed_counters {
     uint32_t messages_bad;        /* length, count, a value, the sensor's number */
     uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
-    uint32_t messages_flooded;
+    uint32_t messages_flooded;     /* and those of newcomers beyond stranger_plots_per_s */
+    uint32_t messages_not_allowed; /* of a sensor that is not in `allowed` */
     uint32_t scans_accepted; /* of which a first part came */
     /* older than one of the same sensor that was accepted, whatever becomes of them (those that found room are
      * accepted, too); and those of a clock that was given up */
     uint32_t scans_late;
     /* scans, or parts of one, that were there before; parts that come when the scan is closed */
     uint32_t scans_duplicate;
+    /* of those, not counted there: with another content, so that two senders use one sensor_id (or damage) */
+    uint32_t scans_other;
     uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
     uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers */
     uint32_t scans_incomplete; /* went out without some of their parts */
@@ -141,22 +151,30 @@ struct rho_feed_stray {
     uint32_t reserved;           /* 0 */
 };
 
+/* What may still come before it is filled again, once a second. */
+struct rho_feed_bucket {
+    int64_t full_us; /* reception clock: when it was full */
+    uint32_t left;
+    uint32_t reserved; /* 0 */
+};
+
 /* One sensor's stream of messages. */
 struct rho_feed_source {
     struct rho_feed_place place;                   /* its newest scan whose number was believed */
     struct rho_feed_stray strays[RHO_FEED_STRAYS]; /* the last one first */
     int64_t heard_us;                              /* reception clock: its last believed scan */
-    int64_t bucket_us;                             /* reception clock: when the bucket was full */
-    uint32_t bucket;      /* messages that may still come before the bucket is filled again */
+    struct rho_feed_bucket messages;
     uint32_t seen;        /* bit i: number place.scan - i was there */
     uint32_t skipped;     /* bit i: it was not, and may still come */
     uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
+    uint32_t known_us;    /* reception clock: for how long it was heard; up to RHO_FEED_TRUST_US */
+    uint32_t check;       /* of the newest scan's first part, as it came first; 0: it did not */
     uint16_t scans;       /* believed; saturates */
-    uint16_t off_clock;   /* scans in a row; saturates; 0: it tells the common time */
+    uint8_t off_clock;    /* scans in a row; saturates; 0: it tells the common time */
+    uint8_t has_twin;     /* 1: a scan came twice, with different contents */
     int16_t sensor_id;
     uint8_t kind; /* enum rho_feed_kind */
     uint8_t is_used;
-    uint32_t reserved; /* 0 */
 };
 
 /* A scan that is put together. */
@@ -190,7 +208,8 @@ struct rho_feed {
     uint32_t reserved;   /* 0 */
     struct rho_feed_config config;
     struct rho_feed_counters counters;
-    struct rho_feed_source stranger; /* its bucket alone */
+    struct rho_feed_bucket strangers;       /* messages of sensors that are new or unknown */
+    struct rho_feed_bucket stranger_plots;
     struct rho_feed_source sources[RHO_MAX_SENSORS];
     struct rho_feed_sensor known[RHO_MAX_SENSORS];
     struct rho_feed_slot slots[RHO_MAX_OPEN_SCANS];

@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A radar that is heard for two minutes, and datagrams of somebody else, live: its track goes on, and a new target is found
+ * when it would have been. The time that a step takes is taken from the node.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common.h" /* before cmocka's macro fail */
+
+#include <cmocka.h>
+
+#include "node_core.h"
+#include "random.h"
+#include "rhotrack/message.h"
+
+#define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
+#define SECOND_US INT64_C(1000000)
+#define ATTACK_S 120 /* from here on, and so does the new target */
+#define END_S 180
+#define DELAY_US INT64_C(5000)
+#define CLUTTER 10
+#define STRANGERS 8
+#define DATAGRAMS 4000
+#define SIGMA_M 20.0
+#define NEAR_M 1000.0
+
+/* ---- the scene -------------------------------------------------------------------------------- */
+
+struct datagram {
+    int64_t received_us, time_us;
+    int32_t scan;
+    int16_t sensor_id, part, num_parts, num_plots; /* num_plots 0: the radar's scan of this time */
+    float sigma_m, half_m;
+};
+
+struct live {
+    struct parameters parameters;
+    struct node_core *core;
+    struct datagram datagrams[DATAGRAMS];
+    unsigned count;
+    int64_t now_us; /* reception clock, as the node's work lets it see it */
+    uint32_t hits;  /* of the old target's track */
+    int64_t updated_us, gap_us;
+    int64_t found_us; /* the new target's track was confirmed; 0: not so far */
+};
+
+static double x_of(int target, double t_s)
+{
+    return target == 0 ? -20000.0 + 100.0 * t_s : 30000.0 - 120.0 * (t_s - ATTACK_S);
+}
+
+static double y_of(int target, double t_s)
+{
+    return target == 0 ? 10000.0 - 50.0 * t_s : -20000.0 + 60.0 * (t_s - ATTACK_S);
+}
+
+static void put_plot(struct rho_message_plot_scan *scan, double x_m, double y_m, double sigma_m)
+{
+    scan->plots[scan->num_plots++] =
+        (struct rho_message_plot){.x_m = (float)x_m, .y_m = (float)y_m, .sigma_m = (float)sigma_m};
+}
+
+static void put_radar(struct rho_message_plot_scan *scan, struct random *random)
+{
+    const double t_s = (double)(scan->utime - START_US) / 1e6;
+
+    for (int i = 0; i < (t_s < ATTACK_S ? 1 : 2); i++) {
+        const double dx_m = SIGMA_M * random_normal(random), dy_m = SIGMA_M * random_normal(random);
+
+        put_plot(scan, x_of(i, t_s) + dx_m, y_of(i, t_s) + dy_m, SIGMA_M);
+    }
+    for (int i = 0; i < CLUTTER; i++) {
+        const double x_m = random_between(random, -50000.0, 50000.0);
+
+        put_plot(scan, x_m, random_between(random, -50000.0, 50000.0), SIGMA_M);
+    }
+}
+
+/* The same plots whenever they are sent. */
+static void send(struct live *live, const struct datagram *datagram)
+{
+    static struct rho_message_plot_scan scan;
+    struct random random = random_start(1, (uint64_t)datagram->sensor_id,
+                                        (uint64_t)(datagram->scan * 1000 + datagram->part));
+    uint8_t buffer[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
+    char channel[32];
+    size_t size;
+    int64_t start_us;
+
+    scan = (struct rho_message_plot_scan){.utime = datagram->time_us,
+                                          .scan = datagram->scan,
+                                          .sensor_id = datagram->sensor_id,
+                                          .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D,
+                                          .part = datagram->part,
+                                          .num_parts = datagram->num_parts};
+    if (datagram->num_plots == 0) {
+        put_radar(&scan, &random);
+    }
+    for (int i = 0; i < datagram->num_plots; i++) {
+        const double half_m = datagram->half_m > 0.0f ? (double)datagram->half_m : 50000.0;
+        const double x_m = random_between(&random, -half_m, half_m);
+
+        put_plot(&scan, x_m, random_between(&random, -half_m, half_m), datagram->sigma_m);
+    }
+    assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
+    snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id);
+    start_us = clock_us();
+    node_core_take(live->core, channel, buffer, size, live->now_us);
+    live->now_us += clock_us() - start_us;
+}
+
+static void add(struct live *live, struct datagram datagram)
+{
+    assert_true(live->count < DATAGRAMS);
+    datagram.num_parts = (int16_t)(datagram.num_parts > 0 ? datagram.num_parts : 1);
+    live->datagrams[live->count++] = datagram;
+}
+
+static void add_radar(struct live *live, int64_t interval_us)
+{
+    for (int32_t i = 0; i * interval_us < END_S * SECOND_US; i++) {
+        const int64_t time_us = START_US + i * interval_us;
+
+        add(live,
+            (struct datagram){
+                .received_us = time_us + DELAY_US, .time_us = time_us, .scan = i, .sensor_id = 1});
+    }
+}
+
+/* ---- what came of it -------------------------------------------------------------------------- */
+
+static const struct rho_track_report *nearest(const struct rho_report *report, int target)
+{
+    const double t_s = (double)(report->time_us - START_US) / 1e6;
+    const struct rho_track_report *best = NULL;
+    double best_m = NEAR_M;
+
+    for (uint32_t i = 0; i < report->num_tracks; i++) {
+        const struct rho_track_report *track = &report->tracks[i];
+        const double away_m = hypot((double)track->state[0] - x_of(target, t_s),
+                                    (double)track->state[1] - y_of(target, t_s));
+
+        if (track->status != RHO_TRACK_TENTATIVE && away_m < best_m) {
+            best_m = away_m;
+            best = track;
+        }
+    }
+    return best;
+}
+
+/* After each step. A track that is not hit, and one that is not there, is a gap. */
+static void judge(void *context, const struct rho_report *report)
+{
+    struct live *live = context;
+    const struct rho_track_report *track = nearest(report, 0);
+    const int64_t gap_us = live->now_us - live->updated_us;
+
+    if (live->now_us >= START_US + ATTACK_S * SECOND_US && gap_us > live->gap_us) {
+        live->gap_us = gap_us;
+    }
+    if (track && track->hits != live->hits) {
+        live->hits = track->hits;
+        live->updated_us = live->now_us;
+    }
+    if (live->found_us == 0 && nearest(report, 1)) {
+        live->found_us = live->now_us;
+    }
+}
+
+static void ignore(void *context, const char *channel, const uint8_t *data, size_t size)
+{
+    (void)context;
+    (void)channel;
+    (void)data;
+    (void)size;
+}
+
+static int by_reception(const void *a, const void *b)
+{
+    const struct datagram *first = a, *second = b;
+
+    return (first->received_us > second->received_us) - (first->received_us < second->received_us);
+}
+
+static void start(struct live *live, int64_t interval_us)
+{
+    char reason[PARAMETER_REASON_BYTES];
+
+    *live = (struct live){.now_us = 0};
+    parameters_default(&live->parameters);
+    assert_true(parameters_assign(&live->parameters, "v_max_mps", "400", SOURCE_CONFIG, reason));
+    add_radar(live, interval_us);
+}
+
+static void run(struct live *live)
+{
+    const struct node_core_events events = {.context = live, .send = ignore, .stepped = judge};
+
+    live->core = node_core_open(&live->parameters, 1, &events);
+    qsort(live->datagrams, live->count, sizeof live->datagrams[0], by_reception);
+    live->updated_us = START_US + ATTACK_S * SECOND_US;
+    for (unsigned i = 0; i < live->count; i++) {
+        const int64_t received_us = live->datagrams[i].received_us;
+        int64_t due_us;
+
+        while ((due_us = node_core_due_us(live->core)) < received_us) {
+            live->now_us = due_us > live->now_us ? due_us : live->now_us;
+            node_core_tick(live->core, live->now_us);
+        }
+        live->now_us = received_us > live->now_us ? received_us : live->now_us;
+        send(live, &live->datagrams[i]);
+    }
+    node_core_flush(live->core);
+    if (live->now_us - live->updated_us > live->gap_us) {
+        live->gap_us = live->now_us - live->updated_us;
+    }
+}
+
+/* ---- attacks ---------------------------------------------------------------------------------- */
+
+typedef void attacker(struct live *live, int64_t from_us);
+
+static void nobody(struct live *live, int64_t from_us)
+{
+    (void)live;
+    (void)from_us;
+}
+
+static void one_scan_of_120_parts(struct live *live, int64_t from_us)
+{
+    for (int16_t i = 0; i < 120; i++) {
+        add(live, (struct datagram){from_us + i * 500, from_us, 1, 9, i, 120, 34, 1000.0f, 0.0f});
+    }
+}
+
+static void one_scan_of_120_parts_wide(struct live *live, int64_t from_us)
+{
+    for (int16_t i = 0; i < 120; i++) {
+        add(live, (struct datagram){from_us + i * 500, from_us, 1, 9, i, 120, 34, 1e5f, 0.0f});
+    }
+}
+
+static void scans_120(struct live *live, int64_t from_us)
+{
+    for (int16_t i = 0; i < 120; i++) {
+        add(live, (struct datagram){from_us + i * 5000, from_us + i * 5000, i, 9, 0, 1, 34, 1e5f, 0.0f});
+    }
+}
+
+static void scans_120_ten(struct live *live, int64_t from_us)
+{
+    for (int16_t i = 0; i < 120; i++) {
+        int32_t s = i / 10;
+        add(live, (struct datagram){from_us + i * 5000, from_us + s * 50000, s, 9, i % 10, 10, 34, 1e4f, 0.0f});
+    }
+}
+
+static void scans_120_thirty(struct live *live, int64_t from_us)
+{
+    for (int16_t i = 0; i < 120; i++) {
+        int32_t s = i / 30;
+        add(live, (struct datagram){from_us + i * 500, from_us + s * 15000, s, 9, i % 30, 30, 34, 1e3f, 0.0f});
+    }
+}
+
+static void crowd(struct live *live, int64_t from_us, int parts, float sigma_m, float half_m, int64_t step_us)
+{
+    for (int16_t i = 0; i < 120; i++) {
+        int32_t s = i / parts;
+        add(live, (struct datagram){from_us + i * 500, from_us + s * step_us, s, 9, (int16_t)(i % parts), (int16_t)parts, 34, sigma_m, half_m});
+    }
+}
+#define CROWD(name, ...) static void name(struct live *live, int64_t from_us) { crowd(live, from_us, __VA_ARGS__); }
+CROWD(crowd_a, 10, 20.0f, 100.0f, 20000)
+CROWD(crowd_b, 30, 20.0f, 100.0f, 20000)
+CROWD(crowd_c, 30, 1000.0f, 100.0f, 20000)
+CROWD(crowd_d, 30, 20.0f, 10.0f, 1000000)
+CROWD(crowd_e, 20, 1000.0f, 10000.0f, 1000000)
+CROWD(crowd_f, 40, 100.0f, 10000.0f, 1000000)
+CROWD(crowd_g, 12, 1000.0f, 1000.0f, 300000)
+
+static void ahead_each_3_s(struct live *live, int64_t from_us)
+{
+    for (int32_t i = 0; i < 20; i++) {
+        const int64_t now_us = from_us + i * 3 * SECOND_US;
+
+        add(live, (struct datagram){now_us, now_us + 3700000, i, 9, 0, 1, 1, 20.0f, 0.0f});
+    }
+}
+
+static void eight_datagrams_an_hour_ahead(struct live *live, int64_t from_us)
+{
+    for (int32_t i = 0; i < 8; i++) {
+        const int64_t now_us = from_us + i * 100000;
+
+        add(live, (struct datagram){now_us, now_us + 3600 * SECOND_US, i / 2, (int16_t)(8 + i % 2),
+                                    0, 1, 1, 20.0f, 0.0f});
+    }
+}
+
+static void try(const char *what, int64_t interval_us, attacker *attack)
+{
+    static struct live live;
+
+    start(&live, interval_us);
+    attack(&live, START_US + ATTACK_S * SECOND_US);
+    run(&live);
+    print_message("%-32s every %.2f s: gap %.2f s, found after %.2f s, step max %.3f s\n", what,
+                  (double)interval_us / 1e6, (double)live.gap_us / 1e6,
+                  live.found_us ? (double)(live.found_us - START_US) / 1e6 - ATTACK_S : NAN,
+                  node_core_max_us(live.core) / 1e6);
+    node_core_close(live.core);
+}
+
+static void figures(void **state)
+{
+    static const struct {
+        const char *what;
+        attacker *attack;
+    } attacks[] = {{"nobody", nobody},
+                   {"120 parts", one_scan_of_120_parts},
+                   {"120 parts wide", one_scan_of_120_parts_wide},
+                   {"120 scans", scans_120},
+                   {"12 scans of 10", scans_120_ten},
+                   {"4 scans of 30", scans_120_thirty},
+{"a",crowd_a},{"b",crowd_b},{"c",crowd_c},{"d",crowd_d},{"e",crowd_e},{"f",crowd_f},{"g",crowd_g},
+                   {"3.7 s ahead each 3 s", ahead_each_3_s},
+                   {"8 datagrams an hour ahead", eight_datagrams_an_hour_ahead}};
+    static const int64_t intervals_us[] = {50000, 2500000};
+
+    (void)state;
+    for (unsigned k = 0; k < 1; k++) {
+        for (unsigned i = 0; i < sizeof attacks / sizeof attacks[0]; i++) {
+            try(attacks[i].what, intervals_us[k], attacks[i].attack);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(figures)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
