@@ -205,7 +205,7 @@ struct rho_feed {
     int64_t out_us;      /* of the newest one that went out; INT64_MIN: none */
     uint16_t has_clock;
     uint16_t is_restart; /* the next scan that goes out is the first on another clock */
-    uint32_t reserved;   /* 0 */
+    uint32_t newcomers;  /* scans, since the last one of a sensor that is none */
     struct rho_feed_config config;
     struct rho_feed_counters counters;
     struct rho_feed_bucket strangers;       /* messages of sensors that are new or unknown */

@@ -242,10 +242,31 @@ static void open_scan(struct rho_feed *feed, const struct rho_feed_source *sourc
     rho_feed_add_part(feed, slot, heading, message, now_us);
 }
 
+static int is_described(const struct rho_feed *feed, const struct feed_heading *heading)
+{
+    return rho_feed_known(feed, heading->sensor_id) != &feed->config.other;
+}
+
+/*
+ * Between two scans of others newcomers have one, all together: more of them, and empty, would be the misses in a row that
+ * end tracks.
+ */
+static int has_turn(struct rho_feed *feed, const struct feed_heading *heading, int is_new)
+{
+    if (!is_new) {
+        feed->newcomers = 0;
+    } else if (!is_described(feed, heading) && feed->newcomers++ > 0) {
+        rho_feed_count_one(&feed->counters.messages_flooded);
+        feed->newcomers = 1;
+        return 0;
+    }
+    return 1;
+}
+
 /* A scan that is believed begins; the one before it of this sensor is as complete as it gets. */
 static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
                        enum feed_verdict verdict, const struct feed_heading *heading,
-                       const union feed_message *message, int64_t now_us)
+                       const union feed_message *message, int is_new, int64_t now_us)
 {
     rho_feed_close_open(feed, source, verdict == FEED_FOLLOW);
     feed->counters.scans_lost =
@@ -256,18 +277,19 @@ static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
     }
     if (!rho_feed_is_on_clock(feed, source, heading->place.time_us, verdict, now_us)) {
         rho_feed_count_one(&feed->counters.clock_jumps);
-        return;
+    } else if (has_turn(feed, heading, is_new)) {
+        open_scan(feed, source, heading, message, FEED_ORDER_NEXT, now_us);
     }
-    open_scan(feed, source, heading, message, FEED_ORDER_NEXT, now_us);
 }
 
 /* A number that was skipped comes after all. Of a sensor's one at a time waits for its parts, where there is room. */
 static void begin_skipped(struct rho_feed *feed, struct rho_feed_source *source,
                           const struct feed_heading *heading, const union feed_message *message,
-                          int64_t now_us)
+                          int is_new, int64_t now_us)
 {
     rho_feed_count_one(&feed->counters.scans_late);
-    if (!rho_feed_find_state(feed, FEED_SLOT_FREE) ||
+    if (!has_turn(feed, heading, is_new) ||
+        !rho_feed_find_state(feed, FEED_SLOT_FREE) ||
         (heading->num_parts > 1 && rho_feed_has_late_open(feed, source))) {
         return;
     }
@@ -318,7 +340,7 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
         return RHO_OK;
     }
     if (verdict == FEED_SKIPPED) {
-        begin_skipped(feed, source, heading, message, now_us);
+        begin_skipped(feed, source, heading, message, is_new, now_us);
         return RHO_OK;
     }
     place = source ? source : find_room(feed, now_us);
@@ -334,7 +356,7 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
     if (!source) {
         begin_source(feed, place, heading);
     }
-    begin_scan(feed, place, verdict, heading, message, now_us);
+    begin_scan(feed, place, verdict, heading, message, is_new, now_us);
     return RHO_OK;
 }
 
@@ -352,7 +374,7 @@ static int is_allowed(const struct rho_feed_config *config, int16_t sensor_id)
 static int is_within_share(struct rho_feed *feed, const struct feed_heading *heading,
                            int64_t now_us)
 {
-    return rho_feed_known(feed, heading->sensor_id) != &feed->config.other ||
+    return is_described(feed, heading) ||
            rho_feed_draw(&feed->stranger_plots, heading->num_inputs,
                          feed->config.stranger_plots_per_s, now_us);
 }

@@ -336,7 +336,7 @@ static void figures(void **state)
     static const int64_t intervals_us[] = {50000, 2500000};
 
     (void)state;
-    for (unsigned k = 0; k < 1; k++) {
+    for (unsigned k = 0; k < 2; k++) {
         for (unsigned i = 0; i < sizeof attacks / sizeof attacks[0]; i++) {
             try(attacks[i].what, intervals_us[k], attacks[i].attack);
         }
