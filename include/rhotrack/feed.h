@@ -112,11 +112,11 @@ struct rho_feed_config {
 
 /* Since init; all saturate. */
 struct rho_feed_counters {
-    uint32_t messages_bad;        /* length, count, a value, the sensor's number */
-    uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
+    uint32_t messages_bad;         /* length, count, a value, the sensor's number */
+    uint32_t messages_wrong_type;  /* the fingerprint is not the channel's */
     uint32_t messages_flooded;     /* and those of newcomers beyond stranger_plots_per_s */
     uint32_t messages_not_allowed; /* of a sensor that is not in `allowed` */
-    uint32_t scans_accepted; /* of which a first part came */
+    uint32_t scans_accepted;       /* of which a first part came */
     /* older than one of the same sensor that was accepted, whatever becomes of them (those that found room are
      * accepted, too); and those of a clock that was given up */
     uint32_t scans_late;
@@ -208,7 +208,7 @@ struct rho_feed {
     uint32_t newcomers;  /* scans, since the last one of a sensor that is none */
     struct rho_feed_config config;
     struct rho_feed_counters counters;
-    struct rho_feed_bucket strangers;       /* messages of sensors that are new or unknown */
+    struct rho_feed_bucket strangers; /* messages of sensors that are new or unknown */
     struct rho_feed_bucket stranger_plots;
     struct rho_feed_source sources[RHO_MAX_SENSORS];
     struct rho_feed_sensor known[RHO_MAX_SENSORS];

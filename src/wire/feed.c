@@ -288,8 +288,7 @@ static void begin_skipped(struct rho_feed *feed, struct rho_feed_source *source,
                           int is_new, int64_t now_us)
 {
     rho_feed_count_one(&feed->counters.scans_late);
-    if (!has_turn(feed, heading, is_new) ||
-        !rho_feed_find_state(feed, FEED_SLOT_FREE) ||
+    if (!has_turn(feed, heading, is_new) || !rho_feed_find_state(feed, FEED_SLOT_FREE) ||
         (heading->num_parts > 1 && rho_feed_has_late_open(feed, source))) {
         return;
     }
@@ -302,11 +301,11 @@ static void begin_source(struct rho_feed *feed, struct rho_feed_source *source,
                          const struct feed_heading *heading)
 {
     rho_feed_close_open(feed, source, 1);
-    *source = (struct rho_feed_source){.messages = {.full_us = feed->strangers.full_us,
-                                                    .left = feed->config.flood_per_s},
-                                       .sensor_id = heading->sensor_id,
-                                       .kind = heading->kind,
-                                       .is_used = 1};
+    *source = (struct rho_feed_source){
+        .messages = {.full_us = feed->strangers.full_us, .left = feed->config.flood_per_s},
+        .sensor_id = heading->sensor_id,
+        .kind = heading->kind,
+        .is_used = 1};
 }
 
 /*
@@ -374,9 +373,8 @@ static int is_allowed(const struct rho_feed_config *config, int16_t sensor_id)
 static int is_within_share(struct rho_feed *feed, const struct feed_heading *heading,
                            int64_t now_us)
 {
-    return is_described(feed, heading) ||
-           rho_feed_draw(&feed->stranger_plots, heading->num_inputs,
-                         feed->config.stranger_plots_per_s, now_us);
+    return is_described(feed, heading) || rho_feed_draw(&feed->stranger_plots, heading->num_inputs,
+                                                        feed->config.stranger_plots_per_s, now_us);
 }
 
 static uint32_t check_of(const uint8_t *data, size_t size)

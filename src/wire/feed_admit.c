@@ -477,8 +477,7 @@ int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, 
         follow(feed, time_us, now_us);
     }
     source->off_clock = 0;
-    if (!feed->has_clock ||
-        !rho_feed_is_new(source->known_us, rho_feed_eldest_us(feed, now_us))) {
+    if (!feed->has_clock || !rho_feed_is_new(source->known_us, rho_feed_eldest_us(feed, now_us))) {
         feed->clock_us = time_us;
     }
     feed->has_clock = 1;

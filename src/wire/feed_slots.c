@@ -266,8 +266,7 @@ static int is_one_held(const struct rho_feed *feed, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (feed->slots[i].state == FEED_SLOT_COMPLETE &&
-            has_waited(feed, &feed->slots[i], now_us) &&
-            !is_early(feed, &feed->slots[i], now_us)) {
+            has_waited(feed, &feed->slots[i], now_us) && !is_early(feed, &feed->slots[i], now_us)) {
             return 1;
         }
     }

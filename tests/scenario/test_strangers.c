@@ -250,7 +250,8 @@ static void one_scan_of_120_parts_wide(struct live *live, int64_t from_us)
 static void scans_120(struct live *live, int64_t from_us)
 {
     for (int16_t i = 0; i < 120; i++) {
-        add(live, (struct datagram){from_us + i * 5000, from_us + i * 5000, i, 9, 0, 1, 34, 1e5f, 0.0f});
+        add(live,
+            (struct datagram){from_us + i * 5000, from_us + i * 5000, i, 9, 0, 1, 34, 1e5f, 0.0f});
     }
 }
 
@@ -258,7 +259,8 @@ static void scans_120_ten(struct live *live, int64_t from_us)
 {
     for (int16_t i = 0; i < 120; i++) {
         int32_t s = i / 10;
-        add(live, (struct datagram){from_us + i * 5000, from_us + s * 50000, s, 9, i % 10, 10, 34, 1e4f, 0.0f});
+        add(live, (struct datagram){from_us + i * 5000, from_us + s * 50000, s, 9, i % 10, 10, 34,
+                                    1e4f, 0.0f});
     }
 }
 
@@ -266,18 +268,25 @@ static void scans_120_thirty(struct live *live, int64_t from_us)
 {
     for (int16_t i = 0; i < 120; i++) {
         int32_t s = i / 30;
-        add(live, (struct datagram){from_us + i * 500, from_us + s * 15000, s, 9, i % 30, 30, 34, 1e3f, 0.0f});
+        add(live, (struct datagram){from_us + i * 500, from_us + s * 15000, s, 9, i % 30, 30, 34,
+                                    1e3f, 0.0f});
     }
 }
 
-static void crowd(struct live *live, int64_t from_us, int parts, float sigma_m, float half_m, int64_t step_us)
+static void crowd(struct live *live, int64_t from_us, int parts, float sigma_m, float half_m,
+                  int64_t step_us)
 {
     for (int16_t i = 0; i < 120; i++) {
         int32_t s = i / parts;
-        add(live, (struct datagram){from_us + i * 500, from_us + s * step_us, s, 9, (int16_t)(i % parts), (int16_t)parts, 34, sigma_m, half_m});
+        add(live, (struct datagram){from_us + i * 500, from_us + s * step_us, s, 9,
+                                    (int16_t)(i % parts), (int16_t)parts, 34, sigma_m, half_m});
     }
 }
-#define CROWD(name, ...) static void name(struct live *live, int64_t from_us) { crowd(live, from_us, __VA_ARGS__); }
+#define CROWD(name, ...)                                                                           \
+    static void name(struct live *live, int64_t from_us)                                           \
+    {                                                                                              \
+        crowd(live, from_us, __VA_ARGS__);                                                         \
+    }
 CROWD(crowd_a, 10, 20.0f, 100.0f, 20000)
 CROWD(crowd_b, 30, 20.0f, 100.0f, 20000)
 CROWD(crowd_c, 30, 1000.0f, 100.0f, 20000)
@@ -330,7 +339,13 @@ static void figures(void **state)
                    {"120 scans", scans_120},
                    {"12 scans of 10", scans_120_ten},
                    {"4 scans of 30", scans_120_thirty},
-{"a",crowd_a},{"b",crowd_b},{"c",crowd_c},{"d",crowd_d},{"e",crowd_e},{"f",crowd_f},{"g",crowd_g},
+                   {"a", crowd_a},
+                   {"b", crowd_b},
+                   {"c", crowd_c},
+                   {"d", crowd_d},
+                   {"e", crowd_e},
+                   {"f", crowd_f},
+                   {"g", crowd_g},
                    {"3.7 s ahead each 3 s", ahead_each_3_s},
                    {"8 datagrams an hour ahead", eight_datagrams_an_hour_ahead}};
     static const int64_t intervals_us[] = {50000, 2500000};

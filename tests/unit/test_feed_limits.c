@@ -17,16 +17,16 @@ static void more_than_flood_per_s_are_not_looked_at(void **state)
     for (int i = 0; i < 9; i++) {
         take_scan(1, 0, 1);
     }
-    COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 5, .messages_flooded = 4);
+    COUNTERS_ARE(.scans_accepted = 1, .scans_other = 5, .messages_flooded = 4);
     take_scan(2, 0, 2); /* another one is not concerned */
-    COUNTERS_ARE(.scans_accepted = 2, .scans_duplicate = 5, .messages_flooded = 4);
+    COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 4);
     take_scan(1, 1, SECOND_US - 1);
-    COUNTERS_ARE(.scans_accepted = 2, .scans_duplicate = 5, .messages_flooded = 5);
+    COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 5);
     next_is(SECOND_US, 1, 0);
     next_is(SECOND_US, 2, 2);
     next_is_none(SECOND_US);
     take_scan(1, 1, SECOND_US);
-    COUNTERS_ARE(.scans_accepted = 3, .scans_duplicate = 5, .messages_flooded = 5);
+    COUNTERS_ARE(.scans_accepted = 3, .scans_other = 5, .messages_flooded = 5);
 }
 
 static void strangers_share_one_measure(void **state)

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "chain.h"
-#include "table.h"
 #include "parameters.h"
+#include "table.h"
 
 static struct rho_feed_noise noise_of(const struct parameters *parameters, int32_t sensor_id)
 {

@@ -51,9 +51,10 @@ static void print_sensor_keys(FILE *out)
 
 static void print_allowed(const struct parameters *parameters, FILE *out)
 {
-    const struct parameter_text text = {
-        .name = "sensors_allowed", .unit = "-", .choices = "numbers of sensors",
-        .text = "messages: of these sensors alone; unset: of all"};
+    const struct parameter_text text = {.name = "sensors_allowed",
+                                        .unit = "-",
+                                        .choices = "numbers of sensors",
+                                        .text = "messages: of these sensors alone; unset: of all"};
     char list[8 * RHO_MAX_SENSORS] = "-";
     size_t length = 0;
 
