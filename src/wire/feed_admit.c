@@ -307,7 +307,7 @@ uint32_t rho_feed_eldest_us(const struct rho_feed *feed, int64_t now_us)
 {
     uint32_t eldest_us = 0;
 
-    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+    for (unsigned i = 0; i < RHO_MAX_SENSORS && !feed->config.is_record; i++) {
         const struct rho_feed_source *source = &feed->sources[i];
 
         if (source->known_us > eldest_us && rho_feed_is_proven(&feed->config, source) &&

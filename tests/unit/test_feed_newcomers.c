@@ -170,6 +170,20 @@ static void an_honest_one_loses_nothing(void **state)
     assert_true(feed.sources[1].known_us >= RHO_FEED_TRUST_US / 2 - 1);
 }
 
+static void in_a_record_nobody_is_new(void **state)
+{
+    struct rho_feed_config config = usual();
+
+    (void)state;
+    config.is_record = 1;
+    begin(&config);
+    while (turn <= TURNS) {
+        radar();
+    }
+    assert_true(is_taken(9, 0, turn * INTERVAL_US - 2, turn * INTERVAL_US - SECOND_US));
+    next_is(turn * INTERVAL_US - SECOND_US + HOLD_US, 9, turn * INTERVAL_US - 2);
+}
+
 /* ---- shares ----------------------------------------------------------------------------------- */
 
 static void newcomers_share_plots_and_turns(void **state)
@@ -245,6 +259,7 @@ int main(void)
         cmocka_unit_test(many_of_them_do_not_move_the_clock),
         cmocka_unit_test(who_is_heard_for_long_has_a_vote),
         cmocka_unit_test(an_honest_one_loses_nothing),
+        cmocka_unit_test(in_a_record_nobody_is_new),
         cmocka_unit_test(newcomers_share_plots_and_turns),
         cmocka_unit_test(sensors_that_are_not_allowed_are_counted),
         cmocka_unit_test(two_senders_of_one_number_are_told),

@@ -93,6 +93,7 @@ static void start(struct log_scans *scans)
 
     wait_long(&parameters, scans->is_held);
     parameters_to_feed(&parameters, scans->feed);
+    scans->feed->config.is_record = 1;
     scans->order = (struct feed_order){0};
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
