@@ -255,7 +255,7 @@ static int has_turn(struct rho_feed *feed, const struct feed_heading *heading, i
 {
     if (!is_new) {
         feed->newcomers = 0;
-    } else if (!is_described(feed, heading) && feed->newcomers++ > 0) {
+    } else if (heading->is_new && feed->newcomers++ > 0) {
         rho_feed_count_one(&feed->counters.messages_flooded);
         feed->newcomers = 1;
         return 0;
@@ -369,14 +369,6 @@ static int is_allowed(const struct rho_feed_config *config, int16_t sensor_id)
     return config->num_allowed == 0;
 }
 
-/* What newcomers bring costs work for every pair of plots; a sensor that is described may. */
-static int is_within_share(struct rho_feed *feed, const struct feed_heading *heading,
-                           int64_t now_us)
-{
-    return is_described(feed, heading) || rho_feed_draw(&feed->stranger_plots, heading->num_inputs,
-                                                        feed->config.stranger_plots_per_s, now_us);
-}
-
 static uint32_t check_of(const uint8_t *data, size_t size)
 {
     uint32_t check = CHECK_START;
@@ -433,7 +425,9 @@ enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const 
         rho_feed_count_one(&feed->counters.scans_bad);
         return RHO_OK;
     }
-    if (is_new && !is_within_share(feed, &heading, now_us)) {
+    heading.is_new = (uint8_t)(is_new && !is_described(feed, &heading));
+    if (heading.is_new && !rho_feed_draw(&feed->stranger_plots, heading.num_inputs,
+                                         feed->config.stranger_plots_per_s, now_us)) {
         rho_feed_count_one(&feed->counters.messages_flooded);
         return RHO_OK;
     }

@@ -210,6 +210,31 @@ static void newcomers_share_plots_and_turns(void **state)
     assert_int_equal(feed.counters.scans_accepted, TURNS + 3);
 }
 
+/* The message says 1 mm; the feed's own noise is 10 m. */
+static void a_newcomer_is_no_surer_than_the_config(void **state)
+{
+    const int64_t now_us = begin_with_a_radar() + SECOND_US;
+    struct rho_message_plot plot = {.x_m = 1.0f, .sigma_m = 0.001f};
+    struct rho_message_plot_scan_head head = {
+        .utime = now_us, .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D, .num_parts = 1};
+    struct rho_message_writer writer;
+    uint8_t buffer[DATAGRAM];
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        head.sensor_id = i == 0 ? 9 : RADAR;
+        head.scan = i == 0 ? 0 : turn;
+        head.utime = i == 0 ? now_us : turn * INTERVAL_US;
+        assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, DATAGRAM, &head), RHO_OK);
+        assert_int_equal(rho_message_plot_scan_add(&writer, &plot), RHO_OK);
+        assert_int_equal(take_bytes(channel_of(RHO_FEED_PLOTS, head.sensor_id), buffer,
+                                    end_of(&writer), head.utime),
+                         RHO_OK);
+        next_is(head.utime + HOLD_US, head.sensor_id, head.utime);
+        assert_float_equal(item.scan.plots[0].sigma_range_m, i == 0 ? 10.0f : 0.001f, 0.0f);
+    }
+}
+
 /* ---- who may send ----------------------------------------------------------------------------- */
 
 static void sensors_that_are_not_allowed_are_counted(void **state)
@@ -261,6 +286,7 @@ int main(void)
         cmocka_unit_test(an_honest_one_loses_nothing),
         cmocka_unit_test(in_a_record_nobody_is_new),
         cmocka_unit_test(newcomers_share_plots_and_turns),
+        cmocka_unit_test(a_newcomer_is_no_surer_than_the_config),
         cmocka_unit_test(sensors_that_are_not_allowed_are_counted),
         cmocka_unit_test(two_senders_of_one_number_are_told),
     };
