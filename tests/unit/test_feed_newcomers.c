@@ -131,22 +131,34 @@ static void many_of_them_do_not_move_the_clock(void **state)
     assert_int_equal(feed.is_restart, 0);
 }
 
-/* Half as long as the other one, and their votes count as much. */
-static void who_is_heard_for_long_has_a_vote(void **state)
+/* Two of them on another clock, with a scan each every_us: how many until that clock is followed. */
+static int32_t scans_until_followed(int32_t turns, int64_t every_us)
 {
-    const int64_t from_us = begin_with_a_radar();
-    int64_t now_us = from_us;
-    int32_t scan = 0;
+    struct rho_feed_config config = usual();
+    int64_t from_us = turns * INTERVAL_US, sent_us = from_us - every_us;
+    int32_t scans = 0;
 
-    (void)state;
-    for (; !feed.is_restart && now_us < 3 * from_us; now_us += INTERVAL_US / 2, scan++) {
-        (void)is_taken(8, scan, now_us + 3600 * SECOND_US, now_us);
-        (void)is_taken(9, scan, now_us + 3600 * SECOND_US, now_us);
-        if (!feed.is_restart && now_us == turn * INTERVAL_US) {
-            radar();
+    begin(&config);
+    for (int64_t now_us = 0; !feed.is_restart && scans < 1000; now_us += INTERVAL_US) {
+        radar();
+        if (now_us >= sent_us + every_us) {
+            sent_us = now_us;
+            (void)is_taken(8, scans, now_us + 3600 * SECOND_US, now_us);
+            (void)is_taken(9, scans, now_us + 3600 * SECOND_US, now_us);
+            scans++;
         }
     }
-    assert_in_range(now_us, 2 * from_us - INTERVAL_US, 2 * from_us + INTERVAL_US);
+    return scans;
+}
+
+/* Once they were heard for half as long as the radar, as it is then, or five minutes. */
+static void who_is_heard_for_long_has_a_vote(void **state)
+{
+    (void)state;
+    assert_in_range(scans_until_followed(48, INTERVAL_US), 48, 50);
+    assert_in_range(scans_until_followed(240, INTERVAL_US), 120, 122);
+    assert_in_range(scans_until_followed(2400, INTERVAL_US), 120, 122);
+    assert_in_range(scans_until_followed(2400, 11 * INTERVAL_US), 12, 12);
 }
 
 /* A camera with the same clock, from its first scan on: as many as it has turns. */
