@@ -17,6 +17,7 @@
 #include <cmocka.h>
 
 #include "node_core.h"
+#include "node_sensors.h"
 #include "random.h"
 #include "rhotrack/message.h"
 
@@ -338,11 +339,45 @@ static void a_slow_radar_tracks_on(void **state)
     nobody_is_harmed(2500000);
 }
 
+/* Said once, however often it happens. */
+static void two_senders_of_one_number_are_told(void **state)
+{
+    static struct live live;
+    struct node_sensors sensors = {.count = 0};
+    char *said = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&said, &size);
+
+    (void)state;
+    start(&live, SECOND_US);
+    for (int32_t scan = 1; scan < 120; scan += 40) {
+        const int64_t time_us = START_US + scan * SECOND_US;
+
+        add(&live, (struct datagram){.received_us = time_us + 2 * DELAY_US,
+                                     .time_us = time_us,
+                                     .scan = scan,
+                                     .sensor_id = 1,
+                                     .num_plots = 1,
+                                     .sigma_m = 20.0f});
+    }
+    run(&live);
+    for (int i = 0; i < 2; i++) {
+        node_sensors_watch(&sensors, live.core, to);
+    }
+    fclose(to);
+    assert_string_equal(said, "rhotrack: sensor 1: a scan came twice with different contents: two "
+                              "senders use this number\n");
+    assert_int_equal(node_core_feed(live.core)->scans_other, 3);
+    node_core_close(live.core);
+    free(said);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fast_radar_tracks_on),
         cmocka_unit_test(a_slow_radar_tracks_on),
+        cmocka_unit_test(two_senders_of_one_number_are_told),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
