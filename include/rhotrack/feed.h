@@ -42,9 +42,9 @@
  *            A newcomer has no vote on the clock. Its scan waits until one that is no newcomer has sent what is not
  *            older, or by its own clock is hold_us beyond that time; and until no part of an older scan of such a one
  *            is missing. It gives way to scans of those, and is lost then (sensors_no_room).
- *            All newcomers that are not described (rho_feed_set_sensor) have one scan between two of the others, as
- *            empty ones in a row would end tracks, and stranger_plots_per_s: what is beyond is not looked at
- *            (messages_flooded). None of their plots is surer than `other` says.
+ *            All newcomers that are neither `allowed` nor described (rho_feed_set_sensor) have one scan between two of
+ *            the others, as empty ones in a row would end tracks, and stranger_plots_per_s: what is beyond is not
+ *            looked at (messages_flooded). None of their plots is surer than `other` says.
  * Allowed    Where `allowed` holds a sensor_id, messages of any other sensor are not looked at.
  * Twins      The first part of a sensor's newest scan that comes again with other contents is counted (scans_other), and
  *            has_twin stays 1 in its source: two senders use its number. The one that came first counts.
@@ -118,8 +118,8 @@ struct rho_feed_config {
     uint32_t follow_scans; /* 2 .. 255 */
     uint32_t is_told;   /* 1: items have a sensor also where `other` is all that is known of it */
     uint32_t is_record; /* 1: nobody is a newcomer: for files */
-    uint32_t stranger_plots_per_s; /* 1 .. 1e6: of all newcomers that are not described, together */
-    uint16_t num_allowed;          /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
+    uint32_t stranger_plots_per_s;    /* 1 .. 1e6: of all newcomers that are not named, together */
+    uint16_t num_allowed;             /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
     int16_t allowed[RHO_MAX_SENSORS]; /* sensor_ids; messages of any other are not looked at */
     struct rho_feed_sensor
         other; /* holds for sensors that are not described; its sensor_id is not looked at */

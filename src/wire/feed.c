@@ -242,9 +242,11 @@ static void open_scan(struct rho_feed *feed, const struct rho_feed_source *sourc
     rho_feed_add_part(feed, slot, heading, message, now_us);
 }
 
-static int is_described(const struct rho_feed *feed, const struct feed_heading *heading)
+/* The config names it. */
+static int is_named(const struct rho_feed *feed, const struct feed_heading *heading)
 {
-    return rho_feed_known(feed, heading->sensor_id) != &feed->config.other;
+    return feed->config.num_allowed > 0 ||
+           rho_feed_known(feed, heading->sensor_id) != &feed->config.other;
 }
 
 /*
@@ -374,7 +376,7 @@ static uint32_t check_of(const uint8_t *data, size_t size)
     uint32_t check = CHECK_START;
 
     for (size_t i = 0; i < size; i++) {
-        check = (check ^ data[i]) * CHECK_FACTOR;
+        check = (uint32_t)((uint64_t)(check ^ data[i]) * CHECK_FACTOR & UINT32_MAX);
     }
     return check > 0 ? check : 1;
 }
@@ -425,7 +427,7 @@ enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const 
         rho_feed_count_one(&feed->counters.scans_bad);
         return RHO_OK;
     }
-    heading.is_new = (uint8_t)(is_new && !is_described(feed, &heading));
+    heading.is_new = (uint8_t)(is_new && !is_named(feed, &heading));
     if (heading.is_new && !rho_feed_draw(&feed->stranger_plots, heading.num_inputs,
                                          feed->config.stranger_plots_per_s, now_us)) {
         rho_feed_count_one(&feed->counters.messages_flooded);

@@ -26,7 +26,7 @@ struct feed_heading {
     uint16_t num_inputs;
     int16_t sensor_id;
     uint8_t kind;   /* enum rho_feed_kind */
-    uint8_t is_new; /* a newcomer's, that is not described */
+    uint8_t is_new; /* a newcomer's that the config does not name */
     uint32_t check; /* of the message's bytes; never 0 */
 };
 

@@ -220,6 +220,10 @@ static void newcomers_share_plots_and_turns(void **state)
     take(&look, now_us); /* one that is described has its own */
     assert_int_equal(feed.counters.messages_flooded, 13 - parts);
     assert_int_equal(feed.counters.scans_accepted, TURNS + 3);
+    feed.config.allowed[feed.config.num_allowed++] = look.sensor_id = 6;
+    drain(INT64_MAX);
+    take(&look, now_us); /* and one that is allowed by name */
+    assert_int_equal(feed.counters.scans_accepted, TURNS + 4);
 }
 
 /* The message says 1 mm; the feed's own noise is 10 m. */

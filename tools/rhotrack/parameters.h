@@ -81,7 +81,7 @@
     X(FLOOD_PER_S, "flood_per_s", "1/s", 10000, 1, 1e6, 1, 1,                                      \
       "messages: of one sensor that are looked at")                                                \
     X(STRANGER_PLOTS_PER_S, "stranger_plots_per_s", "1/s", 256, 1, 1e6, 1, 1,                      \
-      "messages: plots of all newcomers that have no section [sensor N] here")                     \
+      "messages: plots of all newcomers that are not named here")                                  \
     X(FOLLOW_QUIET_S, "follow_quiet_s", "s", 2, 0.1, 3600, 0, 1,                                   \
       "track --follow: the last scan is complete when the file has not grown for so long")         \
     X(ASTERIX_SCANS, "asterix_scans", "-", 0, 0, 1, 1, 1,                                          \
