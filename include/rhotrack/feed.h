@@ -36,18 +36,32 @@
  *            epoch, is refused until follow_scans such scans agree with one another: the sensor restarted, or goes
  *            another pace. So one damaged message, or one that was not the sensor's, does not make those that follow it
  *            look old.
+ * Newcomers  A newcomer is a sensor heard for less than half as long as another live one, which was heard for a
+ *            minute. Ten minutes are as good as hours: nobody is one for more than five. A lone sensor is none, nor is
+ *            any in the first minute, nor in a record (is_record).
+ *            A newcomer has no vote on the clock. Its scan waits until one that is no newcomer has sent what is not
+ *            older, or by its own clock is hold_us beyond that time; and until no part of an older scan of such a one
+ *            is missing. It gives way to scans of those, and is lost then (sensors_no_room).
+ *            All newcomers that are neither `allowed` nor described (rho_feed_set_sensor) have one scan between two of
+ *            the others, as empty ones in a row would end tracks, and stranger_plots_per_s: what is beyond is not
+ *            looked at (messages_flooded). None of their plots is surer than `other` says.
+ * Allowed    Where `allowed` holds a sensor_id, messages of any other sensor are not looked at.
+ * Twins      The first part of a sensor's newest scan that comes again with other contents is counted (scans_other), and
+ *            has_twin stays 1 in its source: two senders use its number. The one that came first counts.
  * Clock      A scan is refused where most other live sensors say that its time is another one: more than an
  *            eighth of jump_max_us and hold_us ahead of what their last scans and the reception clock make it now, or
  *            two of their intervals, or as far before their last scans; jump_max_us of one that has sent one scan so
  *            far. So is one more than jump_max_us off the last accepted one. One wrong clock does not make the other
- *            sensors late. When more sensors agree on another time than on the present one, that time is followed:
- *            is_restart tells, and what was made of earlier scans does not go on. Where as many say the one as the
- *            other, the reception clock decides if it is near one of them alone, and else who came first. A clock
- *            that is ahead by less makes the other sensors late in the tracker for as long as it goes on.
- * Flood      More than flood_per_s messages of one sensor in a second are not looked at. Sensors that are not known
- *            share one such measure. A new sensor takes the place of one that was not heard for longest, never that of
- *            one that is heard, tells the common time and has proved itself by follow_scans scans; nor does it, for
- *            want of room, cut short a scan of such a one, or make it late while its parts are still coming.
+ *            sensors late. When more sensors, newcomers left out, agree on another time than on the present one, that
+ *            time is followed: is_restart tells, and what was made of earlier scans does not go on. Where as many say
+ *            the one as the other, the reception clock decides if it is near one of them alone, and else who came
+ *            first. Of sensors that are no newcomers, a clock that is ahead by less makes the other sensors late in the
+ *            tracker for as long as it goes on.
+ * Flood      More than flood_per_s messages of one sensor in a second are not looked at. Sensors that are not known,
+ *            and newcomers, share one such measure. A new sensor takes the place of one that was not heard for longest,
+ *            never that of one that is heard, tells the common time and has proved itself by follow_scans scans; nor
+ *            does it, or a newcomer, for want of room, cut short a scan of such a one that is none, or make it late
+ *            while its parts are still coming.
  *
  * Which sensor sent a message is told by its channel: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n>, with n the
  * message's sensor_id. The reception clock: microseconds, any epoch. It has to go on, and should go as fast as the
@@ -71,6 +85,10 @@
 
 /* Of a sensor's scans that were not believed, so many are remembered: others between them do no harm. */
 #define RHO_FEED_STRAYS 4
+
+/* A sensor heard for so long is as good as one heard for hours. Before the second, all are equals. */
+#define RHO_FEED_TRUST_US 600000000u
+#define RHO_FEED_EQUALS_US 60000000u
 
 /* Noise where the messages say 0; each above 0 and within the limits of types.h. */
 struct rho_feed_noise {
@@ -98,22 +116,29 @@ struct rho_feed_config {
     int64_t jump_max_us;   /* 1 s .. 1 h */
     uint32_t flood_per_s;  /* 1 .. 1e6 */
     uint32_t follow_scans; /* 2 .. 255 */
-    uint32_t is_told; /* 1: items have a sensor also where `other` is all that is known of it */
+    uint32_t is_told;   /* 1: items have a sensor also where `other` is all that is known of it */
+    uint32_t is_record; /* 1: nobody is a newcomer: for files */
+    uint32_t stranger_plots_per_s;    /* 1 .. 1e6: of all newcomers that are not named, together */
+    uint16_t num_allowed;             /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
+    int16_t allowed[RHO_MAX_SENSORS]; /* sensor_ids; messages of any other are not looked at */
     struct rho_feed_sensor
         other; /* holds for sensors that are not described; its sensor_id is not looked at */
 };
 
 /* Since init; all saturate. */
 struct rho_feed_counters {
-    uint32_t messages_bad;        /* length, count, a value, the sensor's number */
-    uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
-    uint32_t messages_flooded;
-    uint32_t scans_accepted; /* of which a first part came */
+    uint32_t messages_bad;         /* length, count, a value, the sensor's number */
+    uint32_t messages_wrong_type;  /* the fingerprint is not the channel's */
+    uint32_t messages_flooded;     /* and those of newcomers beyond stranger_plots_per_s */
+    uint32_t messages_not_allowed; /* of a sensor that is not in `allowed` */
+    uint32_t scans_accepted;       /* of which a first part came */
     /* older than one of the same sensor that was accepted, whatever becomes of them (those that found room are
      * accepted, too); and those of a clock that was given up */
     uint32_t scans_late;
     /* scans, or parts of one, that were there before; parts that come when the scan is closed */
     uint32_t scans_duplicate;
+    /* of those, not counted there: with another content, so that two senders use one sensor_id (or damage) */
+    uint32_t scans_other;
     uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
     uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers */
     uint32_t scans_incomplete; /* went out without some of their parts */
@@ -141,22 +166,30 @@ struct rho_feed_stray {
     uint32_t reserved;           /* 0 */
 };
 
+/* What may still come before it is filled again, once a second. */
+struct rho_feed_bucket {
+    int64_t full_us; /* reception clock: when it was full */
+    uint32_t left;
+    uint32_t reserved; /* 0 */
+};
+
 /* One sensor's stream of messages. */
 struct rho_feed_source {
     struct rho_feed_place place;                   /* its newest scan whose number was believed */
     struct rho_feed_stray strays[RHO_FEED_STRAYS]; /* the last one first */
     int64_t heard_us;                              /* reception clock: its last believed scan */
-    int64_t bucket_us;                             /* reception clock: when the bucket was full */
-    uint32_t bucket;      /* messages that may still come before the bucket is filled again */
+    struct rho_feed_bucket messages;
     uint32_t seen;        /* bit i: number place.scan - i was there */
     uint32_t skipped;     /* bit i: it was not, and may still come */
     uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
+    uint32_t known_us;    /* reception clock: for how long it was heard; up to RHO_FEED_TRUST_US */
+    uint32_t check;       /* of the newest scan's first part, as it came first; 0: it did not */
     uint16_t scans;       /* believed; saturates */
-    uint16_t off_clock;   /* scans in a row; saturates; 0: it tells the common time */
+    uint8_t off_clock;    /* scans in a row; saturates; 0: it tells the common time */
+    uint8_t has_twin;     /* 1: a scan came twice, with different contents */
     int16_t sensor_id;
     uint8_t kind; /* enum rho_feed_kind */
     uint8_t is_used;
-    uint32_t reserved; /* 0 */
 };
 
 /* A scan that is put together. */
@@ -187,10 +220,11 @@ struct rho_feed {
     int64_t out_us;      /* of the newest one that went out; INT64_MIN: none */
     uint16_t has_clock;
     uint16_t is_restart; /* the next scan that goes out is the first on another clock */
-    uint32_t reserved;   /* 0 */
+    uint32_t newcomers;  /* scans, since the last one of a sensor that is none */
     struct rho_feed_config config;
     struct rho_feed_counters counters;
-    struct rho_feed_source stranger; /* its bucket alone */
+    struct rho_feed_bucket strangers; /* messages of sensors that are new or unknown */
+    struct rho_feed_bucket stranger_plots;
     struct rho_feed_source sources[RHO_MAX_SENSORS];
     struct rho_feed_sensor known[RHO_MAX_SENSORS];
     struct rho_feed_slot slots[RHO_MAX_OPEN_SCANS];
@@ -210,8 +244,9 @@ struct rho_feed_item {
 
 /*
  * hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30 s, flood 10 000 a second,
- * follow_scans 3; other sensors: at the origin, looking everywhere, pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3 mrad,
- * 3 mrad, 1 m/s, 1.75 mrad; is_told 0. Constant cost.
+ * follow_scans 3, stranger_plots 256 a second (embedded: 64), all sensors allowed; other sensors: at the origin,
+ * looking everywhere, pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3 mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0,
+ * is_record 0. Constant cost.
  */
 void rho_feed_config_default(struct rho_feed_config *config);
 
@@ -238,7 +273,7 @@ RHO_MUST_CHECK enum rho_status rho_feed_set_sensor(struct rho_feed *feed,
  * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel), CAPACITY (no room for another open scan: call
  * rho_feed_next once, step what it gives, if anything, and take the message again; two such calls make room); nothing
  * is changed but for that call.
- * Cost: the message's bytes, RHO_MAX_SENSORS, and where parts come out of order the scan's plots moved.
+ * Cost: the message's bytes, twice, RHO_MAX_SENSORS, and where parts come out of order the scan's plots moved.
  * Stack: 2 KB: the message as a struct.
  */
 RHO_MUST_CHECK enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel,
@@ -247,14 +282,14 @@ RHO_MUST_CHECK enum rho_status rho_feed_take(struct rho_feed *feed, const char *
 /*
  * The next scan that is due, if there is one; it is valid until the next call of this function. now_us INT64_MAX: all
  * that is there goes out.
- * Returns 0 where nothing is due, or feed is not initialised. Cost: RHO_MAX_OPEN_SCANS, RHO_MAX_SENSORS.
- * Stack: 130 bytes.
+ * Returns 0 where nothing is due, or feed is not initialised. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS.
+ * Stack: 270 bytes.
  */
 int rho_feed_next(struct rho_feed *feed, int64_t now_us, struct rho_feed_item *item);
 
 /*
  * When rho_feed_next should be called though no message comes; INT64_MAX: not before one does.
- * Cost: RHO_MAX_OPEN_SCANS.
+ * Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 160 bytes.
  */
 int64_t rho_feed_due_us(const struct rho_feed *feed);
 

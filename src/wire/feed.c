@@ -13,6 +13,9 @@
 #define JUMP_MIN_US 1000000
 #define JUMP_MAX_US 3600000000ll
 #define FLOOD_MAX 1000000u
+#define STRANGER_PLOTS RHO_CONFIG_PICK(64, 256)
+#define CHECK_START 2166136261u /* of FNV-1a */
+#define CHECK_FACTOR 16777619u
 
 typedef char rho_feed_fits_its_formula[sizeof(struct rho_feed) <= RHO_RAM_FEED_BYTES ? 1 : -1];
 
@@ -52,7 +55,9 @@ static int is_config(const struct rho_feed_config *config)
            config->late_max_us <= LATE_MAX_US && config->jump_max_us >= JUMP_MIN_US &&
            config->jump_max_us <= JUMP_MAX_US && config->flood_per_s >= 1 &&
            config->flood_per_s <= FLOOD_MAX && config->follow_scans >= 2 &&
-           config->follow_scans <= 255 && is_known(&config->other);
+           config->follow_scans <= 255 && config->stranger_plots_per_s >= 1 &&
+           config->stranger_plots_per_s <= FLOOD_MAX && config->num_allowed <= RHO_MAX_SENSORS &&
+           is_known(&config->other);
 }
 
 void rho_feed_config_default(struct rho_feed_config *config)
@@ -63,6 +68,7 @@ void rho_feed_config_default(struct rho_feed_config *config)
         .jump_max_us = 30000000,
         .flood_per_s = 10000,
         .follow_scans = 3,
+        .stranger_plots_per_s = STRANGER_PLOTS,
         .other = {.sensor = {.pd = 0.9f, .range_max_m = 2.0f * RHO_LIMIT_POSITION_M},
                   .noise = {.sigma_m = 10.0f,
                             .sigma_mps = 1.0f,
@@ -88,7 +94,8 @@ enum rho_status rho_feed_init(struct rho_feed *feed, size_t size,
     }
     memset(feed, 0, sizeof *feed);
     memcpy(&feed->config, config, sizeof feed->config);
-    feed->stranger.bucket = config->flood_per_s;
+    feed->strangers.left = config->flood_per_s;
+    feed->stranger_plots.left = config->stranger_plots_per_s;
     feed->out_us = INT64_MIN;
     feed->magic = MAGIC;
     return RHO_OK;
@@ -214,7 +221,7 @@ static void refuse(struct rho_feed *feed, struct rho_feed_source *source, enum f
         rho_feed_count_one(
             &feed->counters.clock_jumps); /* another part of a scan that was refused */
     } else if (verdict == FEED_DUPLICATE) {
-        rho_feed_count_one(&feed->counters.scans_duplicate);
+        rho_feed_count_double(feed, source, heading);
     } else if (verdict == FEED_LATE) {
         rho_feed_count_one(&feed->counters.scans_late);
     } else {
@@ -235,10 +242,33 @@ static void open_scan(struct rho_feed *feed, const struct rho_feed_source *sourc
     rho_feed_add_part(feed, slot, heading, message, now_us);
 }
 
+/* The config names it. */
+static int is_named(const struct rho_feed *feed, const struct feed_heading *heading)
+{
+    return feed->config.num_allowed > 0 ||
+           rho_feed_known(feed, heading->sensor_id) != &feed->config.other;
+}
+
+/*
+ * Between two scans of others newcomers have one, all together: more of them, and empty, would be the misses in a row that
+ * end tracks.
+ */
+static int has_turn(struct rho_feed *feed, const struct feed_heading *heading, int is_new)
+{
+    if (!is_new) {
+        feed->newcomers = 0;
+    } else if (heading->is_new && feed->newcomers++ > 0) {
+        rho_feed_count_one(&feed->counters.messages_flooded);
+        feed->newcomers = 1;
+        return 0;
+    }
+    return 1;
+}
+
 /* A scan that is believed begins; the one before it of this sensor is as complete as it gets. */
 static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
                        enum feed_verdict verdict, const struct feed_heading *heading,
-                       const union feed_message *message, int64_t now_us)
+                       const union feed_message *message, int is_new, int64_t now_us)
 {
     rho_feed_close_open(feed, source, verdict == FEED_FOLLOW);
     feed->counters.scans_lost =
@@ -249,18 +279,18 @@ static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
     }
     if (!rho_feed_is_on_clock(feed, source, heading->place.time_us, verdict, now_us)) {
         rho_feed_count_one(&feed->counters.clock_jumps);
-        return;
+    } else if (has_turn(feed, heading, is_new)) {
+        open_scan(feed, source, heading, message, FEED_ORDER_NEXT, now_us);
     }
-    open_scan(feed, source, heading, message, FEED_ORDER_NEXT, now_us);
 }
 
 /* A number that was skipped comes after all. Of a sensor's one at a time waits for its parts, where there is room. */
 static void begin_skipped(struct rho_feed *feed, struct rho_feed_source *source,
                           const struct feed_heading *heading, const union feed_message *message,
-                          int64_t now_us)
+                          int is_new, int64_t now_us)
 {
     rho_feed_count_one(&feed->counters.scans_late);
-    if (!rho_feed_find_state(feed, FEED_SLOT_FREE) ||
+    if (!has_turn(feed, heading, is_new) || !rho_feed_find_state(feed, FEED_SLOT_FREE) ||
         (heading->num_parts > 1 && rho_feed_has_late_open(feed, source))) {
         return;
     }
@@ -273,28 +303,29 @@ static void begin_source(struct rho_feed *feed, struct rho_feed_source *source,
                          const struct feed_heading *heading)
 {
     rho_feed_close_open(feed, source, 1);
-    *source = (struct rho_feed_source){.bucket_us = feed->stranger.bucket_us,
-                                       .bucket = feed->config.flood_per_s,
-                                       .sensor_id = heading->sensor_id,
-                                       .kind = heading->kind,
-                                       .is_used = 1};
+    *source = (struct rho_feed_source){
+        .messages = {.full_us = feed->strangers.full_us, .left = feed->config.flood_per_s},
+        .sensor_id = heading->sensor_id,
+        .kind = heading->kind,
+        .is_used = 1};
 }
 
 /*
- * True where room may be made for another scan. A sensor that is not proven must neither cut short nor make late a scan
- * of one that is while its parts are still coming.
+ * True where room may be made for another scan. A newcomer, and a sensor that is not proven, must neither cut short nor
+ * make late a scan of another one while its parts are still coming.
  */
-static int may_press(struct rho_feed *feed, const struct rho_feed_source *source)
+static int may_press(struct rho_feed *feed, const struct rho_feed_source *source, int is_new,
+                     int64_t now_us)
 {
-    return (source && rho_feed_is_proven(&feed->config, source)) ||
-           rho_feed_find_state(feed, FEED_SLOT_GIVEN) || rho_feed_find_spare(feed);
+    return (source && rho_feed_is_proven(&feed->config, source) && !is_new) ||
+           rho_feed_find_state(feed, FEED_SLOT_GIVEN) || rho_feed_find_spare(feed, now_us);
 }
 
 /* Errors: CAPACITY. */
 static enum rho_status take_part(struct rho_feed *feed, const struct feed_heading *heading,
-                                 const union feed_message *message, int64_t now_us)
+                                 const union feed_message *message, struct rho_feed_source *source,
+                                 int is_new, int64_t now_us)
 {
-    struct rho_feed_source *source = find_source(feed, heading->kind, heading->sensor_id);
     struct rho_feed_slot *slot = source ? rho_feed_find_scan(feed, source, heading) : NULL;
     struct rho_feed_source *place;
     enum feed_verdict verdict;
@@ -310,12 +341,12 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
         return RHO_OK;
     }
     if (verdict == FEED_SKIPPED) {
-        begin_skipped(feed, source, heading, message, now_us);
+        begin_skipped(feed, source, heading, message, is_new, now_us);
         return RHO_OK;
     }
     place = source ? source : find_room(feed, now_us);
-    is_free = place && rho_feed_make_free(feed);
-    if (!place || (!is_free && !may_press(feed, source))) {
+    is_free = place && rho_feed_make_free(feed, is_new, now_us);
+    if (!place || (!is_free && !may_press(feed, source, is_new, now_us))) {
         rho_feed_count_one(&feed->counters.sensors_no_room);
         return RHO_OK;
     }
@@ -326,16 +357,38 @@ static enum rho_status take_part(struct rho_feed *feed, const struct feed_headin
     if (!source) {
         begin_source(feed, place, heading);
     }
-    begin_scan(feed, place, verdict, heading, message, now_us);
+    begin_scan(feed, place, verdict, heading, message, is_new, now_us);
     return RHO_OK;
+}
+
+static int is_allowed(const struct rho_feed_config *config, int16_t sensor_id)
+{
+    for (unsigned i = 0; i < config->num_allowed; i++) {
+        if (config->allowed[i] == sensor_id) {
+            return 1;
+        }
+    }
+    return config->num_allowed == 0;
+}
+
+static uint32_t check_of(const uint8_t *data, size_t size)
+{
+    uint32_t check = CHECK_START;
+
+    for (size_t i = 0; i < size; i++) {
+        check = (uint32_t)((uint64_t)(check ^ data[i]) * CHECK_FACTOR & UINT32_MAX);
+    }
+    return check > 0 ? check : 1;
 }
 
 enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const uint8_t *data,
                               size_t size, int64_t now_us)
 {
     struct rho_feed_source *source;
+    struct rho_feed_bucket *bucket;
     union feed_message message;
     struct feed_heading heading;
+    int is_new;
     enum rho_feed_kind kind;
     enum rho_status status;
     int16_t sensor_id;
@@ -349,9 +402,14 @@ enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const 
     if (!read_channel(channel, &kind, &sensor_id)) {
         return RHO_ERROR_TYPE;
     }
+    if (!is_allowed(&feed->config, sensor_id)) {
+        rho_feed_count_one(&feed->counters.messages_not_allowed);
+        return RHO_OK;
+    }
     source = find_source(feed, kind, sensor_id);
-    source = source ? source : &feed->stranger;
-    if (!rho_feed_draw(source, feed->config.flood_per_s, now_us)) {
+    is_new = rho_feed_is_new(source ? source->known_us : 0, rho_feed_eldest_us(feed, now_us));
+    bucket = source && !is_new ? &source->messages : &feed->strangers;
+    if (!rho_feed_draw(bucket, 1, feed->config.flood_per_s, now_us)) {
         rho_feed_count_one(&feed->counters.messages_flooded);
         return RHO_OK;
     }
@@ -369,8 +427,15 @@ enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const 
         rho_feed_count_one(&feed->counters.scans_bad);
         return RHO_OK;
     }
-    status = take_part(feed, &heading, &message, now_us);
-    source->bucket += status == RHO_ERROR_CAPACITY; /* it comes again */
+    heading.is_new = (uint8_t)(is_new && !is_named(feed, &heading));
+    if (heading.is_new && !rho_feed_draw(&feed->stranger_plots, heading.num_inputs,
+                                         feed->config.stranger_plots_per_s, now_us)) {
+        rho_feed_count_one(&feed->counters.messages_flooded);
+        return RHO_OK;
+    }
+    heading.check = check_of(data, size);
+    status = take_part(feed, &heading, &message, source, is_new, now_us);
+    bucket->left += status == RHO_ERROR_CAPACITY; /* it comes again */
     return status;
 }
 
@@ -414,9 +479,13 @@ int64_t rho_feed_due_us(const struct rho_feed *feed)
         int waits = slot->state == FEED_SLOT_COMPLETE ||
                     (slot->state == FEED_SLOT_OPEN && feed->config.hold_us > 0);
 
-        if (waits && slot->heard_us <= INT64_MAX - feed->config.hold_us &&
-            slot->heard_us + feed->config.hold_us < due_us) {
-            due_us = slot->heard_us + feed->config.hold_us;
+        if (waits && slot->heard_us <= INT64_MAX - feed->config.hold_us) {
+            int64_t held_us = slot->heard_us + feed->config.hold_us;
+            int64_t early_us =
+                slot->state == FEED_SLOT_COMPLETE ? rho_feed_early_until_us(feed, slot) : INT64_MIN;
+
+            held_us = early_us > held_us ? early_us : held_us;
+            due_us = held_us < due_us ? held_us : due_us;
         }
     }
     return due_us;

@@ -19,17 +19,17 @@ static int is_near(int64_t a_us, int64_t b_us, int64_t most_us)
 
 /* ---- Flood ---- */
 
-int rho_feed_draw(struct rho_feed_source *source, uint32_t flood_per_s, int64_t now_us)
+int rho_feed_draw(struct rho_feed_bucket *bucket, uint32_t count, uint32_t per_s, int64_t now_us)
 {
     /* A clock that went back must not leave the bucket empty until it has caught up. */
-    if (rho_elapsed_us(now_us, source->bucket_us) >= SECOND_US || now_us < source->bucket_us) {
-        source->bucket_us = now_us;
-        source->bucket = flood_per_s;
+    if (rho_elapsed_us(now_us, bucket->full_us) >= SECOND_US || now_us < bucket->full_us) {
+        bucket->full_us = now_us;
+        bucket->left = per_s;
     }
-    if (source->bucket == 0) {
+    if (bucket->left < count) {
         return 0;
     }
-    source->bucket--;
+    bucket->left -= count;
     return 1;
 }
 
@@ -236,6 +236,19 @@ static void note_interval(struct rho_feed_source *source, int64_t took_us, int32
     source->interval_us = (uint32_t)(mean_us > 0 ? mean_us : 1);
 }
 
+/* Silence beyond jump_max is none of the time that it was heard. */
+static void note_heard(const struct rho_feed_config *config, struct rho_feed_source *source,
+                       int64_t now_us)
+{
+    uint64_t more_us = source->scans > 0 ? rho_elapsed_us(now_us, source->heard_us) : 0;
+    uint32_t room_us = RHO_FEED_TRUST_US - source->known_us;
+
+    if (more_us <= (uint64_t)config->jump_max_us) {
+        source->known_us += more_us < room_us ? (uint32_t)more_us : room_us;
+    }
+    source->heard_us = now_us;
+}
+
 uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_feed_source *source,
                              const struct rho_feed_place *place, enum feed_verdict verdict,
                              int64_t now_us)
@@ -254,7 +267,8 @@ uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_fe
                       : ahead < SEEN_SCANS ? source->skipped << ahead | ((1u << ahead) - 2u)
                                            : ~1u;
     source->place = *place;
-    source->heard_us = now_us;
+    source->check = 0;
+    note_heard(config, source, now_us);
     memset(source->strays, 0, sizeof source->strays);
     source->scans = (uint16_t)(source->scans + (source->scans < UINT16_MAX));
     return is_next ? (uint32_t)(ahead - 1) : 0;
@@ -280,6 +294,84 @@ int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_fe
     return source->scans >= config->follow_scans;
 }
 
+/* ---- Newcomers ---- */
+
+static int is_live(const struct rho_feed *feed, const struct rho_feed_source *source,
+                   int64_t now_us)
+{
+    return source->is_used && source->scans > 0 &&
+           rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us;
+}
+
+uint32_t rho_feed_eldest_us(const struct rho_feed *feed, int64_t now_us)
+{
+    uint32_t eldest_us = 0;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS && !feed->config.is_record; i++) {
+        const struct rho_feed_source *source = &feed->sources[i];
+
+        if (source->known_us > eldest_us && rho_feed_is_proven(&feed->config, source) &&
+            is_live(feed, source, now_us)) {
+            eldest_us = source->known_us;
+        }
+    }
+    return eldest_us;
+}
+
+int rho_feed_is_new(uint32_t known_us, uint32_t eldest_us)
+{
+    return eldest_us >= RHO_FEED_EQUALS_US && known_us < eldest_us / 2;
+}
+
+/* It tells the common time, and is none of those that have no say in it. */
+static int has_say(const struct rho_feed *feed, const struct rho_feed_source *source,
+                   uint32_t eldest_us, int64_t now_us)
+{
+    return source->off_clock == 0 && is_live(feed, source, now_us) &&
+           rho_feed_is_proven(&feed->config, source) &&
+           !rho_feed_is_new(source->known_us, eldest_us);
+}
+
+/* When by its own clock it is time_us, and what it sent itself for that time would be here. */
+static int64_t comes_to_us(const struct rho_feed *feed, const struct rho_feed_source *source,
+                           int64_t time_us)
+{
+    uint64_t ahead_us = rho_elapsed_us(time_us, source->place.time_us);
+    int64_t wait_us = (int64_t)ahead_us + feed->config.hold_us; /* times are within their limit */
+
+    if (ahead_us == 0) {
+        return INT64_MIN;
+    }
+    return source->heard_us > INT64_MAX - wait_us ? INT64_MAX : source->heard_us + wait_us;
+}
+
+int64_t rho_feed_early_until_us(const struct rho_feed *feed, const struct rho_feed_slot *slot)
+{
+    uint32_t eldest_us = rho_feed_eldest_us(feed, slot->heard_us);
+    int64_t first_us = INT64_MAX, until_us;
+    int is_asked = 0;
+
+    if (!rho_feed_is_new(feed->sources[slot->source].known_us, eldest_us)) {
+        return INT64_MIN;
+    }
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        if (has_say(feed, &feed->sources[i], eldest_us, slot->heard_us)) {
+            until_us = comes_to_us(feed, &feed->sources[i], slot->place.time_us);
+            first_us = until_us < first_us ? until_us : first_us;
+            is_asked = 1;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        const struct rho_feed_slot *other = &feed->slots[i];
+
+        if (other->state == FEED_SLOT_OPEN && other->place.time_us < slot->place.time_us &&
+            !rho_feed_is_new(feed->sources[other->source].known_us, eldest_us)) {
+            return INT64_MAX;
+        }
+    }
+    return is_asked ? first_us : INT64_MIN;
+}
+
 /* ---- The common clock ---- */
 
 /*
@@ -300,42 +392,44 @@ static int is_elsewhere(const struct rho_feed_config *config, const struct rho_f
            rho_elapsed_us(other->place.time_us, time_us) > lead_us;
 }
 
-static int is_live(const struct rho_feed *feed, const struct rho_feed_source *source,
-                   int64_t now_us)
-{
-    return source->is_used && source->scans > 0 &&
-           rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us;
-}
-
-/* Most live sensors on the clock say that the time is another one. Where none is proven the others have a say. */
+/* Most live sensors on the clock say that the time is another one. Where none has a say the others do. */
 static int is_contradicted(const struct rho_feed *feed, const struct rho_feed_source *source,
                            int64_t time_us, int64_t now_us)
 {
-    int votes[2] = {0}, balance[2] = {0}, proven;
+    uint32_t eldest_us = rho_feed_eldest_us(feed, now_us);
+    int votes[2] = {0}, balance[2] = {0}, counts;
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_feed_source *other = &feed->sources[i];
 
         if (other != source && other->off_clock == 0 && is_live(feed, other, now_us)) {
-            proven = rho_feed_is_proven(&feed->config, other);
-            votes[proven]++;
-            balance[proven] += is_elsewhere(&feed->config, other, time_us, now_us) ? 1 : -1;
+            counts = has_say(feed, other, eldest_us, now_us);
+            votes[counts]++;
+            balance[counts] += is_elsewhere(&feed->config, other, time_us, now_us) ? 1 : -1;
         }
     }
     return balance[votes[1] > 0] > 0;
 }
 
-/* More live sensors agree on the time than proven ones on the clock; of equally many the reception clock decides. */
+/*
+ * More live sensors agree on the time than proven ones on the clock, without the newcomers; of equally many the reception
+ * clock decides.
+ */
 static int is_outvoted(const struct rho_feed *feed, const struct rho_feed_source *source,
                        int64_t time_us, int64_t now_us)
 {
     int64_t lead_us = feed->config.hold_us + feed->config.jump_max_us / LEAD_SHARE;
+    uint32_t eldest_us = rho_feed_eldest_us(feed, now_us);
     unsigned with = 1, against = 0;
 
+    if (rho_feed_is_new(source->known_us, eldest_us)) {
+        return 0;
+    }
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_feed_source *other = &feed->sources[i];
 
-        if (other == source || !is_live(feed, other, now_us)) {
+        if (other == source || !is_live(feed, other, now_us) ||
+            rho_feed_is_new(other->known_us, eldest_us)) {
             continue;
         }
         if (other->off_clock == 0) {
@@ -372,8 +466,8 @@ int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, 
                             is_contradicted(feed, source, time_us, now_us))) {
         /* The scans that a sensor's new numbers were followed for have shown its new time as well. */
         if (verdict == FEED_FOLLOW && source->off_clock < feed->config.follow_scans) {
-            source->off_clock = (uint16_t)feed->config.follow_scans;
-        } else if (source->off_clock < UINT16_MAX) {
+            source->off_clock = (uint8_t)feed->config.follow_scans;
+        } else if (source->off_clock < UINT8_MAX) {
             source->off_clock++;
         }
         if (source->off_clock < feed->config.follow_scans ||
@@ -383,7 +477,9 @@ int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, 
         follow(feed, time_us, now_us);
     }
     source->off_clock = 0;
-    feed->clock_us = time_us;
+    if (!feed->has_clock || !rho_feed_is_new(source->known_us, rho_feed_eldest_us(feed, now_us))) {
+        feed->clock_us = time_us;
+    }
     feed->has_clock = 1;
     return 1;
 }

@@ -95,17 +95,19 @@ enum rho_status rho_feed_open_message(enum rho_feed_kind kind, const uint8_t *da
 
 /* ---- Plots and bearings ---- */
 
-static float or_else(float said, float otherwise)
+/* A newcomer's plots do not pull tracks more than those of a sensor that says nothing. */
+static float or_else(float said, float otherwise, int is_new)
 {
-    return said > 0.0f ? said : otherwise;
+    return said > 0.0f && !(is_new && said < otherwise) ? said : otherwise;
 }
 
 static void fill_plots(struct rho_plot *to, unsigned count,
-                       const struct rho_message_plot_scan *scan, const struct rho_feed_noise *noise)
+                       const struct rho_message_plot_scan *scan, const struct rho_feed_noise *noise,
+                       int is_new)
 {
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_plot *plot = &scan->plots[i];
-        float sigma_m = or_else(plot->sigma_m, noise->sigma_m);
+        float sigma_m = or_else(plot->sigma_m, noise->sigma_m, is_new);
 
         to[i] = (struct rho_plot){.offset_us = plot->dt_us,
                                   .x_m = plot->x_m,
@@ -117,7 +119,7 @@ static void fill_plots(struct rho_plot *to, unsigned count,
                                   .sigma_range_m = sigma_m,
                                   .sigma_cross_m = sigma_m,
                                   .sigma_up_m = sigma_m,
-                                  .sigma_mps = or_else(plot->sigma_mps, noise->sigma_mps),
+                                  .sigma_mps = or_else(plot->sigma_mps, noise->sigma_mps, is_new),
                                   .sigma_range_rate_mps = noise->sigma_range_rate_mps,
                                   .snr_db = plot->snr_db};
     }
@@ -125,14 +127,17 @@ static void fill_plots(struct rho_plot *to, unsigned count,
 
 static void fill_polar(struct rho_plot *to, unsigned count,
                        const struct rho_message_polar_scan *scan, uint32_t measures,
-                       const struct rho_sensor *sensor, const struct rho_feed_noise *noise)
+                       const struct rho_sensor *sensor, const struct rho_feed_noise *noise,
+                       int is_new)
 {
     struct rho_sensor seen_from = *sensor;
     struct rho_polar_plot polar = {
-        .sigma_range_m = or_else(scan->sigma_range_m, noise->sigma_range_m),
-        .sigma_azimuth_rad = or_else(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad),
-        .sigma_elevation_rad = or_else(scan->sigma_elevation_rad, noise->sigma_elevation_rad),
-        .sigma_range_rate_mps = or_else(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps)};
+        .sigma_range_m = or_else(scan->sigma_range_m, noise->sigma_range_m, is_new),
+        .sigma_azimuth_rad = or_else(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad, is_new),
+        .sigma_elevation_rad =
+            or_else(scan->sigma_elevation_rad, noise->sigma_elevation_rad, is_new),
+        .sigma_range_rate_mps =
+            or_else(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps, is_new)};
 
     seen_from.time_bias_s = 0.0f; /* it is off the scan's time */
     for (unsigned i = 0; i < count; i++) {
@@ -153,7 +158,7 @@ static void fill_polar(struct rho_plot *to, unsigned count,
 
 static void fill_bearings(struct rho_bearing *to, unsigned count,
                           const struct rho_message_bearing_scan *scan,
-                          const struct rho_feed_sensor *known)
+                          const struct rho_feed_sensor *known, int is_new)
 {
     for (unsigned i = 0; i < count; i++) {
         float bearing_rad = scan->bearing_rad[i];
@@ -162,7 +167,8 @@ static void fill_bearings(struct rho_bearing *to, unsigned count,
             bearing_rad = rho_angle_difference(bearing_rad, known->sensor.azimuth_bias_rad);
         }
         to[i] = (struct rho_bearing){.bearing_rad = bearing_rad,
-                                     .sigma_rad = or_else(scan->sigma_rad, known->noise.sigma_rad)};
+                                     .sigma_rad =
+                                         or_else(scan->sigma_rad, known->noise.sigma_rad, is_new)};
     }
 }
 
@@ -216,15 +222,15 @@ void rho_feed_fill(struct rho_feed *feed, struct rho_feed_slot *slot,
         behind = room - at - count;
     }
     if (heading->kind == RHO_FEED_BEARINGS) {
-        fill_bearings(slot->bearings + at, count, &message->bearings, known);
+        fill_bearings(slot->bearings + at, count, &message->bearings, known, heading->is_new);
         feed->counters.bearings_in = rho_count(feed->counters.bearings_in, heading->num_inputs);
     } else {
         memmove(slot->plots + at + count, slot->plots + at, behind * sizeof *slot->plots);
         if (heading->kind == RHO_FEED_PLOTS) {
-            fill_plots(slot->plots + at, count, &message->plots, &known->noise);
+            fill_plots(slot->plots + at, count, &message->plots, &known->noise, heading->is_new);
         } else {
             fill_polar(slot->plots + at, count, &message->polar, heading->measures, &slot->sensor,
-                       &known->noise);
+                       &known->noise, heading->is_new);
         }
     }
     slot->num_inputs = (uint16_t)(at + count + behind);

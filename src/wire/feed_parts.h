@@ -25,7 +25,9 @@ struct feed_heading {
     uint16_t part, num_parts;
     uint16_t num_inputs;
     int16_t sensor_id;
-    uint8_t kind; /* enum rho_feed_kind */
+    uint8_t kind;   /* enum rho_feed_kind */
+    uint8_t is_new; /* a newcomer's that the config does not name */
+    uint32_t check; /* of the message's bytes; never 0 */
 };
 
 /* What a scan's number and time are worth. */
@@ -62,6 +64,18 @@ void rho_feed_note_skipped(struct rho_feed_source *source, int32_t scan);
 /* The number before this one was skipped, and may still come. */
 int rho_feed_awaits(const struct rho_feed_source *source, int32_t scan);
 
+/* For how long the sensor was heard that was heard for longest, of those that are live and proven. */
+uint32_t rho_feed_eldest_us(const struct rho_feed *feed, int64_t now_us);
+
+/* Beside it, one heard for known_us is a newcomer: it has no say in the time, and waits for the others. */
+int rho_feed_is_new(uint32_t known_us, uint32_t eldest_us);
+
+/*
+ * When on the reception clock the scan may go out for what sensors say that are no newcomers; INT64_MIN: at once. With
+ * INT64_MAX a part of an older scan of theirs is waited for.
+ */
+int64_t rho_feed_early_until_us(const struct rho_feed *feed, const struct rho_feed_slot *slot);
+
 /* It has shown by follow_scans scans that it is no chance message. */
 int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_feed_source *source);
 
@@ -72,8 +86,8 @@ int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_fe
 int rho_feed_is_on_clock(struct rho_feed *feed, struct rho_feed_source *source, int64_t time_us,
                          enum feed_verdict verdict, int64_t now_us);
 
-/* Takes a message off the bucket; 0: it is empty. */
-int rho_feed_draw(struct rho_feed_source *source, uint32_t flood_per_s, int64_t now_us);
+/* Takes so much out of the bucket; 0: it holds less, and is as it was. */
+int rho_feed_draw(struct rho_feed_bucket *bucket, uint32_t count, uint32_t per_s, int64_t now_us);
 
 /* ---- feed_slots.c: scans that are put together ---- */
 
@@ -104,9 +118,9 @@ int rho_feed_has_late_open(const struct rho_feed *feed, const struct rho_feed_so
 
 /*
  * What makes room, and neither makes a proven sensor's scan late whose parts are still coming, nor cuts it short: the
- * first complete scan, or else an open one of a sensor that is not proven.
+ * first complete scan that is not early, or else an open one of a sensor that is a newcomer, or not proven.
  */
-struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed);
+struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed, int64_t now_us);
 
 /* The slot begins with this scan. */
 void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
@@ -120,12 +134,17 @@ void rho_feed_close_slot(struct rho_feed *feed, struct rho_feed_slot *slot);
 void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *source, int is_over);
 
 /*
- * A free slot. A late scan gives way to it, and is not sent out then: that could make others late. NULL: there is none.
+ * A free slot. A late scan gives way to it, and is not sent out then: that could make others late. So does a newcomer's
+ * that is early, but not to newcomers. NULL: there is none.
  */
-struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed);
+struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed, int is_new, int64_t now_us);
 
 /* Of the clock that held before: what cannot be stepped any more. */
 void rho_feed_drop_slots(struct rho_feed *feed);
+
+/* A part of a scan that was there before: the same, or another sender's. */
+void rho_feed_count_double(struct rho_feed *feed, struct rho_feed_source *source,
+                           const struct feed_heading *heading);
 
 /* Another part of the slot's scan; it may be there already, or contradict the others. */
 void rho_feed_add_part(struct rho_feed *feed, struct rho_feed_slot *slot,

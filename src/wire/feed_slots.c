@@ -78,14 +78,23 @@ void rho_feed_close_open(struct rho_feed *feed, const struct rho_feed_source *so
     }
 }
 
-struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed)
+static int is_early(const struct rho_feed *feed, const struct rho_feed_slot *slot, int64_t now_us)
+{
+    return now_us < rho_feed_early_until_us(feed, slot);
+}
+
+struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed, int is_new, int64_t now_us)
 {
     struct rho_feed_slot *room = rho_feed_find_state(feed, FEED_SLOT_FREE);
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !room; i++) {
         struct rho_feed_slot *slot = &feed->slots[i];
 
-        if (is_waiting(slot) && slot->order == FEED_ORDER_LATE) {
+        if (is_waiting(slot) && !is_new && is_early(feed, slot, now_us)) {
+            rho_feed_count_one(&feed->counters.sensors_no_room);
+            slot->state = FEED_SLOT_FREE;
+            room = slot;
+        } else if (is_waiting(slot) && slot->order == FEED_ORDER_LATE) {
             slot->state = FEED_SLOT_FREE; /* it was counted when it came */
             room = slot;
         }
@@ -168,12 +177,26 @@ static int agrees(const struct rho_feed_slot *slot, const struct feed_heading *h
                             is_equal(heading->z_m, 0.0f))));
 }
 
+void rho_feed_count_double(struct rho_feed *feed, struct rho_feed_source *source,
+                           const struct feed_heading *heading)
+{
+    if (heading->part == 0 && heading->place.scan == source->place.scan && source->check != 0 &&
+        source->check != heading->check) {
+        source->has_twin = 1;
+        rho_feed_count_one(&feed->counters.scans_other);
+    } else {
+        rho_feed_count_one(&feed->counters.scans_duplicate);
+    }
+}
+
 void rho_feed_add_part(struct rho_feed *feed, struct rho_feed_slot *slot,
                        const struct feed_heading *heading, const union feed_message *message,
                        int64_t now_us)
 {
+    struct rho_feed_source *source = &feed->sources[slot->source];
+
     if (slot->parts[heading->part] > 0) {
-        rho_feed_count_one(&feed->counters.scans_duplicate);
+        rho_feed_count_double(feed, source, heading);
         return;
     }
     if (slot->parts_here > 0 && !agrees(slot, heading)) {
@@ -181,6 +204,9 @@ void rho_feed_add_part(struct rho_feed *feed, struct rho_feed_slot *slot,
         return;
     }
     rho_feed_fill(feed, slot, heading, message);
+    if (heading->part == 0 && heading->place.scan == source->place.scan) {
+        source->check = heading->check;
+    }
     slot->heard_us = now_us;
     if (slot->parts_here == slot->num_parts) {
         rho_feed_close_slot(feed, slot);
@@ -235,12 +261,12 @@ static int has_waited(const struct rho_feed *feed, const struct rho_feed_slot *s
            rho_elapsed_us(slot->heard_us, now_us) > hold_us;
 }
 
-/* What was held goes out, and what is older before it, however long that has waited. */
+/* What was held goes out, and what is older before it, however long that has waited. What is early is not held yet. */
 static int is_one_held(const struct rho_feed *feed, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (feed->slots[i].state == FEED_SLOT_COMPLETE &&
-            has_waited(feed, &feed->slots[i], now_us)) {
+            has_waited(feed, &feed->slots[i], now_us) && !is_early(feed, &feed->slots[i], now_us)) {
             return 1;
         }
     }
@@ -269,14 +295,17 @@ static int comes_before(const struct rho_feed_slot *a, const struct rho_feed_slo
                                                       : a->kind < b->kind;
 }
 
-static struct rho_feed_slot *find_first(struct rho_feed *feed, enum feed_slot_state state)
+/* Without those that are early. */
+static struct rho_feed_slot *find_first(struct rho_feed *feed, enum feed_slot_state state,
+                                        int64_t now_us)
 {
     struct rho_feed_slot *first = NULL;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_feed_slot *slot = &feed->slots[i];
 
-        if (slot->state == state && (!first || comes_before(slot, first))) {
+        if (slot->state == state && (!first || comes_before(slot, first)) &&
+            !is_early(feed, slot, now_us)) {
             first = slot;
         }
     }
@@ -284,9 +313,10 @@ static struct rho_feed_slot *find_first(struct rho_feed *feed, enum feed_slot_st
 }
 
 /* A scan that goes out makes older ones late, so one whose parts are still coming goes before it, without them. */
-static struct rho_feed_slot *or_older_open(struct rho_feed *feed, struct rho_feed_slot *slot)
+static struct rho_feed_slot *or_older_open(struct rho_feed *feed, struct rho_feed_slot *slot,
+                                           int64_t now_us)
 {
-    struct rho_feed_slot *open = find_first(feed, FEED_SLOT_OPEN);
+    struct rho_feed_slot *open = find_first(feed, FEED_SLOT_OPEN, now_us);
 
     if (!open || open->place.time_us >= slot->place.time_us) {
         return slot;
@@ -295,9 +325,10 @@ static struct rho_feed_slot *or_older_open(struct rho_feed *feed, struct rho_fee
     return open;
 }
 
-struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed)
+struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed, int64_t now_us)
 {
-    struct rho_feed_slot *spare = find_first(feed, FEED_SLOT_COMPLETE), *weak = NULL;
+    struct rho_feed_slot *spare = find_first(feed, FEED_SLOT_COMPLETE, now_us), *weak = NULL;
+    uint32_t eldest_us = rho_feed_eldest_us(feed, now_us);
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_feed_slot *slot = &feed->slots[i];
@@ -305,7 +336,8 @@ struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed)
         if (slot->state != FEED_SLOT_OPEN) {
             continue;
         }
-        if (!rho_feed_is_proven(&feed->config, &feed->sources[slot->source])) {
+        if (!rho_feed_is_proven(&feed->config, &feed->sources[slot->source]) ||
+            rho_feed_is_new(feed->sources[slot->source].known_us, eldest_us)) {
             weak = weak ? weak : slot;
         } else if (spare && slot->place.time_us < spare->place.time_us) {
             spare = NULL;
@@ -314,12 +346,12 @@ struct rho_feed_slot *rho_feed_find_spare(struct rho_feed *feed)
     return spare ? spare : weak;
 }
 
-static struct rho_feed_slot *press(struct rho_feed *feed)
+static struct rho_feed_slot *press(struct rho_feed *feed, int64_t now_us)
 {
-    struct rho_feed_slot *slot = rho_feed_find_spare(feed);
+    struct rho_feed_slot *slot = rho_feed_find_spare(feed, now_us);
 
-    slot = slot ? slot : find_first(feed, FEED_SLOT_COMPLETE);
-    slot = slot ? slot : find_first(feed, FEED_SLOT_OPEN);
+    slot = slot ? slot : find_first(feed, FEED_SLOT_COMPLETE, now_us);
+    slot = slot ? slot : find_first(feed, FEED_SLOT_OPEN, now_us);
     if (slot && slot->state == FEED_SLOT_OPEN) {
         rho_feed_close_slot(feed, slot);
     }
@@ -346,14 +378,14 @@ struct rho_feed_slot *rho_feed_find_due(struct rho_feed *feed, int64_t now_us)
     drop_useless(feed);
     close_overdue(feed, now_us);
     if (feed->is_pressed) {
-        return press(feed);
+        return press(feed, now_us);
     }
-    slot = find_first(feed, FEED_SLOT_COMPLETE);
+    slot = find_first(feed, FEED_SLOT_COMPLETE, now_us);
     if (!slot) {
         return NULL;
     }
     if (is_one_held(feed, now_us)) {
-        return feed->config.hold_us > 0 ? or_older_open(feed, slot) : slot;
+        return feed->config.hold_us > 0 ? or_older_open(feed, slot, now_us) : slot;
     }
     return is_turn(feed, slot, now_us) ? slot : NULL;
 }

@@ -195,12 +195,13 @@ static void fill_feed(const struct rho_feed_counters *feed, struct rho_message_s
 {
     status->scans_accepted = long_count(feed->scans_accepted);
     status->scans_late = long_count(feed->scans_late);
-    status->scans_duplicate = long_count(feed->scans_duplicate);
+    status->scans_duplicate = long_count(rho_count(feed->scans_duplicate, feed->scans_other));
     status->scans_lost = long_count(feed->scans_lost);
     status->scans_bad = long_count(rho_count(feed->scans_bad, feed->sensors_no_room));
     status->messages_bad = long_count(feed->messages_bad);
     status->messages_wrong_type = long_count(feed->messages_wrong_type);
-    status->messages_flooded = long_count(feed->messages_flooded);
+    status->messages_flooded =
+        long_count(rho_count(feed->messages_flooded, feed->messages_not_allowed));
     status->scans_incomplete = long_count(feed->scans_incomplete);
     status->clock_jumps = long_count(feed->clock_jumps);
     status->sensor_restarts = long_count(feed->sensor_restarts);

@@ -78,16 +78,18 @@ static uint64_t refusals(void)
 
     return (uint64_t)counters->messages_bad + counters->messages_wrong_type +
            counters->messages_flooded + counters->scans_late + counters->scans_duplicate +
-           counters->scans_bad + counters->clock_jumps + counters->sensors_no_room;
+           counters->scans_bad + counters->clock_jumps + counters->sensors_no_room +
+           counters->messages_not_allowed + counters->scans_other;
 }
 
-/* Each scan that was accepted waits, was given, or was dropped for a new clock. */
+/* Each scan that was accepted waits, was given, or was dropped for a new clock or, a newcomer's, for want of room. */
 static void check_scans(void)
 {
     uint64_t there = given + in_slots();
 
     CHECK(feed.counters.scans_accepted >= there);
-    CHECK(feed.counters.scans_accepted - there <= feed.counters.scans_late);
+    CHECK(feed.counters.scans_accepted - there <=
+          (uint64_t)feed.counters.scans_late + feed.counters.sensors_no_room);
     CHECK(feed.counters.scans_incomplete <= feed.counters.scans_accepted);
 }
 

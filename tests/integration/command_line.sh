@@ -94,6 +94,16 @@ refuse 'set to nothing' "--set sigma_m=: sigma_m '' is empty" config --set sigma
 refuse 'set to nan' "--set sigma_m=nan: sigma_m 'nan' is not finite" config --set sigma_m=nan
 refuse 'set beyond the range' '--set pd=1.5: pd 1.5 is outside 0.01 .. 0.999' config --set pd=1.5
 refuse 'set to part of a scan' "--set scans=4.5: scans '4.5' is not a whole number" config --set scans=4.5
+refuse 'no number of a sensor' "--set sensors_allowed=1 x: sensors_allowed 'x' is no number of a sensor" \
+    config --set 'sensors_allowed=1 x'
+refuse 'a number of a sensor beyond messages' "*: sensors_allowed '32768' is no number of a sensor" config --set sensors_allowed=32768
+printf 'sensors_allowed = 3 -4\n' >allowed.ini
+run config --json --config allowed.ini
+check 'sensors_allowed in a file' json stdout 'o["sensors_allowed"] == {"value": [3, -4], "source": "config"}'
+printf 't_s,sensor_id,x_m,y_m\n1,3,10,20\n1,5,30,40\n2,5,30,40\n' >allowed.csv
+run convert allowed.csv allowed.lcm
+run track allowed.lcm --config allowed.ini -o /dev/null
+check 'other sensors are counted' grep -q '2 messages of sensors that are not in sensors_allowed' stderr
 refuse 'more votes than scans' 'min_scans 8 is more than scans 7' config --set min_scans=8
 refuse 'two votes' 'min_scans 2 is neither 0 nor 3 or more' config --set min_scans=2
 refuse 'slowest above fastest' 'v_min_mps 800 is not below v_max_mps 700' config --set v_min_mps=800

@@ -24,8 +24,10 @@ struct model_source {
     int used, kind, id;
     unsigned believed, off;
     int64_t heard_us, bucket_us;
-    wide interval_us;
+    wide interval_us, known_us;
     uint32_t bucket;
+    int has_first;
+    struct look first; /* part 0 of its newest scan, as it came first */
     struct rho_feed_place place;
     int32_t
         numbers[MODEL_NUMBERS]; /* believed since it began or was followed, the first one first */
@@ -48,7 +50,8 @@ struct model_scan {
 static struct {
     struct rho_feed_config config;
     struct rho_feed_counters counters;
-    struct model_source sources[RHO_MAX_SENSORS], stranger;
+    struct model_source sources[RHO_MAX_SENSORS], stranger, share; /* share: plots of newcomers */
+    unsigned newcomers; /* scans, since another sensor's */
     struct model_scan scans[RHO_MAX_OPEN_SCANS];
     int64_t clock_us, out_us; /* out: the newest one that went out, on this clock */
     int has_clock, has_out, is_restart, is_pressed;
@@ -59,6 +62,7 @@ static inline void model_start(const struct rho_feed_config *config)
     memset(&model, 0, sizeof model);
     model.config = *config;
     model.stranger.bucket = config->flood_per_s;
+    model.share.bucket = config->stranger_plots_per_s;
 }
 
 /* ---- numbers and times of one sensor ---------------------------------------------------------- */
@@ -237,7 +241,12 @@ static inline void model_believe(struct model_source *source, const struct rho_f
     }
     source->numbers[source->num_numbers++] = place->scan;
     source->num_strays = 0;
+    source->has_first = 0;
     source->place = *place;
+    if (!is_first && model_past(source->heard_us, now_us) <= model.config.jump_max_us) {
+        source->known_us += model_past(source->heard_us, now_us);
+    }
+    source->known_us = source->known_us > RHO_FEED_TRUST_US ? RHO_FEED_TRUST_US : source->known_us;
     source->heard_us = now_us;
     source->believed++;
 }
@@ -274,6 +283,56 @@ static inline int model_is_proven(const struct model_source *source)
     return source->believed >= model.config.follow_scans;
 }
 
+/* Less than half as long heard as another one, which is heard for a minute. */
+static inline int model_is_new(const struct model_source *source, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct model_source *other = &model.sources[i];
+        wide half_us = other->known_us / 2;
+
+        if (model_is_live(other, now_us) && model_is_proven(other) &&
+            other->known_us >= RHO_FEED_EQUALS_US && (source ? source->known_us : 0) < half_us) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static inline int model_has_say(const struct model_source *source, int64_t now_us)
+{
+    return source->off == 0 && model_is_live(source, now_us) && model_is_proven(source) &&
+           !model_is_new(source, now_us);
+}
+
+/* Nobody who has a say has sent what is not older, nor says by its own clock that what it sends for then is here. */
+static inline int model_is_early(const struct model_scan *scan, int64_t now_us)
+{
+    int asked = 0;
+
+    if (!model_is_new(scan->source, scan->heard_us) || now_us == INT64_MAX) {
+        return 0;
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        const struct model_scan *other = &model.scans[i];
+        if (other->state == M_OPEN && other->place.time_us < scan->place.time_us &&
+            !model_is_new(other->source, scan->heard_us)) {
+            return 1;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct model_source *other = &model.sources[i];
+        wide ahead = (wide)scan->place.time_us - other->place.time_us;
+
+        if (model_has_say(other, scan->heard_us)) {
+            if (ahead <= 0 || (wide)now_us >= other->heard_us + ahead + model.config.hold_us) {
+                return 0;
+            }
+            asked = 1;
+        }
+    }
+    return asked;
+}
+
 static inline int model_is_off(const struct model_source *source, int64_t time_us, int64_t now_us)
 {
     int yes[2] = {0}, no[2] = {0};
@@ -281,7 +340,7 @@ static inline int model_is_off(const struct model_source *source, int64_t time_u
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
         if (other != source && other->off == 0 && model_is_live(other, now_us)) {
-            int p = model_is_proven(other);
+            int p = model_has_say(other, now_us);
             yes[p] += !model_says_other(other, time_us, now_us);
             no[p] += model_says_other(other, time_us, now_us);
         }
@@ -295,9 +354,13 @@ static inline int model_wins(const struct model_source *source, int64_t time_us,
 {
     unsigned with = 1, against = 0;
 
+    if (model_is_new(source, now_us)) {
+        return 0;
+    }
+
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
-        if (other != source && model_is_live(other, now_us)) {
+        if (other != source && model_is_live(other, now_us) && !model_is_new(other, now_us)) {
             against += other->off == 0 && model_is_proven(other);
             with += other->off >= model.config.follow_scans &&
                     !model_says_other(other, time_us, now_us);
@@ -336,14 +399,14 @@ static inline int model_keeps_clock(struct model_source *source, int64_t time_us
     if (model_is_off(source, time_us, now_us)) {
         source->off = verdict == M_FOLLOW && source->off < model.config.follow_scans
                           ? model.config.follow_scans
-                          : source->off + 1;
+                          : source->off + (source->off < UINT8_MAX);
         if (source->off < model.config.follow_scans || !model_wins(source, time_us, now_us)) {
             return 0;
         }
         model_set_clock(time_us, now_us);
     }
     source->off = 0;
-    model.clock_us = time_us;
+    model.clock_us = model.has_clock && model_is_new(source, now_us) ? model.clock_us : time_us;
     model.has_clock = 1;
     return 1;
 }
@@ -439,16 +502,36 @@ static inline void model_add(struct model_source *room, const struct look *look)
     room->bucket_us = model.stranger.bucket_us;
 }
 
+static inline int model_is_same(const struct look *a, const struct look *b)
+{
+    return a->time_us == b->time_us && a->scan == b->scan && a->epoch == b->epoch &&
+           a->part == b->part && parts_of(a) == parts_of(b) && a->count == b->count &&
+           a->tag == b->tag;
+}
+
+static inline void model_count_double(const struct model_source *source, const struct look *look)
+{
+    int is_other = look->part == 0 && look->scan == source->place.scan && source->has_first &&
+                   !model_is_same(look, &source->first);
+
+    model.counters.scans_other += (uint32_t)is_other;
+    model.counters.scans_duplicate += !is_other;
+}
+
 static inline void model_add_part(struct model_scan *scan, const struct look *look, int64_t now_us)
 {
     if (scan->is_here[look->part]) {
-        model.counters.scans_duplicate++;
+        model_count_double(scan->source, look);
     } else if (model_parts_here(scan) > 0 &&
                (look->time_us != scan->place.time_us || parts_of(look) != scan->num_parts)) {
         model.counters.scans_bad++;
     } else {
         scan->is_here[look->part] = 1;
         scan->parts[look->part] = *look;
+        if (look->part == 0 && look->scan == scan->source->place.scan) {
+            scan->source->has_first = 1;
+            scan->source->first = *look;
+        }
         scan->heard_us = now_us;
         model.counters.bearings_in += look->kind == RHO_FEED_BEARINGS ? look->count : 0;
         if (model_parts_here(scan) == (unsigned)scan->num_parts) {
@@ -457,8 +540,19 @@ static inline void model_add_part(struct model_scan *scan, const struct look *lo
     }
 }
 
+/* One of all newcomers together between two of the others. */
+static inline int model_may_begin(int is_new)
+{
+    if (is_new && model.newcomers > 0) {
+        model.counters.messages_flooded++;
+        return 0;
+    }
+    model.newcomers = (unsigned)is_new;
+    return 1;
+}
+
 static inline void model_begin(struct model_source *source, const struct look *look,
-                               enum model_verdict verdict, int64_t now_us)
+                               enum model_verdict verdict, int is_new, int64_t now_us)
 {
     struct rho_feed_place place = {look->time_us, look->scan, look->epoch};
     struct model_scan *scan;
@@ -475,6 +569,9 @@ static inline void model_begin(struct model_source *source, const struct look *l
     model.counters.sensor_restarts += verdict == M_FOLLOW;
     if (verdict != M_SKIPPED && !model_keeps_clock(source, look->time_us, verdict, now_us)) {
         model.counters.clock_jumps++;
+        return;
+    }
+    if (verdict != M_SKIPPED && !model_may_begin(is_new)) {
         return;
     }
     model.counters.scans_accepted++;
@@ -499,41 +596,46 @@ static inline void model_refuse(struct model_source *source, const struct look *
     }
     model.counters.scans_bad += verdict == M_NUMBER;
     model.counters.clock_jumps += verdict == M_TIME || (verdict == M_DOUBLE && source->off > 0);
-    model.counters.scans_duplicate += verdict == M_DOUBLE && source->off == 0;
+    if (verdict == M_DOUBLE && source->off == 0) {
+        model_count_double(source, look);
+    }
     model.counters.scans_late += verdict == M_LATE;
 }
 
-static inline int model_draw(struct model_source *source, int64_t now_us)
+static inline int model_draw(struct model_source *source, uint32_t count, uint32_t most,
+                             int64_t now_us)
 {
     if (now_us < source->bucket_us || (wide)now_us - source->bucket_us >= SECOND_US) {
         source->bucket_us = now_us;
-        source->bucket = model.config.flood_per_s;
+        source->bucket = most;
     }
-    if (source->bucket == 0) {
+    if (source->bucket < count) {
         model.counters.messages_flooded++;
         return 0;
     }
-    source->bucket--;
+    source->bucket -= count;
     return 1;
 }
 
-static inline struct model_scan *model_weak_one(void)
+/* Newcomers' scans that are early count for little. */
+static inline struct model_scan *model_weak_one(int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        if (model.scans[i].state == M_OPEN && !model_is_proven(model.scans[i].source)) {
+        if (model.scans[i].state == M_OPEN && (!model_is_proven(model.scans[i].source) ||
+                                               model_is_new(model.scans[i].source, now_us))) {
             return &model.scans[i];
         }
     }
     return NULL;
 }
 
-static inline struct model_scan *model_first(enum model_state state)
+static inline struct model_scan *model_first(enum model_state state, int64_t now_us)
 {
     struct model_scan *first = NULL;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct model_scan *scan = &model.scans[i];
-        if (scan->state != state) {
+        if (scan->state != state || model_is_early(scan, now_us)) {
             continue;
         }
         if (!first || scan->place.time_us < first->place.time_us ||
@@ -546,19 +648,19 @@ static inline struct model_scan *model_first(enum model_state state)
 }
 
 /* It goes out where another needs room; no proven sensor's scan is made late or cut short by that. */
-static inline struct model_scan *model_spare_one(void)
+static inline struct model_scan *model_spare_one(int64_t now_us)
 {
-    struct model_scan *whole = model_first(M_WHOLE);
+    struct model_scan *whole = model_first(M_WHOLE, now_us);
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && whole; i++) {
         struct model_scan *scan = &model.scans[i];
 
         if (scan->state == M_OPEN && model_is_proven(scan->source) &&
-            scan->place.time_us < whole->place.time_us) {
-            return model_weak_one();
+            !model_is_new(scan->source, now_us) && scan->place.time_us < whole->place.time_us) {
+            return model_weak_one(now_us);
         }
     }
-    return whole ? whole : model_weak_one();
+    return whole ? whole : model_weak_one(now_us);
 }
 
 static inline int model_is_late_one(const struct model_scan *scan)
@@ -576,11 +678,16 @@ static inline int model_open_late_one_of(const struct model_source *source)
     return count > 0;
 }
 
-static inline void model_drop_late_one(void)
+static inline void model_drop_one(int is_new, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        if (model_is_late_one(&model.scans[i])) {
-            model.scans[i].state = M_FREE;
+        struct model_scan *scan = &model.scans[i];
+        int is_waiting = scan->state == M_OPEN || scan->state == M_WHOLE;
+        int is_early = is_waiting && !is_new && model_is_early(scan, now_us);
+
+        if (is_early || model_is_late_one(scan)) {
+            model.counters.sensors_no_room += (uint32_t)is_early;
+            scan->state = M_FREE;
             return;
         }
     }
@@ -600,11 +707,14 @@ static inline void model_drop_useless(void)
 static inline enum rho_status model_take(const struct look *look, int64_t now_us)
 {
     struct model_source *source = model_find(look->kind, look->sensor_id);
-    struct model_source *drawn = source ? source : &model.stranger;
+    int is_new = model_is_new(source, now_us);
+    struct model_source *drawn = source && !is_new ? source : &model.stranger;
     struct rho_feed_place place = {look->time_us, look->scan, look->epoch};
     enum model_verdict verdict;
 
-    if (!model_draw(drawn, now_us)) {
+    if (!model_draw(drawn, 1, model.config.flood_per_s, now_us) ||
+        (is_new &&
+         !model_draw(&model.share, look->count, model.config.stranger_plots_per_s, now_us))) {
         return RHO_OK;
     }
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
@@ -623,8 +733,9 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
     }
     if (verdict == M_SKIPPED) {
         model.counters.scans_late++;
-        if (model_in_state(M_FREE) && (parts_of(look) == 1 || !model_open_late_one_of(source))) {
-            model_begin(source, look, verdict, now_us);
+        if (model_may_begin(is_new) && model_in_state(M_FREE) &&
+            (parts_of(look) == 1 || !model_open_late_one_of(source))) {
+            model_begin(source, look, verdict, is_new, now_us);
         }
         return RHO_OK;
     }
@@ -633,10 +744,10 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         return RHO_OK;
     }
     if (!model_in_state(M_FREE)) {
-        model_drop_late_one();
+        model_drop_one(is_new, now_us);
     }
     if (!model_in_state(M_FREE)) {
-        int may_cut = (source && model_is_proven(source)) || model_spare_one();
+        int may_cut = (source && model_is_proven(source) && !is_new) || model_spare_one(now_us);
 
         if (!may_cut && !model_in_state(M_OUT)) {
             model.counters.sensors_no_room++;
@@ -650,7 +761,7 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         source = model_find_room(now_us);
         model_add(source, look);
     }
-    model_begin(source, look, verdict, now_us);
+    model_begin(source, look, verdict, is_new, now_us);
     return RHO_OK;
 }
 
@@ -667,7 +778,8 @@ static inline int model_one_was_held(int64_t now_us)
     int count = 0;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        count += model.scans[i].state == M_WHOLE && model_was_held(&model.scans[i], now_us);
+        count += model.scans[i].state == M_WHOLE && model_was_held(&model.scans[i], now_us) &&
+                 !model_is_early(&model.scans[i], now_us);
     }
     return count > 0;
 }
@@ -715,10 +827,10 @@ static inline const struct model_scan *model_next(int64_t now_us, int *is_restar
             model_close(&model.scans[i]);
         }
     }
-    scan = model_first(M_WHOLE);
-    open = model_first(M_OPEN);
+    scan = model_first(M_WHOLE, now_us);
+    open = model_first(M_OPEN, now_us);
     if (model.is_pressed) {
-        scan = model_spare_one() ? model_spare_one() : scan ? scan : open;
+        scan = model_spare_one(now_us) ? model_spare_one(now_us) : scan ? scan : open;
         if (scan && scan->state == M_OPEN) {
             model_close(scan);
         }

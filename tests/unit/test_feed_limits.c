@@ -17,16 +17,16 @@ static void more_than_flood_per_s_are_not_looked_at(void **state)
     for (int i = 0; i < 9; i++) {
         take_scan(1, 0, 1);
     }
-    COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 5, .messages_flooded = 4);
+    COUNTERS_ARE(.scans_accepted = 1, .scans_other = 5, .messages_flooded = 4);
     take_scan(2, 0, 2); /* another one is not concerned */
-    COUNTERS_ARE(.scans_accepted = 2, .scans_duplicate = 5, .messages_flooded = 4);
+    COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 4);
     take_scan(1, 1, SECOND_US - 1);
-    COUNTERS_ARE(.scans_accepted = 2, .scans_duplicate = 5, .messages_flooded = 5);
+    COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 5);
     next_is(SECOND_US, 1, 0);
     next_is(SECOND_US, 2, 2);
     next_is_none(SECOND_US);
     take_scan(1, 1, SECOND_US);
-    COUNTERS_ARE(.scans_accepted = 3, .scans_duplicate = 5, .messages_flooded = 5);
+    COUNTERS_ARE(.scans_accepted = 3, .scans_other = 5, .messages_flooded = 5);
 }
 
 static void strangers_share_one_measure(void **state)
@@ -204,7 +204,7 @@ static void a_sensor_that_gives_way_leaves_its_scan(void **state)
 static void without_room_the_oldest_goes_out_and_the_message_is_taken(void **state)
 {
     struct look look = {.count = 1, .num_parts = 2};
-    struct rho_feed_source was;
+    struct rho_feed_bucket was;
 
     (void)state;
     start();
@@ -215,9 +215,9 @@ static void without_room_the_oldest_goes_out_and_the_message_is_taken(void **sta
         next_is_none(0);
     }
     look.sensor_id = 500;
-    was = feed.stranger;
+    was = feed.strangers;
     assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY);
-    assert_memory_equal(&was, &feed.stranger, sizeof was);
+    assert_memory_equal(&was, &feed.strangers, sizeof was);
     COUNTERS_ARE(.scans_accepted = RHO_MAX_OPEN_SCANS);
     next_is(0, 0, 100); /* the first that is not proven */
     assert_int_equal(item.parts_missing, 1);

@@ -46,6 +46,17 @@ static cJSON *parameter_json(const struct parameter_text *text, double value,
     return object;
 }
 
+static cJSON *allowed_json(const struct parameters *parameters)
+{
+    cJSON *object = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(object, "value");
+
+    for (size_t i = 0; i < parameters->num_allowed; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(parameters->allowed[i]));
+    }
+    cJSON_AddStringToObject(object, "source", parameters_source_name(parameters->allowed_source));
+    return object;
+}
+
 static void print_json(const struct parameters *parameters)
 {
     cJSON *object = cJSON_CreateObject();
@@ -56,6 +67,7 @@ static void print_json(const struct parameters *parameters)
         cJSON_AddItemToObject(object, text.name,
                               parameter_json(&text, parameters->value[i], parameters->source[i]));
     }
+    cJSON_AddItemToObject(object, "sensors_allowed", allowed_json(parameters));
     for (size_t s = 0; s < parameters->num_sensors; s++) {
         const struct sensor_parameters *sensor = &parameters->sensors[s];
 

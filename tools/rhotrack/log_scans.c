@@ -93,6 +93,7 @@ static void start(struct log_scans *scans)
 
     wait_long(&parameters, scans->is_held);
     parameters_to_feed(&parameters, scans->feed);
+    scans->feed->config.is_record = 1;
     scans->order = (struct feed_order){0};
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
@@ -197,12 +198,14 @@ static void say_counters(const char *path, const struct rho_feed_counters *count
     } lines[] = {
         {counters->messages_bad, "bad messages"},
         {counters->messages_wrong_type, "messages of another type or version"},
-        {counters->messages_flooded, "messages beyond flood_per_s"},
+        {counters->messages_flooded, "messages beyond flood_per_s or stranger_plots_per_s"},
+        {counters->messages_not_allowed, "messages of sensors that are not in sensors_allowed"},
         {counters->scans_bad, "scans with bad numbers"},
         {counters->clock_jumps, "scans with bad times"},
         {losses->out_of_order, "scans out of order"},
         {losses->dropped, "scans late, dropped"},
         {counters->scans_duplicate, "scans or parts double"},
+        {counters->scans_other, "double with other contents (two senders of one number)"},
         {losses->lost, "scans lost"},
         {counters->scans_incomplete, "scans incomplete"},
         {counters->sensor_restarts, "restarts of sensors"},

@@ -496,6 +496,18 @@ unsigned node_core_sensors(const struct node_core *core,
     return count;
 }
 
+bool node_core_has_twin(const struct node_core *core, int16_t sensor_id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_feed_source *source = &core->feed.sources[i];
+
+        if (source->is_used && source->sensor_id == sensor_id && source->has_twin) {
+            return true;
+        }
+    }
+    return false;
+}
+
 int node_core_follow_scans(const struct node_core *core)
 {
     return (int)core->feed.config.follow_scans;

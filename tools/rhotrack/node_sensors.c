@@ -88,13 +88,21 @@ void node_sensors_watch(struct node_sensors *sensors, const struct node_core *co
     const unsigned count = node_sensors_spoken_of(core, now);
 
     for (unsigned i = 0; i < count; i++) {
+        const bool has_twin = node_core_has_twin(core, now[i].sensor_id);
+
         if (to) {
             struct node_sensor before = find(sensors, &now[i]);
 
             say_changes(&before, &now[i], to);
+            if (has_twin && !before.has_twin) {
+                fprintf(to,
+                        "rhotrack: sensor %d: a scan came twice with different contents: two "
+                        "senders use this number\n",
+                        now[i].sensor_id);
+            }
         }
         next.of[next.count++] = (struct node_sensor){now[i].sensor_id, now[i].kind,
-                                                     now[i].is_doubted, now[i].is_silent};
+                                                     now[i].is_doubted, now[i].is_silent, has_twin};
     }
     *sensors = next;
 }

@@ -14,7 +14,7 @@
 struct node_sensor {
     int16_t sensor_id;
     int8_t kind; /* of sensor_t */
-    bool is_doubted, is_silent;
+    bool is_doubted, is_silent, has_twin;
 };
 
 /* The sensors as they were last; all zero at the start. */

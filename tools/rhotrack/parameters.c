@@ -116,7 +116,9 @@ const char *parameters_source_name(enum parameter_source source)
 
 static const char *text_name(size_t index)
 {
-    return index < NUM_PARAMETERS ? texts[index].name : NULL;
+    return index < NUM_PARAMETERS    ? texts[index].name
+           : index == NUM_PARAMETERS ? "sensors_allowed"
+                                     : NULL;
 }
 
 static const char *sensor_text_name(size_t index)
@@ -305,6 +307,9 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
     double number;
     int id;
 
+    if (!strcmp(key, "sensors_allowed")) {
+        return parameters_allow(parameters, value, source, reason);
+    }
     if (!strncmp(key, prefix, sizeof prefix - 1)) {
         return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);
     }

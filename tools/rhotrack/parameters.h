@@ -80,6 +80,8 @@
       "messages: scans in a row that must agree on new numbers or times")                          \
     X(FLOOD_PER_S, "flood_per_s", "1/s", 10000, 1, 1e6, 1, 1,                                      \
       "messages: of one sensor that are looked at")                                                \
+    X(STRANGER_PLOTS_PER_S, "stranger_plots_per_s", "1/s", 256, 1, 1e6, 1, 1,                      \
+      "messages: plots of all newcomers that are not named here")                                  \
     X(FOLLOW_QUIET_S, "follow_quiet_s", "s", 2, 0.1, 3600, 0, 1,                                   \
       "track --follow: the last scan is complete when the file has not grown for so long")         \
     X(ASTERIX_SCANS, "asterix_scans", "-", 0, 0, 1, 1, 1,                                          \
@@ -213,6 +215,9 @@ struct parameters {
     enum parameter_source source[NUM_VALUES];
     size_t num_sensors;
     struct sensor_parameters sensors[RHO_MAX_SENSORS];
+    uint16_t num_allowed; /* 0: all sensors may send messages */
+    int16_t allowed[RHO_MAX_SENSORS];
+    enum parameter_source allowed_source;
 };
 
 void parameters_default(struct parameters *parameters);
@@ -272,6 +277,10 @@ void parameters_set_gate(struct parameters *parameters, const char *gate);
 #define PARAMETER_REASON_BYTES 256
 bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
                        enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
+
+/* sensors_allowed: numbers of sensors, with blanks or commas between them; empty: all. */
+bool parameters_allow(struct parameters *parameters, const char *value,
+                      enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
 
 /* What the table says of a parameter, for the command `config`. */
 struct parameter_text {

@@ -49,6 +49,22 @@ static void print_sensor_keys(FILE *out)
     }
 }
 
+static void print_allowed(const struct parameters *parameters, FILE *out)
+{
+    const struct parameter_text text = {.name = "sensors_allowed",
+                                        .unit = "-",
+                                        .choices = "numbers of sensors",
+                                        .text = "messages: of these sensors alone; unset: of all"};
+    char list[8 * RHO_MAX_SENSORS] = "-";
+    size_t length = 0;
+
+    for (size_t i = 0; i < parameters->num_allowed; i++) {
+        length += (size_t)snprintf(list + length, sizeof list - length, "%s%d", i ? " " : "",
+                                   parameters->allowed[i]);
+    }
+    print_row(out, &text, list, parameters->allowed_source);
+}
+
 void parameters_print(const struct parameters *parameters, FILE *out)
 {
     fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", "name", "unit", "default", "range",
@@ -62,6 +78,7 @@ void parameters_print(const struct parameters *parameters, FILE *out)
         }
         print_row(out, &text, value, parameters->source[i]);
     }
+    print_allowed(parameters, out);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         print_sensor(out, &parameters->sensors[i]);
     }
