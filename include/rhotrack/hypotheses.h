@@ -77,9 +77,12 @@ struct rho_hypotheses {
     uint16_t spare[RHO_MAX_HYPOTHESES];
     struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK]; /* of a scan: the best first */
     struct rho_imm scratch;
-    /* gates of the slot that is looked at, for plots of this isotropic noise; none where gate_variance_m2 is 0 */
-    struct rho_imm_gate gates[RHO_HYPOTHESES_OF_TRACK];
-    float gate_variance_m2;
+    /* of the slot that is looked at: for plots of this isotropic noise; or for those with range rates */
+    union {
+        struct rho_imm_gate gates[RHO_HYPOTHESES_OF_TRACK];
+        struct rho_imm_rates rates[RHO_HYPOTHESES_OF_TRACK];
+    } opened;
+    float gate_variance_m2; /* 0: rates */
     uint16_t gate_slot;
     uint8_t gate_has_z, gate_is_usable;
     struct rho_hypothesis nodes[RHO_MAX_HYPOTHESES];

@@ -51,20 +51,21 @@ static int move_state(int n, float *x, const float *spread, float innovation, fl
     return 1;
 }
 
-/* p -= spread spread^T / S. A variance that is not coupled to what was measured needs no allowance. */
+/* p -= spread spread^T / S. What is not coupled to what was measured stays as it is: an axis without heights, say. */
 static void lower(int n, float *p, const float *spread, float inverse)
 {
     int i, j;
 
-    for (i = 0; i < n; ++i) {
+    for (i = 0; i < n; p += ++i) {
         const float gain = spread[i] * inverse;
-        const float taken = gain * spread[i];
 
+        if (!(gain * spread[i] > 0.0f)) {
+            continue;
+        }
         for (j = 0; j < i; ++j) {
             p[j] -= gain * spread[j];
         }
-        p[i] = taken > 0.0f ? p[i] * ROUNDING_ALLOWANCE - taken : p[i];
-        p += i + 1;
+        p[i] = p[i] * ROUNDING_ALLOWANCE - gain * spread[i];
     }
 }
 
@@ -109,25 +110,26 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
     return RHO_OK;
 }
 
-/* spread := p row; returns row . p row. Rows of p beyond the first num begin with what the row meets. */
+/* spread := p row; returns row . p row. Each element of p is met once: rows of it, and what they add to the elements before. */
 static float project(int n, const float *p, int num, const float *row, float *spread)
 {
-    const float *at = p;
     float variance = 0.0f;
     int i, j;
 
-    for (i = 0; i < n; ++i) {
-        float sum = 0.0f;
+    for (i = 0; i < n; p += ++i) {
+        const int own = i < num ? i : num;
+        float sum = i < num ? p[i] * row[i] : 0.0f;
 
-        for (j = 0; j < num && j <= i; ++j) {
-            sum += at[j] * row[j];
+        for (j = 0; j < own; ++j) {
+            sum += p[j] * row[j];
         }
-        for (; j < num; ++j) {
-            sum += p[RHO_AT(j, i)] * row[j];
+        for (j = 0; j < own && i < num; ++j) {
+            spread[j] += p[j] * row[i];
         }
         spread[i] = sum;
-        variance += i < num ? sum * row[i] : 0.0f;
-        at += i + 1;
+    }
+    for (i = 0; i < num; ++i) {
+        variance += spread[i] * row[i];
     }
     return variance;
 }

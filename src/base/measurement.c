@@ -445,18 +445,28 @@ int rho_measurement_bearing(const float state[6], float x_m, float y_m, float be
     return 1;
 }
 
+/* How a whole circle is mostly said. */
+static int is_all_round(float from_rad, float to_rad)
+{
+    return from_rad >= to_rad && from_rad <= to_rad;
+}
+
 int rho_measurement_looks_at(const struct rho_sensor *sensor, float sector_from_rad,
                              float sector_to_rad, float x_m, float y_m)
 {
     float dx_m = x_m - (sensor ? sensor->x_m : 0.0f);
     float dy_m = y_m - (sensor ? sensor->y_m : 0.0f);
     float range2_m2 = dx_m * dx_m + dy_m * dy_m;
-    float azimuth_rad = rho_atan2(dy_m, dx_m);
-    if (!rho_angle_in_sector(azimuth_rad, sector_from_rad, sector_to_rad)) {
+    if (sensor && !(range2_m2 >= sensor->range_min_m * sensor->range_min_m &&
+                    range2_m2 <= sensor->range_max_m * sensor->range_max_m)) {
         return 0;
     }
-    return !sensor ||
-           (range2_m2 >= sensor->range_min_m * sensor->range_min_m &&
-            range2_m2 <= sensor->range_max_m * sensor->range_max_m &&
+    if (is_all_round(sector_from_rad, sector_to_rad) &&
+        (!sensor || is_all_round(sensor->sector_from_rad, sensor->sector_to_rad))) {
+        return range2_m2 <= FLT_MAX; /* most radars: wherever it is, the arctangent is not needed */
+    }
+    float azimuth_rad = rho_atan2(dy_m, dx_m);
+    return rho_angle_in_sector(azimuth_rad, sector_from_rad, sector_to_rad) &&
+           (!sensor ||
             rho_angle_in_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad));
 }

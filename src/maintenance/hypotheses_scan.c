@@ -45,6 +45,20 @@ static inline float note_candidate(struct rho_hypothesis *at, float gain_nat, fl
     return at->weight_nat + gain_nat;
 }
 
+/* The range rates that the slot's hypotheses expect, kept while plots come. */
+static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct rho_sensor *sensor)
+{
+    if (pool->gate_slot == slot && !(pool->gate_variance_m2 > 0.0f)) {
+        return;
+    }
+    pool->gate_variance_m2 = 0.0f;
+    pool->gate_slot = slot;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        rho_imm_open_rates(&pool->opened.rates[i], &pool->nodes[pool->node_of[slot][i]].imm,
+                           sensor);
+    }
+}
+
 /* One by one, at the plot's own time. Returns what the best hypothesis with the plot is worth; -FLT_MAX: none. */
 static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct rho_imm_plot *seen,
                         int64_t time_us, int16_t row, float log_pd,
@@ -55,7 +69,12 @@ static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
-        if (imm && rho_imm_weigh(imm, seen, &match)) {
+        if (imm == &at->imm && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+            open_rates(pool, slot, seen->sensor);
+        }
+        if (imm && (imm == &at->imm
+                        ? rho_imm_weigh_with(imm, &pool->opened.rates[i], seen, &match)
+                        : rho_imm_weigh(imm, seen, &match))) {
             const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
             const float worth = note_candidate(at, gain, match.probability, row);
             best = worth > best ? worth : best;
@@ -75,7 +94,7 @@ static void open_gates(struct rho_hypotheses *pool, uint16_t slot, float varianc
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         pool->gate_is_usable = pool->gate_is_usable && at->time_us == time_us &&
-                               rho_imm_open_gate(&pool->gates[i], &at->imm, variance_m2, has_z);
+                               rho_imm_open_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
     }
 }
 
@@ -128,7 +147,7 @@ static float weigh_in_gates(struct rho_hypotheses *pool, uint16_t slot, const fl
     const uint16_t *nodes = pool->node_of[slot];
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        const struct rho_imm_gate *gate = &pool->gates[i];
+        const struct rho_imm_gate *gate = &pool->opened.gates[i];
         best = weigh_in_gate(&pool->nodes[nodes[i]], gate, place_m, row,
                              gate->num_axes > 2 ? high : level, best);
     }

@@ -2,6 +2,7 @@
 /*
  * imm_match: how well both models predicted a plot.
  */
+#include <float.h>
 #include <string.h>
 
 #include "imm_axes.h"
@@ -17,6 +18,8 @@
 /* What one model says of a plot. Both models' positions and velocities have the same places. */
 struct view {
     const float *state, *covariance;
+    const float *projected; /* of the range rate that it expects */
+    float expected_mps, rate_variance;
     float distance2;
     float
         root; /* of the inverse determinant of the innovation's covariance: what the density is in proportion to */
@@ -150,42 +153,46 @@ static void add_velocity(const struct view *view, const struct rho_imm_plot *see
     out->num = 2 * num_axes;
 }
 
-/* A range rate touches all states: its row times the covariance, and that times the row. */
-static int add_range_rate(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
-                          int has_velocity, struct innovation *out)
+static float rate_noise(const struct rho_imm_plot *seen)
 {
-    const struct rho_plot *plot = seen->plot;
-    struct rho_kalman at;
-    struct rho_kalman_row rate;
-    float projected[RHO_KALMAN_STATES], *row = &out->s[RHO_TRIANGLE(out->num)];
-    take_leading(&at, view->state, view->covariance);
-    if (!rho_kalman_see_range_rate(&at, seen->sensor, plot->range_rate_mps,
-                                   plot->sigma_range_rate_mps * plot->sigma_range_rate_mps,
-                                   &rate)) {
-        return 0;
-    }
-    float variance = rho_linalg_project6(at.covariance, rate.row, projected);
-    memcpy(row, projected, (size_t)num_axes * sizeof *row);
-    if (has_velocity) {
-        memcpy(row + num_axes, projected + NUM_AXES, (size_t)num_axes * sizeof *row);
-    }
-    row[out->num] = variance + rate.variance;
-    out->d[out->num++] = rate.innovation;
-    return 1;
+    return seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps;
 }
 
-/* A model that is in the sensor's own place has no range rate, and says nothing. */
+static float rate_off(const struct view *view, const struct rho_imm_plot *seen)
+{
+    return rho_measurement_range_rate_error_mps(seen->sensor, seen->plot->range_rate_mps,
+                                                view->expected_mps);
+}
+
+/* After places and velocities. */
+static void add_range_rate(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
+                           struct innovation *out)
+{
+    float *row = &out->s[RHO_TRIANGLE(out->num)];
+    memcpy(row, view->projected, (size_t)num_axes * sizeof *row);
+    memcpy(row + num_axes, view->projected + NUM_AXES, (size_t)num_axes * sizeof *row);
+    row[out->num] = view->rate_variance + rate_noise(seen);
+    out->d[out->num++] = rate_off(view, seen);
+}
+
+/* A model that is in the sensor's own place expects no range rate, and says nothing. */
+static int expects_rate(const struct view *view)
+{
+    return view->rate_variance >= 0.0f;
+}
+
+/* Velocities too: of any number of dimensions. */
 static void view_all(struct view *view, const struct rho_imm_plot *seen,
                      const struct rho_imm_match *match)
 {
     struct innovation innovation;
     float log_det = 0.0f;
     add_position(view, seen, match->num_axes, &innovation);
-    if (match->has_velocity) {
-        add_velocity(view, seen, match->num_axes, &innovation);
+    add_velocity(view, seen, match->num_axes, &innovation);
+    view->counts = !match->has_range_rate || expects_rate(view);
+    if (match->has_range_rate && view->counts) {
+        add_range_rate(view, seen, match->num_axes, &innovation);
     }
-    view->counts = !match->has_range_rate ||
-                   add_range_rate(view, seen, match->num_axes, match->has_velocity, &innovation);
 #if RHO_AMBIGUOUS_RANGE_RATES
     /* which range rate is meant may be unclear: then any is as likely, with the density 1 / span */
     int is_unclear = match->has_range_rate && view->counts &&
@@ -203,28 +210,69 @@ static void view_all(struct view *view, const struct rho_imm_plot *seen,
 #endif
 }
 
-/* Places alone: S = L D L^T by hand. */
-static inline void view_coupled_places(struct view *view, const struct rho_imm_plot *seen,
-                                       int has_z)
+/* A range rate after the places: what these say of it, by their L and D. */
+static void view_rate(struct view *view, const struct rho_imm_plot *seen, float expected_off,
+                      float explained)
 {
-    const float *p = view->covariance, *r = seen->covariance;
+    const float variance = view->rate_variance + rate_noise(seen) - explained;
+    float off = rate_off(view, seen);
+#if RHO_AMBIGUOUS_RANGE_RATES
+    if (rho_measurement_has_span(seen->sensor)) {
+        /* which range rate is meant may be unclear: then any is as likely, with the density 1 / span */
+        if (!rho_measurement_is_range_rate_clear(seen->sensor, variance)) {
+            view->counts = view->counts && variance > 0.0f;
+            view->root *= ROOT_TWO_PI / seen->sensor->range_rate_span_mps;
+            return;
+        }
+        off = expected_off +
+              rho_measurement_range_rate_error_mps(seen->sensor, off, expected_off);
+    }
+#endif
+    off -= expected_off;
+    view->distance2 += off * off / variance;
+    view->counts = view->counts && view->distance2 <= COUNTS_MAX && variance > 0.0f;
+    view->root *= rho_inverse_sqrt(variance);
+}
+
+/* Places, and a range rate: S = L D L^T by hand. */
+static inline void view_coupled_places(struct view *view, const struct rho_imm_plot *seen,
+                                       int has_z, int has_rate)
+{
+    const float *p = view->covariance, *r = seen->covariance, *rate = view->projected;
     const float s00 = p[0] + r[0], s10 = p[1] + r[1], l10 = s10 / s00;
     const float s11 = p[2] + r[2] - l10 * s10;
     const float d0 = seen->position.place_m[0] - view->state[0];
     const float d1 = seen->position.place_m[1] - view->state[1] - l10 * d0;
+    const float to0 = d0 / s00, to1 = d1 / s11;
     float det = s00 * s11, least = s00 < s11 ? s00 : s11;
-    view->distance2 = d0 * d0 / s00 + d1 * d1 / s11;
+    float rate2 = 0.0f, s22 = 1.0f, to2 = 0.0f, l20 = 0.0f, l21 = 0.0f;
+    view->distance2 = d0 * to0 + d1 * to1;
     if (has_z) {
-        const float s20 = p[3] + r[3], l20 = s20 / s00;
-        const float c21 = p[4] + r[4] - l20 * s10, l21 = c21 / s11;
-        const float s22 = p[5] + r[5] - l20 * s20 - l21 * c21;
+        const float s20 = p[3] + r[3];
+        l20 = s20 / s00;
+        const float c21 = p[4] + r[4] - l20 * s10;
+        l21 = c21 / s11;
+        s22 = p[5] + r[5] - l20 * s20 - l21 * c21;
         const float d2 = seen->position.place_m[2] - view->state[2] - l20 * d0 - l21 * d1;
-        view->distance2 += d2 * d2 / s22;
+        to2 = d2 / s22;
+        view->distance2 += d2 * to2;
         det *= s22;
         least = s22 < least ? s22 : least;
     }
     view->counts = view->distance2 <= COUNTS_MAX && least > 0.0f;
+    if (has_rate) {
+        view->counts = view->counts && expects_rate(view);
+    }
+    if (!view->counts) {
+        return;
+    }
     view->root = rho_inverse_sqrt(det);
+    if (has_rate) {
+        const float rate0 = rate[0], rate1 = rate[1] - l10 * rate0;
+        rate2 = has_z ? rate[2] - l20 * rate0 - l21 * rate1 : 0.0f;
+        view_rate(view, seen, rate0 * to0 + rate1 * to1 + rate2 * to2,
+                  rate0 * rate0 / s00 + rate1 * rate1 / s11 + rate2 * rate2 / s22);
+    }
 }
 
 /* ---- both models ------------------------------------------------------------------------------ */
@@ -279,10 +327,10 @@ static inline void look(struct view *view, const struct rho_imm *imm,
                         const struct rho_imm_plot *seen, const struct rho_imm_match *match)
 {
     const int is_coupled = imm->is_coupled || !seen->position.is_isotropic;
-    if (match->has_range_rate || (is_coupled && match->has_velocity)) {
+    if (match->has_velocity && (is_coupled || match->has_range_rate)) {
         view_all(view, seen, match);
-    } else if (is_coupled) {
-        view_coupled_places(view, seen, match->num_axes > 2);
+    } else if (is_coupled || match->has_range_rate) {
+        view_coupled_places(view, seen, match->num_axes > 2, match->has_range_rate);
     } else if (match->has_velocity) {
         view_places_and_velocities(view, seen, match->num_axes);
     } else {
@@ -312,17 +360,54 @@ static int weigh_models(const struct view views[2], float probability, int num_d
     return is_likelihood(match->log_likelihood);
 }
 
+static void open_rate(struct rho_imm_rates *rates, int model, const struct rho_kalman *at,
+                      const struct rho_sensor *sensor)
+{
+    struct rho_kalman_row rate;
+    rates->variance[model] = -1.0f;
+    if (rho_kalman_see_range_rate(at, sensor, 0.0f, FLT_MIN, &rate)) {
+        rates->expected_mps[model] = -rate.innovation;
+        rates->variance[model] =
+            rate.variance + rho_linalg_project6(at->covariance, rate.row, rates->projected[model]);
+    }
+}
+
+void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
+                        const struct rho_sensor *sensor)
+{
+    struct rho_kalman at;
+    take_leading(&at, imm->state, imm->covariance);
+    open_rate(rates, 0, &imm->steady, sensor);
+    open_rate(rates, 1, &at, sensor);
+}
+
 int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
                   struct rho_imm_match *match)
 {
-    struct view views[2] = {{imm->steady.state, imm->steady.covariance, 0.0f, 0.0f, 0},
-                            {imm->state, imm->covariance, 0.0f, 0.0f, 0}};
+    struct rho_imm_rates rates;
+    if (seen->measures & RHO_MEASURES_RANGE_RATE) {
+        rho_imm_open_rates(&rates, imm, seen->sensor);
+    }
+    return rho_imm_weigh_with(imm, &rates, seen, match);
+}
+
+int rho_imm_weigh_with(const struct rho_imm *imm, const struct rho_imm_rates *rates,
+                       const struct rho_imm_plot *seen, struct rho_imm_match *match)
+{
+    struct view views[2] = {
+        {.state = imm->steady.state, .covariance = imm->steady.covariance},
+        {.state = imm->state, .covariance = imm->covariance}};
     match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;
     const int num_dimensions =
         (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate;
     for (int i = 0; i < 2; i++) {
+        if (match->has_range_rate) {
+            views[i].projected = rates->projected[i];
+            views[i].expected_mps = rates->expected_mps[i];
+            views[i].rate_variance = rates->variance[i];
+        }
         look(&views[i], imm, seen, match);
     }
     return weigh_models(views, imm->probability, num_dimensions, match);

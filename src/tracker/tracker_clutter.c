@@ -155,8 +155,8 @@ static void look_for(struct step *step, unsigned place)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     struct rho_echo *echo = &map->echoes[place];
-    const struct echo_view view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
-    const float chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen);
+    struct echo_view view = {0.0f, 0.0f, 0.0f};
+    float chance = -1.0f; /* with the view, once there is a plot: most echoes have none near */
     const float sigma_m = step->sigma_max_m;
     const float half_m =
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
@@ -169,6 +169,10 @@ static void look_for(struct step *step, unsigned place)
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
             step->report->fates[i] != RHO_FATE_HELD) {
             continue;
+        }
+        if (chance < 0.0f) {
+            view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
+            chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen);
         }
         const float density = chance * density_at(step, echo, &view, plot);
         map->denser[i] += density;

@@ -9,14 +9,16 @@
  *
  *      e = h ln(1 / 0.3) - m ln((1 - 0.3 p) / (1 - p))
  *
- * with p what grown tracks are seen. Three hits are 3.6. Where D tracks died young and G grew up, of the last half an hour, a
- * track is believed from
+ * with p what grown tracks are seen. Three hits are 3.6. Where D tracks died young and G grew up, of the last half an hour, or
+ * are about to (e is 7.2), a track is believed from
  *
- *      e = 3.6 + ln(20 (D - W - sqrt(D) / 2) / (G + 2))
+ *      e = 3.6 + ln(10 (D - W - sqrt(D) / 2) / (G + 2))
  *
- * on, or from 16 hits on: one in twenty of those that are believed will be none (Wald). W of them are those that false_tracks_per_hour
- * allows for, and half a standard deviation may have been chance; where no more tracks die young, nothing is asked. Until then a track is tentative, as one in doubt is. A track has died young whose score
- * was one that confirms, and that misses have ended before 16 hits with e below 0.
+ * on, or from 16 hits on: one in ten of those that are believed will be none (Wald). W of them are those that
+ * false_tracks_per_hour allows for, and half a standard deviation may have been chance; where no more tracks die young, nothing
+ * is asked. Until then a track is tentative, as one in doubt is. A track has died young whose score was one that confirms, and
+ * that misses have ended before 16 hits with e below 0. So have targets that came and left soon: asking for one in twenty, all
+ * targets are found later where aircraft come and go.
  */
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
@@ -29,8 +31,10 @@
 #define HIT_NAT 1.2039728f /* ln(1 / SELDOM) */
 #define START_NAT (3.0f * HIT_NAT)
 
+#define GROWING_NAT (2.0f * START_NAT)
+
 /* Of so many tracks that are believed one may be of no target. */
-#define ODDS 20.0f
+#define ODDS 10.0f
 #define GROWN_PRIOR 2.0f
 
 /* So many standard deviations of the count of deaths may be chance. */
@@ -62,6 +66,17 @@ static float miss_nat(const struct rho_tracker *tracker)
     return rho_log(((1.0f - SELDOM) * hits + misses) / misses);
 }
 
+/* Tracks that are all but grown: by what they were seen so far they are targets'. */
+static float growing(const struct step *step)
+{
+    float count = 0.0f;
+    for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
+        const struct rho_track *track = &step->tracker->tracks[i];
+        count += track->hits < GROWN_HITS && evidence(step, track) >= GROWING_NAT ? 1.0f : 0.0f;
+    }
+    return count;
+}
+
 void rho_tracker_weigh_youth(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -81,8 +96,8 @@ void rho_tracker_weigh_youth(struct step *step)
     const float wanted = tracker->wanted_per_hour * sensors * (MEMORY_S / 3600.0f);
     const float more_than_chance =
         tracker->died_young - wanted - CHANCE_SIGMAS * rho_sqrt(tracker->died_young);
-    const float odds = ODDS * more_than_chance / (tracker->grown + GROWN_PRIOR);
     step->miss_nat = miss_nat(tracker);
+    const float odds = ODDS * more_than_chance / (tracker->grown + growing(step) + GROWN_PRIOR);
     /* where the threshold is set by hand, nobody has said how many are wanted */
     step->asked_nat =
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
