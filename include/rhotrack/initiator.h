@@ -47,6 +47,9 @@ struct rho_initiator_config {
     /* acceleration, constant within a scan interval, that gates and scores allow for in places; 0: none. Range rates are
      * gated and scored as if there were none */
     float process_noise_mps2;
+    /* units of work that one search may do, 0 or 1000 .. 1e8; 0: no limit, for who has time. A unit is a plot compared, 20 to 90
+     * instructions; a look-up is 3, a kernel 2, a fit 400 */
+    uint32_t work_max;
     int area_is_fixed;      /* area below is meant; else the extent of the plots seen lately */
     struct rho_extent area; /* that clutter and births are spread over */
 };
@@ -68,7 +71,23 @@ struct rho_initiator_work {
     uint32_t seeds; /* kernels tried */
     struct rho_window_work window;
     uint32_t fits;               /* least-squares fits */
-    uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES */
+    uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES, or beyond work_max */
+    uint32_t others;             /* units of work counted nowhere else */
+};
+
+/* Where a search begins among the newest plots: classes of how many plots lie near, then by place. */
+struct rho_initiator_turn {
+    uint16_t cost_class, plot;
+};
+
+#define RHO_INITIATOR_CLASSES 16u
+
+/* What the limit on work did. All saturate; never cleared but by rho_initiator_init. */
+struct rho_initiator_budget {
+    uint32_t work, work_worst; /* units of the last search, of the worst one */
+    uint32_t partial_steps;    /* searches that left something out */
+    uint32_t plots_not_tried;  /* newest plots whose kernels were not all tried */
+    struct rho_initiator_turn turn; /* where the next search begins */
 };
 
 /*
@@ -122,6 +141,8 @@ struct rho_initiator {
 #if RHO_MAX_CLUTTER_CELLS > 0
     struct rho_clutter_memory memory;
 #endif
+    struct rho_initiator_budget budget;
+    uint8_t cost_class[RHO_MAX_PLOTS]; /* scratch of the search */
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
     struct rho_window window;
 };

@@ -40,6 +40,9 @@ void chain_open_passive(struct chain *chain, const struct parameters *parameters
 /* A sensor's initiator, which is the chain's from then on. */
 struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id);
 
+/* What all initiators did: work of the newest scan's, the worst of any, and sums. */
+struct rho_initiator_budget chain_budget(const struct chain *chain);
+
 /* One step; the report is the chain's. */
 void chain_step(struct chain *chain, const struct rho_scan *scan);
 void chain_step_frame(struct chain *chain, const struct rho_frame *frame);
