@@ -22,7 +22,7 @@ static int vote(struct search *search, const struct span *span, unsigned m, stru
     query->y_m = kernel->from->y_m + al * kernel->dy_m;
     query->variance_m2 =
         (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 + voter->process_m2;
-    query->reach_m = voter->reach_m;
+    query->reach_m = kernel->reach_share * voter->reach_m;
     return rho_window_nearest(rho_window_scan_at(&search->initiator->window, m), query,
                               &search->initiator->work.window);
 }
@@ -148,12 +148,15 @@ static int is_near_first(const struct search *search, const struct span *span,
     unsigned m = span->b - first->gap;
     const struct rho_window_plot *plot =
         &rho_window_scan_at(&search->initiator->window, m)->plots[first->index];
+    const struct voter *voter = &span->voters[first->gap - 1u];
     float after_s = search->time_s[m] - search->time_s[span->a];
     float al = (after_s + plot->offset_s - kernel->from->offset_s) / kernel->duration_s;
     float x_m = kernel->from->x_m + al * kernel->dx_m - plot->x_m;
     float y_m = kernel->from->y_m + al * kernel->dy_m - plot->y_m;
-    float reach_m = ROUNDING * span->voters[first->gap - 1u].reach_m + ending->rounding_m;
-    return x_m * x_m + y_m * y_m <= reach_m * reach_m;
+    float reach_m = ROUNDING * ending->reach_share * voter->reach_m + ending->rounding_m;
+    float along_m = x_m * ending->along_x + y_m * ending->along_y;
+    float along_max_m = ROUNDING * ending->along_share * voter->reach_m + ending->rounding_m;
+    return x_m * x_m + y_m * y_m <= reach_m * reach_m && along_m * along_m <= along_max_m * along_max_m;
 }
 
 void rho_initiator_try_pair(struct search *search, const struct span *span,
@@ -166,9 +169,11 @@ void rho_initiator_try_pair(struct search *search, const struct span *span,
     kernel.dx_m = to->x_m - from->x_m;
     kernel.dy_m = to->y_m - from->y_m;
     kernel.duration_s = span->gap_s + to->offset_s - from->offset_s;
+    kernel.reach_share = ending->reach_share;
     kernel.noise_b = ending->noise;
     if ((span->scan_a->marks[i] & search->skip_flags) || !is_pair(search, span, &kernel) ||
-        !is_near_first(search, span, ending, first, &kernel) || !complete(search, span, &kernel)) {
+        !is_near_first(search, span, ending, first, &kernel) || rho_initiator_is_spent(search) ||
+        !complete(search, span, &kernel)) {
         return;
     }
 #if RHO_AMBIGUOUS_RANGE_RATES

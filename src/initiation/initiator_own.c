@@ -90,7 +90,7 @@ int rho_initiator_own_vote(struct search *search, const struct span *span, unsig
     place->noise = (struct rho_window_noise){
         from * a->xx_m2 + to * b->xx_m2 + process_m2, from * a->xy_m2 + to * b->xy_m2,
         from * a->yy_m2 + to * b->yy_m2 + process_m2, from * a->zz_m2 + to * b->zz_m2 + process_m2};
-    place->reach_m = voter->reach_m;
+    place->reach_m = kernel->reach_share * voter->reach_m;
     return rho_window_nearest_to(rho_window_scan_at(&search->initiator->window, m), place,
                                  &search->initiator->work.window);
 }

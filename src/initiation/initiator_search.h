@@ -36,6 +36,8 @@ struct search {
     float interval_s;            /* usual time between scans */
     int has_more;                /* a scan has heights or range rates */
     float reach_chi2;            /* of the widest gate */
+    /* one radar's noise: no plot's is above both; of the scan whose plots have the least, the largest. 0: not known */
+    float sigma_near_m, sigma_per_m, sigma_least_m;
     int is_isotropic;            /* no scan has noise of two axes, heights or range rates */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
@@ -162,7 +164,10 @@ struct span {
 /* The last plot of kernels. */
 struct ending {
     const struct rho_window_plot *plot;
-    float rounding_m; /* what float32 may take off a place that a target has come from */
+    /* of the widest gates: what the noise of plots a target's way from there allows, and what of it along its line of sight */
+    float reach_share, along_share;
+    float along_x, along_y; /* that line, or 0, 0 */
+    float rounding_m;  /* what float32 may take off a place that a target has come from */
     struct rho_window_noise noise; /* not isotropic: its covariance */
 };
 
@@ -176,6 +181,7 @@ struct kernel {
     const struct rho_window_plot *from, *to;
     float dx_m, dy_m;
     float duration_s;
+    float reach_share;
     float from_m2, to_m2;                     /* isotropic: the ends' variances */
     struct rho_window_query query;            /* and what is asked of every scan alike */
     struct rho_window_noise noise_a, noise_b; /* else: their covariances */
@@ -203,6 +209,10 @@ int rho_initiator_own_end(const struct span *span, const struct kernel *kernel);
 
 /* initiator.c: every field within its range */
 int rho_initiator_is_usable(const struct rho_initiator_config *config);
+
+/* initiator_reach.c: what is known of noise, and what it is within far_m of an ending's plot */
+void rho_initiator_prepare_reach(struct search *search);
+void rho_initiator_find_reach(const struct search *search, float far_m, struct ending *ending);
 
 /* initiator_kernels.c: offers the kernel from plot i of the span's first scan where enough scans vote for it */
 void rho_initiator_try_pair(struct search *search, const struct span *span,

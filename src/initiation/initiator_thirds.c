@@ -10,6 +10,7 @@
 #define ROUNDING 1.001f
 
 /* What a kernel and a look-up cost in plots compared, for the choice between the two ways alone. */
+#define FIRST_PLOTS 0.5f
 #define KERNEL_PLOTS 3.0f
 #define LOOKUP_PLOTS 3.0f
 #define LOOKUPS_OF_PAIR 2.0f
@@ -140,7 +141,7 @@ static float run_m(const struct search *search, const struct ending *ending, uns
 
 static int try_pairs(struct search *search, const struct span *span, const struct ending *ending)
 {
-    static const struct first_vote any = {0, 0};
+    static const struct first_vote any = {.gap = 0};
     const struct rho_window_scan *scan = span->scan_a;
     struct box box =
         box_about(ending->plot, run_m(search, ending, span->b, span->a) + span->slack_m);
@@ -148,12 +149,12 @@ static int try_pairs(struct search *search, const struct span *span, const struc
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
+        rho_initiator_charge(search, end - start[bins.column_first]);
         for (unsigned i = start[bins.column_first]; i < end; i++) {
-            rho_initiator_charge(search, 1);
-            if (rho_initiator_is_spent(search)) {
-                return 0;
-            }
             rho_initiator_try_pair(search, span, ending, &any, i);
+        }
+        if (rho_initiator_is_spent(search)) {
+            return 0;
         }
     }
     return 1;
@@ -191,7 +192,8 @@ static int extrapolate(const struct search *search, const struct span *span,
     }
     float vx_mps = (to->x_m - third->x_m) / after_s, vy_mps = (to->y_m - third->y_m) / after_s;
     float reach_m =
-        (ROUNDING * span->voters[gap - 1u].reach_m + ending->rounding_m) * begin_s / after_s;
+        (ROUNDING * ending->reach_share * span->voters[gap - 1u].reach_m + ending->rounding_m) *
+        begin_s / after_s;
     box->x0_m = most(far.x0_m, to->x_m - most(vx_mps * begin_s, vx_mps * end_s) - reach_m);
     box->x1_m = least(far.x1_m, to->x_m - least(vx_mps * begin_s, vx_mps * end_s) + reach_m);
     box->y0_m = most(far.y0_m, to->y_m - most(vy_mps * begin_s, vy_mps * end_s) - reach_m);
@@ -213,16 +215,16 @@ static int try_first_vote(struct search *search, const struct span *span,
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
+        rho_initiator_charge(search, end - start[bins.column_first]);
         for (unsigned i = start[bins.column_first]; i < end; i++) {
-            rho_initiator_charge(search, 1);
-            if (rho_initiator_is_spent(search)) {
-                return 0;
-            }
             const struct rho_window_plot *plot = &scan->plots[i];
             if (plot->x_m >= box.x0_m && plot->x_m <= box.x1_m && plot->y_m >= box.y0_m &&
                 plot->y_m <= box.y1_m) {
                 rho_initiator_try_pair(search, span, ending, first, i);
             }
+        }
+        if (rho_initiator_is_spent(search)) {
+            return 0;
         }
     }
     return 1;
@@ -278,15 +280,16 @@ static int try_gap(struct search *search, const struct fan *fan, const struct en
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
+        rho_initiator_charge(search, end - start[bins.column_first]);
         for (unsigned k = start[bins.column_first]; k < end; k++) {
-            const struct first_vote first = {gap, k};
+            const struct first_vote first = {.gap = gap, .index = k};
             float dx_m = scan->plots[k].x_m - ending->plot->x_m;
             float dy_m = scan->plots[k].y_m - ending->plot->y_m;
-            rho_initiator_charge(search, 1);
-            if (dx_m * dx_m + dy_m * dy_m <= far_m * far_m &&
-                !(scan->marks[k] & search->skip_flags) &&
-                (rho_initiator_is_spent(search) ||
-                 !try_third(search, fan, ending, spans, &first))) {
+            if (dx_m * dx_m + dy_m * dy_m > far_m * far_m ||
+                (scan->marks[k] & search->skip_flags)) {
+                continue;
+            }
+            if (!try_third(search, fan, ending, spans, &first)) {
                 return 0;
             }
         }
@@ -310,16 +313,18 @@ static int is_by_votes(struct search *search, const struct span *span, const str
     }
     const struct rho_window_scan *before =
         rho_window_scan_at(&search->initiator->window, span->b - 1u);
-    float reach_m = span->voters[0].reach_m;
+    float reach_m = ending->reach_share * span->voters[0].reach_m;
     float ratio = span->gap_s / (search->time_s[span->b] - search->time_s[span->b - 1u]);
     struct box gate = box_about(ending->plot, reach_m), firsts;
     firsts = box_about(ending->plot, least(reach_m * ratio, run_m(search, ending, span->b, span->a)));
     float lookup = LOOKUP_PLOTS + (float)count_in(search, before, &gate);
-    float found = SHARE_IN_GATE * (float)count_in(search, span->scan_a, &firsts), by_votes = 0.0f;
+    float found = (float)count_in(search, span->scan_a, &firsts), by_votes = 0.0f;
+    float in_gate = SHARE_IN_GATE * ending->along_share / ending->reach_share;
     for (unsigned gap = 1; gap <= span->misses_max + 1u; gap++) {
         float kernel = KERNEL_PLOTS + (float)(gap + 1u) * lookup;
         by_votes += (float)(counts[gap] - counts[gap - 1u]) *
-                    (1.0f + LOOKUP_PLOTS + found * kernel / (float)(gap * gap));
+                    (1.0f + LOOKUP_PLOTS +
+                     found * (FIRST_PLOTS + in_gate * kernel) / (float)(gap * gap));
     }
     return by_votes < (float)pairs * (KERNEL_PLOTS + LOOKUPS_OF_PAIR * lookup);
 }
@@ -358,6 +363,7 @@ int rho_initiator_try_ending(struct search *search, const struct fan *fan, unsig
     if (!search->is_isotropic) {
         ending.noise = rho_window_noise(widest->scan_b, ending.plot);
     }
+    rho_initiator_find_reach(search, far_m + widest->slack_m + widest->voters[0].reach_m, &ending);
     count_before(search, fan, &ending, counts);
     for (unsigned n = 0; n < fan->num_spans; n++) {
         if (is_by_votes(search, &fan->spans[n], &ending, counts)) {
