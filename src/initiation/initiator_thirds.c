@@ -172,62 +172,65 @@ static float most(float a, float b)
     return a > b ? a : b;
 }
 
+/* A vote before the ending, and the target that both show. */
+struct third {
+    struct first_vote first;
+    float before_s; /* its time before the ending's; 0: plots of one instant */
+    float vx_mps, vy_mps;
+};
+
 /*
- * Where a target that a pair of plots shows, the ending and a vote before it, has been in scan a: the gate of the vote, seen
- * from there. All kernels that have both begin in the box. 0 where no target can.
+ * Where that target has been in scan a: the gate of the vote, seen from there. All kernels that have both begin in the box. 0
+ * where no target can.
  */
 static int extrapolate(const struct search *search, const struct span *span,
-                       const struct ending *ending, const struct rho_window_plot *third,
-                       unsigned gap, struct box *box)
+                       const struct ending *ending, const struct third *third, struct box *box)
 {
     const struct rho_window_plot *to = ending->plot;
     float begin_s = span->gap_s + to->offset_s - span->scan_a->offset_min_s;
     float end_s = span->gap_s + to->offset_s - span->scan_a->offset_max_s;
-    float after_s = search->time_s[span->b] - search->time_s[span->b - gap] + to->offset_s -
-                    third->offset_s;
-    struct box far = box_about(to, search->initiator->config.v_max_mps * begin_s + span->slack_m);
-    *box = far;
-    if (!(after_s > 0.0f)) {
-        return 1; /* plots of one instant */
+    float far_m = search->initiator->config.v_max_mps * begin_s + span->slack_m;
+    *box = box_about(to, far_m);
+    if (!(third->before_s > 0.0f)) {
+        return 1;
     }
-    float vx_mps = (to->x_m - third->x_m) / after_s, vy_mps = (to->y_m - third->y_m) / after_s;
-    float reach_m =
-        (ROUNDING * ending->reach_share * span->voters[gap - 1u].reach_m + ending->rounding_m) *
-        begin_s / after_s;
-    box->x0_m = most(far.x0_m, to->x_m - most(vx_mps * begin_s, vx_mps * end_s) - reach_m);
-    box->x1_m = least(far.x1_m, to->x_m - least(vx_mps * begin_s, vx_mps * end_s) + reach_m);
-    box->y0_m = most(far.y0_m, to->y_m - most(vy_mps * begin_s, vy_mps * end_s) - reach_m);
-    box->y1_m = least(far.y1_m, to->y_m - least(vy_mps * begin_s, vy_mps * end_s) + reach_m);
+    float reach_m = begin_s / third->before_s *
+                    (ROUNDING * ending->reach_share * span->voters[third->first.gap - 1u].reach_m +
+                     ending->rounding_m);
+    float x0_m = to->x_m - third->vx_mps * begin_s, x1_m = to->x_m - third->vx_mps * end_s;
+    float y0_m = to->y_m - third->vy_mps * begin_s, y1_m = to->y_m - third->vy_mps * end_s;
+    box->x0_m = most(box->x0_m, least(x0_m, x1_m) - reach_m);
+    box->x1_m = least(box->x1_m, most(x0_m, x1_m) + reach_m);
+    box->y0_m = most(box->y0_m, least(y0_m, y1_m) - reach_m);
+    box->y1_m = least(box->y1_m, most(y0_m, y1_m) + reach_m);
     return box->x0_m <= box->x1_m && box->y0_m <= box->y1_m;
 }
 
-static int try_first_vote(struct search *search, const struct span *span,
-                          const struct ending *ending, const struct first_vote *first)
+/* Kernels of the span that begin there. */
+static void try_begins(struct search *search, const struct span *span, const struct ending *ending,
+                       const struct third *third)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    const struct rho_window_plot *third =
-        &rho_window_scan_at(&search->initiator->window, span->b - first->gap)->plots[first->index];
     struct box box;
-    if (!extrapolate(search, span, ending, third, first->gap, &box)) {
-        return 1;
+    uint32_t passed = 0;
+    if (!extrapolate(search, span, ending, third, &box)) {
+        return;
     }
-    struct rho_window_bins bins = bins_under(search, scan, &box);
+    struct rho_window_bins bins =
+        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
-        unsigned end = start[bins.column_last + 1];
-        rho_initiator_charge(search, end - start[bins.column_first]);
-        for (unsigned i = start[bins.column_first]; i < end; i++) {
+        unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
+        passed += end - i + 1u;
+        for (; i < end; i++) {
             const struct rho_window_plot *plot = &scan->plots[i];
             if (plot->x_m >= box.x0_m && plot->x_m <= box.x1_m && plot->y_m >= box.y0_m &&
                 plot->y_m <= box.y1_m) {
-                rho_initiator_try_pair(search, span, ending, first, i);
+                rho_initiator_try_pair(search, span, ending, &third->first, i);
             }
         }
-        if (rho_initiator_is_spent(search)) {
-            return 0;
-        }
     }
-    return 1;
+    rho_initiator_charge(search, passed);
 }
 
 /* Spans of which a vote so many scans before the end may be the first; bit n of by_votes: those to look for. */
@@ -257,15 +260,24 @@ static float far_of_gap(const struct search *search, const struct fan *fan,
     return far_m + ending->rounding_m + ROUNDING * run_m(search, ending, b, b - gap);
 }
 
-static int try_third(struct search *search, const struct fan *fan, const struct ending *ending,
-                     unsigned spans, const struct first_vote *first)
+static void try_third(struct search *search, const struct fan *fan, const struct ending *ending,
+                      unsigned spans, unsigned gap, unsigned k)
 {
+    unsigned b = fan->spans[0].b;
+    const struct rho_window_plot *plot =
+        &rho_window_scan_at(&search->initiator->window, b - gap)->plots[k];
+    const struct rho_window_plot *to = ending->plot;
+    float before_s = search->time_s[b] - search->time_s[b - gap] + to->offset_s - plot->offset_s;
+    float per_s = before_s > 0.0f ? 1.0f / before_s : 0.0f;
+    const struct third third = {.first = {.gap = gap, .index = k},
+                                .before_s = before_s,
+                                .vx_mps = (to->x_m - plot->x_m) * per_s,
+                                .vy_mps = (to->y_m - plot->y_m) * per_s};
     for (unsigned n = 0; spans >> n; n++) {
-        if ((spans >> n & 1u) && !try_first_vote(search, &fan->spans[n], ending, first)) {
-            return 0;
+        if (spans >> n & 1u) {
+            try_begins(search, &fan->spans[n], ending, &third);
         }
     }
-    return 1;
 }
 
 /* Kernels of these spans whose first vote is so many scans before the end. */
@@ -282,14 +294,14 @@ static int try_gap(struct search *search, const struct fan *fan, const struct en
         unsigned end = start[bins.column_last + 1];
         rho_initiator_charge(search, end - start[bins.column_first]);
         for (unsigned k = start[bins.column_first]; k < end; k++) {
-            const struct first_vote first = {.gap = gap, .index = k};
             float dx_m = scan->plots[k].x_m - ending->plot->x_m;
             float dy_m = scan->plots[k].y_m - ending->plot->y_m;
             if (dx_m * dx_m + dy_m * dy_m > far_m * far_m ||
                 (scan->marks[k] & search->skip_flags)) {
                 continue;
             }
-            if (!try_third(search, fan, ending, spans, &first)) {
+            try_third(search, fan, ending, spans, gap, k);
+            if (rho_initiator_is_spent(search)) {
                 return 0;
             }
         }
