@@ -72,7 +72,6 @@ struct rho_initiator_work {
     struct rho_window_work window;
     uint32_t fits;               /* least-squares fits */
     uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES, or beyond work_max */
-    uint32_t others;             /* units of work counted nowhere else */
 };
 
 /* Where a search begins among the newest plots: classes of how many plots lie near, then by place. */
@@ -84,9 +83,9 @@ struct rho_initiator_turn {
 
 /* What the limit on work did. All saturate; never cleared but by rho_initiator_init. */
 struct rho_initiator_budget {
-    uint32_t work, work_worst; /* units of the last search, of the worst one */
-    uint32_t partial_steps;    /* searches that left something out */
-    uint32_t plots_not_tried;  /* newest plots whose kernels were not all tried */
+    uint32_t work, work_worst;      /* units of the last search, of the worst one */
+    uint32_t partial_steps;         /* searches that left something out */
+    uint32_t plots_not_tried;       /* newest plots whose kernels were not all tried */
     struct rho_initiator_turn turn; /* where the next search begins */
 };
 

@@ -45,8 +45,7 @@ int rho_initiator_is_usable(const struct rho_initiator_config *config)
             rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f)) &&
            rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
            rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f) &&
-           (config->work_max == 0 ||
-            (config->work_max >= 1000u && config->work_max <= WORK_MAX_UNITS));
+           config->work_max <= WORK_MAX_UNITS;
 }
 
 enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,

@@ -14,6 +14,7 @@
 
 /* Of the work for the newest plots, an even share of the rest is kept for each that waits: the other half is for who comes first. */
 #define KEPT_SHARE 2u
+#define FREE_PARTS 4u
 
 #define CLASSES RHO_INITIATOR_CLASSES
 
@@ -22,7 +23,7 @@
 uint32_t rho_initiator_spent(const struct search *search)
 {
     const struct rho_initiator_work *work = &search->initiator->work;
-    uint64_t units = (uint64_t)work->others + work->window.distances +
+    uint64_t units = (uint64_t)work->window.passed + work->window.distances +
                      (uint64_t)work->window.lookups * LOOKUP_UNITS +
                      (uint64_t)work->seeds * KERNEL_UNITS + (uint64_t)work->fits * FIT_UNITS;
     return units < UINT32_MAX ? (uint32_t)units : UINT32_MAX;
@@ -35,7 +36,8 @@ int rho_initiator_is_spent(const struct search *search)
 
 void rho_initiator_charge(struct search *search, uint32_t units)
 {
-    search->initiator->work.others = rho_count(search->initiator->work.others, units);
+    struct rho_window_work *work = &search->initiator->work.window;
+    work->passed = rho_count(work->passed, units);
 }
 
 /* ---- the newest plots ------------------------------------------------------------------------- */
@@ -83,7 +85,7 @@ static unsigned sort_endings(struct search *search, const struct fan *fan)
             class = class_of(rho_initiator_crowd(search, fan, j));
             count++;
         }
-        search->initiator->cost_class[j] = (uint8_t)class;
+        search->initiator->cost_class[j] = (uint8_t) class;
     }
     return count;
 }
@@ -105,19 +107,28 @@ static void try_plot(struct search *search, const struct fan *fan, unsigned j, s
     turn->tried++;
 }
 
-/* The plots of a class from `first` to before `end`. Each that waits behind is sure of its share. */
+/* Until where a plot may spend: what is kept for each that waits behind is not touched, and of the rest it takes a quarter. */
+static uint32_t limit_of(const struct search *search, const struct turn *turn, uint32_t end_units)
+{
+    uint32_t ceiling = end_units - turn->kept_units * turn->waiting;
+    uint32_t own = rho_count(rho_initiator_spent(search), turn->kept_units);
+    unsigned parts = turn->waiting + 1u < FREE_PARTS ? turn->waiting + 1u : FREE_PARTS;
+    return own < ceiling ? own + (ceiling - own) / parts : ceiling;
+}
+
+/* The plots of a class from `first` to before `end`. */
 static void try_class(struct search *search, const struct fan *fan, unsigned class, unsigned first,
                       unsigned end, struct turn *turn)
 {
-    const uint32_t limit_units = search->limit_units;
+    const uint32_t end_units = search->limit_units;
     for (unsigned j = first; j < end; j++) {
         if (search->initiator->cost_class[j] == class) {
             turn->waiting--;
-            search->limit_units = limit_units - turn->kept_units * turn->waiting;
+            search->limit_units = limit_of(search, turn, end_units);
             try_plot(search, fan, j, turn);
         }
     }
-    search->limit_units = limit_units;
+    search->limit_units = end_units;
 }
 
 /* All kernels that end in scan b, those of the cheapest plots first, but where a turn goes on. */

@@ -156,7 +156,8 @@ static int is_near_first(const struct search *search, const struct span *span,
     float reach_m = ROUNDING * ending->reach_share * voter->reach_m + ending->rounding_m;
     float along_m = x_m * ending->along_x + y_m * ending->along_y;
     float along_max_m = ROUNDING * ending->along_share * voter->reach_m + ending->rounding_m;
-    return x_m * x_m + y_m * y_m <= reach_m * reach_m && along_m * along_m <= along_max_m * along_max_m;
+    return x_m * x_m + y_m * y_m <= reach_m * reach_m &&
+           along_m * along_m <= along_max_m * along_max_m;
 }
 
 void rho_initiator_try_pair(struct search *search, const struct span *span,

@@ -38,7 +38,7 @@ struct search {
     float reach_chi2;            /* of the widest gate */
     /* one radar's noise: no plot's is above both; of the scan whose plots have the least, the largest. 0: not known */
     float sigma_near_m, sigma_per_m, sigma_least_m;
-    int is_isotropic;            /* no scan has noise of two axes, heights or range rates */
+    int is_isotropic; /* no scan has noise of two axes, heights or range rates */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
     float log_prior;                /* ln of the births' density over area and velocity */
@@ -154,8 +154,8 @@ struct voter {
 struct span {
     unsigned a, b;
     const struct rho_window_scan *scan_a, *scan_b;
-    float gap_s;   /* between the scans' times */
-    float slack_m; /* what noise may add to the distance of a pair; 0: isotropic */
+    float gap_s;         /* between the scans' times */
+    float slack_m;       /* what noise may add to the distance of a pair; 0: isotropic */
     unsigned misses_max; /* scans between that need not vote */
     int is_ordered;      /* no plot of a scan from a to b is earlier than one of the scan before */
     const struct voter *voters; /* by scans before b, the one before it first */
@@ -167,7 +167,7 @@ struct ending {
     /* of the widest gates: what the noise of plots a target's way from there allows, and what of it along its line of sight */
     float reach_share, along_share;
     float along_x, along_y; /* that line, or 0, 0 */
-    float rounding_m;  /* what float32 may take off a place that a target has come from */
+    float rounding_m;       /* what float32 may take off a place that a target has come from */
     struct rho_window_noise noise; /* not isotropic: its covariance */
 };
 

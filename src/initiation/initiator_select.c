@@ -209,8 +209,8 @@ static int may_choose(struct search *search, unsigned accepted)
 {
     struct rho_initiator *initiator = search->initiator;
     if (rho_initiator_is_spent(search)) {
-        initiator->work.candidates_dropped = rho_count(initiator->work.candidates_dropped,
-                                                       initiator->num_candidates - accepted);
+        initiator->work.candidates_dropped =
+            rho_count(initiator->work.candidates_dropped, initiator->num_candidates - accepted);
         initiator->num_candidates = (uint16_t)accepted;
         search->is_partial = 1;
         return 0;

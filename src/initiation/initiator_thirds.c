@@ -10,6 +10,9 @@
 #define ROUNDING 1.001f
 
 /* What a kernel and a look-up cost in plots compared, for the choice between the two ways alone. */
+/* A crowd is counted bin by bin in so many rows at most. */
+#define CROWD_ROWS 16
+
 #define FIRST_PLOTS 0.5f
 #define KERNEL_PLOTS 3.0f
 #define LOOKUP_PLOTS 3.0f
@@ -40,9 +43,8 @@ static struct voter voter_of(const struct search *search, const struct span *spa
     if (search->fit_process_m2 > 0.0f) {
         voter.process_m2 = rho_initiator_process_gap_m2(search, span->a, m, span->b);
     }
-    voter.reach_m =
-        rho_sqrt(search->reach_chi2 * (sigma_m * sigma_m + voter.process_m2 +
-                                       (low_m2 > high_m2 ? low_m2 : high_m2)));
+    voter.reach_m = rho_sqrt(search->reach_chi2 * (sigma_m * sigma_m + voter.process_m2 +
+                                                   (low_m2 > high_m2 ? low_m2 : high_m2)));
     return voter;
 }
 
@@ -321,34 +323,46 @@ static int is_by_votes(struct search *search, const struct span *span, const str
     unsigned width = span->b - span->a, thirds = counts[span->misses_max + 1u];
     unsigned pairs = counts[width] - counts[width - 1u];
     if (!span->is_ordered || pairs == 0 || thirds == 0) {
-        return span->is_ordered && pairs > 0; /* without a third plot there is nothing to look for */
+        return span->is_ordered &&
+               pairs > 0; /* without a third plot there is nothing to look for */
     }
     const struct rho_window_scan *before =
         rho_window_scan_at(&search->initiator->window, span->b - 1u);
     float reach_m = ending->reach_share * span->voters[0].reach_m;
     float ratio = span->gap_s / (search->time_s[span->b] - search->time_s[span->b - 1u]);
     struct box gate = box_about(ending->plot, reach_m), firsts;
-    firsts = box_about(ending->plot, least(reach_m * ratio, run_m(search, ending, span->b, span->a)));
+    firsts =
+        box_about(ending->plot, least(reach_m * ratio, run_m(search, ending, span->b, span->a)));
     float lookup = LOOKUP_PLOTS + (float)count_in(search, before, &gate);
     float found = (float)count_in(search, span->scan_a, &firsts), by_votes = 0.0f;
     float in_gate = SHARE_IN_GATE * ending->along_share / ending->reach_share;
     for (unsigned gap = 1; gap <= span->misses_max + 1u; gap++) {
         float kernel = KERNEL_PLOTS + (float)(gap + 1u) * lookup;
-        by_votes += (float)(counts[gap] - counts[gap - 1u]) *
-                    (1.0f + LOOKUP_PLOTS +
-                     found * (FIRST_PLOTS + in_gate * kernel) / (float)(gap * gap));
+        by_votes +=
+            (float)(counts[gap] - counts[gap - 1u]) *
+            (1.0f + LOOKUP_PLOTS + found * (FIRST_PLOTS + in_gate * kernel) / (float)(gap * gap));
     }
     return by_votes < (float)pairs * (KERNEL_PLOTS + LOOKUPS_OF_PAIR * lookup);
 }
 
-/* Plots of the scan before that a target may have come from: the more there are, the more the kernels cost. */
+/* Plots of the scan before that a target may have come from: the more there are, the more the kernels cost. Where that is many
+ * rows of bins, all of these rows count: that is known at once. */
 unsigned rho_initiator_crowd(struct search *search, const struct fan *fan, unsigned j)
 {
     const struct span *widest = &fan->spans[0];
     const struct ending ending = {.plot = &widest->scan_b->plots[j]};
-    struct box box = box_about(ending.plot, run_m(search, &ending, widest->b, widest->b - 1u) +
-                                                widest->voters[0].reach_m);
-    return count_in(search, rho_window_scan_at(&search->initiator->window, widest->b - 1u), &box);
+    const struct rho_window_scan *scan =
+        rho_window_scan_at(&search->initiator->window, widest->b - 1u);
+    float far_m = run_m(search, &ending, widest->b, widest->b - 1u) + widest->voters[0].reach_m;
+    struct box box = box_about(ending.plot, far_m);
+    struct rho_window_bins bins =
+        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
+    if (bins.row_last - bins.row_first < CROWD_ROWS) {
+        return count_in(search, scan, &box);
+    }
+    rho_initiator_charge(search, 1);
+    return (unsigned)(scan->bin_start[(bins.row_last + 1) * scan->bins_x] -
+                      scan->bin_start[bins.row_first * scan->bins_x]);
 }
 
 static void count_before(struct search *search, const struct fan *fan, const struct ending *ending,
@@ -369,6 +383,9 @@ int rho_initiator_try_ending(struct search *search, const struct fan *fan, unsig
     const struct span *widest = &fan->spans[0];
     struct ending ending = {.plot = &widest->scan_b->plots[j]};
     unsigned counts[RHO_MAX_SCANS], by_votes = 0;
+    if (rho_initiator_is_spent(search)) {
+        return 0;
+    }
     float far_m = run_m(search, &ending, widest->b, widest->a);
     ending.rounding_m = ROUNDING_SHARE * (most(ending.plot->x_m, -ending.plot->x_m) +
                                           most(ending.plot->y_m, -ending.plot->y_m) + far_m);
