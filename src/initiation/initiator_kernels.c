@@ -52,32 +52,32 @@ static int takes_first(struct search *search, const struct span *span,
 }
 
 /*
- * Lets the scans between vote, and offers the kernel as a candidate where enough do. The scan in the middle has the
- * narrowest gate, and rejects most: of those before the first vote it votes first, then its neighbours outwards.
+ * Lets the scans between vote. 1 where enough do. The scan in the middle has the narrowest gate, and rejects most: of those before
+ * the first vote it votes first, then its neighbours outwards.
  */
-static void try_kernel(struct search *search, const struct span *span,
-                       const struct first_vote *first, struct kernel *kernel)
+static int vote_all(struct search *search, const struct span *span, const struct first_vote *first,
+                    struct kernel *kernel, struct plot_set *set)
 {
-    struct plot_set set = {.mask = 1u << span->a | 1u << span->b, .hits = 2};
-    if (first->gap > 0 && !takes_first(search, span, first, kernel, &set)) {
-        return;
+    *set = (struct plot_set){.mask = 1u << span->a | 1u << span->b, .hits = 2};
+    set->plot[span->a] = (uint16_t)(kernel->from - span->scan_a->plots);
+    set->plot[span->b] = (uint16_t)(kernel->to - span->scan_b->plots);
+    if (first->gap > 0 && !takes_first(search, span, first, kernel, set)) {
+        return 0;
     }
     unsigned misses = first->gap > 0 ? first->gap - 1u : 0u, middle = (span->a + span->b + 1u) / 2u;
-    for (unsigned k = 0; k + 1u < span->b - span->a; k++) {
+    for (unsigned k = 0; k + 1u < (unsigned)span->b - span->a; k++) {
         unsigned m = k % 2u ? middle - (k + 1u) / 2u : middle + k / 2u;
         if (m + first->gap >= span->b && first->gap > 0) {
             continue;
         }
         int plot = vote(search, span, m, kernel);
         if (plot >= 0) {
-            add_vote(&set, m, plot);
+            add_vote(set, m, plot);
         } else if (++misses > span->misses_max) {
-            return;
+            return 0;
         }
     }
-    set.plot[span->a] = (uint16_t)(kernel->from - span->scan_a->plots);
-    set.plot[span->b] = (uint16_t)(kernel->to - span->scan_b->plots);
-    rho_initiator_offer(search, &set);
+    return 1;
 }
 
 static float squared(float v)
@@ -105,23 +105,28 @@ static int complete(const struct search *search, const struct span *span, struct
 }
 
 #if RHO_AMBIGUOUS_RANGE_RATES
-/* A kernel whose first plot has an ambiguous range rate is as many kernels as that can mean. */
-static void try_aliases(struct search *search, const struct span *span,
-                        const struct first_vote *first, struct kernel *kernel)
+/* A kernel whose first plot has an ambiguous range rate is as many kernels as that can mean: from number `next` on, that of the
+ * first with votes enough. */
+static int vote_aliases(struct search *search, const struct span *span,
+                        const struct first_vote *first, struct kernel *kernel, int *next,
+                        struct plot_set *set)
 {
     struct aliases aliases;
+    int number = *next;
+    *next = 0;
     if (search->is_isotropic ||
         !rho_initiator_open_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
-        try_kernel(search, span, first, kernel);
-        return;
+        return vote_all(search, span, first, kernel, set);
     }
     struct rho_window_place place = kernel->place;
-    for (int i = aliases.first; i <= aliases.last; i++) {
+    for (int i = aliases.first + number; i <= aliases.last; i++) {
         rho_initiator_take_alias(&aliases, i, &place, &kernel->place);
-        if (rho_initiator_own_end(span, kernel)) {
-            try_kernel(search, span, first, kernel);
+        if (rho_initiator_own_end(span, kernel) && vote_all(search, span, first, kernel, set)) {
+            *next = i + 1 - aliases.first;
+            return 1;
         }
     }
+    return 0;
 }
 #endif
 
@@ -160,8 +165,9 @@ static int is_near_first(const struct search *search, const struct span *span,
            along_m * along_m <= along_max_m * along_max_m;
 }
 
-void rho_initiator_try_pair(struct search *search, const struct span *span,
-                            const struct ending *ending, const struct first_vote *first, unsigned i)
+int rho_initiator_vote_for(struct search *search, const struct span *span,
+                           const struct ending *ending, const struct first_vote *first, unsigned i,
+                           int *next, struct plot_set *set)
 {
     const struct rho_window_plot *from = &span->scan_a->plots[i], *to = ending->plot;
     struct kernel kernel;
@@ -175,11 +181,13 @@ void rho_initiator_try_pair(struct search *search, const struct span *span,
     if ((span->scan_a->marks[i] & search->skip_flags) || !is_pair(search, span, &kernel) ||
         !is_near_first(search, span, ending, first, &kernel) || rho_initiator_is_spent(search) ||
         !complete(search, span, &kernel)) {
-        return;
+        *next = 0;
+        return 0;
     }
 #if RHO_AMBIGUOUS_RANGE_RATES
-    try_aliases(search, span, first, &kernel);
+    return vote_aliases(search, span, first, &kernel, next, set);
 #else
-    try_kernel(search, span, first, &kernel);
+    *next = 0;
+    return vote_all(search, span, first, &kernel, set);
 #endif
 }

@@ -147,17 +147,16 @@ struct voter {
     float reach_m;    /* of the widest gate */
 };
 
-#define VOTERS_MAX (RHO_MAX_SCANS - 2)
 #define SPANS_MAX (RHO_MAX_SCANS - 2)
 
 /* What all kernels from scan a to scan b share. */
 struct span {
-    unsigned a, b;
+    uint8_t a, b;
+    uint8_t misses_max; /* scans between that need not vote */
+    uint8_t is_ordered; /* no plot of a scan from a to b is earlier than one of the scan before */
     const struct rho_window_scan *scan_a, *scan_b;
-    float gap_s;         /* between the scans' times */
-    float slack_m;       /* what noise may add to the distance of a pair; 0: isotropic */
-    unsigned misses_max; /* scans between that need not vote */
-    int is_ordered;      /* no plot of a scan from a to b is earlier than one of the scan before */
+    float gap_s;                /* between the scans' times */
+    float slack_m;              /* what noise may add to the distance of a pair; 0: isotropic */
     const struct voter *voters; /* by scans before b, the one before it first */
 };
 
@@ -214,16 +213,17 @@ int rho_initiator_is_usable(const struct rho_initiator_config *config);
 void rho_initiator_prepare_reach(struct search *search);
 void rho_initiator_find_reach(const struct search *search, float far_m, struct ending *ending);
 
-/* initiator_kernels.c: offers the kernel from plot i of the span's first scan where enough scans vote for it */
-void rho_initiator_try_pair(struct search *search, const struct span *span,
-                            const struct ending *ending, const struct first_vote *first,
-                            unsigned i);
+/* initiator_kernels.c: the votes for the kernel from plot i of the span's first scan; 0 where they are too few. A kernel may be
+ * several: *next, 0 at first, tells where to go on, and is 0 after the last */
+int rho_initiator_vote_for(struct search *search, const struct span *span,
+                           const struct ending *ending, const struct first_vote *first, unsigned i,
+                           int *next, struct plot_set *set);
 
 /* All kernels that end in one scan. */
 struct fan {
     unsigned num_spans;
-    struct span spans[SPANS_MAX]; /* the longest first */
-    struct voter voters[SPANS_MAX][VOTERS_MAX];
+    struct span spans[SPANS_MAX];                         /* the longest first */
+    struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* theirs, span by span */
 };
 
 /* initiator_thirds.c: all spans that end in scan b; offers what enough scans vote for of the kernels that end in plot j of it.

@@ -68,8 +68,8 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
     span->scan_a = rho_window_scan_at(window, span->a);
     span->scan_b = rho_window_scan_at(window, span->b);
     span->gap_s = search->time_s[span->b] - search->time_s[span->a];
-    span->misses_max = span->b - span->a + 1u - search->min_scans;
-    span->is_ordered = is_ordered(search, span);
+    span->misses_max = (uint8_t)(span->b - span->a + 1u - search->min_scans);
+    span->is_ordered = (uint8_t)is_ordered(search, span);
     span->voters = voters;
     span->slack_m = 0.0f;
     if (!search->is_isotropic) {
@@ -85,13 +85,15 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
 /* A kernel of M votes spans at least M scans; scans of one instant make none. */
 void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan)
 {
+    struct voter *voters = fan->voters;
     fan->num_spans = 0;
     for (unsigned a = 0; a + search->min_scans <= b + 1u; a++) {
         if (search->time_s[b] > search->time_s[a]) {
-            struct span *span = &fan->spans[fan->num_spans];
-            span->a = a;
-            span->b = b;
-            open_span(search, span, fan->voters[fan->num_spans++]);
+            struct span *span = &fan->spans[fan->num_spans++];
+            span->a = (uint8_t)a;
+            span->b = (uint8_t)b;
+            open_span(search, span, voters);
+            voters += b - a - 1u;
         }
     }
 }
@@ -141,6 +143,19 @@ static float run_m(const struct search *search, const struct ending *ending, uns
     return most_s > 0.0f ? search->initiator->config.v_max_mps * most_s : 0.0f;
 }
 
+/* Offers the kernel from plot i of scan a where enough scans vote for it. */
+static void try_pair(struct search *search, const struct span *span, const struct ending *ending,
+                     const struct first_vote *first, unsigned i)
+{
+    struct plot_set set;
+    int next = 0;
+    do {
+        if (rho_initiator_vote_for(search, span, ending, first, i, &next, &set)) {
+            rho_initiator_offer(search, &set);
+        }
+    } while (next > 0);
+}
+
 static int try_pairs(struct search *search, const struct span *span, const struct ending *ending)
 {
     static const struct first_vote any = {.gap = 0};
@@ -153,7 +168,7 @@ static int try_pairs(struct search *search, const struct span *span, const struc
         unsigned end = start[bins.column_last + 1];
         rho_initiator_charge(search, end - start[bins.column_first]);
         for (unsigned i = start[bins.column_first]; i < end; i++) {
-            rho_initiator_try_pair(search, span, ending, &any, i);
+            try_pair(search, span, ending, &any, i);
         }
         if (rho_initiator_is_spent(search)) {
             return 0;
@@ -228,7 +243,7 @@ static void try_begins(struct search *search, const struct span *span, const str
             const struct rho_window_plot *plot = &scan->plots[i];
             if (plot->x_m >= box.x0_m && plot->x_m <= box.x1_m && plot->y_m >= box.y0_m &&
                 plot->y_m <= box.y1_m) {
-                rho_initiator_try_pair(search, span, ending, &third->first, i);
+                try_pair(search, span, ending, &third->first, i);
             }
         }
     }
