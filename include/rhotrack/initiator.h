@@ -47,8 +47,7 @@ struct rho_initiator_config {
     /* acceleration, constant within a scan interval, that gates and scores allow for in places; 0: none. Range rates are
      * gated and scored as if there were none */
     float process_noise_mps2;
-    /* units of work that one search may do, 0 or 1000 .. 1e8; 0: no limit, for who has time. A unit is a plot compared, 20 to 90
-     * instructions; a look-up is 3, a kernel 2, a fit 400 */
+    /* work that one search may do, up to 1e8 units, in a batch for each scan that tracks may end in; 0: no limit, for who has time */
     uint32_t work_max;
     int area_is_fixed;      /* area below is meant; else the extent of the plots seen lately */
     struct rho_extent area; /* that clutter and births are spread over */
@@ -81,10 +80,16 @@ struct rho_initiator_turn {
 
 #define RHO_INITIATOR_CLASSES 16u
 
-/* What the limit on work did. All saturate; never cleared but by rho_initiator_init. */
+/*
+ * What the limit on work did. A unit is a plot compared or a row of bins, 20 to 90 instructions; a kernel is 2, a look-up 3, a fit
+ * 400. All saturate, and only rho_initiator_init clears them. work is at most work_max and RHO_INITIATOR_WORK_BEYOND: what was
+ * begun is ended. Thresholds and the density map come on top; what they cost follows from the capacities alone.
+ */
+#define RHO_INITIATOR_WORK_BEYOND ((16u + 10u * RHO_MAX_SCANS) * (RHO_MAX_PLOTS + RHO_MAX_BINS))
 struct rho_initiator_budget {
-    uint32_t work, work_worst;      /* units of the last search, of the worst one */
-    uint32_t partial_steps;         /* searches that left something out */
+    uint32_t work, work_worst; /* units of the last search, of the worst one */
+    uint32_t
+        partial_steps; /* searches that left something out: plots, or candidates (candidates_dropped) */
     uint32_t plots_not_tried;       /* newest plots whose kernels were not all tried */
     struct rho_initiator_turn turn; /* where the next search begins */
 };
@@ -153,7 +158,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config);
 /*
  * Prepares an empty initiator; the config is copied.
  *   size   sizeof(struct rho_initiator) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 160 bytes.
+ * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 168 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
                                                   const struct rho_initiator_config *config);
@@ -170,11 +175,11 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
 /*
  * Searches the window. Results: initiator->candidates[0 .. num_candidates - 1], best first, deterministic.
  * Errors: NULL, STATE (not initialised). Fewer than min_scans scans held: RHO_OK and no candidate.
- * Cost: with n plots a scan and f the fraction of pairs that the speed limits allow, (N - M + 1)(N - M + 2) / 2 (batch)
- * or N - M + 1 (newest) times n^2 f kernels, two look-ups each unless clutter is dense; fits are few. Bins make n f
- * the plots within v_max x time, so that cost grows with density, not with area. Thresholds for false_tracks_per_hour:
- * 0.3 to 0.9 million instructions, twice where there are likely candidates. Where all plots lie within their noise of
- * one another, n f is n, and a look-up compares n plots. Stack: 3.2 KB (embedded profile).
+ * Cost: work_max, and thresholds for false_tracks_per_hour: 0.3 to 0.9 million instructions, twice where there are likely
+ * candidates. What all would take grows with density, not with area: the newest plots times the plots within v_max x time of
+ * each in the N - M + 1 scans before, a look-up each; where plots lie within their noise of one another all pairs with all
+ * plots. Beyond work_max the newest plots with the fewest others near come first, and what is left out moves the counters of
+ * `budget`. Stack: 3.2 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);
