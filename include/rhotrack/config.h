@@ -43,7 +43,7 @@
 
 /* Work that a search for new tracks may do where nothing else is said, in units (struct rho_initiator_config's work_max). */
 #ifndef RHO_INITIATOR_WORK
-#define RHO_INITIATOR_WORK RHO_CONFIG_PICK(500000, 8000000)
+#define RHO_INITIATOR_WORK RHO_CONFIG_PICK(500000, 12000000)
 #endif
 
 /* Cells along each side of the clutter density map. RAM: 2 bytes a cell. 1 .. 64. */
