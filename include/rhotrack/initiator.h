@@ -151,7 +151,7 @@ struct rho_initiator {
     struct rho_window window;
 };
 
-/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise,
+/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise, RHO_INITIATOR_WORK,
  * area from the plots; scans is cut to RHO_MAX_SCANS. Constant cost. */
 void rho_initiator_config_default(struct rho_initiator_config *config);
 
