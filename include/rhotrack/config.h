@@ -41,6 +41,11 @@
 #define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 2048)
 #endif
 
+/* Work that a search for new tracks may do where nothing else is said, in units (struct rho_initiator_config's work_max). */
+#ifndef RHO_INITIATOR_WORK
+#define RHO_INITIATOR_WORK RHO_CONFIG_PICK(500000, 12000000)
+#endif
+
 /* Cells along each side of the clutter density map. RAM: 2 bytes a cell. 1 .. 64. */
 #ifndef RHO_MAX_DENSITY_CELLS
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
@@ -372,7 +377,7 @@
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      RHO_MAX_DENSITY_MAPS * (2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 68) +             \
-     2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + 380)
+     2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + RHO_MAX_PLOTS + 410)
 #define RHO_RAM_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define RHO_RAM_ACCUMULATOR_BYTES                                                                  \
     (6 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024 +                              \

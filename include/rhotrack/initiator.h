@@ -47,6 +47,8 @@ struct rho_initiator_config {
     /* acceleration, constant within a scan interval, that gates and scores allow for in places; 0: none. Range rates are
      * gated and scored as if there were none */
     float process_noise_mps2;
+    /* work that one search may do, up to 1e8 units, in a batch for each scan that tracks may end in; 0: no limit, for who has time */
+    uint32_t work_max;
     int area_is_fixed;      /* area below is meant; else the extent of the plots seen lately */
     struct rho_extent area; /* that clutter and births are spread over */
 };
@@ -68,7 +70,28 @@ struct rho_initiator_work {
     uint32_t seeds; /* kernels tried */
     struct rho_window_work window;
     uint32_t fits;               /* least-squares fits */
-    uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES */
+    uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES, or beyond work_max */
+};
+
+/* Where a search begins among the newest plots: classes of how many plots lie near, then by place. */
+struct rho_initiator_turn {
+    uint16_t cost_class, plot;
+};
+
+#define RHO_INITIATOR_CLASSES 16u
+
+/*
+ * What the limit on work did. A unit is a plot compared or a row of bins, 20 to 90 instructions; a kernel is 2, a look-up 3, a fit
+ * 400. All saturate, and only rho_initiator_init clears them. work is at most work_max and RHO_INITIATOR_WORK_BEYOND: what was
+ * begun is ended. Thresholds and the density map come on top; what they cost follows from the capacities alone.
+ */
+#define RHO_INITIATOR_WORK_BEYOND ((16u + 10u * RHO_MAX_SCANS) * (RHO_MAX_PLOTS + RHO_MAX_BINS))
+struct rho_initiator_budget {
+    uint32_t work, work_worst; /* units of the last search, of the worst one */
+    uint32_t
+        partial_steps; /* searches that left something out: plots, or candidates (candidates_dropped) */
+    uint32_t plots_not_tried;       /* newest plots whose kernels were not all tried */
+    struct rho_initiator_turn turn; /* where the next search begins */
 };
 
 /*
@@ -123,18 +146,20 @@ struct rho_initiator {
 #if RHO_MAX_CLUTTER_CELLS > 0
     struct rho_clutter_memory memory;
 #endif
+    struct rho_initiator_budget budget;
+    uint8_t cost_class[RHO_MAX_PLOTS]; /* scratch of the search */
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
     struct rho_window window;
 };
 
-/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise,
+/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise, RHO_INITIATOR_WORK,
  * area from the plots; scans is cut to RHO_MAX_SCANS. Constant cost. */
 void rho_initiator_config_default(struct rho_initiator_config *config);
 
 /*
  * Prepares an empty initiator; the config is copied.
  *   size   sizeof(struct rho_initiator) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 160 bytes.
+ * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 168 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
                                                   const struct rho_initiator_config *config);
@@ -151,11 +176,11 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
 /*
  * Searches the window. Results: initiator->candidates[0 .. num_candidates - 1], best first, deterministic.
  * Errors: NULL, STATE (not initialised). Fewer than min_scans scans held: RHO_OK and no candidate.
- * Cost: with n plots a scan and f the fraction of pairs that the speed limits allow, (N - M + 1)(N - M + 2) / 2 (batch)
- * or N - M + 1 (newest) times n^2 f kernels, two look-ups each unless clutter is dense; fits are few. Bins make n f
- * the plots within v_max x time, so that cost grows with density, not with area. Thresholds for false_tracks_per_hour:
- * 0.3 to 0.9 million instructions, twice where there are likely candidates. Where all plots lie within their noise of
- * one another, n f is n, and a look-up compares n plots. Stack: 3.2 KB (embedded profile).
+ * Cost: work_max, and thresholds for false_tracks_per_hour: 0.3 to 0.9 million instructions, twice where there are likely
+ * candidates. What all would take grows with density, not with area: the newest plots times the plots within v_max x time of
+ * each in the N - M + 1 scans before, a look-up each; where plots lie within their noise of one another all pairs with all
+ * plots. Beyond work_max the newest plots with the fewest others near come first, and what is left out moves the counters of
+ * `budget`. Stack: 3.2 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);

@@ -133,6 +133,7 @@ struct rho_window_place {
 struct rho_window_work {
     uint32_t lookups;   /* queries */
     uint32_t distances; /* plots compared */
+    uint32_t passed;    /* rows of bins, and what else is quickly passed */
 };
 
 /*
@@ -185,7 +186,7 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
 
 /*
  * Index of the plot nearest to the query's place, or -1 where none is in the gate. Ties go to the lower index.
- * Cost: bins under the gate's square, and their plots. Stack: 96 bytes.
+ * Cost: bins under the gate's square, and their plots. Stack: 104 bytes.
  */
 int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
                        struct rho_window_work *work);
@@ -193,7 +194,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 /*
  * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus
  * height plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the
- * position are neglected. Cost: as above, 60 instructions a plot. Stack: 260 bytes.
+ * position are neglected. Cost: as above, 60 instructions a plot. Stack: 264 bytes.
  */
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work);

@@ -11,6 +11,8 @@
 /* Slower "fastest targets" would leave no room for velocities in float32. */
 #define V_MAX_LEAST_MPS 0.01f
 
+#define WORK_MAX_UNITS 100000000u
+
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
@@ -27,6 +29,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config)
         .v_max_mps = 700.0f,
         .pd = 0.9f,
         .false_tracks_per_hour = 1.0f,
+        .work_max = RHO_INITIATOR_WORK,
     };
 }
 
@@ -41,7 +44,8 @@ int rho_initiator_is_usable(const struct rho_initiator_config *config)
            (rho_is_within(config->false_tracks_per_hour, 0.0f, 0.0f) ||
             rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f)) &&
            rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
-           rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f);
+           rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f) &&
+           config->work_max <= WORK_MAX_UNITS;
 }
 
 enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
@@ -264,6 +268,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     rho_initiator_prepare_process(&search);
     rho_initiator_prepare(&search);
     run(&search);
+    rho_initiator_close_budget(&search);
     return RHO_OK;
 }
 

@@ -5,103 +5,79 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
-/* The scan in the middle has the narrowest gate, and rejects most: it votes first, then its neighbours outwards. */
-static void order_votes(struct span *span)
-{
-    unsigned middle = (span->a + span->b) / 2u;
-    span->num_voters = 0;
-    for (unsigned step = 0; step < span->b - span->a; step++) {
-        unsigned up = middle + step, down = middle - step;
-        if (step > 0 && middle >= step && down > span->a) {
-            span->voters[span->num_voters++].m = down;
-        }
-        if (up > span->a && up < span->b) {
-            span->voters[span->num_voters++].m = up;
-        }
-    }
-}
-
-static float spread_s(const struct rho_window_scan *scan)
-{
-    return scan->offset_max_s - scan->offset_min_s;
-}
-
-static float ends_m2(const struct span *span, float al)
-{
-    float from_m = (1.0f - al) * span->scan_a->sigma_max_m, to_m = al * span->scan_b->sigma_max_m;
-    return from_m * from_m + to_m * to_m;
-}
-
-/* Reach of a voter's widest gate. Plots' own times move al by up to `slack`; the variance is convex in al. */
-static float widest_reach_m(const struct search *search, const struct span *span,
-                            const struct voter *voter)
-{
-    float sigma_m = voter->scan->sigma_max_m;
-    float al = voter->after_s / span->gap_s;
-    float slack = (spread_s(span->scan_a) + spread_s(span->scan_b)) / span->gap_s;
-    float low_m2 = ends_m2(span, al - slack), high_m2 = ends_m2(span, al + slack);
-    return rho_sqrt(search->reach_chi2 * (sigma_m * sigma_m + voter->process_m2 +
-                                          (low_m2 > high_m2 ? low_m2 : high_m2)));
-}
-
-static void open_span(struct search *search, unsigned a, unsigned b, struct span *span)
-{
-    struct rho_window *window = &search->initiator->window;
-    *span = (struct span){.a = a, .b = b};
-    span->scan_a = rho_window_scan_at(window, a);
-    span->scan_b = rho_window_scan_at(window, b);
-    span->gap_s = search->time_s[b] - search->time_s[a];
-    span->misses_outside = search->num_scans - (b - a + 1u);
-    if (!search->is_isotropic) {
-        span->slack_m =
-            rho_sqrt(RHO_GATE_CHI2_2D * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
-                                         span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
-    }
-    order_votes(span);
-    for (unsigned k = 0; k < span->num_voters; k++) {
-        struct voter *voter = &span->voters[k];
-        voter->scan = rho_window_scan_at(window, voter->m);
-        voter->after_s = search->time_s[voter->m] - search->time_s[a];
-        if (search->fit_process_m2 > 0.0f) {
-            voter->process_m2 = rho_initiator_process_gap_m2(search, a, voter->m, b);
-        }
-        voter->reach_m = widest_reach_m(search, span, voter);
-    }
-}
+/* What rounding may add to a vote's distance from its kernel. */
+#define ROUNDING 1.001f
 
 /* The voter's plot nearest to where the kernel says, in the gate of all three plots' noise; -1: none. */
-static int vote(struct search *search, const struct voter *voter, struct kernel *kernel)
+static int vote(struct search *search, const struct span *span, unsigned m, struct kernel *kernel)
 {
+    if (!search->is_isotropic) {
+        return rho_initiator_own_vote(search, span, m, kernel);
+    }
+    const struct voter *voter = &span->voters[span->b - m - 1u];
     struct rho_window_query *query = &kernel->query;
-    float al = (voter->after_s - kernel->from->offset_s) / kernel->duration_s;
+    float after_s = search->time_s[m] - search->time_s[span->a];
+    float al = (after_s - kernel->from->offset_s) / kernel->duration_s;
     query->x_m = kernel->from->x_m + al * kernel->dx_m;
     query->y_m = kernel->from->y_m + al * kernel->dy_m;
     query->variance_m2 =
         (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 + voter->process_m2;
-    query->reach_m = voter->reach_m;
-    return rho_window_nearest(voter->scan, query, &search->initiator->work.window);
+    query->reach_m = kernel->reach_share * voter->reach_m;
+    return rho_window_nearest(rho_window_scan_at(&search->initiator->window, m), query,
+                              &search->initiator->work.window);
 }
 
-/* Lets the scans between vote, and offers the kernel as a candidate where enough do. */
-static void try_kernel(struct search *search, const struct span *span, struct kernel *kernel)
+static void add_vote(struct plot_set *set, unsigned m, int plot)
 {
-    struct plot_set set = {.mask = 1u << span->a | 1u << span->b, .hits = 2};
-    unsigned misses = span->misses_outside;
-    for (unsigned k = 0; k < span->num_voters; k++) {
-        const struct voter *voter = &span->voters[k];
-        int plot = search->is_isotropic ? vote(search, voter, kernel)
-                                        : rho_initiator_own_vote(search, voter, kernel);
-        if (plot >= 0) {
-            set.mask |= 1u << voter->m;
-            set.hits++;
-            set.plot[voter->m] = (uint16_t)plot;
-        } else if (++misses > search->num_scans - search->min_scans) {
-            return;
+    set->mask |= 1u << m;
+    set->hits++;
+    set->plot[m] = (uint16_t)plot;
+}
+
+/* Whether this is the kernel's vote nearest to its end: else it is tried where that one is. */
+static int takes_first(struct search *search, const struct span *span,
+                       const struct first_vote *first, struct kernel *kernel, struct plot_set *set)
+{
+    unsigned m = span->b - first->gap;
+    if (vote(search, span, m, kernel) != (int)first->index) {
+        return 0;
+    }
+    add_vote(set, m, (int)first->index);
+    while (++m < span->b) {
+        if (vote(search, span, m, kernel) >= 0) {
+            return 0;
         }
     }
-    set.plot[span->a] = (uint16_t)(kernel->from - span->scan_a->plots);
-    set.plot[span->b] = (uint16_t)(kernel->to - span->scan_b->plots);
-    rho_initiator_offer(search, &set);
+    return 1;
+}
+
+/*
+ * Lets the scans between vote. 1 where enough do. The scan in the middle has the narrowest gate, and rejects most: of those before
+ * the first vote it votes first, then its neighbours outwards.
+ */
+static int vote_all(struct search *search, const struct span *span, const struct first_vote *first,
+                    struct kernel *kernel, struct plot_set *set)
+{
+    *set = (struct plot_set){.mask = 1u << span->a | 1u << span->b, .hits = 2};
+    set->plot[span->a] = (uint16_t)(kernel->from - span->scan_a->plots);
+    set->plot[span->b] = (uint16_t)(kernel->to - span->scan_b->plots);
+    if (first->gap > 0 && !takes_first(search, span, first, kernel, set)) {
+        return 0;
+    }
+    unsigned misses = first->gap > 0 ? first->gap - 1u : 0u, middle = (span->a + span->b + 1u) / 2u;
+    for (unsigned k = 0; k + 1u < (unsigned)span->b - span->a; k++) {
+        unsigned m = k % 2u ? middle - (k + 1u) / 2u : middle + k / 2u;
+        if (m + first->gap >= span->b && first->gap > 0) {
+            continue;
+        }
+        int plot = vote(search, span, m, kernel);
+        if (plot >= 0) {
+            add_vote(set, m, plot);
+        } else if (++misses > span->misses_max) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 static float squared(float v)
@@ -129,152 +105,89 @@ static int complete(const struct search *search, const struct span *span, struct
 }
 
 #if RHO_AMBIGUOUS_RANGE_RATES
-/* A kernel whose first plot has an ambiguous range rate is as many kernels as that can mean. */
-static void try_aliases(struct search *search, const struct span *span, struct kernel *kernel)
+/* A kernel whose first plot has an ambiguous range rate is as many kernels as that can mean: from number `next` on, that of the
+ * first with votes enough. */
+static int vote_aliases(struct search *search, const struct span *span,
+                        const struct first_vote *first, struct kernel *kernel, int *next,
+                        struct plot_set *set)
 {
     struct aliases aliases;
+    int number = *next;
+    *next = 0;
     if (search->is_isotropic ||
         !rho_initiator_open_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
-        try_kernel(search, span, kernel);
-        return;
+        return vote_all(search, span, first, kernel, set);
     }
     struct rho_window_place place = kernel->place;
-    for (int i = aliases.first; i <= aliases.last; i++) {
+    for (int i = aliases.first + number; i <= aliases.last; i++) {
         rho_initiator_take_alias(&aliases, i, &place, &kernel->place);
-        if (rho_initiator_own_end(span, kernel)) {
-            try_kernel(search, span, kernel);
+        if (rho_initiator_own_end(span, kernel) && vote_all(search, span, first, kernel, set)) {
+            *next = i + 1 - aliases.first;
+            return 1;
         }
     }
+    return 0;
 }
 #endif
 
-/* The earlier end of kernels. */
-struct start {
-    const struct rho_window_plot *plot;
-    struct rho_window_noise noise; /* not isotropic: its covariance */
-};
-
-#if RHO_SECTORS
-/* Plots of the turn's earlier sectors have been the ends of kernels when they came. */
-static int is_new(const struct search *search, const struct rho_window_plot *plot)
+/* A target's speed, within noise. */
+static int is_pair(const struct search *search, const struct span *span,
+                   const struct kernel *kernel)
 {
-    return !search->newest || plot->offset_s >= search->newest->offset_min_s;
-}
-
-/* Bins that may hold the end of a kernel that begins here; none where rows end before they begin. */
-static struct rho_window_bins bins_of_ends(const struct search *search,
-                                           const struct rho_window_scan *scan,
-                                           const struct rho_window_plot *from, float far_m)
-{
-    struct rho_extent near = {from->x_m - far_m, from->x_m + far_m, from->y_m - far_m,
-                              from->y_m + far_m};
-    if (search->newest) {
-        const struct rho_extent *newest = &search->newest->extent;
-        near.x_min_m = near.x_min_m > newest->x_min_m ? near.x_min_m : newest->x_min_m;
-        near.x_max_m = near.x_max_m < newest->x_max_m ? near.x_max_m : newest->x_max_m;
-        near.y_min_m = near.y_min_m > newest->y_min_m ? near.y_min_m : newest->y_min_m;
-        near.y_max_m = near.y_max_m < newest->y_max_m ? near.y_max_m : newest->y_max_m;
-    }
-    if (!(near.x_min_m <= near.x_max_m && near.y_min_m <= near.y_max_m)) {
-        return (struct rho_window_bins){.row_first = 1, .row_last = 0};
-    }
-    return rho_window_bins_under(scan, near.x_min_m, near.x_max_m, near.y_min_m, near.y_max_m);
-}
-#else
-static int is_new(const struct search *search, const struct rho_window_plot *plot)
-{
-    (void)search, (void)plot;
-    return 1;
-}
-
-static struct rho_window_bins bins_of_ends(const struct search *search,
-                                           const struct rho_window_scan *scan,
-                                           const struct rho_window_plot *from, float far_m)
-{
-    (void)search;
-    return rho_window_bins_under(scan, from->x_m - far_m, from->x_m + far_m, from->y_m - far_m,
-                                 from->y_m + far_m);
-}
-#endif
-
-static void pair_with(struct search *search, const struct span *span, const struct start *start,
-                      unsigned j)
-{
-    const struct rho_window_plot *from = start->plot, *to = &span->scan_b->plots[j];
     const struct rho_initiator_config *config = &search->initiator->config;
-    float dx_m = to->x_m - from->x_m, dy_m = to->y_m - from->y_m;
-    float duration_s = span->gap_s + to->offset_s - from->offset_s;
-    float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
-    float near_m = config->v_min_mps * duration_s - span->slack_m;
-    float far_m = config->v_max_mps * duration_s + span->slack_m;
-    if (!(duration_s > 0.0f && distance2_m2 <= far_m * far_m &&
-          (near_m < 0.0f || distance2_m2 >= near_m * near_m)) ||
-        (span->scan_b->marks[j] & search->skip_flags) || !is_new(search, to)) {
-        return;
+    float distance2_m2 = kernel->dx_m * kernel->dx_m + kernel->dy_m * kernel->dy_m;
+    float near_m = config->v_min_mps * kernel->duration_s - span->slack_m;
+    float far_m = config->v_max_mps * kernel->duration_s + span->slack_m;
+    return kernel->duration_s > 0.0f && distance2_m2 <= far_m * far_m &&
+           (near_m < 0.0f || distance2_m2 >= near_m * near_m);
+}
+
+/* Whether the first vote can be this kernel's at all. */
+static int is_near_first(const struct search *search, const struct span *span,
+                         const struct ending *ending, const struct first_vote *first,
+                         const struct kernel *kernel)
+{
+    if (first->gap == 0) {
+        return 1;
     }
+    unsigned m = span->b - first->gap;
+    const struct rho_window_plot *plot =
+        &rho_window_scan_at(&search->initiator->window, m)->plots[first->index];
+    const struct voter *voter = &span->voters[first->gap - 1u];
+    float after_s = search->time_s[m] - search->time_s[span->a];
+    float al = (after_s + plot->offset_s - kernel->from->offset_s) / kernel->duration_s;
+    float x_m = kernel->from->x_m + al * kernel->dx_m - plot->x_m;
+    float y_m = kernel->from->y_m + al * kernel->dy_m - plot->y_m;
+    float reach_m = ROUNDING * ending->reach_share * voter->reach_m + ending->rounding_m;
+    float along_m = x_m * ending->along_x + y_m * ending->along_y;
+    float along_max_m = ROUNDING * ending->along_share * voter->reach_m + ending->rounding_m;
+    return x_m * x_m + y_m * y_m <= reach_m * reach_m &&
+           along_m * along_m <= along_max_m * along_max_m;
+}
+
+int rho_initiator_vote_for(struct search *search, const struct span *span,
+                           const struct ending *ending, const struct first_vote *first, unsigned i,
+                           int *next, struct plot_set *set)
+{
+    const struct rho_window_plot *from = &span->scan_a->plots[i], *to = ending->plot;
     struct kernel kernel;
     kernel.from = from;
     kernel.to = to;
-    kernel.dx_m = dx_m;
-    kernel.dy_m = dy_m;
-    kernel.duration_s = duration_s;
-    kernel.noise_a = start->noise;
-    if (complete(search, span, &kernel)) {
+    kernel.dx_m = to->x_m - from->x_m;
+    kernel.dy_m = to->y_m - from->y_m;
+    kernel.duration_s = span->gap_s + to->offset_s - from->offset_s;
+    kernel.reach_share = ending->reach_share;
+    kernel.noise_b = ending->noise;
+    if ((span->scan_a->marks[i] & search->skip_flags) || !is_pair(search, span, &kernel) ||
+        !is_near_first(search, span, ending, first, &kernel) || rho_initiator_is_spent(search) ||
+        !complete(search, span, &kernel)) {
+        *next = 0;
+        return 0;
+    }
 #if RHO_AMBIGUOUS_RANGE_RATES
-        try_aliases(search, span, &kernel);
+    return vote_aliases(search, span, first, &kernel, next, set);
 #else
-        try_kernel(search, span, &kernel);
+    *next = 0;
+    return vote_all(search, span, first, &kernel, set);
 #endif
-    }
-}
-
-/* Pairs a plot of scan a with every plot of scan b that the speed limits allow. */
-static void pair_from(struct search *search, const struct span *span, unsigned i)
-{
-    const struct rho_window_plot *from = &span->scan_a->plots[i];
-    const struct rho_window_scan *scan = span->scan_b;
-    float far_m =
-        search->initiator->config.v_max_mps * (span->gap_s + scan->offset_max_s - from->offset_s) +
-        span->slack_m;
-    struct rho_window_bins bins = bins_of_ends(search, scan, from, far_m);
-    if (RHO_SECTORS && bins.row_first > bins.row_last) {
-        return;
-    }
-    struct start first = {.plot = from};
-    if (!search->is_isotropic) {
-        first.noise = rho_window_noise(span->scan_a, from);
-    }
-    for (int row = bins.row_first; row <= bins.row_last; row++) {
-        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
-        unsigned end = start[bins.column_last + 1];
-        for (unsigned j = start[bins.column_first]; j < end; j++) {
-            pair_with(search, span, &first, j);
-        }
-    }
-}
-
-static void search_span(struct search *search, unsigned a, unsigned b)
-{
-    struct span span;
-    if (!(search->time_s[b] > search->time_s[a])) {
-        return; /* scans of one instant make no kernel */
-    }
-    open_span(search, a, b, &span);
-    for (unsigned i = 0; i < span.scan_a->num_plots; i++) {
-        if (!(span.scan_a->marks[i] & search->skip_flags)) {
-            pair_from(search, &span, i);
-        }
-    }
-}
-
-/* A kernel of M votes spans at least M scans; longer spans predict better and come first. */
-void rho_initiator_try_kernels(struct search *search)
-{
-    unsigned last = search->num_scans - 1u;
-    unsigned first_b = search->kind == RHO_SEARCH_NEWEST ? last : search->min_scans - 1u;
-    for (unsigned a = 0; a + search->min_scans <= search->num_scans; a++) {
-        for (unsigned b = last; b >= first_b && b - a + 1u >= search->min_scans; b--) {
-            search_span(search, a, b);
-        }
-    }
 }

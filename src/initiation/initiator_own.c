@@ -60,7 +60,7 @@ static int climbs_too_fast(const struct search *search, const struct rho_window_
 int rho_initiator_own_kernel(const struct search *search, const struct span *span,
                              struct kernel *kernel)
 {
-    kernel->noise_b = rho_window_noise(span->scan_b, kernel->to);
+    kernel->noise_a = rho_window_noise(span->scan_a, kernel->from);
     kernel->place = place_of(search, span, kernel);
     return !search->has_more || (!climbs_too_fast(search, &kernel->place) &&
                                  is_range_rate(span->scan_a, kernel->from, &kernel->place) &&
@@ -75,11 +75,14 @@ int rho_initiator_own_end(const struct span *span, const struct kernel *kernel)
 #endif
 
 /* The voter's plot nearest to where the kernel says, in the gate of all three plots' covariances; -1: none. */
-int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel)
+int rho_initiator_own_vote(struct search *search, const struct span *span, unsigned m,
+                           struct kernel *kernel)
 {
+    const struct voter *voter = &span->voters[span->b - m - 1u];
     const struct rho_window_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
     struct rho_window_place *place = &kernel->place;
-    float al = (voter->after_s - kernel->from->offset_s) / kernel->duration_s;
+    float after_s = search->time_s[m] - search->time_s[span->a];
+    float al = (after_s - kernel->from->offset_s) / kernel->duration_s;
     float from = (1.0f - al) * (1.0f - al), to = al * al, process_m2 = voter->process_m2;
     place->x_m = kernel->from->x_m + al * kernel->dx_m;
     place->y_m = kernel->from->y_m + al * kernel->dy_m;
@@ -87,8 +90,9 @@ int rho_initiator_own_vote(struct search *search, const struct voter *voter, str
     place->noise = (struct rho_window_noise){
         from * a->xx_m2 + to * b->xx_m2 + process_m2, from * a->xy_m2 + to * b->xy_m2,
         from * a->yy_m2 + to * b->yy_m2 + process_m2, from * a->zz_m2 + to * b->zz_m2 + process_m2};
-    place->reach_m = voter->reach_m;
-    return rho_window_nearest_to(voter->scan, place, &search->initiator->work.window);
+    place->reach_m = kernel->reach_share * voter->reach_m;
+    return rho_window_nearest_to(rho_window_scan_at(&search->initiator->window, m), place,
+                                 &search->initiator->work.window);
 }
 
 /* The plot of scan m nearest to a fitted track; -1: none. factor widens the gate's covariance. */

@@ -36,7 +36,9 @@ struct search {
     float interval_s;            /* usual time between scans */
     int has_more;                /* a scan has heights or range rates */
     float reach_chi2;            /* of the widest gate */
-    int is_isotropic;            /* no scan has noise of two axes, heights or range rates */
+    /* one radar's noise: no plot's is above both; of the scan whose plots have the least, the largest. 0: not known */
+    float sigma_near_m, sigma_per_m, sigma_least_m;
+    int is_isotropic; /* no scan has noise of two axes, heights or range rates */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
     float log_prior;                /* ln of the births' density over area and velocity */
@@ -46,6 +48,9 @@ struct search {
     uint16_t skip_flags;  /* plots that look-ups pass over */
     float score_min_nat;  /* sets below are no candidates */
     int keeps_rate;       /* thresholds follow from false_tracks_per_hour, fits must be good */
+    uint32_t limit_units; /* that may be spent for now */
+    int is_partial;       /* some of the work was left out */
+    struct rho_initiator_turn next; /* where the next search begins */
     int is_left_out; /* the set that is scored: its plots are not in the map, so none are taken out of it */
 };
 
@@ -136,25 +141,38 @@ int32_t rho_initiator_mnat(float nat);
 int rho_initiator_score(const struct search *search, const struct plot_set *set,
                         const struct line_fit *fit, struct set_score *score);
 
-/* A scan between two others. */
+/* A scan between two others: it votes for kernels from one to the other. */
 struct voter {
-    unsigned m;
-    const struct rho_window_scan *scan;
-    float after_s;    /* after scan a */
-    float process_m2; /* process noise of its place between a and b */
+    float process_m2; /* process noise of its place between them */
     float reach_m;    /* of the widest gate */
 };
 
-/* What all kernels between scans a and b share. */
+#define SPANS_MAX (RHO_MAX_SCANS - 2)
+
+/* What all kernels from scan a to scan b share. */
 struct span {
-    unsigned a, b;
+    uint8_t a, b;
+    uint8_t misses_max; /* scans between that need not vote */
+    uint8_t is_ordered; /* no plot of a scan from a to b is earlier than one of the scan before */
     const struct rho_window_scan *scan_a, *scan_b;
-    float gap_s; /* between the scans' times */
-    unsigned num_voters;
-    struct voter voters[RHO_MAX_SCANS]; /* the narrowest gate first */
-    float slack_m; /* what noise may add to the distance of a pair; 0: isotropic */
-    /* scans before a and after b: they cannot vote for this kernel */
-    unsigned misses_outside;
+    float gap_s;                /* between the scans' times */
+    float slack_m;              /* what noise may add to the distance of a pair; 0: isotropic */
+    const struct voter *voters; /* by scans before b, the one before it first */
+};
+
+/* The last plot of kernels. */
+struct ending {
+    const struct rho_window_plot *plot;
+    /* of the widest gates: what the noise of plots a target's way from there allows, and what of it along its line of sight */
+    float reach_share, along_share;
+    float along_x, along_y; /* that line, or 0, 0 */
+    float rounding_m;       /* what float32 may take off a place that a target has come from */
+    struct rho_window_noise noise; /* not isotropic: its covariance */
+};
+
+/* A kernel's vote nearest to its end: plot `index`, so many scans before. gap 0: any, or none. */
+struct first_vote {
+    unsigned gap, index;
 };
 
 /* One pair of plots. */
@@ -162,6 +180,7 @@ struct kernel {
     const struct rho_window_plot *from, *to;
     float dx_m, dy_m;
     float duration_s;
+    float reach_share;
     float from_m2, to_m2;                     /* isotropic: the ends' variances */
     struct rho_window_query query;            /* and what is asked of every scan alike */
     struct rho_window_noise noise_a, noise_b; /* else: their covariances */
@@ -190,13 +209,41 @@ int rho_initiator_own_end(const struct span *span, const struct kernel *kernel);
 /* initiator.c: every field within its range */
 int rho_initiator_is_usable(const struct rho_initiator_config *config);
 
-/* initiator_kernels.c: offers what enough scans vote for */
+/* initiator_reach.c: what is known of noise, and what it is within far_m of an ending's plot */
+void rho_initiator_prepare_reach(struct search *search);
+void rho_initiator_find_reach(const struct search *search, float far_m, struct ending *ending);
+
+/* initiator_kernels.c: the votes for the kernel from plot i of the span's first scan; 0 where they are too few. A kernel may be
+ * several: *next, 0 at first, tells where to go on, and is 0 after the last */
+int rho_initiator_vote_for(struct search *search, const struct span *span,
+                           const struct ending *ending, const struct first_vote *first, unsigned i,
+                           int *next, struct plot_set *set);
+
+/* All kernels that end in one scan. */
+struct fan {
+    unsigned num_spans;
+    struct span spans[SPANS_MAX];                         /* the longest first */
+    struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* theirs, span by span */
+};
+
+/* initiator_thirds.c: all spans that end in scan b; offers what enough scans vote for of the kernels that end in plot j of it.
+ * 0 where the limit on what is spent ended that */
+void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan);
+unsigned rho_initiator_crowd(struct search *search, const struct fan *fan, unsigned j);
+int rho_initiator_try_ending(struct search *search, const struct fan *fan, unsigned j);
+
+/* initiator_budget.c: what the search has spent, and may; all kernels, as far as that goes; what that was */
+uint32_t rho_initiator_spent(const struct search *search);
+int rho_initiator_is_spent(const struct search *search);
+void rho_initiator_charge(struct search *search, uint32_t units);
 void rho_initiator_try_kernels(struct search *search);
+void rho_initiator_close_budget(struct search *search);
 
 /* initiator_own.c: the same with each plot's own covariance, height and range rate */
 int rho_initiator_own_kernel(const struct search *search, const struct span *span,
                              struct kernel *kernel);
-int rho_initiator_own_vote(struct search *search, const struct voter *voter, struct kernel *kernel);
+int rho_initiator_own_vote(struct search *search, const struct span *span, unsigned m,
+                           struct kernel *kernel);
 int rho_initiator_own_fit(const struct search *search, const struct plot_set *set,
                           struct line_fit *fit);
 int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit, float factor,

@@ -14,8 +14,18 @@
  * leant on a neighbour's plots. */
 #define SECOND_GATE_FACTOR 2.5f
 
-static int is_known(const struct rho_initiator *initiator, const struct rho_candidate *candidate)
+/* Candidates passed in a list, and compared by their plots, that make a unit of work. */
+#define PASSED_IN_UNIT 8u
+#define COMPARED_IN_UNIT 2u
+
+/* What is still to come for an accepted candidate: a second score, and its place in two sorted lists. */
+#define JUDGED_UNITS 100u
+#define SORTED_IN_UNIT 2u
+
+static int is_known(struct search *search, const struct rho_candidate *candidate)
 {
+    const struct rho_initiator *initiator = search->initiator;
+    rho_initiator_charge(search, initiator->num_candidates / COMPARED_IN_UNIT);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         const struct rho_candidate *other = &initiator->candidates[i];
         unsigned m = 0;
@@ -63,7 +73,7 @@ static int make_candidate(struct search *search, struct plot_set *set,
     for (unsigned m = 0; m < search->num_scans; m++) {
         candidate->plot[m] = set->plot[m];
     }
-    return !is_known(search->initiator, candidate);
+    return !is_known(search, candidate);
 }
 
 static unsigned lowest(const struct rho_initiator *initiator)
@@ -90,6 +100,7 @@ void rho_initiator_offer(struct search *search, struct plot_set *set)
     }
     initiator->work.candidates_dropped = rho_count(initiator->work.candidates_dropped, 1);
     unsigned low = lowest(initiator);
+    rho_initiator_charge(search, initiator->num_candidates / PASSED_IN_UNIT);
     if (initiator->candidates[low].score_mnat < candidate.score_mnat) {
         initiator->candidates[low] = candidate;
     }
@@ -193,12 +204,32 @@ static void sort_candidates(struct rho_initiator *initiator)
     }
 }
 
-/* Best first; accepted candidates gather at the head of the list, in the order of their scores when accepted. */
+/* What the next choice and its consequences cost at least; 0 where the work ends before. */
+static int may_choose(struct search *search, unsigned accepted)
+{
+    struct rho_initiator *initiator = search->initiator;
+    if (rho_initiator_is_spent(search)) {
+        initiator->work.candidates_dropped =
+            rho_count(initiator->work.candidates_dropped, initiator->num_candidates - accepted);
+        initiator->num_candidates = (uint16_t)accepted;
+        search->is_partial = 1;
+        return 0;
+    }
+    rho_initiator_charge(search, JUDGED_UNITS + accepted / SORTED_IN_UNIT +
+                                     accepted / COMPARED_IN_UNIT +
+                                     (initiator->num_candidates - accepted) / PASSED_IN_UNIT);
+    return 1;
+}
+
+/*
+ * Best first; accepted candidates gather at the head of the list, in the order of their scores when accepted. The worst are
+ * dropped where the work ends.
+ */
 void rho_initiator_select(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     unsigned accepted = 0;
-    while (accepted < initiator->num_candidates) {
+    while (accepted < initiator->num_candidates && may_choose(search, accepted)) {
         bring_best_forward(initiator, accepted);
         struct rho_candidate candidate = initiator->candidates[accepted];
         if (!conflicts(initiator, accepted, &candidate)) {

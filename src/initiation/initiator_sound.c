@@ -99,7 +99,9 @@ int rho_initiator_is_sound(const struct rho_initiator *initiator)
     if (initiator->num_candidates > RHO_MAX_CANDIDATES || initiator->min_scans > RHO_MAX_SCANS ||
         !is_score(initiator->start_mnat) || !is_score(initiator->confirm_mnat) ||
         !is_finite(initiator->density_per_m2) || !are_sound_maps(initiator) ||
-        !has_sound_memory(initiator) || !has_sound_turn(initiator)) {
+        !has_sound_memory(initiator) || !has_sound_turn(initiator) ||
+        initiator->budget.turn.cost_class >= RHO_INITIATOR_CLASSES ||
+        initiator->budget.turn.plot >= RHO_MAX_PLOTS) {
         return 0;
     }
     for (unsigned i = 0; i < initiator->num_candidates; i++) {

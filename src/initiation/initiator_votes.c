@@ -94,6 +94,7 @@ void rho_initiator_prepare(struct search *search)
     struct rho_initiator *initiator = search->initiator;
     const struct rho_initiator_config *config = &initiator->config;
     rho_initiator_begin_density(search);
+    rho_initiator_prepare_reach(search);
     for (unsigned m = 0; m < search->num_scans; m++) {
         float sensor_pd = rho_window_scan_at(&initiator->window, m)->sensor.pd;
         float pd = sensor_pd > 0.0f ? sensor_pd : config->pd;

@@ -83,6 +83,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
     }
     work->lookups = rho_count(work->lookups, 1);
     work->distances = rho_count(work->distances, compared);
+    work->passed = rho_count(work->passed, (uint32_t)(bins.row_last - bins.row_first) + 1u);
     return best.index;
 }
 
@@ -256,5 +257,6 @@ int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_w
     }
     work->lookups = rho_count(work->lookups, 1);
     work->distances = rho_count(work->distances, compared);
+    work->passed = rho_count(work->passed, (uint32_t)(bins.row_last - bins.row_first) + 1u);
     return index;
 }

@@ -54,6 +54,10 @@ are_table1() {
 check 'the fit through the plots that voted is the target, at the last scan' are_table1 stdout
 run initiate table1.csv --method ht --set tau=0.9
 check 'HT: likewise, above a higher share' awk -F, 'NR > 1 && $9 == 7 && $10 == 7 { n++ } END { exit n != 3 }' stdout
+run initiate table1.csv --method kernel --json
+check 'the work of a batch' json stdout '(o["work"], o["partial_steps"], o["plots_not_tried"]) == (o["work_worst"], 0, 0) and o["work"] > 0'
+run initiate table1.csv --method kernel --json --set work_max=1
+check 'a limit on it leaves plots out' json stdout 'o["partial_steps"] == 1 and o["plots_not_tried"] > 0'
 run initiate table1.csv --method iht --json -o out.csv
 check 'tracks in the file, with --json' are_table1 out.csv
 { head -n 1 table1.csv; echo '0,1,1000,0'; echo '2,1,,'; } >one.csv

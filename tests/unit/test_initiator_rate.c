@@ -22,6 +22,7 @@ static struct rho_initiator_config usual(float false_tracks_per_hour)
     config.v_min_mps = 100.0f;
     config.v_max_mps = 400.0f;
     config.false_tracks_per_hour = false_tracks_per_hour;
+    config.work_max = 0; /* thresholds, not what there is no time for */
     config.area_is_fixed = 1;
     config.area = square;
     return config;

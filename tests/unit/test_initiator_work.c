@@ -71,8 +71,8 @@ static void a_window_of_clutter_costs_no_more_than_promised(void **state)
     print_message("a window at %d clutter plots a scan: %u seeds, %u look-ups, %u distances\n",
                   PLOTS, (unsigned)(seeds / WINDOWS), (unsigned)(lookups / WINDOWS),
                   (unsigned)(distances / WINDOWS));
-    assert_in_range(seeds / WINDOWS, 30000, 60000);
-    assert_in_range(lookups / WINDOWS, seeds / WINDOWS, 110000);
+    assert_in_range(seeds / WINDOWS, 10000, 25000);
+    assert_in_range(lookups / WINDOWS, seeds / WINDOWS, 60000);
     assert_in_range(distances / WINDOWS, 1000, 50000);
 }
 

@@ -84,6 +84,10 @@ static void search(struct batch *batch, const struct command_line *line)
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
                 batch->plots_no_room, RHO_MAX_PLOTS);
     }
+    if (batch->initiator->budget.partial_steps > 0) {
+        fprintf(stderr, "rhotrack: of %" PRIu32 " plots not all was tried for tracks (work_max)\n",
+                batch->initiator->budget.plots_not_tried);
+    }
     scan_reader_close(reader);
 }
 
@@ -137,6 +141,7 @@ static void print_json(const struct batch *batch)
     cJSON_AddNumberToObject(object, "distances", initiator->work.window.distances);
     cJSON_AddNumberToObject(object, "fits", initiator->work.fits);
     cJSON_AddNumberToObject(object, "candidates_dropped", initiator->work.candidates_dropped);
+    json_add_budget(object, &initiator->budget);
     cJSON_AddNumberToObject(object, "plots_no_room", (double)batch->plots_no_room);
     json_print(object);
 }

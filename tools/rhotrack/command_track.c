@@ -228,6 +228,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
                           const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
+    const struct rho_initiator_budget budget = chain_budget(&tracking->chain);
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots, %" PRIu32 " tracks confirmed; lost: "
@@ -252,6 +253,12 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
             fprintf(stderr, ", sensor %" PRId32 " contradicts the others",
                     tracking->chain.tracker->looks[i].sensor_id);
         }
+    }
+    if (budget.partial_steps > 0) {
+        fprintf(stderr,
+                ", in %" PRIu32 " scans not all of %" PRIu32
+                " plots was tried for new tracks (work_max)",
+                budget.partial_steps, budget.plots_not_tried);
     }
     fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),
             tracking->max_us);
@@ -349,6 +356,7 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
                        const struct inputs_counts *counts, const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
+    const struct rho_initiator_budget budget = chain_budget(&tracking->chain);
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddNumberToObject(object, "scans", (double)counts->steps);
@@ -361,6 +369,7 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
     cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
+    json_add_budget(object, &budget);
     cJSON_AddItemToObject(object, "counters", counters_json(tracking->chain.tracker));
     cJSON_AddNumberToObject(object, "echoes_known",
                             echoes_known(&tracking->chain.tracker->clutter_map));

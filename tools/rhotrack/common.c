@@ -14,6 +14,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "rhotrack/initiator.h"
+
 /* Unfinished outputs, for fail() and the signal handler. Children of a fork own none of them. */
 static char *volatile unfinished[OUTPUTS_MAX];
 static volatile pid_t unfinished_owner;
@@ -348,6 +350,14 @@ void json_add_number(struct cJSON *object, const char *name, double value)
 {
     cJSON_AddItemToObject(object, name,
                           isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
+}
+
+void json_add_budget(struct cJSON *object, const struct rho_initiator_budget *budget)
+{
+    cJSON_AddNumberToObject(object, "work", budget->work);
+    cJSON_AddNumberToObject(object, "work_worst", budget->work_worst);
+    cJSON_AddNumberToObject(object, "partial_steps", budget->partial_steps);
+    cJSON_AddNumberToObject(object, "plots_not_tried", budget->plots_not_tried);
 }
 
 struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed)

@@ -19,6 +19,7 @@ void parameters_to_initiator(const struct parameters *parameters,
     config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     config->pd = (float)value[PARAMETER_PD];
     config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
+    config->work_max = (uint32_t)value[PARAMETER_WORK_MAX];
     config->false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
     if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT)) {
         config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
