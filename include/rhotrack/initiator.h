@@ -106,7 +106,7 @@ struct rho_density_map {
     float content;                            /* of the whole map: m^2, or m rad */
     float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from there */
     float u0, v0, width, height;
-    uint16_t is_polar, columns, rows;
+    uint8_t is_polar, columns, rows;
     int32_t sensor_id; /* whose plots it counts, where there are several maps */
     /* plots in the window, saturating; cell row * columns + column, u along the columns */
     uint16_t count[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
@@ -135,14 +135,12 @@ struct rho_initiator {
     struct rho_initiator_config config;
     struct rho_initiator_work work;
     float density_per_m2; /* plots a scan, mean over the area, of the last search */
-    uint32_t num_maps; /* 1: of all sensors; several: one a sensor; 0: nothing was searched yet */
+    uint16_t num_maps; /* 1: of all sensors; several: one a sensor; 0: nothing was searched yet */
+    uint16_t has_turn; /* map and thresholds are those of the turn that the newest scan is of */
     struct rho_density_map density[RHO_MAX_DENSITY_MAPS];
     /* by the age order of that search's scans: plots of the scan's sensor over those of all, a scan; 0: no scan */
     float sensor_ratio[RHO_MAX_SCANS];
     int32_t sensor_id[RHO_MAX_SCANS];
-#if RHO_SECTORS
-    uint32_t has_turn; /* map and thresholds are those of the turn that the newest scan is of */
-#endif
 #if RHO_MAX_CLUTTER_CELLS > 0
     struct rho_clutter_memory memory;
 #endif

@@ -264,8 +264,8 @@ static void lay_cells(struct rho_density_map *map, uint32_t num_plots)
     float cells = (float)wanted;
     /* an arc of half the range is as long as azimuth times that */
     float aspect = map->is_polar ? 2.0f / map->height : map->width / map->height;
-    map->columns = (uint16_t)clamp_cells(rho_sqrt(cells * aspect));
-    map->rows = (uint16_t)clamp_cells(cells / (float)map->columns);
+    map->columns = (uint8_t)clamp_cells(rho_sqrt(cells * aspect));
+    map->rows = (uint8_t)clamp_cells(cells / (float)map->columns);
     memset(map->count, 0, sizeof map->count);
 }
 

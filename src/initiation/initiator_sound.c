@@ -17,11 +17,10 @@ static int is_finite(float v)
     return rho_are_finite(&v, 1);
 }
 
-/* Before the first search there are no cells. */
 static int is_sound_map(const struct rho_density_map *map)
 {
-    if (map->columns > RHO_MAX_DENSITY_CELLS || map->rows > RHO_MAX_DENSITY_CELLS ||
-        (map->columns == 0) != (map->rows == 0)) {
+    if (map->columns < 1 || map->columns > RHO_MAX_DENSITY_CELLS || map->rows < 1 ||
+        map->rows > RHO_MAX_DENSITY_CELLS) {
         return 0;
     }
     return is_finite(map->mean) && is_finite(map->prior_plots) && is_finite(map->content) &&
@@ -32,6 +31,7 @@ static int is_sound_map(const struct rho_density_map *map)
            rho_is_within(map->scans, 0.0f, (float)RHO_MAX_SCANS);
 }
 
+/* Before the first search there are none. */
 static int are_sound_maps(const struct rho_initiator *initiator)
 {
     for (unsigned i = 0; i < initiator->num_maps && i < RHO_MAX_DENSITY_MAPS; i++) {
