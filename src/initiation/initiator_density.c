@@ -245,7 +245,7 @@ static void lay_square(const struct rho_initiator *initiator, struct rho_density
 static void lay_maps(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
-    struct radars radars;
+    struct radars radars = {.count = 0};
     int is_polar = are_radars(search, &radars);
     memset(initiator->density, 0, sizeof initiator->density);
     for (unsigned i = 0; i < radars.count && is_polar; i++) {
