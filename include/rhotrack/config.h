@@ -46,7 +46,7 @@
 #define RHO_INITIATOR_WORK RHO_CONFIG_PICK(500000, 12000000)
 #endif
 
-/* Cells along each side of the clutter density map. RAM: 2 bytes a cell. 1 .. 64. */
+/* Cells along each side of a clutter density map. RAM: 2 bytes a cell and map. 1 .. 64. */
 #ifndef RHO_MAX_DENSITY_CELLS
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
 #endif
@@ -258,6 +258,9 @@
 #endif
 #if RHO_MAX_CANDIDATES < 1 || RHO_MAX_CANDIDATES > 4096
 #error "RHO_MAX_CANDIDATES must be 1 .. 4096"
+#endif
+#if RHO_INITIATOR_WORK < 0 || RHO_INITIATOR_WORK > 100000000
+#error "RHO_INITIATOR_WORK must be 0 .. 100000000"
 #endif
 #if RHO_MAX_DENSITY_MAPS < 1 || RHO_MAX_DENSITY_MAPS > 8
 #error "RHO_MAX_DENSITY_MAPS must be 1 .. 8"

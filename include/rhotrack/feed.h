@@ -36,8 +36,8 @@
  *            epoch, is refused until follow_scans such scans agree with one another: the sensor restarted, or goes
  *            another pace. So one damaged message, or one that was not the sensor's, does not make those that follow it
  *            look old.
- * Newcomers  A newcomer is a sensor heard for less than half as long as another live one, which was heard for a
- *            minute. Ten minutes are as good as hours: nobody is one for more than five. A lone sensor is none, nor is
+ * Newcomers  A newcomer is a sensor heard for less than half as long as another one that still sends, which was
+ *            heard for a minute. Who is silent for three intervals (an eighth to half of jump_max_us) makes nobody one. Ten minutes are as good as hours: nobody is one for more than five. A lone sensor is none, nor is
  *            any in the first minute, nor in a record (is_record).
  *            A newcomer has no vote on the clock. Its scan waits until one that is no newcomer has sent what is not
  *            older, or by its own clock is hold_us beyond that time; and until no part of an older scan of such a one

@@ -82,7 +82,7 @@ struct rho_initiator_turn {
 
 /*
  * What the limit on work did. A unit is a plot compared or a row of bins, 20 to 90 instructions; a kernel is 2, a look-up 3, a fit
- * 400. All saturate, and only rho_initiator_init clears them. work is at most work_max and RHO_INITIATOR_WORK_BEYOND: what was
+ * 400. All saturate, and only rho_initiator_init clears them. work is at most work_max (of a batch: for each scan that kernels end in) and RHO_INITIATOR_WORK_BEYOND: what was
  * begun is ended. Thresholds and the density map come on top; what they cost follows from the capacities alone.
  */
 #define RHO_INITIATOR_WORK_BEYOND ((16u + 10u * RHO_MAX_SCANS) * (RHO_MAX_PLOTS + RHO_MAX_BINS))

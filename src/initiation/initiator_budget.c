@@ -12,7 +12,7 @@
 /* Of each scan's work, what the choice among the candidates is sure of. */
 #define CHOICE_SHARE 4u
 
-/* Of the work for the newest plots, an even share of the rest is kept for each that waits: the other half is for who comes first. */
+/* Of the work for the newest plots half is kept, in even shares for those that wait; of the rest each takes a quarter at most. */
 #define KEPT_SHARE 2u
 #define FREE_PARTS 4u
 
@@ -110,6 +110,9 @@ static void try_plot(struct search *search, const struct fan *fan, unsigned j, s
 /* Until where a plot may spend: what is kept for each that waits behind is not touched, and of the rest it takes a quarter. */
 static uint32_t limit_of(const struct search *search, const struct turn *turn, uint32_t end_units)
 {
+    if (end_units == UINT32_MAX) {
+        return UINT32_MAX; /* no limit */
+    }
     uint32_t ceiling = end_units - turn->kept_units * turn->waiting;
     uint32_t own = rho_count(rho_initiator_spent(search), turn->kept_units);
     unsigned parts = turn->waiting + 1u < FREE_PARTS ? turn->waiting + 1u : FREE_PARTS;

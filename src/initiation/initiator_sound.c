@@ -17,16 +17,21 @@ static int is_finite(float v)
     return rho_are_finite(&v, 1);
 }
 
+static int is_above_0(float v)
+{
+    return v > 0.0f && is_finite(v);
+}
+
 static int is_sound_map(const struct rho_density_map *map)
 {
     if (map->columns < 1 || map->columns > RHO_MAX_DENSITY_CELLS || map->rows < 1 ||
         map->rows > RHO_MAX_DENSITY_CELLS) {
         return 0;
     }
-    return is_finite(map->mean) && is_finite(map->prior_plots) && is_finite(map->content) &&
-           rho_is_coordinate(map->sensor_x_m) && rho_is_coordinate(map->sensor_y_m) &&
-           rho_is_within(map->middle_rad, -10.0f, 10.0f) && is_finite(map->u0) &&
-           is_finite(map->v0) && rho_is_within(map->width, 0.0f, 1e30f) &&
+    return is_above_0(map->mean) && is_above_0(map->prior_plots) && is_above_0(map->content) &&
+           is_above_0(map->scans) && rho_is_coordinate(map->sensor_x_m) &&
+           rho_is_coordinate(map->sensor_y_m) && rho_is_within(map->middle_rad, -10.0f, 10.0f) &&
+           is_finite(map->u0) && is_finite(map->v0) && rho_is_within(map->width, 0.0f, 1e30f) &&
            rho_is_within(map->height, 0.0f, 1e30f) &&
            rho_is_within(map->scans, 0.0f, (float)RHO_MAX_SCANS);
 }

@@ -9,10 +9,10 @@
 #define ROUNDING_SHARE 1e-6f
 #define ROUNDING 1.001f
 
-/* What a kernel and a look-up cost in plots compared, for the choice between the two ways alone. */
 /* A crowd is counted bin by bin in so many rows at most. */
 #define CROWD_ROWS 16
 
+/* What a kernel and a look-up cost in plots compared, for the choice between the two ways alone. */
 #define FIRST_PLOTS 0.5f
 #define KERNEL_PLOTS 3.0f
 #define LOOKUP_PLOTS 3.0f

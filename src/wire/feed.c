@@ -435,7 +435,10 @@ enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const 
     }
     heading.check = check_of(data, size);
     status = take_part(feed, &heading, &message, source, is_new, now_us);
-    bucket->left += status == RHO_ERROR_CAPACITY; /* it comes again */
+    if (status == RHO_ERROR_CAPACITY) { /* it comes again */
+        bucket->left++;
+        feed->stranger_plots.left += heading.is_new ? heading.num_inputs : 0u;
+    }
     return status;
 }
 

@@ -296,11 +296,25 @@ int rho_feed_is_proven(const struct rho_feed_config *config, const struct rho_fe
 
 /* ---- Newcomers ---- */
 
+#define PRESENT_INTERVALS 3ull
+
 static int is_live(const struct rho_feed *feed, const struct rho_feed_source *source,
                    int64_t now_us)
 {
     return source->is_used && source->scans > 0 &&
            rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)feed->config.jump_max_us;
+}
+
+/* It is still sending: who has fallen silent makes nobody a newcomer, or its clock would hold the others for good. */
+static int is_present(const struct rho_feed *feed, const struct rho_feed_source *source,
+                      int64_t now_us)
+{
+    uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
+    uint64_t jump_max_us = (uint64_t)feed->config.jump_max_us;
+
+    return is_live(feed, source, now_us) && silent_us <= jump_max_us / 2 &&
+           (silent_us <= jump_max_us / LEAD_SHARE ||
+            silent_us <= PRESENT_INTERVALS * source->interval_us);
 }
 
 uint32_t rho_feed_eldest_us(const struct rho_feed *feed, int64_t now_us)
@@ -311,7 +325,7 @@ uint32_t rho_feed_eldest_us(const struct rho_feed *feed, int64_t now_us)
         const struct rho_feed_source *source = &feed->sources[i];
 
         if (source->known_us > eldest_us && rho_feed_is_proven(&feed->config, source) &&
-            is_live(feed, source, now_us)) {
+            is_present(feed, source, now_us)) {
             eldest_us = source->known_us;
         }
     }

@@ -83,6 +83,11 @@ static int is_early(const struct rho_feed *feed, const struct rho_feed_slot *slo
     return now_us < rho_feed_early_until_us(feed, slot);
 }
 
+static int is_elder_s(const struct rho_feed *feed, const struct rho_feed_slot *slot, int64_t now_us)
+{
+    return !rho_feed_is_new(feed->sources[slot->source].known_us, rho_feed_eldest_us(feed, now_us));
+}
+
 struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed, int is_new, int64_t now_us)
 {
     struct rho_feed_slot *room = rho_feed_find_state(feed, FEED_SLOT_FREE);
@@ -94,7 +99,8 @@ struct rho_feed_slot *rho_feed_make_free(struct rho_feed *feed, int is_new, int6
             rho_feed_count_one(&feed->counters.sensors_no_room);
             slot->state = FEED_SLOT_FREE;
             room = slot;
-        } else if (is_waiting(slot) && slot->order == FEED_ORDER_LATE) {
+        } else if (is_waiting(slot) && slot->order == FEED_ORDER_LATE &&
+                   !(is_new && is_elder_s(feed, slot, now_us))) {
             slot->state = FEED_SLOT_FREE; /* it was counted when it came */
             room = slot;
         }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -19,6 +20,12 @@ static void open_chain(double initiators)
 
     parameters_default(&parameters);
     parameters.value[PARAMETER_INITIATORS] = initiators;
+    for (int32_t id = 1; id <= 7; id++) {
+        char assignment[40];
+
+        snprintf(assignment, sizeof assignment, "sensor.%d.range_max_m=80000", (int)id);
+        parameters_set(&parameters, assignment);
+    }
     chain_open(&chain, &parameters);
 }
 
@@ -75,6 +82,8 @@ static void others_have_a_window_each(void **state)
     assert_ptr_not_equal(of(1), of(2));
     assert_ptr_not_equal(of(1), of(3));
     assert_ptr_not_equal(of(99), of(1)); /* nobody described it */
+    describe(8, 0.0f, 80e3f);            /* the config does not name it */
+    assert_ptr_not_equal(of(8), of(1));
     open_chain(INITIATORS_SENSOR);
     describe(1, 0.0f, 80e3f);
     describe(2, 0.0f, 80e3f);

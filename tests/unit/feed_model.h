@@ -283,14 +283,24 @@ static inline int model_is_proven(const struct model_source *source)
     return source->believed >= model.config.follow_scans;
 }
 
-/* Less than half as long heard as another one, which is heard for a minute. */
+/* Three of its intervals, an eighth to half of jump_max_us. */
+static inline int model_is_present(const struct model_source *source, int64_t now_us)
+{
+    wide least_us = model.config.jump_max_us / 8, most_us = model.config.jump_max_us / 2;
+    wide silent_us = 3 * (wide)source->interval_us;
+
+    silent_us = silent_us < least_us ? least_us : silent_us > most_us ? most_us : silent_us;
+    return model_is_live(source, now_us) && model_past(source->heard_us, now_us) <= silent_us;
+}
+
+/* Less than half as long heard as another one that still sends, which is heard for a minute. */
 static inline int model_is_new(const struct model_source *source, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
         wide half_us = other->known_us / 2;
 
-        if (model_is_live(other, now_us) && model_is_proven(other) &&
+        if (model_is_present(other, now_us) && model_is_proven(other) &&
             other->known_us >= RHO_FEED_EQUALS_US && (source ? source->known_us : 0) < half_us) {
             return 1;
         }
@@ -685,7 +695,9 @@ static inline void model_drop_one(int is_new, int64_t now_us)
         int is_waiting = scan->state == M_OPEN || scan->state == M_WHOLE;
         int is_early = is_waiting && !is_new && model_is_early(scan, now_us);
 
-        if (is_early || model_is_late_one(scan)) {
+        int is_elder_s = is_new && !model_is_new(scan->source, now_us);
+
+        if (is_early || (model_is_late_one(scan) && !is_elder_s)) {
             model.counters.sensors_no_room += (uint32_t)is_early;
             scan->state = M_FREE;
             return;
@@ -755,6 +767,7 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         }
         model.is_pressed = 1;
         drawn->bucket++;
+        model.share.bucket += is_new ? look->count : 0u;
         return RHO_ERROR_CAPACITY;
     }
     if (!source) {

@@ -182,6 +182,28 @@ static void an_honest_one_loses_nothing(void **state)
     assert_true(feed.sources[1].known_us >= RHO_FEED_TRUST_US / 2 - 1);
 }
 
+/* Its scans fill the time until it is missed, and then count as any: nothing begins anew. */
+static void who_falls_silent_holds_nobody(void **state)
+{
+    int64_t now_us = begin_with_a_radar();
+    uint32_t refused = 0;
+
+    (void)state;
+    for (int32_t n = 0; n < 60; n++) { /* beside the radar for half a minute, then alone */
+        if (n < 12) {
+            radar();
+        }
+        now_us += INTERVAL_US;
+        refused += !is_taken(9, n, now_us, now_us);
+        while (rho_feed_next(&feed, now_us + HOLD_US, &item)) {
+            assert_false(item.is_restart);
+        }
+    }
+    assert_in_range(refused, 0, 4);
+    assert_int_equal(feed.counters.clock_jumps, 0);
+    assert_int_equal(feed.out_us, now_us);
+}
+
 static void in_a_record_nobody_is_new(void **state)
 {
     struct rho_feed_config config = usual();
@@ -300,6 +322,7 @@ int main(void)
         cmocka_unit_test(many_of_them_do_not_move_the_clock),
         cmocka_unit_test(who_is_heard_for_long_has_a_vote),
         cmocka_unit_test(an_honest_one_loses_nothing),
+        cmocka_unit_test(who_falls_silent_holds_nobody),
         cmocka_unit_test(in_a_record_nobody_is_new),
         cmocka_unit_test(newcomers_share_plots_and_turns),
         cmocka_unit_test(a_newcomer_is_no_surer_than_the_config),

@@ -93,8 +93,8 @@ struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id)
 
 struct rho_initiator *chain_initiator_of(struct chain *chain, const struct rho_scan *scan)
 {
-    return chain_initiator(chain, chain->has_pairs ? chain_window_of(chain->tracker, scan)
-                                                   : scan->sensor_id);
+    return chain_initiator(chain,
+                           chain->has_pairs ? chain_window_of(chain, scan) : scan->sensor_id);
 }
 
 void chain_open(struct chain *chain, const struct parameters *parameters)
@@ -105,6 +105,10 @@ void chain_open(struct chain *chain, const struct parameters *parameters)
     chain->has_pairs = parameters->value[PARAMETER_INITIATORS] == INITIATORS_PAIRS;
     chain->has_one_initiator = parameters->value[PARAMETER_INITIATORS] == INITIATORS_ONE;
     chain->has_sensor = false;
+    chain->num_named = parameters->num_sensors;
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        chain->named[i] = parameters->sensors[i].sensor_id;
+    }
     chain->num_initiators = 0;
     chain->initiator = add_initiator(chain, 0)->initiator;
     must_succeed(rho_tracker_init(chain->tracker, sizeof *chain->tracker, &maintain), "tracker");

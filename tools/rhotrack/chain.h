@@ -21,6 +21,8 @@ struct chain {
     struct chain_initiator *initiators;
     size_t num_initiators, num_allocated, capacity;
     bool has_one_initiator, has_pairs, has_sensor;
+    int32_t named[RHO_MAX_SENSORS]; /* sensors of which the parameters say something */
+    size_t num_named;
     struct rho_initiator_config start;
     struct rho_passive *passive; /* NULL before chain_open_passive */
     struct rho_tracker *tracker;
@@ -44,7 +46,7 @@ void chain_open_passive(struct chain *chain, const struct parameters *parameters
 struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id);
 
 /* The sensor by which a scan's window is named: the scan's own, or the one described earlier that sees the same. */
-int32_t chain_window_of(const struct rho_tracker *tracker, const struct rho_scan *scan);
+int32_t chain_window_of(const struct chain *chain, const struct rho_scan *scan);
 
 /* Where a scan's plots start tracks: before its step, after its sensor was described. */
 struct rho_initiator *chain_initiator_of(struct chain *chain, const struct rho_scan *scan);

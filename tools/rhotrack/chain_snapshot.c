@@ -14,11 +14,14 @@
 #define PIECE_BYTES 65536
 
 /* The tracker's id: whose the initiators are. */
-enum { OF_NOBODY, OF_SENSORS, OF_ALL };
+enum { OF_NOBODY, OF_SENSORS, OF_ALL, OF_PAIRS };
 
 static int32_t initiators_of(const struct chain *chain)
 {
-    return chain->has_one_initiator ? OF_ALL : chain->has_sensor ? OF_SENSORS : OF_NOBODY;
+    return chain->has_one_initiator ? OF_ALL
+           : !chain->has_sensor     ? OF_NOBODY
+           : chain->has_pairs       ? OF_PAIRS
+                                    : OF_SENSORS;
 }
 
 /* Tracker, initiators, passive; in new memory. */
@@ -156,7 +159,9 @@ static bool add_initiators(struct chain *chain, const struct rho_snapshot_part *
 {
     const unsigned last = num_parts - 1;
 
-    for (unsigned i = 1; i < last && parts[0].id == OF_SENSORS && !chain->has_one_initiator; i++) {
+    const bool has_sensors = parts[0].id == OF_SENSORS || parts[0].id == OF_PAIRS;
+
+    for (unsigned i = 1; i < last && has_sensors && !chain->has_one_initiator; i++) {
         (void)chain_initiator(chain, parts[i].id);
     }
     return num_parts == chain->num_initiators + 2 && parts[0].id == initiators_of(chain);

@@ -3,8 +3,9 @@
  * chain_windows: which sensors' plots start tracks together.
  *
  * Two radars that see much the same ground start tracks from one window: with twice as many plots a second they find targets
- * sooner. They pair in the order in which they were described, so that whoever comes later changes no pair. Three are too many
- * for a window of seven scans, and the faster of two whose turns differ much would leave the other no room.
+ * sooner. They pair in the order in which they were described. Three are too many for a window of seven scans, and the faster of
+ * two whose turns differ much would leave the other no room. Sensors that the config does not name pair with nobody: a
+ * stranger's scans would take half of a radar's window.
  */
 #include <math.h>
 
@@ -57,8 +58,19 @@ static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sen
            (!is_known || fmaxf(one_s, other_s) <= TURNS_MAX * fminf(one_s, other_s));
 }
 
-int32_t chain_window_of(const struct rho_tracker *tracker, const struct rho_scan *scan)
+static bool is_named(const struct chain *chain, int32_t sensor_id)
 {
+    for (size_t i = 0; i < chain->num_named; i++) {
+        if (chain->named[i] == sensor_id) {
+            return true;
+        }
+    }
+    return false;
+}
+
+int32_t chain_window_of(const struct chain *chain, const struct rho_scan *scan)
+{
+    const struct rho_tracker *tracker = chain->tracker;
     bool is_paired[RHO_MAX_SENSORS] = {false};
 
     if (!is_whole_turn(scan->sector_from_rad, scan->sector_to_rad) ||
@@ -71,7 +83,8 @@ int32_t chain_window_of(const struct rho_tracker *tracker, const struct rho_scan
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
             const struct rho_sensor *other = &tracker->sensors[j];
 
-            is_paired[i] = !is_paired[j] && see_the_same(tracker, one, other);
+            is_paired[i] = !is_paired[j] && is_named(chain, one->sensor_id) &&
+                           is_named(chain, other->sensor_id) && see_the_same(tracker, one, other);
             is_paired[j] |= is_paired[i];
             if (is_paired[i] && other->sensor_id == scan->sensor_id) {
                 return one->sensor_id;
