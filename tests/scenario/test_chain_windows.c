@@ -82,14 +82,28 @@ static void others_have_a_window_each(void **state)
     assert_ptr_not_equal(of(1), of(2));
     assert_ptr_not_equal(of(1), of(3));
     assert_ptr_not_equal(of(99), of(1)); /* nobody described it */
-    describe(8, 0.0f, 80e3f);            /* the config does not name it */
-    assert_ptr_not_equal(of(8), of(1));
     open_chain(INITIATORS_SENSOR);
     describe(1, 0.0f, 80e3f);
     describe(2, 0.0f, 80e3f);
     assert_ptr_not_equal(of(1), of(2));
     open_chain(INITIATORS_ONE);
     assert_ptr_equal(of(1), of(99));
+}
+
+/* In a file all sensors are what they say. */
+static void live_a_sensor_that_the_config_does_not_name_pairs_with_nobody(void **state)
+{
+    (void)state;
+    for (int is_live = 0; is_live < 2; is_live++) {
+        chain.is_live = is_live;
+        open_chain(INITIATORS_PAIRS);
+        describe(1, 0.0f, 80e3f);
+        describe(8, 0.0f, 80e3f);
+        assert_int_equal(of(8) == of(1), !is_live);
+        describe(2, 0.0f, 80e3f);
+        assert_int_equal(of(2) == of(1), is_live);
+    }
+    chain.is_live = false;
 }
 
 static void sectors_have_their_radar_s_own(void **state)
@@ -150,6 +164,7 @@ int main(void)
         cmocka_unit_test(radars_that_see_the_same_share_a_window),
         cmocka_unit_test(a_third_one_has_its_own_and_pairs_with_the_fourth),
         cmocka_unit_test(others_have_a_window_each),
+        cmocka_unit_test(live_a_sensor_that_the_config_does_not_name_pairs_with_nobody),
         cmocka_unit_test(sectors_have_their_radar_s_own),
         cmocka_unit_test(turns_that_differ_much_part_them),
     };

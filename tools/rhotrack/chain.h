@@ -21,6 +21,7 @@ struct chain {
     struct chain_initiator *initiators;
     size_t num_initiators, num_allocated, capacity;
     bool has_one_initiator, has_pairs, has_sensor;
+    bool is_live;                   /* anybody may send: set before chain_open */
     int32_t named[RHO_MAX_SENSORS]; /* sensors of which the parameters say something */
     size_t num_named;
     struct rho_initiator_config start;

@@ -206,6 +206,7 @@ static enum chain_restored take_over(struct chain *chain, const struct parameter
     struct rho_snapshot_part *parts = must_calloc(num_parts + 1, sizeof *parts);
     (void)!rho_snapshot_list(image, size, parts, num_parts, &num_parts);
     fresh = chain_start();
+    fresh.is_live = chain->is_live;
     memset(fresh.report, 0, sizeof *fresh.report);
     chain_open(&fresh, parameters);
     chain_open_passive(&fresh, parameters);

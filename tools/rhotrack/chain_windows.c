@@ -4,7 +4,7 @@
  *
  * Two radars that see much the same ground start tracks from one window: with twice as many plots a second they find targets
  * sooner. They pair in the order in which they were described. Three are too many for a window of seven scans, and the faster of
- * two whose turns differ much would leave the other no room. Sensors that the config does not name pair with nobody: a
+ * two whose turns differ much would leave the other no room. Live, sensors that the config does not name pair with nobody: a
  * stranger's scans would take half of a radar's window.
  */
 #include <math.h>
@@ -60,12 +60,12 @@ static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sen
 
 static bool is_named(const struct chain *chain, int32_t sensor_id)
 {
-    for (size_t i = 0; i < chain->num_named; i++) {
+    for (size_t i = 0; i < chain->num_named && chain->is_live; i++) {
         if (chain->named[i] == sensor_id) {
             return true;
         }
     }
-    return false;
+    return !chain->is_live;
 }
 
 int32_t chain_window_of(const struct chain *chain, const struct rho_scan *scan)

@@ -255,6 +255,9 @@ static void print_summary(const struct node *node)
             fprintf(stderr, "rhotrack: %s: %" PRIu64 "\n", tallies[i].name, tallies[i].count);
         }
     }
+    if (node->print.left_out > 0) {
+        fprintf(stderr, "rhotrack: reports not printed: %" PRIu64 "\n", node->print.left_out);
+    }
     node_sensors_print(node->core, stderr);
 }
 
@@ -460,11 +463,13 @@ int command_node(struct command_line *line)
     node.signals = open_signals();
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     open_log(&node, line->log);
-    node.print = node_print_start(line->print);
+    node.print =
+        node_print_start(line->print, strncmp(transport_url(node.transport), "file://", 7) != 0);
     if (line->seconds > 0) {
         node.end_us = node.status_us + llround(line->seconds * 1e6);
     }
     run(&node);
+    node_print_end(&node.print);
     close_log(&node);
     print_summary(&node);
     exit_code = node.exit_code;

@@ -63,6 +63,7 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
     core->events = *events;
     core->epoch = epoch;
     core->chain = chain_start();
+    core->chain.is_live = true;
     memset(core->chain.report, 0, sizeof *core->chain.report);
     for (int i = 0; i < WAITING_MAX; i++) {
         core->waiting[i].plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot));

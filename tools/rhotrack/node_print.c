@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "node_print.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <poll.h>
+#include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -15,15 +19,101 @@
 
 enum { PERIOD_US = 100000, HEAD_LINES = 4, ROWS_DEFAULT = 24 };
 
-struct node_print node_print_start(bool is_on)
-{
-    struct node_print print = {.is_on = is_on, .is_terminal = is_on && isatty(STDOUT_FILENO)};
+/* ---- Standard output that may be full ---- */
 
-    if (print.is_terminal) {
-        print.is_changed = true; /* the header shows at once that it listens */
-        fputs("\033[2J", stdout);
-    } else if (is_on) {
-        tracks_write_header(stdout, false);
+/* What can be written without waiting: of a pipe that is ready so much fits. */
+enum { PIECE_BYTES = 4096, END_MS = 500 };
+
+/* A text to fill; finish_text hands it on. */
+static FILE *begin_text(struct node_print *print)
+{
+    FILE *text = open_memstream(&print->text, &print->size);
+
+    if (!text) {
+        fail(EXIT_RUNTIME, "out of memory");
+    }
+    return text;
+}
+
+static bool is_pending(const struct node_print *print)
+{
+    return print->at < print->size;
+}
+
+static bool is_told_to_end(void)
+{
+    sigset_t pending;
+
+    return sigpending(&pending) == 0 &&
+           (sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1);
+}
+
+/* Room on standard output within wait_ms; a record waits for it until the node is told to end. */
+static bool is_ready(const struct node_print *print, int wait_ms)
+{
+    struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    int ready = poll(&out, 1, wait_ms);
+
+    while (ready == 0 && !print->is_live && !is_told_to_end()) {
+        ready = poll(&out, 1, END_MS);
+    }
+    return ready > 0;
+}
+
+/* Writes until all is written, or standard output takes no more within wait_ms. */
+static void push(struct node_print *print, int wait_ms)
+{
+    while (is_pending(print) && !print->error && is_ready(print, wait_ms)) {
+        const size_t left = print->size - print->at;
+        const ssize_t written =
+            write(STDOUT_FILENO, print->text + print->at, left < PIECE_BYTES ? left : PIECE_BYTES);
+
+        print->error = written < 0 && errno != EINTR && errno != EAGAIN ? errno : 0;
+        print->at += written > 0 ? (size_t)written : 0;
+    }
+}
+
+static void finish_text(struct node_print *print, FILE *text)
+{
+    fclose(text);
+    print->at = 0;
+    push(print, 0);
+}
+
+/* True where the last text is out; else this one is left out, and said so once. */
+static bool has_room(struct node_print *print)
+{
+    push(print, 0);
+    if (is_pending(print)) {
+        if (print->left_out++ == 0 && !print->is_terminal) {
+            fputs("rhotrack: standard output is full; reports are left out, tracks go on\n",
+                  stderr);
+        }
+        return false;
+    }
+    free(print->text);
+    print->text = NULL;
+    print->size = print->at = 0;
+    return true;
+}
+
+/* ---- Steps ---- */
+
+struct node_print node_print_start(bool is_on, bool is_live)
+{
+    struct node_print print = {
+        .is_on = is_on, .is_live = is_live, .is_terminal = is_on && isatty(STDOUT_FILENO)};
+    FILE *text;
+
+    if (is_on) {
+        text = begin_text(&print);
+        if (print.is_terminal) {
+            print.is_changed = true; /* the header shows at once that it listens */
+            fputs("\033[2J", text);
+        } else {
+            tracks_write_header(text, false);
+        }
+        finish_text(&print, text);
     }
     return print;
 }
@@ -31,14 +121,26 @@ struct node_print node_print_start(bool is_on)
 void node_print_step(struct node_print *print, const struct rho_report *report)
 {
     print->is_changed = print->is_on;
-    if (print->is_on && !print->is_terminal) {
-        tracks_write_report(stdout, report, false);
+    if (print->is_on && !print->is_terminal && has_room(print)) {
+        FILE *text = begin_text(print);
+
+        tracks_write_report(text, report, false);
+        finish_text(print, text);
     }
 }
 
 int64_t node_print_due_us(const struct node_print *print)
 {
-    return print->is_changed ? print->due_us : INT64_MAX;
+    return print->is_changed || is_pending(print) ? print->due_us : INT64_MAX;
+}
+
+void node_print_end(struct node_print *print)
+{
+    push(print, END_MS);
+    print->left_out += is_pending(print);
+    free(print->text);
+    print->text = NULL;
+    print->size = print->at = 0;
 }
 
 /* ---- The table ---- */
@@ -63,61 +165,62 @@ static int count_status(const struct rho_report *report, enum rho_track_status s
 }
 
 /* What stands on standard error where there is no table. */
-static void print_sensors(const struct node_core *core)
+static void print_sensors(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
     const unsigned count = node_sensors_spoken_of(core, sensors);
 
     for (unsigned i = 0; i < count; i++) {
         if (sensors[i].is_doubted) {
-            printf("sensor %d contradicts the others  ", sensors[i].sensor_id);
+            fprintf(out, "sensor %d contradicts the others  ", sensors[i].sensor_id);
         } else if (sensors[i].is_silent) {
-            printf("sensor %d is silent  ", sensors[i].sensor_id);
+            fprintf(out, "sensor %d is silent  ", sensors[i].sensor_id);
         }
     }
 }
 
-static void print_head(const struct node_core *core, const char *url)
+static void print_head(const struct node_core *core, const char *url, FILE *out)
 {
     const struct rho_report *report = node_core_report(core);
     const struct rho_feed_counters *feed = node_core_feed(core);
     const struct feed_losses losses = feed_order_losses(&node_core_counters(core)->order, feed);
 
-    printf("\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
-    printf("%" PRIu64 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; scans: "
-           "%" PRIu32 " lost, %" PRIu32 " out of order, %" PRIu32 " dropped, %" PRIu32
-           " bad; %" PRIu32 " bad messages\033[K\n",
-           node_core_counters(core)->steps, node_core_mean_us(core),
-           count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
-           count_status(report, RHO_TRACK_TENTATIVE), losses.lost, losses.out_of_order,
-           losses.dropped, feed->scans_bad, feed->messages_bad);
-    print_sensors(core);
-    printf("\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status", "x km",
-           "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");
+    fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
+    fprintf(out,
+            "%" PRIu64 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; scans: "
+            "%" PRIu32 " lost, %" PRIu32 " out of order, %" PRIu32 " dropped, %" PRIu32
+            " bad; %" PRIu32 " bad messages\033[K\n",
+            node_core_counters(core)->steps, node_core_mean_us(core),
+            count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
+            count_status(report, RHO_TRACK_TENTATIVE), losses.lost, losses.out_of_order,
+            losses.dropped, feed->scans_bad, feed->messages_bad);
+    print_sensors(core, out);
+    fprintf(out, "\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status",
+            "x km", "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");
 }
 
 /* Headings are clockwise from north, as people say them. */
-static void print_track(const struct rho_track_report *track)
+static void print_track(const struct rho_track_report *track, FILE *out)
 {
     double vx_mps = (double)track->state[3], vy_mps = (double)track->state[4];
     double heading_deg = atan2(vx_mps, vy_mps) * DEG_PER_RAD;
 
-    printf("%6" PRIu32 "  %-9s %10.3f %10.3f %8.0f %8.1f %7.0f\u00b0 %8.1f %5u %6u\033[K\n",
-           track->track_id, rho_track_status_name(track->status), (double)track->state[0] / 1e3,
-           (double)track->state[1] / 1e3, (double)track->state[2], hypot(vx_mps, vy_mps),
-           heading_deg < 0 ? heading_deg + 360 : heading_deg, (double)track->sigma_m,
-           (unsigned)track->hits, (unsigned)track->misses);
+    fprintf(out, "%6" PRIu32 "  %-9s %10.3f %10.3f %8.0f %8.1f %7.0f\u00b0 %8.1f %5u %6u\033[K\n",
+            track->track_id, rho_track_status_name(track->status), (double)track->state[0] / 1e3,
+            (double)track->state[1] / 1e3, (double)track->state[2], hypot(vx_mps, vy_mps),
+            heading_deg < 0 ? heading_deg + 360 : heading_deg, (double)track->sigma_m,
+            (unsigned)track->hits, (unsigned)track->misses);
 }
 
 /* As many as there is room for, tentative ones last. Returns how many these are. */
-static int print_tracks(const struct rho_report *report, int room)
+static int print_tracks(const struct rho_report *report, int room, FILE *out)
 {
     int shown = 0;
 
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < report->num_tracks && shown < room; i++) {
             if ((report->tracks[i].status == RHO_TRACK_TENTATIVE) == (pass == 1)) {
-                print_track(&report->tracks[i]);
+                print_track(&report->tracks[i], out);
                 shown++;
             }
         }
@@ -125,17 +228,17 @@ static int print_tracks(const struct rho_report *report, int room)
     return shown;
 }
 
-static void print_table(const struct node_core *core, const char *url)
+static void print_table(const struct node_core *core, const char *url, FILE *out)
 {
     const struct rho_report *report = node_core_report(core);
     int room = rows_of_terminal() - HEAD_LINES - 2, shown;
 
-    print_head(core, url);
-    shown = print_tracks(report, room);
+    print_head(core, url, out);
+    shown = print_tracks(report, room, out);
     if (shown < report->num_tracks) {
-        printf("%6s  and %d more\033[K\n", "", report->num_tracks - shown);
+        fprintf(out, "%6s  and %d more\033[K\n", "", report->num_tracks - shown);
     }
-    fputs("\033[J\033[?7h", stdout); /* long lines were cut, not wrapped */
+    fputs("\033[J\033[?7h", out); /* long lines were cut, not wrapped */
 }
 
 bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
@@ -145,13 +248,19 @@ bool node_print_show(struct node_print *print, const struct node_core *core, con
 
     if (print->is_on &&
         (is_end || (print->is_changed && (!print->is_terminal || now_us >= print->due_us)))) {
-        if (print->is_terminal) {
-            print_table(core, url);
-            fputs(is_end ? "\r\033[K" : "", stdout); /* a ^C */
+        if (print->is_terminal && has_room(print)) {
+            FILE *text = begin_text(print);
+
+            print_table(core, url, text);
+            fputs(is_end ? "\r\033[K" : "", text); /* a ^C */
+            finish_text(print, text);
         }
-        fflush(stdout);
         print->is_changed = false;
+    }
+    if (print->is_on && now_us >= print->due_us) {
+        push(print, 0);
         print->due_us = now_us + PERIOD_US;
     }
-    return !ferror(stdout);
+    errno = print->error;
+    return !print->error;
 }
