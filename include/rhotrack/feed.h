@@ -283,13 +283,13 @@ RHO_MUST_CHECK enum rho_status rho_feed_take(struct rho_feed *feed, const char *
  * The next scan that is due, if there is one; it is valid until the next call of this function. now_us INT64_MAX: all
  * that is there goes out.
  * Returns 0 where nothing is due, or feed is not initialised. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS.
- * Stack: 270 bytes.
+ * Stack: 280 bytes.
  */
 int rho_feed_next(struct rho_feed *feed, int64_t now_us, struct rho_feed_item *item);
 
 /*
  * When rho_feed_next should be called though no message comes; INT64_MAX: not before one does.
- * Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 160 bytes.
+ * Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 170 bytes.
  */
 int64_t rho_feed_due_us(const struct rho_feed *feed);
 

@@ -144,15 +144,17 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
 /* What an estimate expects of a sensor's range rates: the same for all plots of its time. */
 struct rho_imm_rates {
     float expected_mps[2]; /* by both models */
-    float variance[2];     /* of what is expected; < 0: the model is in the sensor's own place, and expects nothing */
+    float variance
+        [2]; /* of what is expected; < 0: the model is in the sensor's own place, and expects nothing */
     float projected[2][RHO_KALMAN_STATES]; /* covariances with the state */
 };
 
-/* Fills *rates. Cost: 1 400 instructions. Stack: 200 bytes. */
+/* Fills *rates. Cost: 1 400 instructions. Stack: 320 bytes. */
 void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                         const struct rho_sensor *sensor);
 
-/* rho_imm_weigh with the rates of the estimate and of the plot's sensor; they count where the plot has a range rate. */
+/* rho_imm_weigh with the rates of the estimate and of the plot's sensor; they count where the plot has a range rate: else they may
+ * be anything. Stack: 610 bytes. */
 int rho_imm_weigh_with(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                        const struct rho_imm_plot *seen, struct rho_imm_match *match);
 

@@ -102,8 +102,8 @@ struct rho_initiator_budget {
 struct rho_density_map {
     float mean;        /* plots a scan and unit of content */
     float prior_plots; /* weight of the mean against a cell's own count */
-    float scans; /* that were counted: of a turn that is only begun its share */
-    float content;                            /* of the whole map: m^2, or m rad */
+    float scans;       /* that were counted: of a turn that is only begun its share */
+    float content;     /* of the whole map: m^2, or m rad */
     float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from there */
     float u0, v0, width, height;
     uint8_t is_polar, columns, rows;
@@ -196,7 +196,7 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
  * there over the last hundred scans, where that is more (RHO_MAX_CLUTTER_CELLS); times what the sensor
  * sees more or less than the others, or from a map of its own. A sensor that the window does not hold counts as the mean.
  * 0 before the first search.
- * Cost: RHO_MAX_SCANS, for a map about a radar an arctangent and a square root.
+ * Cost: RHO_MAX_SCANS, for a map about a radar an arctangent and a square root. Stack: 110 bytes.
  */
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m);

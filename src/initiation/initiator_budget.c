@@ -115,8 +115,8 @@ static uint32_t limit_of(const struct search *search, const struct turn *turn, u
     }
     uint32_t ceiling = end_units - turn->kept_units * turn->waiting;
     uint32_t own = rho_count(rho_initiator_spent(search), turn->kept_units);
-    unsigned parts = turn->waiting + 1u < FREE_PARTS ? turn->waiting + 1u : FREE_PARTS;
-    return own < ceiling ? own + (ceiling - own) / parts : ceiling;
+    unsigned others = turn->waiting < FREE_PARTS - 1u ? turn->waiting : FREE_PARTS - 1u;
+    return own < ceiling ? own + (ceiling - own) / (others + 1u) : ceiling;
 }
 
 /* The plots of a class from `first` to before `end`. */

@@ -397,7 +397,7 @@ int rho_initiator_try_ending(struct search *search, const struct fan *fan, unsig
 {
     const struct span *widest = &fan->spans[0];
     struct ending ending = {.plot = &widest->scan_b->plots[j]};
-    unsigned counts[RHO_MAX_SCANS], by_votes = 0;
+    unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
     if (rho_initiator_is_spent(search)) {
         return 0;
     }

@@ -72,9 +72,8 @@ static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct
         if (imm == &at->imm && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
             open_rates(pool, slot, seen->sensor);
         }
-        if (imm && (imm == &at->imm
-                        ? rho_imm_weigh_with(imm, &pool->opened.rates[i], seen, &match)
-                        : rho_imm_weigh(imm, seen, &match))) {
+        if (imm && (imm == &at->imm ? rho_imm_weigh_with(imm, &pool->opened.rates[i], seen, &match)
+                                    : rho_imm_weigh(imm, seen, &match))) {
             const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
             const float worth = note_candidate(at, gain, match.probability, row);
             best = worth > best ? worth : best;
@@ -93,8 +92,9 @@ static void open_gates(struct rho_hypotheses *pool, uint16_t slot, float varianc
     pool->gate_is_usable = 1;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        pool->gate_is_usable = pool->gate_is_usable && at->time_us == time_us &&
-                               rho_imm_open_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
+        pool->gate_is_usable =
+            pool->gate_is_usable && at->time_us == time_us &&
+            rho_imm_open_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
     }
 }
 

@@ -224,8 +224,7 @@ static void view_rate(struct view *view, const struct rho_imm_plot *seen, float 
             view->root *= ROOT_TWO_PI / seen->sensor->range_rate_span_mps;
             return;
         }
-        off = expected_off +
-              rho_measurement_range_rate_error_mps(seen->sensor, off, expected_off);
+        off = expected_off + rho_measurement_range_rate_error_mps(seen->sensor, off, expected_off);
     }
 #endif
     off -= expected_off;
@@ -365,6 +364,8 @@ static void open_rate(struct rho_imm_rates *rates, int model, const struct rho_k
 {
     struct rho_kalman_row rate;
     rates->variance[model] = -1.0f;
+    rates->expected_mps[model] = 0.0f;
+    memset(rates->projected[model], 0, sizeof rates->projected[model]);
     if (rho_kalman_see_range_rate(at, sensor, 0.0f, FLT_MIN, &rate)) {
         rates->expected_mps[model] = -rate.innovation;
         rates->variance[model] =
@@ -384,7 +385,7 @@ void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
 int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
                   struct rho_imm_match *match)
 {
-    struct rho_imm_rates rates;
+    struct rho_imm_rates rates = {.expected_mps = {0.0f, 0.0f}};
     if (seen->measures & RHO_MEASURES_RANGE_RATE) {
         rho_imm_open_rates(&rates, imm, seen->sensor);
     }
@@ -394,9 +395,8 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
 int rho_imm_weigh_with(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                        const struct rho_imm_plot *seen, struct rho_imm_match *match)
 {
-    struct view views[2] = {
-        {.state = imm->steady.state, .covariance = imm->steady.covariance},
-        {.state = imm->state, .covariance = imm->covariance}};
+    struct view views[2] = {{.state = imm->steady.state, .covariance = imm->steady.covariance},
+                            {.state = imm->state, .covariance = imm->covariance}};
     match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;

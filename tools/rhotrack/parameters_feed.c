@@ -44,7 +44,8 @@ bool parameters_allow(struct parameters *parameters, const char *value,
         char digits[16];
 
         snprintf(digits, sizeof digits, "%.*s", bytes, value);
-        if (bytes >= (int)sizeof digits || table_int32(digits, &sensor_id) || sensor_id != (int16_t)sensor_id) {
+        if (bytes >= (int)sizeof digits || table_int32(digits, &sensor_id) ||
+            sensor_id != (int16_t)sensor_id) {
             snprintf(reason, PARAMETER_REASON_BYTES,
                      "sensors_allowed '%.*s' is no number of a sensor", bytes < 60 ? bytes : 60,
                      value);
