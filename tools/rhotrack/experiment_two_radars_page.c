@@ -17,8 +17,10 @@
 static void put_way(FILE *file, const struct scene_path *path, double from_s, double until_s,
                     double step_s)
 {
-    for (double t_s = from_s; t_s <= until_s; t_s += step_s) {
-        struct motion at = path_at(path, t_s);
+    const int steps = (int)((until_s - from_s) / step_s);
+
+    for (int i = 0; i <= steps; i++) {
+        struct motion at = path_at(path, from_s + i * step_s);
 
         fprintf(file, "%.4f %.4f\n", KM(at.x_m), KM(at.y_m));
     }
