@@ -116,8 +116,8 @@ struct rho_feed_config {
     int64_t jump_max_us;   /* 1 s .. 1 h */
     uint32_t flood_per_s;  /* 1 .. 1e6 */
     uint32_t follow_scans; /* 2 .. 255 */
-    uint32_t is_told;   /* 1: items have a sensor also where `other` is all that is known of it */
-    uint32_t is_record; /* 1: nobody is a newcomer: for files */
+    uint16_t is_told;   /* 1: items have a sensor also where `other` is all that is known of it */
+    uint16_t is_record; /* 1: nobody is a newcomer: for files */
     uint32_t stranger_plots_per_s; /* 1 .. 1e6: of all newcomers that are not named, together */
     uint32_t num_allowed;          /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
     /* sensor_ids; messages of any other are not looked at; an even number, so that nothing is padded */
