@@ -21,6 +21,12 @@ float rho_angle_wrap(float angle_rad);
 /* a - b by the shorter way, in -pi <= difference < pi. */
 float rho_angle_difference(float a_rad, float b_rad);
 
+/* Whether a sector is the whole circle as it is said: its ends are equal. */
+static inline int rho_angle_is_circle(float from_rad, float to_rad)
+{
+    return from_rad <= to_rad && from_rad >= to_rad;
+}
+
 /* How far a sector goes round: above 0, up to 2 pi. NaN where an end is. */
 float rho_angle_sector_width(float from_rad, float to_rad);
 

@@ -445,12 +445,6 @@ int rho_measurement_bearing(const float state[6], float x_m, float y_m, float be
     return 1;
 }
 
-/* How a whole circle is mostly said. */
-static int is_all_round(float from_rad, float to_rad)
-{
-    return from_rad >= to_rad && from_rad <= to_rad;
-}
-
 int rho_measurement_looks_at(const struct rho_sensor *sensor, float sector_from_rad,
                              float sector_to_rad, float x_m, float y_m)
 {
@@ -461,8 +455,8 @@ int rho_measurement_looks_at(const struct rho_sensor *sensor, float sector_from_
                     range2_m2 <= sensor->range_max_m * sensor->range_max_m)) {
         return 0;
     }
-    if (is_all_round(sector_from_rad, sector_to_rad) &&
-        (!sensor || is_all_round(sensor->sector_from_rad, sensor->sector_to_rad))) {
+    if (rho_angle_is_circle(sector_from_rad, sector_to_rad) &&
+        (!sensor || rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad))) {
         return range2_m2 <= FLT_MAX; /* most radars: wherever it is, the arctangent is not needed */
     }
     float azimuth_rad = rho_atan2(dy_m, dx_m);

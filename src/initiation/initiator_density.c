@@ -464,6 +464,18 @@ float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_
     return rho_initiator_remembered(initiator, x_m, y_m, held_density(initiator, x_m, y_m));
 }
 
+/*
+ * What is remembered is of all sensors together: it raises the density in one of several maps
+ * as it raises their mean.
+ */
+static float remembered_in_one(const struct rho_initiator *initiator, float x_m, float y_m,
+                               float density_per_m2)
+{
+    const float held_per_m2 = held_density(initiator, x_m, y_m);
+    return density_per_m2 *
+           (rho_initiator_remembered(initiator, x_m, y_m, held_per_m2) / held_per_m2);
+}
+
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m)
 {
@@ -472,14 +484,14 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
     if (initiator->num_maps == 0) {
         return 0.0f;
     }
+    if (has_several(initiator) && map->sensor_id == sensor_id) {
+        return remembered_in_one(initiator, x_m, y_m, density_in(map, x_m, y_m));
+    }
     for (unsigned m = 0; m < RHO_MAX_SCANS; m++) {
         if (initiator->sensor_ratio[m] > 0.0f && initiator->sensor_id[m] == sensor_id) {
             ratio = initiator->sensor_ratio[m];
             break;
         }
-    }
-    if (has_several(initiator) && map->sensor_id == sensor_id) {
-        ratio = density_in(map, x_m, y_m) / held_density(initiator, x_m, y_m);
     }
     return rho_initiator_mean_density(initiator, x_m, y_m) * ratio;
 }
@@ -524,12 +536,9 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
     unsigned cell = map_cell(map, plot->x_m, plot->y_m, &per_m2), count = map->count[cell];
     unsigned own = own_plots(search, set, map, cell);
     float density = density_of(map, (float)(count > own ? count - own : 0u)) * per_m2;
-    if (!has_several(initiator)) {
-        density = rho_initiator_remembered(initiator, plot->x_m, plot->y_m, density);
-    } else {
-        float held = held_density(initiator, plot->x_m, plot->y_m);
-        density *= rho_initiator_remembered(initiator, plot->x_m, plot->y_m, held) / held;
-    }
+    density = has_several(initiator)
+                  ? remembered_in_one(initiator, plot->x_m, plot->y_m, density)
+                  : rho_initiator_remembered(initiator, plot->x_m, plot->y_m, density);
     float log_density = rho_log(density) + search->log_ratio[m];
 #if RHO_MAX_ECHOES > 0
     log_density += (float)scan->repeats[set->plot[m]] / RHO_WINDOW_REPEATS_PER_NAT;

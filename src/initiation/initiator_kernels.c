@@ -5,9 +5,6 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
-/* What rounding may add to a vote's distance from its kernel. */
-#define ROUNDING 1.001f
-
 /* The voter's plot nearest to where the kernel says, in the gate of all three plots' noise; -1: none. */
 static int vote(struct search *search, const struct span *span, unsigned m, struct kernel *kernel)
 {
@@ -158,9 +155,9 @@ static int is_near_first(const struct search *search, const struct span *span,
     float al = (after_s + plot->offset_s - kernel->from->offset_s) / kernel->duration_s;
     float x_m = kernel->from->x_m + al * kernel->dx_m - plot->x_m;
     float y_m = kernel->from->y_m + al * kernel->dy_m - plot->y_m;
-    float reach_m = ROUNDING * ending->reach_share * voter->reach_m + ending->rounding_m;
+    float reach_m = REACH_ROUNDING * ending->reach_share * voter->reach_m + ending->rounding_m;
     float along_m = x_m * ending->along_x + y_m * ending->along_y;
-    float along_max_m = ROUNDING * ending->along_share * voter->reach_m + ending->rounding_m;
+    float along_max_m = REACH_ROUNDING * ending->along_share * voter->reach_m + ending->rounding_m;
     return x_m * x_m + y_m * y_m <= reach_m * reach_m &&
            along_m * along_m <= along_max_m * along_max_m;
 }

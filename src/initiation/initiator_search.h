@@ -149,6 +149,12 @@ struct voter {
 
 #define SPANS_MAX (RHO_MAX_SCANS - 2)
 
+/*
+ * What rounding may add to a vote's distance from its kernel: wherever a kernel is passed over
+ * for it, by the same factor.
+ */
+#define REACH_ROUNDING 1.001f
+
 /* What all kernels from scan a to scan b share. */
 struct span {
     uint8_t a, b;

@@ -5,9 +5,8 @@
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
 
-/* Of a place that sums of coordinates tell, and of a gate's reach. */
+/* What rounding may take off a place that sums of coordinates tell, as a share of these. */
 #define ROUNDING_SHARE 1e-6f
-#define ROUNDING 1.001f
 
 /* A crowd is counted bin by bin in so many rows at most. */
 #define CROWD_ROWS 16
@@ -211,9 +210,10 @@ static int extrapolate(const struct search *search, const struct span *span,
     if (!(third->before_s > 0.0f)) {
         return 1;
     }
-    float reach_m = begin_s / third->before_s *
-                    (ROUNDING * ending->reach_share * span->voters[third->first.gap - 1u].reach_m +
-                     ending->rounding_m);
+    float reach_m =
+        begin_s / third->before_s *
+        (REACH_ROUNDING * ending->reach_share * span->voters[third->first.gap - 1u].reach_m +
+         ending->rounding_m);
     float x0_m = to->x_m - third->vx_mps * begin_s, x1_m = to->x_m - third->vx_mps * end_s;
     float y0_m = to->y_m - third->vy_mps * begin_s, y1_m = to->y_m - third->vy_mps * end_s;
     box->x0_m = most(box->x0_m, least(x0_m, x1_m) - reach_m);
@@ -271,10 +271,10 @@ static float far_of_gap(const struct search *search, const struct fan *fan,
     for (unsigned n = 0; n < fan->num_spans; n++) {
         const struct span *span = &fan->spans[n];
         if (spans >> n & 1u) {
-            far_m = most(far_m, span->slack_m + ROUNDING * span->voters[gap - 1u].reach_m);
+            far_m = most(far_m, span->slack_m + REACH_ROUNDING * span->voters[gap - 1u].reach_m);
         }
     }
-    return far_m + ending->rounding_m + ROUNDING * run_m(search, ending, b, b - gap);
+    return far_m + ending->rounding_m + REACH_ROUNDING * run_m(search, ending, b, b - gap);
 }
 
 static void try_third(struct search *search, const struct fan *fan, const struct ending *ending,

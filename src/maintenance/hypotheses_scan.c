@@ -59,7 +59,20 @@ static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct 
     }
 }
 
-/* One by one, at the plot's own time. Returns what the best hypothesis with the plot is worth; -FLT_MAX: none. */
+/* At the plot's own time. What is expected of range rates is known at the hypotheses' time alone. */
+static int weigh_one(struct rho_hypotheses *pool, uint16_t slot, unsigned i,
+                     const struct rho_imm_plot *seen, int64_t time_us, struct rho_imm_match *match)
+{
+    const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+    const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
+    if (imm != &at->imm || !(seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        return imm && rho_imm_weigh(imm, seen, match);
+    }
+    open_rates(pool, slot, seen->sensor);
+    return rho_imm_weigh_with(imm, &pool->opened.rates[i], seen, match);
+}
+
+/* One by one. Returns what the best hypothesis with the plot is worth; -FLT_MAX: none. */
 static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct rho_imm_plot *seen,
                         int64_t time_us, int16_t row, float log_pd,
                         const struct rho_hypotheses_clutter *clutter)
@@ -68,12 +81,7 @@ static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
-        if (imm == &at->imm && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
-            open_rates(pool, slot, seen->sensor);
-        }
-        if (imm && (imm == &at->imm ? rho_imm_weigh_with(imm, &pool->opened.rates[i], seen, &match)
-                                    : rho_imm_weigh(imm, seen, &match))) {
+        if (weigh_one(pool, slot, i, seen, time_us, &match)) {
             const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
             const float worth = note_candidate(at, gain, match.probability, row);
             best = worth > best ? worth : best;

@@ -48,6 +48,7 @@
 #define STROBE_RANGES_MIN 6u
 /* Plots without clutter near them: the least density that is believed, plots a m^2. */
 #define DENSITY_MIN 1e-12f
+
 /* ---- look ------------------------------------------------------------------------------------- */
 
 static float range_max_of(const struct step *step)

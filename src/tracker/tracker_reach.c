@@ -48,19 +48,14 @@ int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *p
            rho_tracker_covers_bearing(sensor, rho_atan2(dy_m, dx_m), cross_sigma_m / ground_m);
 }
 
-static int is_whole_circle(float from_rad, float to_rad)
-{
-    return from_rad <= to_rad && from_rad >= to_rad;
-}
-
 /* A sector is looked through, of the scan or the sensor's own. */
 static int has_sector(const struct step *step)
 {
     const struct rho_scan *scan = step->scan;
     const struct rho_sensor *sensor = step->sensor;
 
-    return !is_whole_circle(scan->sector_from_rad, scan->sector_to_rad) ||
-           (sensor && !is_whole_circle(sensor->sector_from_rad, sensor->sector_to_rad));
+    return !rho_angle_is_circle(scan->sector_from_rad, scan->sector_to_rad) ||
+           (sensor && !rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad));
 }
 
 static int reaches_sector(const struct step *step, float azimuth_rad, float margin_rad)

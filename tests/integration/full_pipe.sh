@@ -1,15 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # node --print into a pipe that nobody reads: tracks go on, what is not printed is counted, SIGTERM ends it at once.
-if [ -z "${NODE_TEST_INSIDE:-}" ] && command -v ip >/dev/null && unshare -Urn true 2>/dev/null; then
-    NODE_TEST_INSIDE=1 exec unshare -Urn bash "$0"
-fi
-if [ -n "${NODE_TEST_INSIDE:-}" ]; then
-    ip link set lo up && ip route add 224.0.0.0/4 dev lo
-fi
+# shellcheck source=tests/integration/loopback.bash
+. "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
-export LCM_DEFAULT_URL="udpm://239.255.76.67:$((20000 + $$ % 10000))?ttl=0"
 
 "$program" simulate range-24ghz -o scene --set duration_s=30 >/dev/null
 mkfifo pipe
@@ -17,13 +12,10 @@ mkfifo pipe
 python3 -c 'import fcntl, os, time; fcntl.fcntl(os.open("pipe", os.O_RDWR), 1031, 4096); open("held", "w"); time.sleep(120)' &
 holder=$!
 trap 'kill "$holder" 2>/dev/null; rm -rf "$folder"' EXIT
-until [ -e held ]; do sleep 0.05; done
+wait_until 10 test -e held
 "$program" node --print --log node.lcm --config scene/scenario.ini --set hold_ms=500 >pipe 2>node.err </dev/null &
 node=$!
-for _ in $(seq 100); do
-    [ -s node.lcm ] && break
-    sleep 0.05
-done
+wait_until 5 test -s node.lcm # its first status
 run publish scene/plots.csv --config scene/scenario.ini --speed 6
 check 'publish' exits 0
 sleep 1

@@ -1,26 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # node and publish: the same tracks live as from a file, a clean end, logs, other providers, bad URLs.
-if [ -z "${NODE_TEST_INSIDE:-}" ] && command -v ip >/dev/null && unshare -Urn true 2>/dev/null; then
-    NODE_TEST_INSIDE=1 exec unshare -Urn bash "$0"
-fi
-if [ -n "${NODE_TEST_INSIDE:-}" ]; then
-    ip link set lo up && ip route add 224.0.0.0/4 dev lo
-fi
+# shellcheck source=tests/integration/loopback.bash
+. "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
-# Also where the network is not this script's own, nobody else is there.
-export LCM_DEFAULT_URL="udpm://239.255.76.67:$((20000 + $$ % 10000))?ttl=0"
-
-# wait_until SECONDS COMMAND...: until it succeeds.
-wait_until() {
-    local tries=$(($1 * 20))
-    shift
-    until "$@" 2>/dev/null; do
-        [ $((tries -= 1)) -gt 0 ] || return 1
-        sleep 0.05
-    done
-}
 
 # start NAME OPTIONS...: a node with NAME.csv, NAME.lcm, NAME.err; $node is its process. It listens when it returns.
 # It waits long for parts and other sensors: on a machine that is busy publish may pause for more than 20 ms.

@@ -120,7 +120,7 @@ static void the_limit_starts_at_so_many_hits(void **state)
 {
     struct air_case of = case_of(20, 0, 40);
     struct scene *scene = air_scene(&of);
-    struct parameters parameters = air_parameters(scene);
+    struct parameters parameters = scene_parameters(scene);
     struct simulation *simulation = scene_simulation(scene, SEED, 0);
     struct chain chain = chain_start();
     (void)state;

@@ -10,27 +10,13 @@
 #include <math.h>
 
 #include "chain.h"
+#include "rhotrack/angle.h"
 
 /* The places' distance and the ranges' difference, together, are at most this share of the shorter range: then each sees about half
  * of what the other sees. */
 #define APART_MAX 0.8f
 /* Turns of one during a turn of the other. */
 #define TURNS_MAX 1.5f
-
-static bool is_whole_turn(float from_rad, float to_rad)
-{
-    return from_rad == to_rad; /* how both scans and descriptions say it */
-}
-
-static const struct rho_sensor *find_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
-{
-    for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        if (tracker->sensors[i].sensor_id == sensor_id) {
-            return &tracker->sensors[i];
-        }
-    }
-    return NULL;
-}
 
 /* Time from one look to the next; 0: not known yet. */
 static float interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
@@ -51,8 +37,8 @@ static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sen
     const float other_s = interval_s(tracker, other->sensor_id);
     const bool is_known = one_s > 0.0f && other_s > 0.0f;
 
-    return is_whole_turn(one->sector_from_rad, one->sector_to_rad) &&
-           is_whole_turn(other->sector_from_rad, other->sector_to_rad) &&
+    return rho_angle_is_circle(one->sector_from_rad, one->sector_to_rad) &&
+           rho_angle_is_circle(other->sector_from_rad, other->sector_to_rad) &&
            apart_m + fabsf(one->range_max_m - other->range_max_m) <=
                APART_MAX * fminf(one->range_max_m, other->range_max_m) &&
            (!is_known || fmaxf(one_s, other_s) <= TURNS_MAX * fminf(one_s, other_s));
@@ -73,8 +59,7 @@ int32_t chain_window_of(const struct chain *chain, const struct rho_scan *scan)
     const struct rho_tracker *tracker = chain->tracker;
     bool is_paired[RHO_MAX_SENSORS] = {false};
 
-    if (!is_whole_turn(scan->sector_from_rad, scan->sector_to_rad) ||
-        !find_sensor(tracker, scan->sensor_id)) {
+    if (!rho_angle_is_circle(scan->sector_from_rad, scan->sector_to_rad)) {
         return scan->sensor_id;
     }
     for (unsigned i = 0; i < tracker->num_sensors; i++) {

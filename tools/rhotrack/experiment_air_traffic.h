@@ -63,7 +63,6 @@ double air_clock_us(void);
 
 /* The scene of a case, which the caller frees, and what a tracker is told of it. */
 struct scene *air_scene(const struct air_case *of);
-struct parameters air_parameters(const struct scene *scene);
 
 /* Of an evaluation's result; and for means over runs: adds (squares of distances), then divides. */
 struct air_figures air_figures_of(const struct evaluation *evaluation);

@@ -5,13 +5,14 @@
 #include "common.h"
 #include "experiment_air_traffic.h"
 #include "random.h"
+#include "scene/scene_simulation.h"
 
 struct air_alarm_result air_alarm_run(const struct air_alarm *of, uint64_t seed, uint64_t run,
                                       struct chain *chain)
 {
     const struct air_case like = {.sets = {NULL}};
     struct scene *scene = air_scene(&like);
-    struct parameters parameters = air_parameters(scene);
+    struct parameters parameters = scene_parameters(scene);
     struct random random = random_start(seed, (uint64_t)of->clutter, run);
     double interval_s = parameters.value[PARAMETER_INTERVAL_S];
     struct air_alarm_result result = {.scans = AIR_ALARM_SCANS,

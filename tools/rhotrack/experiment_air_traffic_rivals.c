@@ -216,7 +216,7 @@ static struct air_rival run_own(uint64_t seed, size_t run, const char *folder, s
     const struct air_case of = {
         .targets = TARGETS, .clutter = CLUTTER, .num_scans = AIR_RIVAL_SCANS};
     struct scene *scene = air_scene(&of);
-    struct parameters parameters = air_parameters(scene);
+    struct parameters parameters = scene_parameters(scene);
     struct simulation *simulation = scene_simulation(scene, seed, run);
     struct air_result result = air_simulated(&parameters, simulation, false, chain);
 

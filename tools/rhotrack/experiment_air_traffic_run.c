@@ -28,15 +28,6 @@ struct scene *air_scene(const struct air_case *of)
     return scene_find("air-traffic", sets, count);
 }
 
-struct parameters air_parameters(const struct scene *scene)
-{
-    struct parameters parameters;
-
-    parameters_default(&parameters);
-    scene_suggest(scene, &parameters);
-    return parameters;
-}
-
 double air_clock_us(void)
 {
     struct timespec now;
@@ -260,7 +251,7 @@ struct air_result air_run(const struct air_case *of, uint64_t seed, uint64_t run
                           struct chain *chain)
 {
     struct scene *scene = air_scene(of);
-    struct parameters parameters = air_parameters(scene);
+    struct parameters parameters = scene_parameters(scene);
     struct simulation *simulation = scene_simulation(scene, seed, run);
     struct air_result result = air_simulated(&parameters, simulation, of->has_limit, chain);
 

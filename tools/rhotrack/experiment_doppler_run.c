@@ -82,10 +82,9 @@ struct doppler_figures doppler_measure(const struct polar_case *of, double clutt
     snprintf(moving, sizeof moving, "clutter.0.plots=%g", clutter);
     snprintf(still, sizeof still, "clutter.1.plots=%g", static_clutter);
     struct scene *scene = scene_find("doppler", sets, 2);
-    struct measuring measuring = {.of = of, .scene = scene, .seed = seed};
+    struct measuring measuring = {
+        .of = of, .scene = scene, .parameters = scene_parameters(scene), .seed = seed};
 
-    parameters_default(&measuring.parameters);
-    scene_suggest(scene, &measuring.parameters);
     parameters_suggest(&measuring.parameters, PARAMETER_CLUTTER_PER_SCAN, clutter);
     measuring.results = must_calloc(num_runs, sizeof *measuring.results);
     workers_run(num_runs, "runs", run_one, &measuring);

@@ -35,8 +35,7 @@ struct simulation *polar_simulation(double clutter, double pd, uint64_t seed, ui
     snprintf(plots, sizeof plots, "clutter.0.plots=%g", clutter);
     snprintf(detected, sizeof detected, "radars.0.pd=%g", pd);
     scene = scene_find("polar", sets, pd > 0.0 ? 3 : 2);
-    parameters_default(parameters);
-    scene_suggest(scene, parameters);
+    *parameters = scene_parameters(scene);
     parameters_suggest(parameters, PARAMETER_CLUTTER_PER_SCAN, clutter);
     simulation = scene_simulation(scene, seed, run);
     scene_free(scene);

@@ -34,7 +34,6 @@ struct rotating_result {
 
 /* The scene, which the caller frees, and what a tracker is told of it. */
 struct scene *rotating_scene(void);
-struct parameters rotating_parameters(const struct scene *scene);
 
 /* step_us: the time of each step so far, of which the least counts; room for the run's scans, INFINITY at first. */
 struct rotating_result rotating_follow(enum rotating_case of, const struct parameters *parameters,

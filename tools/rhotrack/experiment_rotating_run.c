@@ -25,15 +25,6 @@ struct scene *rotating_scene(void)
     return scene_find("rotating", NULL, 0);
 }
 
-struct parameters rotating_parameters(const struct scene *scene)
-{
-    struct parameters parameters;
-
-    parameters_default(&parameters);
-    scene_suggest(scene, &parameters);
-    return parameters;
-}
-
 /* ---- scans ------------------------------------------------------------------------------------ */
 
 struct following {
@@ -326,7 +317,7 @@ struct rotating_figures *rotating_measure(uint64_t seed, size_t num_runs)
 {
     struct scene *scene = rotating_scene();
     struct measuring measuring = {
-        .scene = scene, .parameters = rotating_parameters(scene), .seed = seed};
+        .scene = scene, .parameters = scene_parameters(scene), .seed = seed};
     struct rotating_figures *figures = must_calloc(ROTATING_CASES, sizeof *figures);
 
     measuring.results = must_calloc(num_runs * ROTATING_CASES, sizeof *measuring.results);

@@ -59,7 +59,6 @@ struct radars_run {
 
 /* The scene, which the caller frees, and what a tracker is told of it. */
 struct scene *radars_scene(void);
-struct parameters radars_parameters(const struct scene *scene);
 
 /* All cases of one run; reports: RHO_MAX_PLOTS plots of the chain are used. */
 struct radars_run radars_run_all(const struct scene *scene, uint64_t seed, uint64_t run,

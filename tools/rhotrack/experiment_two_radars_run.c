@@ -26,15 +26,6 @@ struct scene *radars_scene(void)
     return scene_find("two-radars", NULL, 0);
 }
 
-struct parameters radars_parameters(const struct scene *scene)
-{
-    struct parameters parameters;
-
-    parameters_default(&parameters);
-    scene_suggest(scene, &parameters);
-    return parameters;
-}
-
 /* ---- register --------------------------------------------------------------------------------- */
 
 struct register_result radars_register(const struct scene_run *run,
@@ -353,7 +344,7 @@ static struct radars_figures run_case(const struct radars_case *of, const struct
 struct radars_run radars_run_all(const struct scene *scene, uint64_t seed, uint64_t run,
                                  struct chain *chain)
 {
-    struct parameters parameters = radars_parameters(scene);
+    struct parameters parameters = scene_parameters(scene);
     struct scene_run *seen = scene_watch(scene, seed, run);
     struct register_result result = radars_register(seen, &parameters, chain);
     struct radars_run out = {.found = found_of(scene, &result)};

@@ -201,7 +201,7 @@ static void take_off(struct sky *sky, double start_s)
  */
 static bool take_off_towards(struct sky *sky, double start_s, const struct scene_path *other)
 {
-    double span_s = draw(sky, 240.0, 400.0), cruise_mps = draw(sky, 180.0, 260.0);
+    double span_s = draw(sky, 240.0, 400.0), cruise_mps = draw(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS);
     double accel_mps2 = (cruise_mps - GROUND_MPS) / draw(sky, 160.0, 200.0);
     double climb_s = (cruise_mps - GROUND_MPS) / accel_mps2;
     double path_m = cruise_mps * span_s - 0.5 * (cruise_mps - GROUND_MPS) * climb_s;

@@ -43,16 +43,20 @@ static void suggest_radar(const struct scene_sensor *sensor, struct parameters *
     parameters_suggest(parameters, PARAMETER_RANGE_MAX_M, told->coverage.range_m.hi);
 }
 
-void scene_suggest(const struct scene *scene, struct parameters *parameters)
+struct parameters scene_parameters(const struct scene *scene)
 {
-    suggest_settings(scene, parameters);
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    suggest_settings(scene, &parameters);
     for (int i = 0; scene->has_area && i < 4; i++) {
-        parameters_suggest(parameters, (enum parameter_id)(PARAMETER_AREA_X_MIN_M + i),
+        parameters_suggest(&parameters, (enum parameter_id)(PARAMETER_AREA_X_MIN_M + i),
                            scene->area_m[i]);
     }
     if (scene->num_sensors == 1) {
-        suggest_radar(&scene->sensors[0], parameters);
+        suggest_radar(&scene->sensors[0], &parameters);
     }
+    return parameters;
 }
 
 /* ---- one radar's scans and the truth ---------------------------------------------------------- */

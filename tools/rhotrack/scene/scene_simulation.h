@@ -8,8 +8,8 @@
 #include "scene.h"
 #include "scene_watch.h"
 
-/* What scenario.ini would tell a tracker, suggested; of the sensor where there is one radar alone. */
-void scene_suggest(const struct scene *scene, struct parameters *parameters);
+/* The defaults, and what scenario.ini would tell a tracker; of the sensor where there is one radar alone. */
+struct parameters scene_parameters(const struct scene *scene);
 
 /*
  * A run of one radar that looks everywhere at once, or whose scan is a turn: times of scans are where these begin. There
