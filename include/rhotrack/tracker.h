@@ -112,6 +112,16 @@ struct rho_tracker_counters {
 #endif
 };
 
+/*
+ * What the limits on work did. Units are those of struct rho_initiator_budget. All saturate, and only rho_tracker_init clears
+ * them.
+ */
+struct rho_tracker_work {
+    uint32_t work, work_worst; /* units of the last step, of the worst one */
+    uint32_t partial_steps;    /* steps that left something out */
+    uint32_t plots_not_tried;  /* newest plots that were not tried with all that they might go with */
+};
+
 #if RHO_PLOT_STRIPS > 1
 /* The plots of the scan that is stepped, by strips of x. */
 struct rho_tracker_strips {
@@ -164,6 +174,7 @@ struct rho_tracker {
     uint16_t looks_max;  /* scans of a frame, the most so far; 1 before */
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
+    struct rho_tracker_work work;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
     /* tracks that misses ended before they had 16 hits, and those that had; of the last half an hour */
     float died_young, grown;
@@ -213,6 +224,7 @@ struct rho_report {
     /* of the scan: fates of the first RHO_MAX_PLOTS follow; the others are claimed, INVALID or NO_ROOM, or STALE of a late scan */
     uint32_t num_plots;
     uint16_t num_tracks, num_ended;
+    uint32_t is_partial; /* work ended before all plots were tried */
     uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
     uint8_t fates[RHO_MAX_PLOTS];        /* enum rho_fate */
     struct rho_track_report tracks[RHO_MAX_TRACKS];

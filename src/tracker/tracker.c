@@ -251,10 +251,21 @@ static void note_unclaimed(struct step *step)
     rho_tracker_smooth(&step->tracker->unclaimed_plots, unclaimed * rho_tracker_turns(step));
 }
 
+static void count_work(const struct step *step)
+{
+    struct rho_tracker_work *work = &step->tracker->work;
+    work->work = step->work;
+    work->work_worst = work->work > work->work_worst ? work->work : work->work_worst;
+    work->partial_steps = rho_count(work->partial_steps, step->is_partial ? 1u : 0u);
+    work->plots_not_tried = rho_count(work->plots_not_tried, step->plots_not_tried);
+    step->report->is_partial = step->is_partial ? 1u : 0u;
+}
+
 void rho_tracker_close(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     count_fates(step);
+    count_work(step);
     tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
     step->report->num_tracks = tracker->num_tracks;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {

@@ -296,6 +296,18 @@ static int is_without_say(const struct step *step)
 #endif
 }
 
+/* What the search did is work of the step. */
+static void search_newest(struct step *step)
+{
+    struct rho_initiator *initiator = step->initiator;
+    const struct rho_initiator_budget before = initiator->budget;
+    (void)!rho_initiator_search(initiator, RHO_SEARCH_NEWEST);
+    step->work = rho_count(step->work, initiator->budget.work);
+    step->plots_not_tried = rho_count(
+        step->plots_not_tried, initiator->budget.plots_not_tried - before.plots_not_tried);
+    step->is_partial |= initiator->budget.partial_steps != before.partial_steps;
+}
+
 void rho_tracker_initiate(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -310,7 +322,7 @@ void rho_tracker_initiate(struct step *step)
     (void)!rho_initiator_push(initiator, &held, step->sensor, step->report->fates,
                               &tracker->counters.plots_clutter);
     rho_tracker_keep_repeats(step);
-    (void)!rho_initiator_search(initiator, RHO_SEARCH_NEWEST);
+    search_newest(step);
     tracker->counters.candidates_dropped =
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
     tracker->start_mnat = initiator->start_mnat;

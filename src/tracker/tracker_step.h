@@ -39,6 +39,8 @@ struct step {
     float part_per_m2, part_share;
     /* of the scan's valid plots, the most: noise on any axis, own time either way */
     float sigma_max_m, offset_max_s;
+    uint32_t work, plots_not_tried; /* units; plots */
+    int is_partial;
     /* bit i: track i is within the scan's reach, or there is no scan but a frame */
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
     struct rho_track_model model;
