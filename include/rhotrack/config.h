@@ -41,9 +41,9 @@
 #define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 2048)
 #endif
 
-/* Work that a search for new tracks may do where nothing else is said, in units (struct rho_initiator_config's work_max). */
-#ifndef RHO_INITIATOR_WORK
-#define RHO_INITIATOR_WORK RHO_CONFIG_PICK(500000, 12000000)
+/* Work that a step may do where nothing else is said, in units (work_max of struct rho_tracker_config and rho_initiator_config). */
+#ifndef RHO_WORK_MAX
+#define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 12000000)
 #endif
 
 /* Cells along each side of a clutter density map. RAM: 2 bytes a cell and map. 1 .. 64. */
@@ -259,8 +259,8 @@
 #if RHO_MAX_CANDIDATES < 1 || RHO_MAX_CANDIDATES > 4096
 #error "RHO_MAX_CANDIDATES must be 1 .. 4096"
 #endif
-#if RHO_INITIATOR_WORK < 0 || RHO_INITIATOR_WORK > 100000000
-#error "RHO_INITIATOR_WORK must be 0 .. 100000000"
+#if RHO_WORK_MAX < 0 || RHO_WORK_MAX > 100000000
+#error "RHO_WORK_MAX must be 0 .. 100000000"
 #endif
 #if RHO_MAX_DENSITY_MAPS < 1 || RHO_MAX_DENSITY_MAPS > 8
 #error "RHO_MAX_DENSITY_MAPS must be 1 .. 8"

@@ -87,6 +87,9 @@ struct rho_tracker_config {
      * looked at where RHO_FILTERS has no input estimation */
     struct rho_input_config input;
     float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
+    /* work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have half of it at most, the
+     * search what is left, and at most its own work_max */
+    uint32_t work_max;
 };
 
 /* Since init; all saturate. The fates' counters add up to plots_in. */
@@ -113,13 +116,14 @@ struct rho_tracker_counters {
 };
 
 /*
- * What the limits on work did. Units are those of struct rho_initiator_budget. All saturate, and only rho_tracker_init clears
- * them.
+ * What the limits on work did. A unit is 40 instructions of a Cortex-M4 or so: those of struct rho_initiator_budget, and for
+ * a plot that a track weighs, by each of its hypotheses, 4 to 80. Where plots crowd in a track's gate those far from its
+ * expected place are left out, and the counters move. All saturate, and only rho_tracker_init clears them.
  */
 struct rho_tracker_work {
     uint32_t work, work_worst; /* units of the last step, of the worst one */
     uint32_t partial_steps;    /* steps that left something out */
-    uint32_t plots_not_tried;  /* newest plots that were not tried with all that they might go with */
+    uint32_t plots_not_tried;  /* by the search; and by tracks, once by each */
 };
 
 #if RHO_PLOT_STRIPS > 1

@@ -11,7 +11,6 @@
 /* Slower "fastest targets" would leave no room for velocities in float32. */
 #define V_MAX_LEAST_MPS 0.01f
 
-#define WORK_MAX_UNITS 100000000u
 
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
 
@@ -29,7 +28,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config)
         .v_max_mps = 700.0f,
         .pd = 0.9f,
         .false_tracks_per_hour = 1.0f,
-        .work_max = RHO_INITIATOR_WORK,
+        .work_max = RHO_WORK_MAX,
     };
 }
 
@@ -45,7 +44,7 @@ int rho_initiator_is_usable(const struct rho_initiator_config *config)
             rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f)) &&
            rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
            rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f) &&
-           config->work_max <= WORK_MAX_UNITS;
+           config->work_max <= RHO_LIMIT_WORK;
 }
 
 enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
@@ -239,6 +238,12 @@ static void run(struct search *search)
 
 enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_search kind)
 {
+    return rho_initiator_search_within(initiator, kind, initiator ? initiator->config.work_max : 0);
+}
+
+enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enum rho_search kind,
+                                            uint32_t work_max)
+{
     if (!initiator) {
         return RHO_ERROR_NULL;
     }
@@ -248,6 +253,7 @@ enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_s
     struct search search = {
         .initiator = initiator,
         .kind = kind,
+        .work_max = work_max,
         .num_scans = initiator->window.num_scans,
         .skip_flags = RHO_WINDOW_INITIATED,
         .keeps_rate = kind == RHO_SEARCH_NEWEST && initiator->config.false_tracks_per_hour > 0.0f,

@@ -164,7 +164,7 @@ void rho_initiator_try_kernels(struct search *search)
     struct rho_initiator *initiator = search->initiator;
     const int is_batch = search->kind == RHO_SEARCH_BATCH;
     const unsigned last = search->num_scans - 1u;
-    uint32_t work_max = initiator->config.work_max, units = work_max - work_max / CHOICE_SHARE;
+    const uint32_t work_max = search->work_max, units = work_max - work_max / CHOICE_SHARE;
     uint32_t end_units = 0;
     for (unsigned b = is_batch ? search->min_scans - 1u : last; b <= last; b++) {
         search->limit_units = work_max > 0 ? end_units + units : UINT32_MAX;

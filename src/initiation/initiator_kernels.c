@@ -82,11 +82,18 @@ static float squared(float v)
     return v * v;
 }
 
+/* What a kernel costs beside its votes, units: with noise of its plots' own; where these measure more than places; and of a
+ * range rate each meaning. */
+#define OWN_UNITS 4u
+#define MORE_UNITS 16u
+#define ALIAS_UNITS 8u
+
 /* The noise of a kernel's ends. 0 where their range rates or heights contradict it. */
-static int complete(const struct search *search, const struct span *span, struct kernel *kernel)
+static int complete(struct search *search, const struct span *span, struct kernel *kernel)
 {
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     if (!search->is_isotropic) {
+        rho_initiator_charge(search, search->has_more ? MORE_UNITS : OWN_UNITS);
         return rho_initiator_own_kernel(search, span, kernel);
     }
     kernel->from_m2 = squared(rho_window_sigma_m(kernel->from));
@@ -117,6 +124,7 @@ static int vote_aliases(struct search *search, const struct span *span,
     }
     struct rho_window_place place = kernel->place;
     for (int i = aliases.first + number; i <= aliases.last; i++) {
+        rho_initiator_charge(search, ALIAS_UNITS);
         rho_initiator_take_alias(&aliases, i, &place, &kernel->place);
         if (rho_initiator_own_end(span, kernel) && vote_all(search, span, first, kernel, set)) {
             *next = i + 1 - aliases.first;

@@ -48,6 +48,7 @@ struct search {
     uint16_t skip_flags;  /* plots that look-ups pass over */
     float score_min_nat;  /* sets below are no candidates */
     int keeps_rate;       /* thresholds follow from false_tracks_per_hour, fits must be good */
+    uint32_t work_max;    /* of this search; 0: no limit */
     uint32_t limit_units; /* that may be spent for now */
     int is_partial;       /* some of the work was left out */
     struct rho_initiator_turn next; /* where the next search begins */

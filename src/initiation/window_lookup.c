@@ -235,6 +235,9 @@ static float gate_chi2(const struct rho_window_scan *scan, const struct rho_wind
     return more == 0 ? RHO_GATE_CHI2_2D : more == 1 ? RHO_GATE_CHI2_3D : RHO_GATE_CHI2_4D;
 }
 
+/* A plot compared in its own noise costs so many more than one in that of all. */
+#define OWN_NOISE_UNITS 2u
+
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work)
 {
@@ -257,6 +260,7 @@ int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_w
     }
     work->lookups = rho_count(work->lookups, 1);
     work->distances = rho_count(work->distances, compared);
-    work->passed = rho_count(work->passed, (uint32_t)(bins.row_last - bins.row_first) + 1u);
+    work->passed = rho_count(work->passed, (uint32_t)(bins.row_last - bins.row_first) + 1u +
+                                               OWN_NOISE_UNITS * compared);
     return index;
 }

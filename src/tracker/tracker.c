@@ -251,21 +251,10 @@ static void note_unclaimed(struct step *step)
     rho_tracker_smooth(&step->tracker->unclaimed_plots, unclaimed * rho_tracker_turns(step));
 }
 
-static void count_work(const struct step *step)
-{
-    struct rho_tracker_work *work = &step->tracker->work;
-    work->work = step->work;
-    work->work_worst = work->work > work->work_worst ? work->work : work->work_worst;
-    work->partial_steps = rho_count(work->partial_steps, step->is_partial ? 1u : 0u);
-    work->plots_not_tried = rho_count(work->plots_not_tried, step->plots_not_tried);
-    step->report->is_partial = step->is_partial ? 1u : 0u;
-}
-
 void rho_tracker_close(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     count_fates(step);
-    count_work(step);
     tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
     step->report->num_tracks = tracker->num_tracks;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -283,7 +272,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
 #if RHO_SECTORS
         .late_max_s = 20.0f,
 #endif
-        .coast_scans_max = 5,
+        .coast_scans_max = 5, .work_max = RHO_WORK_MAX,
         .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
         .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
         .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
@@ -305,7 +294,8 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
            config->planes > 0 && config->planes <= ALL_PLANES &&
-           rho_is_within(config->theta_cell_rad, 1e-3f, RHO_HALF_PI);
+           rho_is_within(config->theta_cell_rad, 1e-3f, RHO_HALF_PI) &&
+           config->work_max <= RHO_LIMIT_WORK;
 }
 
 static enum rho_status open_hypotheses(struct rho_tracker *tracker)
@@ -498,6 +488,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
     };
     if (rho_tracker_open(&step)) {
         take_in(&step);
+        rho_tracker_end_work(&step);
     }
     rho_tracker_close(&step);
     return RHO_OK;

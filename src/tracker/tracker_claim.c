@@ -167,6 +167,16 @@ void rho_tracker_open_gate(const struct step *step, const struct rho_track *trac
                   step->sensor, step->scan ? step->scan->measures : 0);
 }
 
+/* Few plots are. */
+static int is_in_box(const struct step *step, const struct rho_gate *gate, const float half_m[2],
+                     uint32_t i)
+{
+    const float dx_m = step->scan->plots[i].x_m - gate->predicted.state[0];
+    const float dy_m = step->scan->plots[i].y_m - gate->predicted.state[1];
+    return dx_m <= half_m[0] && dx_m >= -half_m[0] && dy_m <= half_m[1] && dy_m >= -half_m[1] &&
+           step->report->fates[i] == RHO_FATE_HELD;
+}
+
 static void gate_plots(struct step *step, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -182,15 +192,20 @@ static void gate_plots(struct step *step, unsigned row)
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
     const struct plot_range near = rho_tracker_plots_between(
         step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0]);
+    struct plot_choice choice = rho_tracker_choose_plots(step, track);
+    for (uint32_t place = near.first; place < near.end && choice.most < near.end - near.first;
+         place++) {
+        const uint32_t i = rho_tracker_plot_at(step, place);
+        if (is_in_box(step, &gate, half_m, i)) {
+            rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
+        }
+    }
+    rho_tracker_settle_choice(step, &choice);
     for (uint32_t place = near.first; place < near.end; place++) {
         const uint32_t i = rho_tracker_plot_at(step, place);
         const struct rho_plot *plot = &step->scan->plots[i];
-        float dx_m = plot->x_m - gate.predicted.state[0],
-              dy_m = plot->y_m - gate.predicted.state[1];
-        if (dx_m > half_m[0] || dx_m < -half_m[0] || dy_m > half_m[1] || dy_m < -half_m[1]) {
-            continue; /* most plots */
-        }
-        if (step->report->fates[i] == RHO_FATE_HELD && rho_gate_test(&gate, plot, &result)) {
+        if (is_in_box(step, &gate, half_m, i) && rho_tracker_takes(step, &choice, track, plot) &&
+            rho_gate_test(&gate, plot, &result)) {
             rho_tracker_offer(
                 step, row, i,
                 by_hough
@@ -234,6 +249,39 @@ static struct plot_range plots_in_reach(const struct step *step, const struct rh
     return rho_tracker_plots_between(step, reach->x_min_m - slack_m, reach->x_max_m + slack_m);
 }
 
+/* The plots that a track may go on with: those of all hypotheses' reach; with claims, but for those that others got. */
+struct offer {
+    unsigned row;
+    const int16_t *claims;
+    struct rho_hypotheses_reach reach;
+    struct plot_range near;
+};
+
+static int is_offered(const struct step *step, struct offer *offer, uint32_t i)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    const int16_t *claims = offer->claims;
+    return step->report->fates[i] == RHO_FATE_HELD &&
+           !(claims && claims[i] >= 0 && claims[i] != (int)offer->row) &&
+           rho_hypotheses_reaches(&tracker->hypotheses, tracker->tracks[offer->row].slot,
+                                  &offer->reach, &step->scan->plots[i], step->scan->measures);
+}
+
+static struct plot_choice choose(struct step *step, struct offer *offer)
+{
+    const struct rho_track *track = &step->tracker->tracks[offer->row];
+    struct plot_choice choice = rho_tracker_choose_plots(step, track);
+    for (uint32_t place = offer->near.first;
+         place < offer->near.end && choice.most < offer->near.end - offer->near.first; place++) {
+        const uint32_t i = rho_tracker_plot_at(step, place);
+        if (is_offered(step, offer, i)) {
+            rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
+        }
+    }
+    rho_tracker_settle_choice(step, &choice);
+    return choice;
+}
+
 /*
  * Without claims, plots are offered to the assignment: one that is worth less than a miss is no better than none. With
  * them, those that others got are left out.
@@ -244,18 +292,16 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
     const struct rho_track *track = &tracker->tracks[row];
     const float log_miss = log_miss_of(step, track);
     const struct rho_hypotheses_clutter usual = clutter_at(step, track);
-    struct rho_hypotheses_reach reach;
+    struct offer offer = {.row = row, .claims = claims};
     struct rho_imm_plot seen;
     float gain_nat;
-    rho_hypotheses_look(&tracker->hypotheses, track->slot, &reach);
-    const struct plot_range near = plots_in_reach(step, track, &reach);
-    for (uint32_t place = near.first; place < near.end; place++) {
+    rho_hypotheses_look(&tracker->hypotheses, track->slot, &offer.reach);
+    offer.near = plots_in_reach(step, track, &offer.reach);
+    struct plot_choice choice = choose(step, &offer);
+    for (uint32_t place = offer.near.first; place < offer.near.end; place++) {
         const uint32_t i = rho_tracker_plot_at(step, place);
         const struct rho_plot *plot = &step->scan->plots[i];
-        if (step->report->fates[i] != RHO_FATE_HELD ||
-            (claims && claims[i] >= 0 && claims[i] != (int)row) ||
-            !rho_hypotheses_reaches(&tracker->hypotheses, track->slot, &reach, plot,
-                                    step->scan->measures)) {
+        if (!is_offered(step, &offer, i) || !rho_tracker_takes(step, &choice, track, plot)) {
             continue;
         }
         rho_imm_open_plot(&seen, plot, step->scan->measures, step->sensor);
@@ -275,6 +321,7 @@ void rho_tracker_claim(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
+    rho_tracker_begin_work(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
             continue;
@@ -387,6 +434,7 @@ static void commit(struct step *step, unsigned row)
 void rho_tracker_update(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
+    rho_tracker_begin_work(step);
     rho_tracker_share(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];

@@ -335,6 +335,7 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
     };
     if (rho_tracker_open(&step)) {
         take_in(&step);
+        rho_tracker_end_work(&step);
     }
     rho_tracker_close(&step);
     return RHO_OK;

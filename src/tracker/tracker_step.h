@@ -12,6 +12,12 @@
 /* The least side of an area that clutter is spread over. */
 #define RHO_CLUTTER_SIDE_MIN_M 1000.0f
 
+/* The work of a phase, of which each track that waits has a share. */
+struct work_share {
+    uint32_t end, kept; /* units: until where; for each that waits */
+    unsigned waiting;
+};
+
 struct step {
     struct rho_tracker *tracker;
     int64_t time_us;
@@ -40,6 +46,7 @@ struct step {
     /* of the scan's valid plots, the most: noise on any axis, own time either way */
     float sigma_max_m, offset_max_s;
     uint32_t work, plots_not_tried; /* units; plots */
+    struct work_share share;        /* of the phase that tracks are in */
     int is_partial;
     /* bit i: track i is within the scan's reach, or there is no scan but a frame */
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
@@ -230,6 +237,30 @@ void rho_tracker_weigh_youth(struct step *step);
 int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track);
 void rho_tracker_note_growth(struct step *step, const struct rho_track *track);
 void rho_tracker_note_death(struct step *step, const struct rho_track *track);
+
+/* tracker_work.c: which of the plots in its reach a track has the time to weigh. A phase begins; then for each track that waits a
+ * choice is made: where there may be more plots than `most`, all in reach are noted, and the choice is settled */
+#define RHO_WORK_CLASSES 40u
+struct plot_choice {
+    uint32_t most, units; /* plots; units for each */
+    uint32_t in_reach;
+    int is_partial;
+    unsigned last_class; /* all plots of the classes before; of this one: */
+    uint32_t of_last;
+    uint16_t in_class[RHO_WORK_CLASSES];
+};
+void rho_tracker_begin_work(struct step *step);
+struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track);
+void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
+                             const struct rho_plot *plot);
+void rho_tracker_settle_choice(struct step *step, struct plot_choice *choice);
+/* True where the plot is weighed: it costs its units. */
+int rho_tracker_takes(struct step *step, struct plot_choice *choice, const struct rho_track *track,
+                      const struct rho_plot *plot);
+/* For the search. */
+uint32_t rho_tracker_work_left(const struct step *step);
+/* What the step has done is told. */
+void rho_tracker_end_work(struct step *step);
 
 /* tracker_strips.c: plots near a track, by their places in an order of its own */
 struct plot_range {

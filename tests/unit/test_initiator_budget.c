@@ -138,7 +138,7 @@ static const struct {
 
 static void no_sky_costs_more_than_the_limit(void **state)
 {
-    static const uint32_t limits[] = {1000, RHO_INITIATOR_WORK / 4u, RHO_INITIATOR_WORK};
+    static const uint32_t limits[] = {1000, RHO_WORK_MAX / 4u, RHO_WORK_MAX};
     (void)state;
     for (size_t s = 0; s < NUM(skies); s++) {
         for (size_t l = 0; l < NUM(limits); l++) {
@@ -161,14 +161,14 @@ static void no_sky_costs_more_than_the_limit(void **state)
 static void a_batch_is_limited_too(void **state)
 {
     (void)state;
-    start(RHO_INITIATOR_WORK / 4u);
+    start(RHO_WORK_MAX / 4u);
     for (int k = 0; k < WINDOW; k++) {
         add_pile(MANY);
         push(k);
     }
     assert_int_equal(rho_initiator_search(&initiator, RHO_SEARCH_BATCH), RHO_OK);
     assert_true(initiator.budget.work <=
-                (WINDOW - 2) * (RHO_INITIATOR_WORK / 4u) + RHO_INITIATOR_WORK_BEYOND);
+                (WINDOW - 2) * (RHO_WORK_MAX / 4u) + RHO_INITIATOR_WORK_BEYOND);
     assert_int_equal(initiator.budget.partial_steps, 1);
 }
 
@@ -191,7 +191,7 @@ static int found_at(int k)
 static void targets_beside_a_pile_are_found(void **state)
 {
     (void)state;
-    start(RHO_INITIATOR_WORK);
+    start(RHO_WORK_MAX);
     for (int k = 0; k < WINDOW; k++) {
         add_targets(k);
         add_pile(MANY);
@@ -207,7 +207,7 @@ static void targets_beside_a_pile_are_found(void **state)
 static void uniform_clutter_is_never_cut(void **state)
 {
     (void)state;
-    start(RHO_INITIATOR_WORK);
+    start(RHO_WORK_MAX);
     for (int k = 0; k < WINDOW + 3; k++) {
         add_targets(k);
         add_uniform(RHO_MAX_PLOTS < 5000 ? RHO_MAX_PLOTS - TARGETS : 4980);
@@ -215,7 +215,7 @@ static void uniform_clutter_is_never_cut(void **state)
         search();
     }
     print_message("uniform clutter: worst %u of %u\n", (unsigned)initiator.budget.work_worst,
-                  (unsigned)RHO_INITIATOR_WORK);
+                  (unsigned)RHO_WORK_MAX);
     assert_int_equal(initiator.budget.partial_steps, 0);
     assert_int_equal(initiator.budget.plots_not_tried, 0);
     assert_true(initiator.budget.turn.cost_class == 0 && initiator.budget.turn.plot == 0);
@@ -226,7 +226,7 @@ static void a_limit_with_room_changes_nothing(void **state)
 {
     (void)state;
     for (int run = 0; run < 2; run++) {
-        start(run ? 0u : RHO_INITIATOR_WORK);
+        start(run ? 0u : RHO_WORK_MAX);
         for (int k = 0; k < WINDOW; k++) {
             add_targets(k);
             add_uniform(150);
@@ -246,7 +246,7 @@ static void places_take_turns(void **state)
 {
     unsigned begins[16];
     (void)state;
-    start(RHO_INITIATOR_WORK / 8u);
+    start(RHO_WORK_MAX / 8u);
     for (int k = 0; k < WINDOW + (int)NUM(begins); k++) {
         add_pile(MANY);
         push(k);
@@ -259,7 +259,7 @@ static void places_take_turns(void **state)
     for (size_t i = 1; i < NUM(begins); i++) {
         assert_int_not_equal(begins[i], begins[i - 1]);
     }
-    start(RHO_INITIATOR_WORK);
+    start(RHO_WORK_MAX);
     for (int k = 0; k < 3; k++) {
         add_targets(k);
         push(k);
@@ -276,7 +276,7 @@ static void turns_survive_a_snapshot(void **state)
     const struct rho_snapshot_part part = {RHO_SNAPSHOT_INITIATOR, 1, &initiator, sizeof initiator};
     size_t length = 0;
     (void)state;
-    start(RHO_INITIATOR_WORK / 8u);
+    start(RHO_WORK_MAX / 8u);
     for (int k = 0; k <= WINDOW; k++) {
         if (k == WINDOW) {
             assert_true(initiator.budget.partial_steps > 0);

@@ -5,11 +5,12 @@
 
 #include <stdint.h>
 
+static uint32_t draw_state = 1;
+
 static inline float draw_uniform(float low, float high)
 {
-    static uint32_t state = 1;
-    state = state * 1664525u + 1013904223u;
-    return low + (high - low) * (float)(state >> 8) / 16777216.0f;
+    draw_state = draw_state * 1664525u + 1013904223u;
+    return low + (high - low) * (float)(draw_state >> 8) / 16777216.0f;
 }
 
 /* Nearly normal, by the sum of twelve. */

@@ -66,6 +66,7 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
     config->steady_s = (float)value[PARAMETER_STEADY_S];
     config->late_max_s = (float)value[PARAMETER_LATE_MAX_S];
+    config->work_max = (uint32_t)value[PARAMETER_WORK_MAX];
     config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
     config->gate = (uint8_t)value[PARAMETER_GATE];
     config->planes = (uint8_t)value[PARAMETER_PLANES];

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_work: how much work a step's tracks may do, and which plots it is spent on first.
+ *
+ * A quarter of work_max is for what tracks claim, another for those whose plots others got and that look again. Half of
+ * each is kept, in even shares for the tracks that wait; of the rest a track takes a quarter at most. A track that has more
+ * plots in reach than it may weigh takes those nearest to its expected place.
+ */
+#include "tracker_step.h"
+
+#define PHASE_SHARE 4u
+#define KEPT_SHARE 2u
+#define FREE_PARTS 4u
+
+/* To weigh a plot with one hypothesis, units; and more of them at the plot's own time, to which the hypothesis is moved, with
+ * a velocity in two or three axes. With a Kalman filter's gate. */
+#define WEIGH_UNITS 20u
+#define MOVE_UNITS 60u
+#define VELOCITY_UNITS 70u
+#define VELOCITY_3D_UNITS 140u
+#define GATE_UNITS 12u
+
+void rho_tracker_begin_work(struct step *step)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    const uint32_t units = tracker->config.work_max / PHASE_SHARE;
+    unsigned waiting = 0;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        waiting += rho_tracker_is_reached(step, row) ? 1u : 0u;
+    }
+    step->share = (struct work_share){
+        .end = tracker->config.work_max > 0 ? rho_count(step->work, units) : UINT32_MAX,
+        .kept = waiting > 0 ? units / (KEPT_SHARE * waiting) : 0u,
+        .waiting = waiting,
+    };
+}
+
+static uint32_t units_of_plot(const struct step *step, const struct rho_track *track)
+{
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return GATE_UNITS;
+    }
+    uint32_t units = WEIGH_UNITS + (step->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
+    if (step->scan->measures & RHO_MEASURES_VELOCITY) {
+        units += step->scan->measures & RHO_MEASURES_Z ? VELOCITY_3D_UNITS : VELOCITY_UNITS;
+    }
+    return units * rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
+}
+
+/* What the next track may spend. */
+static uint32_t next_share(struct step *step)
+{
+    struct work_share *share = &step->share;
+    if (share->end == UINT32_MAX) {
+        return UINT32_MAX;
+    }
+    share->waiting -= share->waiting > 0 ? 1u : 0u;
+    const uint32_t used = step->work + share->kept * (share->waiting + 1u);
+    const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
+    return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
+}
+
+struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track)
+{
+    struct plot_choice choice = {.units = units_of_plot(step, track)};
+    choice.most = next_share(step) / choice.units;
+    return choice;
+}
+
+/* By octaves of the squared distance from the expected place, the nearest first. */
+static unsigned class_of(const struct rho_track *track, const struct rho_plot *plot)
+{
+    const float dx_m = plot->x_m - track->kalman.state[0];
+    const float dy_m = plot->y_m - track->kalman.state[1];
+    float end_m2 = 1.0f;
+    unsigned class = 0;
+    while (class + 1u < RHO_WORK_CLASSES && dx_m * dx_m + dy_m * dy_m >= end_m2) {
+        end_m2 *= 2.0f;
+        class++;
+    }
+    return class;
+}
+
+void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
+                             const struct rho_plot *plot)
+{
+    choice->in_class[class_of(track, plot)]++;
+    choice->in_reach++;
+}
+
+void rho_tracker_settle_choice(struct step *step, struct plot_choice *choice)
+{
+    uint32_t left = choice->most;
+    if (choice->in_reach <= choice->most) {
+        return;
+    }
+    choice->is_partial = 1;
+    while (choice->in_class[choice->last_class] <= left) {
+        left -= choice->in_class[choice->last_class++];
+    }
+    choice->of_last = left;
+    step->is_partial = 1;
+    step->plots_not_tried = rho_count(step->plots_not_tried, choice->in_reach - choice->most);
+}
+
+int rho_tracker_takes(struct step *step, struct plot_choice *choice, const struct rho_track *track,
+                      const struct rho_plot *plot)
+{
+    if (choice->is_partial) {
+        const unsigned class = class_of(track, plot);
+        if (class > choice->last_class || (class == choice->last_class && choice->of_last == 0)) {
+            return 0;
+        }
+        choice->of_last -= class == choice->last_class ? 1u : 0u;
+    }
+    step->work = rho_count(step->work, choice->units);
+    return 1;
+}
+
+uint32_t rho_tracker_work_left(const struct step *step)
+{
+    const uint32_t most = step->initiator->config.work_max, all = step->tracker->config.work_max;
+    if (all == 0) {
+        return most;
+    }
+    const uint32_t left = all > step->work ? all - step->work : 1u; /* 0 is no limit */
+    return most > 0 && most < left ? most : left;
+}
+
+void rho_tracker_end_work(struct step *step)
+{
+    struct rho_tracker_work *work = &step->tracker->work;
+    work->work = step->work;
+    work->work_worst = work->work > work->work_worst ? work->work : work->work_worst;
+    work->partial_steps = rho_count(work->partial_steps, step->is_partial ? 1u : 0u);
+    work->plots_not_tried = rho_count(work->plots_not_tried, step->plots_not_tried);
+    step->report->is_partial = step->is_partial ? 1u : 0u;
+}

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A step's work is bounded whatever comes: tracks have their shares of it first, those that are crowded weigh the nearest
+ * plots, and what was left out is counted. Where the limit is not reached it changes nothing.
+ */
+#include "tracker_setup.h"
+
+#define TARGETS 8
+#define CROWD 200 /* plots about one target */
+#define QUIET 8   /* scans before they come */
+#define SCANS 20
+#define WORK_MAX 20000u
+/* What a phase of tracks may do beyond its share: a track's own is at most a plot too many. */
+#define BEYOND (2u * 8u * 220u + RHO_INITIATOR_WORK_BEYOND)
+
+static double target_x_m(int i, int k)
+{
+    return 9000.0 * i + 200.0 * k;
+}
+
+static void see_targets(int k)
+{
+    for (int i = 0; i < TARGETS; i++) {
+        const double x_m = target_x_m(i, k) + 20.0 * normal();
+        add(x_m, 5000.0 * (i % 3) + 20.0 * normal(), 20.0);
+    }
+}
+
+/* Plots within the gate of target 0, as near each other as their noise. */
+static void see_crowd(int k, double spread_m)
+{
+    for (int i = 0; i < CROWD; i++) {
+        const double x_m = target_x_m(0, k) + spread_m * normal();
+        add(x_m, spread_m * normal(), 20.0);
+    }
+}
+
+static void begin_with(uint32_t work_max, uint8_t gate)
+{
+    draw(11);
+    config.gate = gate;
+    config.work_max = initiation.work_max = work_max;
+    begin();
+}
+
+static const uint8_t gates[] = {RHO_TRACKER_BEST, RHO_TRACKER_NEAREST, RHO_TRACKER_HOUGH};
+
+static void a_step_does_no_more_than_it_may(void **state)
+{
+    (void)state;
+    for (unsigned g = 0; g < sizeof gates; g++) {
+        for (uint32_t work_max = WORK_MAX; work_max >= 500; work_max /= 4) {
+            begin_with(work_max, gates[g]);
+            for (int k = 0; k < SCANS; k++) {
+                see_targets(k);
+                see_crowd(k, k < QUIET ? 2000.0 : 30.0);
+                step(2.0 * k);
+                assert_true(tracker.work.work <= work_max + BEYOND);
+            }
+            print_message("gate %u, limit %u: worst %u, partial %u\n", gates[g], (unsigned)work_max,
+                          (unsigned)tracker.work.work_worst, (unsigned)tracker.work.partial_steps);
+            assert_true(tracker.work.work_worst >= tracker.work.work);
+        }
+    }
+}
+
+static void what_is_left_out_is_counted(void **state)
+{
+    (void)state;
+    begin_with(WORK_MAX, RHO_TRACKER_BEST);
+    for (int k = 0; k < QUIET; k++) {
+        see_targets(k);
+        step(2.0 * k);
+        assert_int_equal(report.is_partial, 0);
+    }
+    assert_int_equal(tracker.work.partial_steps, 0);
+    assert_int_equal(tracker.work.plots_not_tried, 0);
+    see_targets(QUIET);
+    see_crowd(QUIET, 30.0);
+    step(2.0 * QUIET);
+    assert_int_equal(report.is_partial, 1);
+    assert_int_equal(tracker.work.partial_steps, 1);
+    assert_true(tracker.work.plots_not_tried > 0);
+}
+
+/* The attacked track keeps near its target, and the others are as if there were no crowd. */
+static void others_than_the_crowded_track_have_their_share(void **state)
+{
+    (void)state;
+    static struct rho_report alone;
+    for (int is_crowded = 0; is_crowded < 2; is_crowded++) {
+        begin_with(WORK_MAX, RHO_TRACKER_BEST);
+        for (int k = 0; k < SCANS; k++) {
+            const int comes = k >= QUIET && is_crowded;
+            see_targets(k);
+            const uint64_t drawn = random_state;
+            if (comes) {
+                see_crowd(k, 60.0);
+            }
+            random_state = drawn;
+            step(2.0 * k);
+            assert_int_equal(report.is_partial, comes);
+        }
+        if (!is_crowded) {
+            alone = report;
+        }
+    }
+    assert_int_equal(alone.num_tracks, TARGETS);
+    for (uint32_t id = 1; id <= TARGETS; id++) {
+        const struct rho_track_report *track = report_of(id), *was = &alone.tracks[id - 1];
+        assert_non_null(track);
+        assert_int_equal(was->track_id, id);
+        if (hypot((double)was->state[0] - target_x_m(0, SCANS - 1), (double)was->state[1]) < 400.0) {
+            assert_true(hypot((double)(track->state[0] - was->state[0]),
+                              (double)(track->state[1] - was->state[1])) < 150.0);
+        } else {
+            assert_memory_equal(track->state, was->state, sizeof track->state);
+        }
+    }
+}
+
+/* No limit, and one that is not reached: the same bytes. */
+static void a_limit_that_is_not_reached_changes_nothing(void **state)
+{
+    (void)state;
+    static struct rho_report unlimited;
+    for (unsigned g = 0; g < sizeof gates; g++) {
+        for (int run = 0; run < 2; run++) {
+            begin_with(run == 0 ? 0 : RHO_LIMIT_WORK, gates[g]);
+            for (int k = 0; k < SCANS; k++) {
+                see_targets(k);
+                see_crowd(k, 300.0);
+                step(2.0 * k);
+                assert_int_equal(report.is_partial, 0);
+            }
+            if (run == 0) {
+                unlimited = report;
+            }
+        }
+        assert_memory_equal(&unlimited, &report, sizeof report);
+    }
+}
+
+/* Of equally many plots in reach those nearest to the expected place are weighed. */
+static void the_nearest_plots_are_weighed_first(void **state)
+{
+    (void)state;
+    begin_with(WORK_MAX / 8u, RHO_TRACKER_BEST);
+    for (int k = 0; k < QUIET; k++) {
+        add(200.0 * k + normal(), normal(), 20.0);
+        step(2.0 * k);
+    }
+    assert_int_equal(report.num_tracks, 1);
+    for (int i = 0; i < CROWD; i++) {
+        add(200.0 * QUIET + 70.0 + 0.1 * i, 0.0, 20.0);
+    }
+    add(200.0 * QUIET, 0.0, 20.0);
+    step(2.0 * QUIET);
+    assert_int_equal(report.is_partial, 1);
+    assert_int_equal(report.tracks[0].plot, CROWD);
+}
+
+static void a_limit_beyond_what_counts_is_refused(void **state)
+{
+    (void)state;
+    draw(1);
+    config.work_max = RHO_LIMIT_WORK + 1u;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_step_does_no_more_than_it_may),
+        cmocka_unit_test(what_is_left_out_is_counted),
+        cmocka_unit_test(others_than_the_crowded_track_have_their_share),
+        cmocka_unit_test(a_limit_that_is_not_reached_changes_nothing),
+        cmocka_unit_test(the_nearest_plots_are_weighed_first),
+        cmocka_unit_test(a_limit_beyond_what_counts_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * smallest: one radar, eight tracks of 64 plots a turn, by the nearest plot.
+ */
+#define RHO_MAX_PLOTS 64
+#define RHO_MAX_BINS 144
+#define RHO_MAX_TRACKS 8
+#define RHO_MAX_HYPOTHESES 1
+#define RHO_MAX_SENSORS 1
+#define RHO_MAX_CANDIDATES 8
+#define RHO_MAX_ECHOES 0
+#define RHO_FILTERS 1
+#define RHO_MAX_OPEN_SCANS 1
+#define RHO_SHARES_PLOTS 0
+#define RHO_CLAIMS_BEYOND 0
+#define RHO_AMBIGUOUS_RANGE_RATES 0
+#define RHO_MAX_CLUTTER_CELLS 0
+#define RHO_SECTORS 0
+
+#define NODE_INTERVAL_S 4.0f
+#define NODE_RANGE_MAX_M 60000.0f
+#define NODE_V_MIN_MPS 0.0f
+#define NODE_V_MAX_MPS 300.0f
+#define NODE_ACCEL_MAX_MPS2 10.0f
+#define NODE_WORK_MAX 50000
