@@ -34,7 +34,7 @@ int rho_initiator_is_spent(const struct search *search)
     return rho_initiator_spent(search) > search->limit_units;
 }
 
-void rho_initiator_charge(struct search *search, uint32_t units)
+void rho_initiator_charge(const struct search *search, uint32_t units)
 {
     struct rho_window_work *work = &search->initiator->work.window;
     work->passed = rho_count(work->passed, units);

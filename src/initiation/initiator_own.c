@@ -227,9 +227,13 @@ static void add_equation(const struct equation *equation, int unknowns, float *n
     }
 }
 
+/* Of a regression, for each of its plots: what a fit in the noise of all does not cost. */
+#define SOLVE_UNITS 50u
+
 /* Solves for the unknowns. 0 where the plots do not determine them. */
 static int solve(struct regression *of)
 {
+    rho_initiator_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
     float normal[RHO_TRIANGLE(UNKNOWNS_MAX)] = {0.0f}, right[UNKNOWNS_MAX] = {0.0f};
     int unknowns = 2 * of->axes;
     for (unsigned m = 0; m < of->search->num_scans; m++) {

@@ -242,7 +242,7 @@ int rho_initiator_try_ending(struct search *search, const struct fan *fan, unsig
 /* initiator_budget.c: what the search has spent, and may; all kernels, as far as that goes; what that was */
 uint32_t rho_initiator_spent(const struct search *search);
 int rho_initiator_is_spent(const struct search *search);
-void rho_initiator_charge(struct search *search, uint32_t units);
+void rho_initiator_charge(const struct search *search, uint32_t units);
 void rho_initiator_try_kernels(struct search *search);
 void rho_initiator_close_budget(struct search *search);
 

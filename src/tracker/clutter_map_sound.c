@@ -35,7 +35,7 @@ static int is_sound_echo(const struct rho_echo *echo)
 
 int rho_clutter_map_is_sound(const struct rho_clutter_map *map)
 {
-    if (!rho_is_stored_time(map->time_us) ||
+    if (!rho_is_stored_time(map->time_us) || map->first_echo >= RHO_MAX_ECHOES ||
         !rho_is_within(map->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) ||
         !rho_is_within(map->rate_plots, 0.0f, 1e9f) ||
         !rho_is_within(map->exact_plots, 0.0f, map->rate_plots) ||

@@ -440,6 +440,7 @@ static void take_in(struct step *step)
     step->log_range_rates -=
         rho_measurement_log_aliases(step->sensor, step->tracker->config.v_max_mps);
 #endif
+    step->range_rates_mps = rho_exp(rho_tracker_log_range_rates(step));
     rho_tracker_predict(step);
     claim(step);
     rho_tracker_expect_second_plots(step);

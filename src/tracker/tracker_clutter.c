@@ -46,6 +46,10 @@
 #define STROBE_RANGES 8.0f
 #define STROBE_RANGES_LAST 7u
 #define STROBE_RANGES_MIN 6u
+/* Units of work: an echo and a plot near it; and how many further away are one unit. The part of a step's work for all. */
+#define ECHO_UNITS 10u
+#define PLOTS_A_UNIT 4u
+#define ECHOES_SHARE 8u
 /* Plots without clutter near them: the least density that is believed, plots a m^2. */
 #define DENSITY_MIN 1e-12f
 
@@ -77,7 +81,7 @@ struct rate_ratios {
 /* Density of a range rate that is normal, over that of clutter, which is spread over all rates. */
 static float over_all_rates(const struct step *step, float off_mps, float variance)
 {
-    return rho_exp(rho_tracker_log_range_rates(step)) *
+    return step->range_rates_mps *
            (rho_exp(-0.5f * off_mps * off_mps / variance) *
             rho_inverse_sqrt(RHO_TWO_PI * variance));
 }
@@ -163,6 +167,7 @@ static void look_for(struct step *step, unsigned place)
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
     const struct plot_range near =
         rho_tracker_plots_between(step, echo->x_m - half_m, echo->x_m + half_m);
+    rho_tracker_spend(step, (near.end - near.first) / PLOTS_A_UNIT);
     for (uint32_t at = near.first; at < near.end; at++) {
         const uint32_t i = rho_tracker_plot_at(step, at);
         const struct rho_plot *plot = &step->scan->plots[i];
@@ -175,12 +180,25 @@ static void look_for(struct step *step, unsigned place)
             view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
             chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen);
         }
+        rho_tracker_spend(step, ECHO_UNITS);
         const float density = chance * density_at(step, echo, &view, plot);
         map->denser[i] += density;
         if (density > map->best_per_m2[i]) {
             map->best_per_m2[i] = density;
             map->best_echo[i] = (uint16_t)place;
         }
+    }
+}
+
+/* An echo that there is no work left for is none that the scan could see. */
+static void pass_over(struct step *step, struct rho_echo *echo)
+{
+    if (echo->hits > 0) {
+        echo->was_looked_at = 0;
+        echo->plot = -1;
+        echo->weight = 0.0f;
+        step->is_partial = 1;
+        step->plots_not_tried = rho_count(step->plots_not_tried, 1);
     }
 }
 
@@ -211,6 +229,23 @@ static int meet(struct step *step, struct rho_echo *echo, float range_max_m)
         return 0;
     }
     return 1;
+}
+
+/* Where work ends before all are looked for the next scan begins with the others. */
+static void look_for_echoes(struct step *step, float range_max_m)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    unsigned place = map->first_echo, left_out = RHO_MAX_ECHOES;
+    rho_tracker_begin_share(step, ECHOES_SHARE);
+    for (unsigned i = 0; i < RHO_MAX_ECHOES; i++, place = (place + 1u) % RHO_MAX_ECHOES) {
+        if (rho_tracker_is_spent(step)) {
+            left_out = left_out < RHO_MAX_ECHOES ? left_out : place;
+            pass_over(step, &map->echoes[place]);
+        } else if (meet(step, &map->echoes[place], range_max_m)) {
+            look_for(step, place);
+        }
+    }
+    map->first_echo = (uint16_t)(left_out < RHO_MAX_ECHOES ? left_out : 0u);
 }
 
 /* ---- strobes ---------------------------------------------------------------------------------- */
@@ -338,11 +373,7 @@ void rho_tracker_look_at_clutter(struct step *step)
     memset(map->denser, 0, step->num_gated * sizeof map->denser[0]);
     memset(map->best_per_m2, 0, step->num_gated * sizeof map->best_per_m2[0]);
     const float range_max_m = range_max_of(step);
-    for (unsigned place = 0; place < RHO_MAX_ECHOES; place++) {
-        if (meet(step, &map->echoes[place], range_max_m)) {
-            look_for(step, place);
-        }
-    }
+    look_for_echoes(step, range_max_m);
     look_for_strobes(step, range_max_m);
     weigh(step);
 }

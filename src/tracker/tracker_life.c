@@ -330,6 +330,7 @@ void rho_tracker_initiate(struct step *step)
     tracker->confirm_mnat = initiator->confirm_mnat;
     rho_tracker_note_thresholds(step);
     struct rho_track_limits limits = rho_tracker_limits(step);
+    rho_tracker_begin_share(step, RHO_WORK_STARTS_SHARE);
     for (unsigned i = 0; i < initiator->num_candidates && !is_without_say(step); i++) {
         if (!is_doubled(initiator, &initiator->candidates[i])) {
             start_track(step, &initiator->candidates[i], &limits);

@@ -18,6 +18,10 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
                                                  0.1f,  0.05f, 0.03f, 0.02f};
 #define BINS_PRIOR_PLOTS 4.0f
 #define REACH_SIGMAS 16.0f
+/* Units of work: two plots near each other; and how many further apart are one unit. The part of a step's work for all. */
+#define PAIR_UNITS 12u
+#define PLOTS_A_UNIT 4u
+#define SECOND_SHARE 16u
 
 /* Second plots a claimed plot before anything was learned, and the weight of that, in looks. */
 #define RATE_PRIOR 0.01f
@@ -342,6 +346,7 @@ static void look_near(struct step *step, const struct rho_second_plots *table, u
     const float half_m = REACH_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
     const struct plot_range near =
         rho_tracker_plots_between(step, first->x_m - half_m, first->x_m + half_m);
+    rho_tracker_spend(step, (near.end - near.first) / PLOTS_A_UNIT);
     for (uint32_t place = near.first; place < near.end; place++) {
         const uint32_t i = rho_tracker_plot_at(step, place);
         const struct rho_plot *plot = &step->scan->plots[i];
@@ -351,6 +356,7 @@ static void look_near(struct step *step, const struct rho_second_plots *table, u
             continue;
         }
         const struct offset offset = offset_of(step->sensor, first, plot);
+        rho_tracker_spend(step, PAIR_UNITS);
         if (is_near(offset)) {
             const float share = meet(step, table, row, i, offset);
             found->plots += share;
@@ -381,6 +387,13 @@ static void teach_sensor(struct rho_second_plots *table, const struct found *fou
     }
 }
 
+/* There is no work left for the plots near one, which are as if none was its second. */
+static void pass_over(struct step *step)
+{
+    step->is_partial = 1;
+    step->plots_not_tried = rho_count(step->plots_not_tried, 1);
+}
+
 void rho_tracker_expect_second_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -400,9 +413,14 @@ void rho_tracker_expect_second_plots(struct step *step)
             judge_twin(step, table, row);
         }
     }
+    rho_tracker_begin_share(step, SECOND_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || track->plot < 0) {
+            continue;
+        }
+        if (rho_tracker_is_spent(step)) {
+            pass_over(step);
             continue;
         }
         struct found near = {.plots = 0.0f};
@@ -439,6 +457,7 @@ static void look_near_in(struct step *step, const struct rho_second_plots *table
         }
         const struct rho_plot plot = rho_window_plot_of(scan, i);
         const struct offset offset = offset_of(sensor, &first, &plot);
+        rho_tracker_spend(step, PAIR_UNITS);
         if (is_near(offset)) {
             const float ratio = rate_of(table, 0) * density_at(table, offset, &first) *
                                 range_rate_ratio(step, scan->measures, &first, &plot) /
@@ -455,7 +474,10 @@ void rho_tracker_expect_earlier_second_plots(struct step *step,
     for (unsigned m = 0; m < window->num_scans; m++) {
         struct rho_window_scan *scan = rho_window_scan_at(window, m);
         const struct rho_second_plots *table = table_of(step->tracker, scan->sensor.sensor_id);
-        if (((unsigned)candidate->mask >> m & 1u) && table) {
+        if (((unsigned)candidate->mask >> m & 1u) && table && rho_tracker_is_spent(step)) {
+            pass_over(step);
+        } else if (((unsigned)candidate->mask >> m & 1u) && table) {
+            rho_tracker_spend(step, scan->num_plots / PLOTS_A_UNIT);
             look_near_in(step, table, scan, candidate->plot[m]);
         }
     }

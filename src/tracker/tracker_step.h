@@ -60,6 +60,7 @@ struct step {
 #if RHO_AMBIGUOUS_RANGE_RATES
     float log_range_rates; /* of them, those that the sensor tells apart */
 #endif
+    float range_rates_mps; /* these, not their ln */
 };
 
 /* ln of what clutter's range rates are spread over, m/s. */
@@ -241,6 +242,7 @@ void rho_tracker_note_death(struct step *step, const struct rho_track *track);
 /* tracker_work.c: which of the plots in its reach a track has the time to weigh. A phase begins; then for each track that waits a
  * choice is made: where there may be more plots than `most`, all in reach are noted, and the choice is settled */
 #define RHO_WORK_CLASSES 40u
+#define RHO_WORK_STARTS_SHARE 16u
 struct plot_choice {
     uint32_t most, units; /* plots; units for each */
     uint32_t in_reach;
@@ -250,6 +252,17 @@ struct plot_choice {
     uint16_t in_class[RHO_WORK_CLASSES];
 };
 void rho_tracker_begin_work(struct step *step);
+/* Another phase, which has such a part of work_max: it spends, and ends where all is spent. */
+void rho_tracker_begin_share(struct step *step, uint32_t part);
+static inline void rho_tracker_spend(struct step *step, uint32_t units)
+{
+    step->work = rho_count(step->work, units);
+}
+
+static inline int rho_tracker_is_spent(const struct step *step)
+{
+    return step->work > step->share.end;
+}
 struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track);
 void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
                              const struct rho_plot *plot);

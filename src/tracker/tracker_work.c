@@ -4,7 +4,8 @@
  *
  * A quarter of work_max is for what tracks claim, another for those whose plots others got and that look again. Half of
  * each is kept, in even shares for the tracks that wait; of the rest a track takes a quarter at most. A track that has more
- * plots in reach than it may weigh takes those nearest to its expected place.
+ * plots in reach than it may weigh takes those nearest to its expected place. Before that an eighth is for echoes of clutter;
+ * after it a sixteenth for second plots, and one is kept for those of the tracks that start. What is left is the search's.
  */
 #include "tracker_step.h"
 
@@ -20,19 +21,23 @@
 #define VELOCITY_3D_UNITS 140u
 #define GATE_UNITS 12u
 
+void rho_tracker_begin_share(struct step *step, uint32_t part)
+{
+    const uint32_t work_max = step->tracker->config.work_max;
+    step->share.end = work_max > 0 ? rho_count(step->work, work_max / part) : UINT32_MAX;
+}
+
 void rho_tracker_begin_work(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
-    const uint32_t units = tracker->config.work_max / PHASE_SHARE;
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting += rho_tracker_is_reached(step, row) ? 1u : 0u;
     }
-    step->share = (struct work_share){
-        .end = tracker->config.work_max > 0 ? rho_count(step->work, units) : UINT32_MAX,
-        .kept = waiting > 0 ? units / (KEPT_SHARE * waiting) : 0u,
-        .waiting = waiting,
-    };
+    rho_tracker_begin_share(step, PHASE_SHARE);
+    step->share.kept =
+        waiting > 0 ? tracker->config.work_max / (PHASE_SHARE * KEPT_SHARE * waiting) : 0u;
+    step->share.waiting = waiting;
 }
 
 static uint32_t units_of_plot(const struct step *step, const struct rho_track *track)
@@ -113,7 +118,7 @@ int rho_tracker_takes(struct step *step, struct plot_choice *choice, const struc
         }
         choice->of_last -= class == choice->last_class ? 1u : 0u;
     }
-    step->work = rho_count(step->work, choice->units);
+    rho_tracker_spend(step, choice->units);
     return 1;
 }
 
@@ -123,7 +128,8 @@ uint32_t rho_tracker_work_left(const struct step *step)
     if (all == 0) {
         return most;
     }
-    const uint32_t left = all > step->work ? all - step->work : 1u; /* 0 is no limit */
+    const uint32_t kept = all / RHO_WORK_STARTS_SHARE, used = rho_count(step->work, kept);
+    const uint32_t left = all > used ? all - used : 1u; /* 0 is no limit */
     return most > 0 && most < left ? most : left;
 }
 
