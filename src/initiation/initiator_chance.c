@@ -458,6 +458,16 @@ float rho_initiator_sets_above(const struct chance *chance, float s_nat, float s
     return sum;
 }
 
+int rho_initiator_has_more_sets(const struct chance *chance, float s_nat, float start_nat,
+                                float wanted)
+{
+    float sum = 0.0f;
+    for (unsigned k = 0; k < chance->num_patterns && sum <= wanted; k++) {
+        sum += sets_of(chance, k, s_nat, start_nat);
+    }
+    return sum > wanted;
+}
+
 float rho_initiator_stay_inside(const struct chance *chance, float start_nat)
 {
     const struct search *search = chance->search;

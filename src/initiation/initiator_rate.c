@@ -121,12 +121,12 @@ static int confirms_more(const struct climbs *climbs, const struct chance *chanc
 static float start_threshold(const struct chance *chance)
 {
     float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
-    if (rho_initiator_sets_above(chance, low, low) <= STARTS_A_SEARCH) {
+    if (!rho_initiator_has_more_sets(chance, low, low, STARTS_A_SEARCH)) {
         return low;
     }
     for (int i = 0; i < BISECTIONS; i++) {
         float middle = 0.5f * (low + high);
-        if (rho_initiator_sets_above(chance, middle, middle) > STARTS_A_SEARCH) {
+        if (rho_initiator_has_more_sets(chance, middle, middle, STARTS_A_SEARCH)) {
             low = middle;
         } else {
             high = middle;

@@ -2,6 +2,7 @@
 #include "node.h"
 
 #include "node_bearings.h"
+#include "node_settings.h"
 #include "node_step.h"
 #include "rhotrack/message.h"
 #include "rhotrack/publish.h"
@@ -262,6 +263,10 @@ void node_config_default(struct node_config *config)
     rho_feed_config_default(&config->feed);
     rho_tracker_config_default(&config->tracker);
     rho_initiator_config_default(&config->initiator);
+    config->tracker.v_min_mps = config->initiator.v_min_mps = NODE_V_MIN_MPS;
+    config->tracker.v_max_mps = config->initiator.v_max_mps = NODE_V_MAX_MPS;
+    config->tracker.accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
+    config->tracker.work_max = config->initiator.work_max = NODE_WORK_MAX;
 }
 
 enum rho_status node_start(const struct node_config *config)

@@ -44,7 +44,7 @@ struct node_config {
     int64_t (*clock_us)(void *context);               /* for the step times in RHO_STATUS */
 };
 
-/* All defaults, without sensors and functions. */
+/* What node_settings.h says, else the defaults; without sensors and functions. */
 void node_config_default(struct node_config *config);
 
 /* Once a program. The config is copied. Errors: those of the objects' init functions; the node then takes nothing. */

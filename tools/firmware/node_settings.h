@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_settings: what the node's configuration (nodes/NAME.h, which is RHO_CONFIG_FILE) says beside its capacities: its
- * radar, how its targets move, and the work that a step may do.
+ * node_settings: what a node's configuration (nodes/NAME.h, which is RHO_CONFIG_FILE) may say beside its capacities: its radar,
+ * how its targets move, the work that a step may do. What it does not say is as here.
  */
 #ifndef RHOTRACK_FIRMWARE_NODE_SETTINGS_H
 #define RHOTRACK_FIRMWARE_NODE_SETTINGS_H
 
-#include "rhotrack/feed.h"
-#include "rhotrack/initiator.h"
-#include "rhotrack/tracker.h"
+#include "rhotrack/config.h"
 
+#ifndef NODE_INTERVAL_S
+#define NODE_INTERVAL_S 4.0f
+#endif
+#ifndef NODE_RANGE_MAX_M
+#define NODE_RANGE_MAX_M 150000.0f
+#endif
 #ifndef NODE_SIGMA_RANGE_M
 #define NODE_SIGMA_RANGE_M 15.0f
 #endif
@@ -19,17 +23,17 @@
 #ifndef NODE_SIGMA_RANGE_RATE_MPS
 #define NODE_SIGMA_RANGE_RATE_MPS 1.0f
 #endif
-
-/* The library's own settings but for those. */
-static inline void node_settings(struct rho_tracker_config *tracker,
-                                 struct rho_initiator_config *initiator)
-{
-    rho_tracker_config_default(tracker);
-    rho_initiator_config_default(initiator);
-    tracker->v_min_mps = initiator->v_min_mps = NODE_V_MIN_MPS;
-    tracker->v_max_mps = initiator->v_max_mps = NODE_V_MAX_MPS;
-    tracker->accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
-    tracker->work_max = initiator->work_max = NODE_WORK_MAX;
-}
+#ifndef NODE_V_MIN_MPS
+#define NODE_V_MIN_MPS 0.0f
+#endif
+#ifndef NODE_V_MAX_MPS
+#define NODE_V_MAX_MPS 700.0f
+#endif
+#ifndef NODE_ACCEL_MAX_MPS2
+#define NODE_ACCEL_MAX_MPS2 30.0f
+#endif
+#ifndef NODE_WORK_MAX
+#define NODE_WORK_MAX RHO_WORK_MAX
+#endif
 
 #endif

@@ -3,17 +3,18 @@
 #ifndef RHOTRACK_FIRMWARE_RADARS_H
 #define RHOTRACK_FIRMWARE_RADARS_H
 
+#include "node_settings.h"
 #include "rhotrack/feed.h"
 
 /* One radar at the origin. Sensors that are not in the table are taken at their word, with the feed's defaults. */
 static const struct rho_feed_sensor radars[] = {
-    {.sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 150000.0f},
+    {.sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = NODE_RANGE_MAX_M},
      .noise = {.sigma_m = 20.0f,
                .sigma_mps = 1.0f,
-               .sigma_range_m = 15.0f,
-               .sigma_azimuth_rad = 0.003f,
+               .sigma_range_m = NODE_SIGMA_RANGE_M,
+               .sigma_azimuth_rad = NODE_SIGMA_AZIMUTH_RAD,
                .sigma_elevation_rad = 0.003f,
-               .sigma_range_rate_mps = 1.0f,
+               .sigma_range_rate_mps = NODE_SIGMA_RANGE_RATE_MPS,
                .sigma_rad = 0.002f}},
 };
 

@@ -16,7 +16,7 @@
 #include "node_settings.h"
 #include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/tracker.h"
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
@@ -225,7 +225,12 @@ static int open_tracker(const struct sky *sky)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
-    node_settings(&config, &start);
+    rho_tracker_config_default(&config);
+    rho_initiator_config_default(&start);
+    config.v_min_mps = start.v_min_mps = NODE_V_MIN_MPS;
+    config.v_max_mps = start.v_max_mps = NODE_V_MAX_MPS;
+    config.accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
+    config.work_max = start.work_max = NODE_WORK_MAX;
     memset(before, 0, sizeof before);
     int is_open = rho_tracker_init(&tracker, sizeof tracker, &config) == RHO_OK &&
                   rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK;

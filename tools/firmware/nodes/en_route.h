@@ -2,6 +2,7 @@
 /*
  * en_route: a long range surveillance radar of air traffic control, a turn in 10 s: aircraft at 25 to 350 m/s, 4 to 370 km.
  */
+#define RHO_WORK_MAX 4000000
 #include "radar_capacities.h"
 
 #define NODE_INTERVAL_S 10.0f
@@ -11,4 +12,3 @@
 #define NODE_V_MIN_MPS 25.0f
 #define NODE_V_MAX_MPS 350.0f
 #define NODE_ACCEL_MAX_MPS2 10.0f
-#define NODE_WORK_MAX RHO_WORK_MAX

@@ -2,6 +2,8 @@
 /*
  * smallest: one radar, eight tracks of 64 plots a turn, by the nearest plot.
  */
+#define RHO_WORK_MAX 20000
+#define RHO_MAX_SCANS 6
 #define RHO_MAX_PLOTS 64
 #define RHO_MAX_BINS 144
 #define RHO_MAX_TRACKS 8
@@ -17,9 +19,6 @@
 #define RHO_MAX_CLUTTER_CELLS 0
 #define RHO_SECTORS 0
 
-#define NODE_INTERVAL_S 4.0f
 #define NODE_RANGE_MAX_M 60000.0f
-#define NODE_V_MIN_MPS 0.0f
 #define NODE_V_MAX_MPS 300.0f
 #define NODE_ACCEL_MAX_MPS2 10.0f
-#define NODE_WORK_MAX 50000
