@@ -298,7 +298,7 @@ fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file
 fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c) tools/firmware/board/udp_frame.c
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))
-fuzz_programs := $(fuzz_sources:tests/fuzz/%.c=$(BUILD)/fuzz/%)
+fuzz_programs := $(fuzz_sources:tests/fuzz/%.c=$(BUILD)/fuzz/%) $(BUILD)/fuzz/fuzz_tracker_small
 fuzz_checks := -fsanitize=address,undefined,float-cast-overflow,float-divide-by-zero
 fuzz_integers := -fsanitize=integer -fno-sanitize=unsigned-shift-base
 fuzz_flags = -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) -Itools/rhotrack \
@@ -333,10 +333,22 @@ $(BUILD)/fuzz/embedded/%.o: %.c Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \
 	    -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
 
-$(BUILD)/fuzz/fuzz_snapshot: tests/fuzz/fuzz_snapshot.c $(embedded_fuzz_objects) Makefile
-	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -MF $@.d \
-	    -fno-sanitize=unsigned-integer-overflow,implicit-conversion -fsanitize=fuzzer -o $@ $< \
-	    $(embedded_fuzz_objects) -lm
+embedded_fuzz_link = @mkdir -p $(@D) && echo "  clang    $@" && \
+    clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -MF $@.d \
+    -fno-sanitize=unsigned-integer-overflow,implicit-conversion -fsanitize=fuzzer -o $@ $< $(filter %.o,$^) -lm
+
+$(BUILD)/fuzz/fuzz_snapshot $(BUILD)/fuzz/fuzz_tracker: $(BUILD)/fuzz/%: tests/fuzz/%.c $(embedded_fuzz_objects) Makefile
+	$(embedded_fuzz_link)
+
+# The tracker's script again, with capacities that it exhausts.
+small_capacities := -DRHO_CONFIG_FILE='"tests/fuzz/small_capacities.h"' -I.
+small_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/small/%.o)
+$(small_fuzz_objects): $(BUILD)/fuzz/small/%.o: %.c Makefile
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \
+	    $(small_capacities) -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
+
+$(BUILD)/fuzz/fuzz_tracker_small: tests/fuzz/fuzz_tracker.c $(small_fuzz_objects) Makefile
+	$(embedded_fuzz_link) $(small_capacities)
 
 # --- gates -----------------------------------------------------------------------------------
 
@@ -471,4 +483,5 @@ help:
 	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-15s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
 
 -include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
-         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) $(fuzz_programs:=.d)
+         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) \
+         $(small_fuzz_objects:.o=.d) $(fuzz_programs:=.d)
