@@ -291,10 +291,15 @@ sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 # What meets bytes from outside is compiled for the fuzzer: the codecs, the readers of the program, and src/base that
 # they call. The rest of library and program is linked as it is. In src/wire an unsigned number that wraps is a finding,
 # too; elsewhere loops and the square root wrap on purpose.
-fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file asterix_items asterix_row asterix_scans \
-                asterix_sensor asterix_text asterix_udp asterix_values bearing_row bearing_source frame_reader gather feed_room geodetic hint hold lcm_log log_scans log_table parameters plot_data \
-                plot_row plot_source row_check rows rows_bearings rows_collect rows_geodetic rows_plots rows_polar rows_read rows_scans rows_tracks \
-                rows_truth rows_write scan_numbers scan_reader table table_parse table_read
+fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file asterix_items \
+                asterix_row asterix_scans asterix_sensor asterix_text asterix_udp asterix_values \
+                bearing_row bearing_source feed_room frame_reader gather geodetic hint hold \
+                lcm_log log_scans log_table parameters parameters_convert parameters_feed \
+                parameters_load parameters_locate parameters_print plot_data plot_row plot_source \
+                row_check rows rows_bearings rows_collect rows_geodetic rows_plots rows_polar \
+                rows_read rows_scans rows_tracks rows_truth rows_write scan_numbers scan_reader \
+                scene/scene_flights scene/scene_json scene/scene_path scene/scene_read \
+                scene/scene_shipped table table_parse table_read
 fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c) tools/firmware/board/udp_frame.c
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))
@@ -323,9 +328,14 @@ $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a:
 	@rm -f $@ && echo "  ar       $@" && ar rcs $@ $^
 
 # --wrap: a reader that refuses its file comes back to the target instead of ending it, which closes its streams.
+refusal_programs := $(addprefix $(BUILD)/fuzz/,fuzz_config fuzz_scene fuzz_tables)
+$(refusal_programs): $(BUILD)/fuzz/parts/tests/fuzz/refusal.o
+$(refusal_programs): private refusal_wraps = $(shell grep -o '__wrap_[a-z_]*' tests/fuzz/refusal.c | sort -u | \
+    sed 's/__wrap_/-Wl,--wrap=/')
+
 $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a $(workstation_library) Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -MF $@.d -fsanitize=fuzzer \
-	    $(shell grep -o '__wrap_[a-z_]*' $< | sort -u | sed 's/__wrap_/-Wl,--wrap=/') -o $@ $< $(filter %.a,$^) $(program_libraries)
+	    $(refusal_wraps) -o $@ $< $(filter %.o,$^) $(filter %.a,$^) $(program_libraries)
 
 # What an image of any contents leads to: all of the library, in the smaller profile.
 embedded_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/embedded/%.o)

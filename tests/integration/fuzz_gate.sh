@@ -26,12 +26,12 @@ build_message() { # codec
         tests/fuzz/fuzz_message.c "$1" src/wire/message.c src/wire/message_names.c src/base/status.c
 }
 
-wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/fuzz_tables.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
+wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/refusal.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
 
 # The other parts are the program's own objects.
 # shellcheck disable=SC2086
 build_tables() { # reader
-    clang $flags -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/fuzz_tables" tests/fuzz/fuzz_tables.c "$1" \
+    clang $flags -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/fuzz_tables" tests/fuzz/fuzz_tables.c tests/fuzz/refusal.c "$1" \
         "$folder/program.a" "$build/workstation/librhotrack.a" -lcsv -linih -lcjson -lproj -pthread -lm
 }
 
