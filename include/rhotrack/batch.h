@@ -64,8 +64,8 @@ RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
  *          (rho_measurement_is_bearing) or NO_ROOM (beyond RHO_MAX_BEARINGS) where they cannot be
  * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than RHO_MAX_PASSIVE_SENSORS), VALUE
  * (a sensor twice in the frame, in another place than before, nearer than RHO_CROSSING_BASE_MIN_M or farther than apart_max_m
- * from another, its place not a coordinate, a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US); nothing is
- * changed. Cost: the bearings, and the batch moved by a frame.
+ * from another, its place not a coordinate, a sector beyond one
+ * turn either way); nothing is changed. Cost: the bearings, and the batch moved by a frame.
  * Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,

@@ -106,9 +106,6 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
     if (batch->num_scans > 0 && frame->time_us <= batch->time_us[batch->num_scans - 1]) {
         return RHO_ERROR_STATE;
     }
-    if (frame->time_us > RHO_LIMIT_TIME_US || frame->time_us < -RHO_LIMIT_TIME_US) {
-        return RHO_ERROR_VALUE;
-    }
     return check_scans(batch, frame);
 }
 
