@@ -92,8 +92,8 @@ static int is_factor(const struct rho_sensor *sensor)
 
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return is_span(sensor) && is_factor(sensor) && rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
-           rho_is_coordinate(sensor->z_m) &&
+    return is_span(sensor) && is_factor(sensor) && rho_is_coordinate(sensor->x_m) &&
+           rho_is_coordinate(sensor->y_m) && rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
            rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);

@@ -98,6 +98,8 @@ def write_scripts(folder):
     scripts["piles"] = world(start=3) + (scan() + scan(clutter=(8, 15)) + scan(clutter=(15, 9))) * 8
     scripts["full"] = world() + scan(clutter=(6, 4)) * 3 + scan(clutter=(7, 4)) * 3 + radar
     scripts["sensors"] = world() + b"".join(bytes((describe, i)) for i in range(16)) + scan() * 8 + bytes((forget, 0)) + radar
+    scripts["odd-sensors"] = world() + b"".join(
+        bytes((describe, 16 + i % 3, i, number)) + scan() for i in range(13) for number in (4, 24, 27))
     scripts["spans"] = world(targets=8 + 2) + bytes((describe, 64, 40)) + radar
     scripts["lone"] = world() + (bytes((push, 32, 3, 0, 6)) * 5 + bytes((search, 1, search, 4))) * 3
     scripts["lone-passive"] = world() + (bytes((passive, 3, 19)) * 5 + bytes((passive, 128, passive, 129))) * 3
