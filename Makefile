@@ -288,8 +288,9 @@ sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 
 # --- fuzzing ---------------------------------------------------------------------------------
 
-# What meets bytes from outside is compiled for the fuzzer: the codecs, the readers of the program, and src/base that
-# they call. The rest of library and program is linked as it is. In src/wire an unsigned number that wraps is a finding,
+# What meets bytes from outside is compiled for the fuzzer: the codecs, the readers of the program (recordings, tables, INI files,
+# scenes), and src/base that they call; of fuzz_snapshot and fuzz_tracker all of the library. The rest of library and program is
+# linked as it is. In src/wire an unsigned number that wraps is a finding,
 # too; elsewhere loops and the square root wrap on purpose.
 fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file asterix_items \
                 asterix_row asterix_scans asterix_sensor asterix_text asterix_udp asterix_values \
@@ -309,7 +310,7 @@ fuzz_integers := -fsanitize=integer -fno-sanitize=unsigned-shift-base
 fuzz_flags = -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) -Itools/rhotrack \
               -O1 -g $(fuzz_checks) -fno-sanitize-recover=all
 
-## Fuzz every decoder and reader: FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH
+## Fuzz every decoder and reader, and the tracker: FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH
 fuzz:
 	@$(MAKE) --no-print-directory $(jobs) $(fuzz_programs)
 	@BUILD=$(BUILD) tests/fuzz/run.sh $(fuzz_programs)
@@ -337,7 +338,7 @@ $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/pr
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -MF $@.d -fsanitize=fuzzer \
 	    $(refusal_wraps) -o $@ $< $(filter %.o,$^) $(filter %.a,$^) $(program_libraries)
 
-# What an image of any contents leads to: all of the library, in the smaller profile.
+# What an image of any contents, or a script of calls leads to: all of the library, in the smaller profile.
 embedded_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/embedded/%.o)
 $(BUILD)/fuzz/embedded/%.o: %.c Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \

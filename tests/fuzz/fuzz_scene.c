@@ -68,7 +68,11 @@ static void check_scene(const struct scene *scene)
         check_span(scene->events[i].for_s);
     }
     for (size_t i = 0; i < scene->targets.count; i++) {
-        CHECK(!scene->targets.items[i].has_parent || scene->targets.items[i].parent < i);
+        const struct target_item *item = &scene->targets.items[i], *parent;
+
+        CHECK(!item->has_parent || item->parent < i);
+        parent = &scene->targets.items[item->parent];
+        CHECK(!item->has_parent || (parent->count == 0 && parent->flights == 0));
     }
 }
 
