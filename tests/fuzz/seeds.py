@@ -103,6 +103,10 @@ def write_scripts(folder):
     scripts["spans"] = world(targets=8 + 2) + bytes((describe, 64, 40)) + radar
     scripts["lone"] = world() + (bytes((push, 32, 3, 0, 6)) * 5 + bytes((search, 1, search, 4))) * 3
     scripts["lone-passive"] = world() + (bytes((passive, 3, 19)) * 5 + bytes((passive, 128, passive, 129))) * 3
+    first, last = bytes((232, 0x80, *bytes(7))), bytes((232, 0x7f, *(255,) * 7))
+    scripts["ends-of-time"] = world() + b"".join(bytes((passive, 3)) + time for time in (first, b"\xd4", b"\3", last))
+    scripts["ends-of-scans"] = world() + scan() + b"".join(
+        bytes((0, 0)) + time + scan() for time in (first, last, b"\xdf", b"\xde", b"\xe8", b"\xe4"))
     for target in ("fuzz_tracker", "fuzz_tracker_small"):
         (folder / target).mkdir(parents=True, exist_ok=True)
         for name, script in scripts.items():

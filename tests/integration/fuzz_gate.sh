@@ -140,7 +140,7 @@ if [ -z "$objects" ] || [ ! -f "$build/workstation/librhotrack.a" ]; then
     echo 'skipped: fuzz gate: defects of the readers, as the program is not built'
 else
     # shellcheck disable=SC2086
-    ar rcs "$folder/program.a" $objects
+    ar rcs "$folder/program.a" $objects "$build/program/scenes.o"
     seeded fuzz_config tools/rhotrack/parameters.c 'parameters beyond their limits' \
         's/number < text->min \|\| number > text->max/0/'
     seeded fuzz_scene tools/rhotrack/scene/scene_json.c 'a least above the most' 's/ends\[0\] > ends\[1\]/0/'
