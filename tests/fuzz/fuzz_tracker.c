@@ -1167,8 +1167,8 @@ static void use_lone_passive(struct script *script)
     if (status != RHO_OK) {
         check_unchanged(status);
         HOLDS("a refused frame leaves the fates", memcmp(fates, fates_before, sizeof fates) == 0);
-    } else {
-        world.time_us = frame.time_us > world.time_us ? frame.time_us : world.time_us;
+    } else if (frame.time_us > world.time_us && frame.time_us <= RHO_LIMIT_TIME_US) {
+        world.time_us = frame.time_us; /* batches take any time, pushes of scans do not */
     }
     check_objects();
 }

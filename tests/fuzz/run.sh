@@ -40,7 +40,7 @@ for program in "$@"; do
         summary=$(sed -n 's/^SUMMARY: //p' "$log" | head -n 1)
         printf 'FAIL %s: %s\n' "$name" "${summary:-exit $status, 124 and 137 where it did not end by itself}"
         sed -n 's/.*Test unit written to \(.*\)/     again: '"${program//\//\\/}"' \1/p' "$log"
-        grep -E '^ *#[0-9]+ |ERROR|runtime error' "$log" | head -n 12 | sed 's/^/     | /'
+        grep -E '^invariant|^line|^ *#[0-9]+ |ERROR|runtime error' "$log" | head -n 12 | sed 's/^/     | /'
         failed=$((failed + 1))
     fi
 done
