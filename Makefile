@@ -288,23 +288,29 @@ sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 
 # --- fuzzing ---------------------------------------------------------------------------------
 
-# What meets bytes from outside is compiled for the fuzzer: the codecs, the readers of the program, and src/base that
-# they call. The rest of library and program is linked as it is. In src/wire an unsigned number that wraps is a finding,
+# What meets bytes from outside is compiled for the fuzzer: the codecs, the readers of the program (recordings, tables, INI files,
+# scenes), and src/base that they call; of fuzz_snapshot and fuzz_tracker all of the library. The rest of library and program is
+# linked as it is. In src/wire an unsigned number that wraps is a finding,
 # too; elsewhere loops and the square root wrap on purpose.
-fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file asterix_items asterix_row asterix_scans \
-                asterix_sensor asterix_text asterix_udp asterix_values bearing_row bearing_source frame_reader gather feed_room geodetic hint hold lcm_log log_scans log_table parameters plot_data \
-                plot_row plot_source row_check rows rows_bearings rows_collect rows_geodetic rows_plots rows_polar rows_read rows_scans rows_tracks \
-                rows_truth rows_write scan_numbers scan_reader table table_parse table_read
+fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file asterix_items \
+                asterix_row asterix_scans asterix_sensor asterix_text asterix_udp asterix_values \
+                bearing_row bearing_source feed_room frame_reader gather geodetic hint hold \
+                lcm_log log_scans log_table parameters parameters_convert parameters_feed \
+                parameters_load parameters_locate parameters_print plot_data plot_row plot_source \
+                row_check rows rows_bearings rows_collect rows_geodetic rows_plots rows_polar \
+                rows_read rows_scans rows_tracks rows_truth rows_write scan_numbers scan_reader \
+                scene/scene_flights scene/scene_json scene/scene_path scene/scene_read \
+                scene/scene_shipped table table_parse table_read
 fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c) tools/firmware/board/udp_frame.c
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))
-fuzz_programs := $(fuzz_sources:tests/fuzz/%.c=$(BUILD)/fuzz/%)
+fuzz_programs := $(fuzz_sources:tests/fuzz/%.c=$(BUILD)/fuzz/%) $(BUILD)/fuzz/fuzz_tracker_small
 fuzz_checks := -fsanitize=address,undefined,float-cast-overflow,float-divide-by-zero
 fuzz_integers := -fsanitize=integer -fno-sanitize=unsigned-shift-base
 fuzz_flags = -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) -Itools/rhotrack \
               -O1 -g $(fuzz_checks) -fno-sanitize-recover=all
 
-## Fuzz every decoder and reader: FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH
+## Fuzz every decoder and reader, and the tracker: FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH
 fuzz:
 	@$(MAKE) --no-print-directory $(jobs) $(fuzz_programs)
 	@BUILD=$(BUILD) tests/fuzz/run.sh $(fuzz_programs)
@@ -323,20 +329,37 @@ $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a:
 	@rm -f $@ && echo "  ar       $@" && ar rcs $@ $^
 
 # --wrap: a reader that refuses its file comes back to the target instead of ending it, which closes its streams.
+refusal_programs := $(addprefix $(BUILD)/fuzz/,fuzz_config fuzz_scene fuzz_tables)
+$(refusal_programs): $(BUILD)/fuzz/parts/tests/fuzz/refusal.o
+$(refusal_programs): private refusal_wraps = $(shell grep -o '__wrap_[a-z_]*' tests/fuzz/refusal.c | sort -u | \
+    sed 's/__wrap_/-Wl,--wrap=/')
+
 $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a $(workstation_library) Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -MF $@.d -fsanitize=fuzzer \
-	    $(shell grep -o '__wrap_[a-z_]*' $< | sort -u | sed 's/__wrap_/-Wl,--wrap=/') -o $@ $< $(filter %.a,$^) $(program_libraries)
+	    $(refusal_wraps) -o $@ $< $(filter %.o,$^) $(filter %.a,$^) $(program_libraries)
 
-# What an image of any contents leads to: all of the library, in the smaller profile.
+# What an image of any contents, or a script of calls leads to: all of the library, in the smaller profile.
 embedded_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/embedded/%.o)
 $(BUILD)/fuzz/embedded/%.o: %.c Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \
 	    -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
 
-$(BUILD)/fuzz/fuzz_snapshot: tests/fuzz/fuzz_snapshot.c $(embedded_fuzz_objects) Makefile
-	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -MF $@.d \
-	    -fno-sanitize=unsigned-integer-overflow,implicit-conversion -fsanitize=fuzzer -o $@ $< \
-	    $(embedded_fuzz_objects) -lm
+embedded_fuzz_link = @mkdir -p $(@D) && echo "  clang    $@" && \
+    clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -MF $@.d \
+    -fno-sanitize=unsigned-integer-overflow,implicit-conversion -fsanitize=fuzzer -o $@ $< $(filter %.o,$^) -lm
+
+$(BUILD)/fuzz/fuzz_snapshot $(BUILD)/fuzz/fuzz_tracker: $(BUILD)/fuzz/%: tests/fuzz/%.c $(embedded_fuzz_objects) Makefile
+	$(embedded_fuzz_link)
+
+# The tracker's script again, with capacities that it exhausts.
+small_capacities := -DRHO_CONFIG_FILE='"tests/fuzz/small_capacities.h"' -I.
+small_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/small/%.o)
+$(small_fuzz_objects): $(BUILD)/fuzz/small/%.o: %.c Makefile
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \
+	    $(small_capacities) -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
+
+$(BUILD)/fuzz/fuzz_tracker_small: tests/fuzz/fuzz_tracker.c $(small_fuzz_objects) Makefile
+	$(embedded_fuzz_link) $(small_capacities)
 
 # --- gates -----------------------------------------------------------------------------------
 
@@ -471,4 +494,5 @@ help:
 	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-15s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
 
 -include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
-         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) $(fuzz_programs:=.d)
+         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) \
+         $(small_fuzz_objects:.o=.d) $(fuzz_programs:=.d)

@@ -13,6 +13,7 @@
 #define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 #define RANGE_MAX_M RHO_LIMIT_POSITION_M
+#define VARIANCE_FACTOR_MAX 1.0e9f
 
 /* ---- what can be believed --------------------------------------------------------------------- */
 
@@ -76,10 +77,23 @@ static int is_span(const struct rho_sensor *sensor)
 }
 #endif
 
+#if RHO_SECTORS
+static int is_factor(const struct rho_sensor *sensor)
+{
+    return rho_is_within(sensor->variance_factor, 0.0f, VARIANCE_FACTOR_MAX);
+}
+#else
+static int is_factor(const struct rho_sensor *sensor)
+{
+    (void)sensor;
+    return 1;
+}
+#endif
+
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return is_span(sensor) && rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
-           rho_is_coordinate(sensor->z_m) &&
+    return is_span(sensor) && is_factor(sensor) && rho_is_coordinate(sensor->x_m) &&
+           rho_is_coordinate(sensor->y_m) && rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
            rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);

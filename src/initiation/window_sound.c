@@ -86,17 +86,6 @@ static int is_sound_scan(const struct rho_window_scan *scan)
     return has_sound_bins(scan);
 }
 
-/* Of the newest scan: what is known of the rows of its next sector is kept by them. */
-static int has_sound_rows(const struct rho_window_scan *scan)
-{
-    for (unsigned i = 0; i < scan->num_plots; i++) {
-        if ((scan->marks[i] & RHO_WINDOW_ROW) >= RHO_MAX_PLOTS) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 int rho_window_is_sound(const struct rho_window *window)
 {
     int64_t before_us = INT64_MIN;
@@ -107,8 +96,7 @@ int rho_window_is_sound(const struct rho_window *window)
     }
     for (unsigned m = 0; m < window->num_scans; m++) {
         const struct rho_window_scan *scan = &window->ring[(window->first + m) % window->scans_max];
-        if (scan->time_us < before_us || !is_sound_scan(scan) ||
-            (m + 1u == window->num_scans && !has_sound_rows(scan))) {
+        if (scan->time_us < before_us || !is_sound_scan(scan)) {
             return 0;
         }
         before_us = scan->time_us;

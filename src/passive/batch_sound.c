@@ -59,8 +59,7 @@ int rho_batch_is_sound(const struct rho_batch *batch)
         return 0;
     }
     for (unsigned k = 0; k < batch->num_scans; k++) {
-        if (!rho_is_stored_time(batch->time_us[k]) ||
-            (k > 0 && batch->time_us[k] <= batch->time_us[k - 1])) {
+        if (k > 0 && batch->time_us[k] <= batch->time_us[k - 1]) {
             return 0;
         }
         for (unsigned s = 0; s < batch->num_sensors; s++) {

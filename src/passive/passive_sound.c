@@ -6,9 +6,8 @@
 
 int rho_passive_is_sound(const struct rho_passive *passive)
 {
-    const struct rho_frame nothing = {.time_us = INT64_MAX};
     return rho_passive_is_usable(&passive->config) && rho_batch_is_sound(&passive->batch) &&
            passive->batch.scans_max == passive->config.scans &&
            passive->num_tracks <= RHO_MAX_PASSIVE_TRACKS &&
-           rho_passive_accepts(passive, &nothing) == RHO_OK;
+           rho_passive_accepts(passive, NULL) == RHO_ERROR_NULL; /* STATE: not initialised */
 }

@@ -117,11 +117,6 @@ static int has_sound_sensors(const struct rho_tracker *tracker)
         if (!rho_tracker_is_usable_sensor(&tracker->sensors[i])) {
             return 0;
         }
-#if RHO_SECTORS
-        if (!rho_is_within(tracker->sensors[i].variance_factor, 0.0f, 1e9f)) {
-            return 0;
-        }
-#endif
     }
     return 1;
 }

@@ -3,27 +3,16 @@
  * The CSV readers on any file: the table itself, plots to scans, bearings to frames, and what the plot command reads
  * (truth and tracks, too). The first byte says which, whether bad rows are skipped, and whether rows of half a second are
  * one scan; the rest is the file.
- *
- * A reader that refuses its file calls fail(), which ends the program. Here it jumps out of the reader (linked with
- * --wrap=fail), and the files that it had open are closed (the streams by --wrap=fopen and its like), and what it had
- * allocated is given back by the hooks of the sanitizer's allocator. So leaks of runs that do not fail are still found.
  */
-#include <limits.h>
 #include <math.h>
-#include <sanitizer/allocator_interface.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include "common.h"
 #include "frame_reader.h"
 #include "local_frame.h"
 #include "parameters.h"
 #include "plot_data.h"
+#include "refusal.h"
 #include "rhotrack/types.h"
 #include "scan_reader.h"
 #include "table.h"
@@ -33,125 +22,6 @@ static void must(bool holds)
     if (!holds) {
         abort();
     }
-}
-
-/* ---- What a run allocates ---- */
-
-#define KEPT_MAX 65536
-
-static const volatile void *kept[KEPT_MAX];
-static size_t num_kept;
-static bool is_keeping;
-
-static void on_malloc(const volatile void *memory, size_t size)
-{
-    (void)size;
-    if (is_keeping && memory) {
-        must(num_kept < KEPT_MAX);
-        kept[num_kept++] = memory;
-    }
-}
-
-static void on_free(const volatile void *memory)
-{
-    for (size_t i = num_kept; is_keeping && i > 0; i--) {
-        if (kept[i - 1] == memory) {
-            kept[i - 1] = kept[--num_kept];
-            return;
-        }
-    }
-}
-
-static void free_kept(void)
-{
-    is_keeping = false;
-    while (num_kept > 0) {
-        free((void *)(uintptr_t)kept[--num_kept]);
-    }
-}
-
-/* Files that a run opened and did not close: those behind the first one that was free. */
-static int first_free_file(void)
-{
-    int file = dup(STDERR_FILENO);
-
-    must(file >= 0 && close(file) == 0);
-    return file;
-}
-
-/* ---- Streams that a run has open ---- */
-
-/*
- * The C library lists its open streams: one whose memory is given back while it is open breaks that list, and the program
- * may then run in a circle when it ends.
- */
-#define STREAMS_MAX 16
-
-static FILE *streams[STREAMS_MAX];
-static size_t num_streams;
-
-static FILE *keep_stream(FILE *stream)
-{
-    if (stream && is_keeping) {
-        must(num_streams < STREAMS_MAX);
-        streams[num_streams++] = stream;
-    }
-    return stream;
-}
-
-FILE *__real_fopen(const char *path, const char *mode);
-FILE *__wrap_fopen(const char *path, const char *mode);
-FILE *__wrap_fopen(const char *path, const char *mode)
-{
-    return keep_stream(__real_fopen(path, mode));
-}
-
-FILE *__real_open_memstream(char **text, size_t *size);
-FILE *__wrap_open_memstream(char **text, size_t *size);
-FILE *__wrap_open_memstream(char **text, size_t *size)
-{
-    return keep_stream(__real_open_memstream(text, size));
-}
-
-int __real_fclose(FILE *stream);
-int __wrap_fclose(FILE *stream);
-int __wrap_fclose(FILE *stream)
-{
-    for (size_t i = 0; i < num_streams; i++) {
-        if (streams[i] == stream) {
-            streams[i] = streams[--num_streams];
-            break;
-        }
-    }
-    return __real_fclose(stream);
-}
-
-static void close_streams(void)
-{
-    while (num_streams > 0) {
-        must(__real_fclose(streams[--num_streams]) == 0);
-    }
-}
-
-/* ---- fail() ---- */
-
-static jmp_buf refused;
-
-_Noreturn void __wrap_fail(int exit_code, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-/* One line that names the file or says what is wrong; exit 2. */
-_Noreturn void __wrap_fail(int exit_code, const char *format, ...)
-{
-    char message[8192];
-    va_list arguments;
-
-    va_start(arguments, format);
-    must(vsnprintf(message, sizeof message, format, arguments) > 0);
-    va_end(arguments);
-    must(exit_code == EXIT_USAGE);
-    close_streams(); /* before the jump: a stream into memory writes where its opener's variables are */
-    longjmp(refused, 1);
 }
 
 /* ---- The readers ---- */
@@ -256,22 +126,29 @@ static void read_drawing(char *path, const struct parameters *parameters)
 
 /* ---- One run ---- */
 
-static void read_file(char *path, const struct parameters *parameters, unsigned which)
-{
-    const bool keep_going = (which & 4) != 0;
+struct reading {
+    char *path;
+    struct parameters parameters;
+    unsigned which;
+};
 
-    switch (which & 3) {
+static void read_file(void *context)
+{
+    const struct reading *reading = context;
+    const bool keep_going = (reading->which & 4) != 0;
+
+    switch (reading->which & 3) {
     case 0:
-        read_table(path, keep_going);
+        read_table(reading->path, keep_going);
         break;
     case 1:
-        read_scans(path, parameters, keep_going);
+        read_scans(reading->path, &reading->parameters, keep_going);
         break;
     case 2:
-        read_frames(path, parameters, keep_going);
+        read_frames(reading->path, &reading->parameters, keep_going);
         break;
     default:
-        read_drawing(path, parameters);
+        read_drawing(reading->path, &reading->parameters);
     }
 }
 
@@ -303,35 +180,21 @@ static void warm_up(struct parameters *parameters)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static int file = -1;
-    static char path[64];
-    static struct parameters parameters;
-    int first_free;
+    static struct reading reading;
 
-    if (file < 0) {
-        file = memfd_create("fuzz.csv", 0);
-        must(file >= 0);
-        snprintf(path, sizeof path, "/proc/self/fd/%d", file);
-        parameters_default(&parameters);
-        warm_up(&parameters);
-        must(__sanitizer_install_malloc_and_free_hooks(on_malloc, on_free) != 0);
+    if (!reading.path) {
+        reading.path = refusal_write_file(data, 0);
+        parameters_default(&reading.parameters);
+        warm_up(&reading.parameters);
+        refusal_begin();
     }
     if (size == 0) {
         return 0;
     }
-    first_free = first_free_file();
-    must(ftruncate(file, 0) == 0 && pwrite(file, data + 1, size - 1, 0) == (ssize_t)(size - 1));
-    set_origin(&parameters, (data[0] & 16) != 0);
-    parameters.value[PARAMETER_SCAN_INTERVAL_S] = (data[0] & 8) != 0 ? 0.5 : 0.0;
-    is_keeping = true;
-    if (setjmp(refused) == 0) {
-        read_file(path, &parameters, data[0]);
-        is_keeping = false;
-        num_kept = 0;
-        must(num_streams == 0);
-    } else {
-        free_kept();
-        must(close_range((unsigned)first_free, (unsigned)first_free + 8, 0) == 0);
-    }
+    refusal_write_file(data + 1, size - 1);
+    set_origin(&reading.parameters, (data[0] & 16) != 0);
+    reading.parameters.value[PARAMETER_SCAN_INTERVAL_S] = (data[0] & 8) != 0 ? 0.5 : 0.0;
+    reading.which = data[0];
+    refusal_ends(read_file, &reading);
     return 0;
 }

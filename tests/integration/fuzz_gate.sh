@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# `make fuzz` can fail: each defect seeded in the codec or a reader is found within 20 s, a hang too, and both pass as they are.
+# `make fuzz` can fail: each defect seeded in the codec, a reader or the tracker is found within 20 s,
+# a hang too, and all pass as they are.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build}
@@ -26,13 +27,26 @@ build_message() { # codec
         tests/fuzz/fuzz_message.c "$1" src/wire/message.c src/wire/message_names.c src/base/status.c
 }
 
-wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/fuzz_tables.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
+wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/refusal.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
 
 # The other parts are the program's own objects.
 # shellcheck disable=SC2086
-build_tables() { # reader
-    clang $flags -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/fuzz_tables" tests/fuzz/fuzz_tables.c "$1" \
-        "$folder/program.a" "$build/workstation/librhotrack.a" -lcsv -linih -lcjson -lproj -pthread -lm
+build_of_program() { # target, file of the program
+    clang $flags -Itools/rhotrack/scene -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/$1" "tests/fuzz/$1.c" \
+        tests/fuzz/refusal.c "$2" "$folder/program.a" "$build/workstation/librhotrack.a" \
+        -lcsv -linih -lcjson -lproj -pthread -lm
+}
+build_tables() { build_of_program fuzz_tables "$1"; }
+build_config() { build_of_program fuzz_config "$1"; }
+build_scene() { build_of_program fuzz_scene "$1"; }
+
+# All of the library, small, but the seeded file.
+small="$flags -DRHO_CONFIG_FILE=\"tests/fuzz/small_capacities.h\" -I. -Isrc/tracker -Isrc/initiation -Isrc/passive"
+# shellcheck disable=SC2086
+build_tracker_small() { # file of the library
+    clang ${small/fuzzer,/fuzzer-no-link,} -c -o "$folder/seeded.o" "$1" &&
+        clang $small -o "$folder/fuzz_tracker_small" tests/fuzz/fuzz_tracker.c "$folder/seeded.o" \
+            "$folder/small.a" -lm
 }
 
 fuzz() { # target, seconds
@@ -94,12 +108,42 @@ fi
 
 must_pass fuzz_message src/wire/message_codec.c
 
+# shellcheck disable=SC2086
+compile_small() { # file: its object
+    local object=$folder/small/${1//\//_}.o
+    clang ${small/fuzzer,/fuzzer-no-link,} -c -o "$object" "$1"
+}
+mkdir -p "$folder/small"
+export -f compile_small
+export folder small
+if ! printf '%s\n' src/*/*.c | xargs -P "$(nproc)" -I FILE bash -c 'compile_small FILE'; then
+    missed 'the library, small: it does not build'
+fi
+ar rcs "$folder/small.a" "$folder"/small/*.o
+
+tracker_must_find() { seeded fuzz_tracker_small "$@"; } # file, what is wrong, sed expression
+
+tracker_must_find src/tracker/tracker.c 'a fate that is not counted' 's/(NO_ROOM\] \+= others);/\1 - (others > 2);/'
+tracker_must_find src/tracker/tracker.c 'a covariance that is none' \
+    's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += 9.0f * (out->covariance[0] + out->covariance[2]);/'
+tracker_must_find src/tracker/tracker.c 'a scan that is too late, and changes the density' \
+    's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
+tracker_must_find src/tracker/tracker_life.c 'an end that is not told' 's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
+tracker_must_find src/tracker/tracker_life.c 'an identity that comes again' 's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
+tracker_must_find src/initiation/initiator_budget.c 'a search without its limit' \
+    's/return rho_initiator_spent\(search\) > search->limit_units;/return 0;/'
+tracker_must_find src/passive/batch_sound.c 'a batch that is unsound for its times' 's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
+must_pass fuzz_tracker_small src/tracker/tracker.c
+
 objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)
 if [ -z "$objects" ] || [ ! -f "$build/workstation/librhotrack.a" ]; then
     echo 'skipped: fuzz gate: defects of the readers, as the program is not built'
 else
     # shellcheck disable=SC2086
-    ar rcs "$folder/program.a" $objects
+    ar rcs "$folder/program.a" $objects "$build/program/scenes.o"
+    seeded fuzz_config tools/rhotrack/parameters.c 'parameters beyond their limits' \
+        's/number < text->min \|\| number > text->max/0/'
+    seeded fuzz_scene tools/rhotrack/scene/scene_read.c 'a scene whose text is not given back' 's/^    free\(text\);$//'
     seeded fuzz_tables tools/rhotrack/row_check.c 'numbers beyond their limits' 's/number < min \|\| number > max/0/'
     seeded fuzz_tables tools/rhotrack/table.c 'a table that is not given back' 's/free\(table->text\);//'
     must_pass fuzz_tables tools/rhotrack/table.c

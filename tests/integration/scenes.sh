@@ -40,6 +40,8 @@ refuse 'a leg without an end' '1: targets?0?.legs?0?: says no end*' \
     "$start, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], \"legs\": [{}]}]}"
 refuse 'a parent that is not there' '1: targets?0?.parent: targets?3? is no path before this one' \
     "$start, \"targets\": [{\"parent\": 3, \"from_s\": 1}]}"
+refuse 'flights as a parent' '1: targets?1?.parent: targets?0? is no path before this one' \
+    "$start, \"targets\": [{\"flights\": 2, \"box_m\": [-1e5, 1e5, -1e5, 1e5], \"least_s\": 20}, {\"parent\": 0, \"from_s\": 0}]}"
 refuse 'a group without speed' '1: targets?0?: speed_mps is missing' "$start, \"targets\": [{\"count\": 3, \"range_m\": 5}]}"
 refuse 'half a number of targets' '1: targets?0?.count: 2.5 is not a whole number' "$start, \"targets\": [{\"count\": 2.5}]}"
 refuse 'a span the wrong way' '1: clutter?0?.range_m: the first, 5, is above the second, 2' \

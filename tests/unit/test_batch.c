@@ -175,6 +175,7 @@ static void a_frame_is_newer_than_the_newest(void **state)
     }
     given.frame.time_us = INT64_MAX;
     push();
+    assert_true(rho_batch_is_sound(&batch)); /* else it had no image */
 }
 
 /* The known sensors are 3 km apart. */

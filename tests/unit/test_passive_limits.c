@@ -616,6 +616,7 @@ static void any_times_do(void **state)
             fill_frame(&scene, k, &full);
             full.frame.time_us = from == 0 ? times_us[k] : from == 1 ? k : times_us[7] - 7 + k;
             assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
+            assert_true(rho_passive_is_sound(&passive)); /* else it had no image */
         }
         expect_sound_search();
     }

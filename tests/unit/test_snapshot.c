@@ -752,6 +752,27 @@ static void test_objects_that_saw_nothing(void **state)
     assert_int_equal(rho_snapshot_load(NULL, 0, image, length), RHO_OK);
 }
 
+/* Pushed by itself, an initiator takes plots of any row: it had no image where one was beyond RHO_MAX_PLOTS. */
+static void test_a_held_plot_of_a_late_row_goes_on(void **state)
+{
+    static struct rho_plot plots[RHO_MAX_PLOTS + 2];
+    static uint8_t fates[RHO_MAX_PLOTS + 2];
+    const struct rho_scan scan = {.num_plots = RHO_MAX_PLOTS + 2, .plots = plots};
+    struct rho_initiator *initiator = &chain.initiators[0];
+    uint32_t left_unused = 0;
+    (void)state;
+    begin(RHO_TRACKER_BEST, 0);
+    memset(fates, RHO_FATE_INVALID, sizeof fates);
+    plots[RHO_MAX_PLOTS + 1] =
+        (struct rho_plot){.x_m = 5e3f, .sigma_range_m = 20.0f, .sigma_cross_m = 20.0f};
+    fates[RHO_MAX_PLOTS + 1] = RHO_FATE_HELD;
+    assert_int_equal(rho_initiator_push(initiator, &scan, NULL, fates, &left_unused), RHO_OK);
+    assert_int_equal(fates[RHO_MAX_PLOTS + 1], RHO_FATE_HELD);
+    assert_true(rho_initiator_is_sound(initiator));
+    save(&chain);
+    assert_int_equal(load(&other, image_bytes), RHO_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -771,6 +792,7 @@ int main(void)
         cmocka_unit_test(test_other_parts_are_refused),
         cmocka_unit_test(test_nonsense_with_a_right_checksum_is_refused),
         cmocka_unit_test(test_objects_that_saw_nothing),
+        cmocka_unit_test(test_a_held_plot_of_a_late_row_goes_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -685,7 +685,8 @@ static void read_parent(struct json_object *object, struct target_item *item,
 
     item->has_parent = true;
     item->parent = json_count(object, "parent", 0, ITEMS_MAX, 0);
-    if (item->parent >= before->count || before->items[item->parent].count > 0) {
+    if (item->parent >= before->count || before->items[item->parent].count > 0 ||
+        before->items[item->parent].flights > 0) {
         json_fail_key(object, "parent", "targets[%zu] is no path before this one", item->parent);
     }
     parent = &before->items[item->parent];

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The reader of INI files (--config), and --set, on any text: it is refused with one line, or every parameter is within its limits,
+ * and the library takes the configurations made of them. The first byte: 1 the library is asked, too; behind the file, each after
+ * a byte 1, are assignments of --set.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "common.h"
+#include "local_frame.h"
+#include "parameters.h"
+#include "refusal.h"
+
+#define SETS_MAX 8
+#define BETWEEN 1 /* the byte before an assignment */
+
+static struct parameters parameters;
+static struct rho_tracker tracker;
+static struct rho_initiator initiator;
+static struct rho_feed feed;
+static FILE *nowhere;
+
+struct reading {
+    char *path;
+    char *sets[SETS_MAX];
+    size_t num_sets;
+    bool asks_library;
+};
+
+static void check_value(struct parameter_text text, double value, enum parameter_source source)
+{
+    if (source != SOURCE_UNSET) {
+        CHECK(value >= text.min && value <= text.max); /* false for NaN */
+        CHECK(!text.is_integer || !(floor(value) < value));
+    }
+}
+
+static void check_values(void)
+{
+    for (int id = 0; id < NUM_PARAMETERS; id++) {
+        check_value(parameters_text((enum parameter_id)id), parameters.value[id],
+                    parameters.source[id]);
+    }
+    CHECK(parameters.num_sensors <= RHO_MAX_SENSORS && parameters.num_allowed <= RHO_MAX_SENSORS);
+    for (size_t i = 0; i < parameters.num_sensors; i++) {
+        const struct sensor_parameters *sensor = &parameters.sensors[i];
+
+        for (int id = 0; id < NUM_SENSOR_PARAMETERS; id++) {
+            check_value(parameters_sensor_text((enum sensor_parameter_id)id), sensor->value[id],
+                        sensor->source[id]);
+        }
+        for (size_t k = 0; k < i; k++) {
+            CHECK(parameters.sensors[k].sensor_id != sensor->sensor_id);
+        }
+    }
+}
+
+/* What is said and checked, the library takes. */
+static void ask_library(void)
+{
+    struct rho_tracker_config maintain;
+    struct rho_initiator_config start;
+    struct rho_sensor sensor;
+
+    parameters_to_tracker(&parameters, &maintain);
+    parameters_to_initiator(&parameters, &start);
+    if (parameters.value[PARAMETER_GATE] < RHO_NUM_TRACKER_GATES) { /* none: of maintain alone */
+        CHECK(rho_tracker_init(&tracker, sizeof tracker, &maintain) == RHO_OK);
+        for (size_t i = 0; i < parameters.num_sensors; i++) {
+            CHECK(parameters_to_sensor(&parameters, parameters.sensors[i].sensor_id, &sensor));
+            CHECK(rho_tracker_set_sensor(&tracker, &sensor) == RHO_OK);
+        }
+    }
+    CHECK(rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK);
+    parameters_to_feed(&parameters, &feed);
+}
+
+static void read_config(void *context)
+{
+    const struct reading *reading = context;
+
+    parameters_default(&parameters);
+    parameters_load(&parameters, reading->path);
+    for (size_t i = 0; i < reading->num_sets; i++) {
+        parameters_set(&parameters, reading->sets[i]);
+    }
+    parameters_locate(&parameters);
+    parameters_check(&parameters);
+    check_values();
+    parameters_print(&parameters, nowhere);
+    if (reading->asks_library) {
+        ask_library();
+    }
+}
+
+/* What PROJ keeps for the whole program is there before a run's memory is looked at. It does without its database. */
+static void warm_up(void)
+{
+    CHECK(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
+    parameters_default(&parameters);
+    local_frame_close(parameters_open_origin(&parameters));
+    nowhere = fopen("/dev/null", "w");
+    CHECK(nowhere);
+    refusal_begin();
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct reading reading = {0};
+    char *text, *at;
+
+    if (!nowhere) {
+        warm_up();
+    }
+    if (size == 0) {
+        return 0;
+    }
+    text = malloc(size);
+    CHECK(text);
+    memcpy(text, data + 1, size - 1);
+    text[size - 1] = '\0';
+    for (at = memchr(text, BETWEEN, size); at && reading.num_sets < SETS_MAX;
+         at = strchr(at, BETWEEN)) {
+        *at++ = '\0';
+        reading.sets[reading.num_sets++] = at;
+    }
+    /* a file may have zeros, but what comes before an assignment */
+    reading.path = refusal_write_file(
+        data + 1, reading.num_sets > 0 ? (size_t)(reading.sets[0] - text) - 1 : size - 1);
+    reading.asks_library = data[0] & 1;
+    refusal_ends(read_config, &reading);
+    free(text);
+    return 0;
+}

@@ -1,0 +1,1439 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Tracker, initiators and passive initiators over a script: the bytes are decoded into configurations, descriptions of sensors and
+ * a sequence of calls, good and bad ones: scans and frames of a few moving targets among clutter, with any number in any field,
+ * time that stands still, jumps and goes back, sectors, full capacities, piles of plots, images saved and loaded. Through the
+ * public headers alone. After each call the promises of these headers are checked; the first that is broken is named.
+ *
+ * Built twice: with the embedded profile (fuzz_tracker), and with capacities that a short script exhausts (fuzz_tracker_small).
+ */
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rhotrack/angle.h"
+#include "rhotrack/measurement.h"
+#include "rhotrack/snapshot.h"
+#include "rhotrack/tracker.h"
+
+#define PI 3.14159265358979323846
+
+#define STEPS_MAX (RHO_MAX_PLOTS > 100 ? 60u : 160u)
+#define FULL_SCANS_MAX 6u /* of a script: scans with many plots are slow */
+#define IMAGES_MAX 3u     /* saved by a script */
+#define PLOTS_MAX (4u * RHO_MAX_PLOTS + 64u)
+#define RADARS 6u
+#define LOOKS_MAX 6u /* passive sensors */
+#define BEARINGS_MAX (2u * RHO_MAX_BEARINGS + 8u)
+#define LONE                                                                                       \
+    2u /* initiators 0 and 1 are the tracker's; this one is pushed and searched by itself */
+#define INITIATORS 3u
+#define PASSIVES 2u
+#define PARTS (1u + INITIATORS + PASSIVES)
+#define IMAGE_MAX                                                                                  \
+    (1024u + sizeof(struct rho_tracker) + INITIATORS * sizeof(struct rho_initiator) +              \
+     PASSIVES * sizeof(struct rho_passive) + 8u * PARTS)
+
+/* Least eigenvalue of a correlation matrix that rounding may leave: the filters work in float. */
+#define CORRELATION_ROUNDING 1e-3
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* ---- what must hold --------------------------------------------------------------------------- */
+
+static unsigned step_number;
+
+#define HOLDS(invariant, condition)                                                                \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            fprintf(stderr, "invariant broken at step %u: %s\n  line %d: %s\n", step_number,       \
+                    invariant, __LINE__, #condition);                                              \
+            abort();                                                                               \
+        }                                                                                          \
+    } while (0)
+
+/* ---- the script ------------------------------------------------------------------------------- */
+
+struct script {
+    const uint8_t *data;
+    size_t size;
+};
+
+/* The next byte; 0 behind the end. */
+static unsigned byte(struct script *script)
+{
+    if (script->size == 0) {
+        return 0;
+    }
+    script->size--;
+    return *script->data++;
+}
+
+static uint32_t word(struct script *script)
+{
+    uint32_t value = 0;
+
+    for (unsigned i = 0; i < 4; i++) {
+        value = value << 8 | byte(script);
+    }
+    return value;
+}
+
+static int64_t long_word(struct script *script)
+{
+    const uint64_t high = word(script), bits = high << 32 | word(script);
+    int64_t value;
+
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Any number at all: those at which arithmetic and limits change first. */
+static float odd_number(struct script *script)
+{
+    static const float numbers[] = {NAN,
+                                    INFINITY,
+                                    -INFINITY,
+                                    1e30f,
+                                    -1e30f,
+                                    1e-40f,
+                                    -1e-40f,
+                                    FLT_MAX,
+                                    -FLT_MAX,
+                                    FLT_MIN,
+                                    0.0f,
+                                    -0.0f,
+                                    RHO_LIMIT_POSITION_M,
+                                    -RHO_LIMIT_POSITION_M,
+                                    2000000.25f, /* just beyond it */
+                                    RHO_LIMIT_SPEED_MPS,
+                                    -RHO_LIMIT_SPEED_MPS,
+                                    RHO_LIMIT_SIGMA_MIN,
+                                    RHO_LIMIT_SIGMA_MAX,
+                                    RHO_LIMIT_SIGMA_RAD_MIN,
+                                    RHO_LIMIT_SIGMA_RAD_MAX,
+                                    3.14159265f,
+                                    -3.14159265f,
+                                    6.2831853f,
+                                    1.0f,
+                                    -1.0f,
+                                    0.01f,
+                                    0.999f,
+                                    1e3f,
+                                    1e4f,
+                                    1e5f,
+                                    1e6f};
+    const unsigned which = byte(script);
+    uint32_t bits;
+    float number;
+
+    if (which < sizeof numbers / sizeof numbers[0]) {
+        return numbers[which];
+    }
+    if (which < 160) {
+        return 0.25f * ((float)which - 96.0f);
+    }
+    if (which < 240) {
+        return 1000.0f * ((float)which - 200.0f);
+    }
+    bits = word(script);
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+/* ---- the world that is seen ------------------------------------------------------------------- */
+
+struct look_from {
+    int32_t sensor_id;
+    float x_m, y_m;
+    uint32_t measures;
+    unsigned sectors; /* of a turn; 1: the whole circle */
+    unsigned next;    /* sector */
+};
+
+static struct world {
+    uint64_t random;
+    int64_t time_us;
+    double clock_s; /* of the targets: what no one believes of the time does not move them */
+    unsigned num_targets, full_scans, images;
+    struct look_from radars[RADARS], posts[LOOKS_MAX];
+} world;
+
+static double uniform(double from, double to)
+{
+    world.random = world.random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return from + (to - from) * (double)(world.random >> 11) / 9007199254740992.0;
+}
+
+static double target_m(unsigned target, int axis)
+{
+    const double t_s = fmod(world.clock_s, 300.0);
+
+    return axis ? 6e3 + 1500.0 * target + 90.0 * t_s
+                : -8e3 + 1200.0 * target + (target - 1.5) * 70.0 * t_s;
+}
+
+static void begin_world(struct script *script)
+{
+    static const int32_t ids[RADARS] = {1, 2, 3, -7, INT32_MAX, INT32_MIN};
+    static const uint32_t measures[4] = {0, RHO_MEASURES_RANGE_RATE, RHO_MEASURES_Z,
+                                         RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE |
+                                             RHO_MEASURES_VELOCITY};
+    const unsigned how = byte(script), turns = byte(script);
+
+    memset(&world, 0, sizeof world);
+    world.random = 1 + byte(script);
+    world.num_targets = 1 + how % 6;
+    for (unsigned i = 0; i < RADARS; i++) {
+        world.radars[i] = (struct look_from){.sensor_id = ids[i],
+                                             .x_m = 4e3f * (float)i * (how & 64 ? 1.0f : 0.0f),
+                                             .measures = measures[(how >> 3) & (i > 2 ? 0u : 3u)],
+                                             .sectors = turns >> i & 1 ? 6u : 1u};
+    }
+    for (unsigned i = 0; i < LOOKS_MAX; i++) {
+        world.posts[i] = (struct look_from){.sensor_id = 20 + (int32_t)i,
+                                            .x_m = 9e3f * ((float)i - 1.0f),
+                                            .y_m = i % 2 ? -3e3f : 500.0f * (float)i,
+                                            .sectors = turns >> 6 & 1 ? 3u : 1u};
+    }
+}
+
+/* The time of the next scan, from one byte: an interval, mostly. */
+static int64_t next_time(struct script *script)
+{
+    static const int64_t odd_us[] = {0,
+                                     0,
+                                     -1,
+                                     1,
+                                     -1000000,
+                                     -5000000,
+                                     -19000000,
+                                     -21000000,
+                                     60000000,
+                                     100000,
+                                     -100000,
+                                     3600000000,
+                                     100000000000,
+                                     INT64_C(1000000000000000),
+                                     INT64_C(-1000000000000000)};
+    const unsigned how = byte(script);
+    int64_t step_us = 250000 * (int64_t)(1 + how % 16), time_us;
+
+    if (how >= 208) {
+        const unsigned which = how - 208;
+
+        if (which >= sizeof odd_us / sizeof odd_us[0]) {
+            return which < 20   ? RHO_LIMIT_TIME_US
+                   : which < 24 ? -RHO_LIMIT_TIME_US
+                                : long_word(script);
+        }
+        step_us = odd_us[which];
+    }
+    if ((step_us > 0 && world.time_us > RHO_LIMIT_TIME_US - step_us) ||
+        (step_us < 0 && world.time_us < -RHO_LIMIT_TIME_US - step_us)) {
+        return world.time_us;
+    }
+    time_us = world.time_us + step_us;
+    if (step_us >= -60000000 && step_us <= 60000000) {
+        world.clock_s += 1e-6 * (double)step_us;
+    }
+    return time_us;
+}
+
+/* ---- the objects, and what is known of them --------------------------------------------------- */
+
+static struct chain {
+    struct rho_tracker tracker;
+    struct rho_initiator initiators[INITIATORS];
+    struct rho_passive passives[PASSIVES];
+    struct rho_report report;
+} chain, before, first_run;
+
+/* Objects that a call may change, bits; `before` has all objects as they were before it. */
+#define TRACKER 1u /* and its report */
+#define INITIATOR(i) (2u << (i))
+#define PASSIVE(i) (2u << INITIATORS << (i))
+#define ALL (PASSIVE(PASSIVES) - 1u)
+static unsigned touched;
+
+static void remember(void)
+{
+    if (touched & TRACKER) {
+        before.tracker = chain.tracker;
+        before.report = chain.report;
+    }
+    for (unsigned i = 0; i < INITIATORS; i++) {
+        if (touched & INITIATOR(i)) {
+            before.initiators[i] = chain.initiators[i];
+        }
+    }
+    for (unsigned i = 0; i < PASSIVES; i++) {
+        if (touched & PASSIVE(i)) {
+            before.passives[i] = chain.passives[i];
+        }
+    }
+    touched = 0;
+}
+
+/* Tracks that live, by the reports. */
+static struct known {
+    unsigned num;
+    uint32_t track_id[RHO_MAX_TRACKS];
+    uint8_t was_confirmed[RHO_MAX_TRACKS];
+    uint32_t highest; /* identity ever */
+    int was_batch;    /* the lone initiator's worst search may have been one */
+} known, known_first;
+
+static _Alignas(RHO_SNAPSHOT_ALIGNMENT) uint8_t image[IMAGE_MAX];
+static size_t image_bytes;
+static struct known known_of_image;
+static struct world world_of_image;
+
+static int finite_all(const float *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(numbers[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Positive semidefinite: the correlations and a little of the identity have a Cholesky factor. Closed axes are all 0. */
+static int is_covariance(const float *lower, int n)
+{
+    double factor[RHO_KALMAN_STATES][RHO_KALMAN_STATES] = {{0}};
+
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j <= i; j++) {
+            const double ii = (double)lower[RHO_AT(i, i)], jj = (double)lower[RHO_AT(j, j)];
+            const double ij = (double)lower[RHO_AT(i, j)];
+            double sum;
+
+            if (!(ii >= 0.0) || ((ii <= 0.0 || jj <= 0.0) && (ij < 0.0 || ij > 0.0))) {
+                return 0;
+            }
+            sum = ii > 0.0 && jj > 0.0 ? ij / sqrt(ii) / sqrt(jj) : 0.0;
+            sum = i == j ? 1.0 + CORRELATION_ROUNDING : sum;
+            for (int k = 0; k < j; k++) {
+                sum -= factor[i][k] * factor[j][k];
+            }
+            if (i == j && !(sum > 0.0)) {
+                return 0;
+            }
+            factor[i][j] = i == j ? sqrt(sum) : sum / factor[j][j];
+        }
+    }
+    return 1;
+}
+
+/* ---- checks of the tracker -------------------------------------------------------------------- */
+
+static void check_counters(void)
+{
+    const struct rho_tracker_counters *now = &chain.tracker.counters;
+    uint32_t was[sizeof *now / 4], is[sizeof *now / 4];
+    uint64_t fates = 0;
+
+    memcpy(was, &before.tracker.counters, sizeof was);
+    memcpy(is, now, sizeof is);
+    for (size_t i = 0; i < sizeof is / sizeof is[0]; i++) {
+        HOLDS("counters never go down", is[i] >= was[i]);
+    }
+    for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
+        fates += now->fates[fate];
+    }
+    HOLDS("the fates' counters add up to plots_in", fates == now->plots_in);
+    HOLDS("plots_outside are of the invalid", now->plots_outside <= now->fates[RHO_FATE_INVALID]);
+    HOLDS("plots_initiated are of the held",
+          now->plots_initiated <= now->fates[RHO_FATE_HELD] + now->fates[RHO_FATE_GHOST]);
+    HOLDS("tracks started and not ended live",
+          now->tracks_started - now->tracks_ended == chain.tracker.num_tracks);
+    HOLDS("tracks_unseen and tracks_too_fast are of the ended",
+          now->tracks_unseen <= now->tracks_ended && now->tracks_too_fast <= now->tracks_ended);
+}
+
+static void check_fates(uint32_t num_plots)
+{
+    const struct rho_report *report = &chain.report;
+    uint32_t seen[RHO_NUM_FATES] = {0},
+             with_fate = num_plots < RHO_MAX_PLOTS ? num_plots : RHO_MAX_PLOTS;
+    uint64_t total = 0;
+
+    HOLDS("the report has the scan's plots", report->num_plots == num_plots);
+    for (uint32_t i = 0; i < with_fate; i++) {
+        HOLDS("each fate is one", report->fates[i] < RHO_NUM_FATES);
+        seen[report->fates[i]]++;
+    }
+    for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
+        total += report->fates_total[fate];
+        HOLDS("totals of fates have those of the list", seen[fate] <= report->fates_total[fate]);
+        HOLDS("counters of fates move by the totals",
+              chain.tracker.counters.fates[fate] - before.tracker.counters.fates[fate] ==
+                  report->fates_total[fate]);
+    }
+    HOLDS("fates add up to the plots offered", total == num_plots);
+}
+
+static void check_track(const struct rho_track_report *track, uint32_t num_plots)
+{
+    HOLDS("a reported track is alive",
+          track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS);
+    HOLDS("a reported state is finite", finite_all(track->state, RHO_KALMAN_STATES));
+    HOLDS("a reported covariance is finite",
+          finite_all(track->covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)));
+    HOLDS("a reported covariance is positive semidefinite",
+          is_covariance(track->covariance, RHO_KALMAN_STATES));
+    HOLDS("reported sigmas are finite and not negative",
+          isfinite(track->sigma_m) && isfinite(track->sigma_mps) && track->sigma_m >= 0.0f &&
+              track->sigma_mps >= 0.0f);
+    HOLDS("a reported score is finite", isfinite(track->score_nat));
+    HOLDS("a reported acceleration is finite", finite_all(track->accel_mps2, 3));
+    HOLDS("a reported probability is one", rho_is_within(track->maneuver_probability, 0.0f, 1.0f));
+    HOLDS("a reported track has a hypothesis", track->num_hypotheses >= 1);
+    HOLDS("a reported age is not negative", track->update_age_us >= 0);
+    HOLDS("a reported plot is one of the scan's or none",
+          track->plot >= -1 && (track->plot < 0 || (uint32_t)track->plot < num_plots));
+}
+
+static unsigned place_in(const struct known *all, uint32_t track_id)
+{
+    unsigned place = 0;
+
+    while (place < all->num && all->track_id[place] != track_id) {
+        place++;
+    }
+    return place;
+}
+
+static void check_identities(void)
+{
+    const struct rho_report *report = &chain.report;
+    struct known now = {.highest = known.highest, .was_batch = known.was_batch};
+
+    HOLDS("tracks and ended tracks are within their capacities",
+          report->num_tracks <= RHO_MAX_TRACKS && report->num_ended <= RHO_MAX_TRACKS);
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        const uint32_t track_id = report->tracks[i].track_id;
+        const unsigned place = place_in(&known, track_id);
+
+        HOLDS("identities are unique and in their order",
+              track_id > 0 && (i == 0 || track_id > report->tracks[i - 1].track_id));
+        HOLDS("identities are never used again", place < known.num || track_id > known.highest);
+        HOLDS("identities are below the next one", track_id < chain.tracker.next_track_id);
+        now.track_id[now.num] = track_id;
+        now.was_confirmed[now.num++] = (place < known.num && known.was_confirmed[place]) ||
+                                       report->tracks[i].status != RHO_TRACK_TENTATIVE;
+    }
+    now.highest = chain.tracker.next_track_id - 1;
+    for (unsigned i = 0; i < report->num_ended; i++) {
+        HOLDS("an ended track is not alive", place_in(&now, report->ended[i]) == now.num);
+        HOLDS("an ended track was there", place_in(&known, report->ended[i]) < known.num);
+        for (unsigned j = 0; j < i; j++) {
+            HOLDS("a track ends once", report->ended[j] != report->ended[i]);
+        }
+    }
+    for (unsigned i = 0; i < known.num; i++) {
+        int is_told = place_in(&now, known.track_id[i]) < now.num || !known.was_confirmed[i];
+
+        for (unsigned j = 0; j < report->num_ended && !is_told; j++) {
+            is_told = report->ended[j] == known.track_id[i];
+        }
+        HOLDS("a confirmed track that is gone is among the ended", is_told);
+    }
+    known = now;
+}
+
+/* Plots that tracks claimed have that fate, two tracks may share one; a new track has one of those that it was found in. */
+static void check_claims(const struct rho_scan *scan)
+{
+    for (unsigned i = 0; i < chain.report.num_tracks; i++) {
+        const int32_t plot = chain.report.tracks[i].plot;
+        const int is_new = place_in(&known, chain.report.tracks[i].track_id) == known.num;
+
+        HOLDS("a plot that a track claimed is claimed, one that it was found in is held",
+              plot < 0 || plot >= RHO_MAX_PLOTS ||
+                  chain.report.fates[plot] == (is_new ? RHO_FATE_HELD : RHO_FATE_CLAIMED));
+        HOLDS("a plot that a track claimed is valid",
+              plot < 0 || rho_measurement_is_valid(&scan->plots[plot], scan->measures));
+    }
+}
+
+/* ---- checks of the initiators ----------------------------------------------------------------- */
+
+static unsigned count_bits(uint32_t mask)
+{
+    unsigned count = 0;
+
+    for (; mask; mask &= mask - 1) {
+        count++;
+    }
+    return count;
+}
+
+static void check_candidates(struct rho_initiator *initiator)
+{
+    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+        const struct rho_candidate *candidate = &initiator->candidates[i];
+        const float numbers[] = {candidate->x_m,    candidate->y_m, candidate->vx_mps,
+                                 candidate->vy_mps, candidate->z_m, candidate->vz_mps};
+
+        HOLDS("a candidate is finite", finite_all(numbers, 6));
+        HOLDS("a candidate's hits are its scans", count_bits(candidate->mask) == candidate->hits);
+        HOLDS("candidates are the best first",
+              i == 0 || initiator->candidates[i - 1].score_mnat >= candidate->score_mnat);
+    }
+}
+
+/* A batch has its work for each scan that kernels end in. */
+static void check_work(const struct rho_initiator *initiator, int is_batch)
+{
+    const struct rho_initiator_budget *budget = &initiator->budget;
+    uint64_t most = initiator->config.work_max;
+
+    HOLDS("work_worst is the worst", budget->work_worst >= budget->work);
+    if (most == 0) {
+        return;
+    }
+    most *= is_batch ? initiator->config.scans : 1u;
+    most += RHO_INITIATOR_WORK_BEYOND;
+    HOLDS("a search works no more than work_max and RHO_INITIATOR_WORK_BEYOND",
+          budget->work <= most);
+    HOLDS("the worst search worked no more", budget->work_worst <= most);
+}
+
+static void check_passive(struct rho_passive *passive)
+{
+    HOLDS("tracks of bearings are within their capacity",
+          passive->num_tracks <= RHO_MAX_PASSIVE_TRACKS);
+    for (unsigned i = 0; i < passive->num_tracks; i++) {
+        const struct rho_passive_track *track = &passive->tracks[i];
+        const float numbers[] = {track->x_m, track->y_m, track->vx_mps, track->vy_mps, track->chi2};
+        unsigned hits = 0;
+
+        for (unsigned k = 0; k < RHO_MAX_PASSIVE_SCANS; k++) {
+            for (unsigned s = 0; s < RHO_MAX_PASSIVE_SENSORS; s++) {
+                hits += track->claim[k][s] > 0;
+            }
+        }
+        HOLDS("a track of bearings is finite", finite_all(numbers, 5));
+        HOLDS("its covariance is finite", finite_all(track->covariance, 10));
+        HOLDS("its covariance is positive semidefinite", is_covariance(track->covariance, 4));
+        HOLDS("its hits are its claims", hits == track->hits);
+    }
+}
+
+/* Those that the call may have changed. */
+static void check_objects(void)
+{
+    HOLDS("the tracker is sound", !(touched & TRACKER) || rho_tracker_is_sound(&chain.tracker));
+    for (unsigned i = 0; i < INITIATORS; i++) {
+        if (!(touched & INITIATOR(i))) {
+            continue;
+        }
+        HOLDS("the initiator is sound", rho_initiator_is_sound(&chain.initiators[i]));
+        check_candidates(&chain.initiators[i]);
+        check_work(&chain.initiators[i], i == LONE && known.was_batch);
+    }
+    for (unsigned i = 0; i < PASSIVES; i++) {
+        if (touched & PASSIVE(i)) {
+            HOLDS("the passive initiator is sound", rho_passive_is_sound(&chain.passives[i]));
+            check_passive(&chain.passives[i]);
+        }
+    }
+}
+
+static void check_unchanged(enum rho_status status)
+{
+    HOLDS("an outcome is one", status > RHO_OK && status < RHO_NUM_STATUS);
+    HOLDS("a refused call leaves all objects and the report as they were",
+          memcmp(&before, &chain, sizeof chain) == 0);
+}
+
+/* Older than late_max: but for counters nothing changes. */
+static void check_too_late(void)
+{
+    HOLDS("a scan that is too late counts",
+          chain.tracker.counters.scans_late > before.tracker.counters.scans_late);
+    before.tracker.counters = chain.tracker.counters;
+    HOLDS("a scan that is too late changes counters alone",
+          memcmp(&before.tracker, &chain.tracker, sizeof chain.tracker) == 0 &&
+              memcmp(before.initiators, chain.initiators, sizeof chain.initiators) == 0 &&
+              memcmp(before.passives, chain.passives, sizeof chain.passives) == 0);
+}
+
+/* After a step that was taken; of a frame there is no scan. */
+static void check_step(uint32_t num_plots, int64_t time_us, const struct rho_scan *scan)
+{
+    const int is_late = before.tracker.has_time && time_us < before.tracker.time_us;
+
+    check_fates(num_plots);
+    check_counters();
+    if (scan) {
+        check_claims(scan);
+    }
+    check_identities();
+    for (unsigned i = 0; i < chain.report.num_tracks; i++) {
+        check_track(&chain.report.tracks[i], num_plots);
+    }
+    HOLDS("time never goes back",
+          !before.tracker.has_time || chain.tracker.time_us >= before.tracker.time_us);
+    HOLDS("the newest scan's time is the tracker's", is_late || chain.tracker.time_us == time_us);
+    if (chain.tracker.counters.scans_late > before.tracker.counters.scans_late) {
+        HOLDS("only a late scan is refused as late", is_late);
+        HOLDS("all plots of a scan that is too late are stale",
+              chain.report.fates_total[RHO_FATE_STALE] == num_plots);
+        check_too_late();
+    }
+    check_objects();
+}
+
+/* ---- configurations --------------------------------------------------------------------------- */
+
+static int configure_tracker(struct script *script)
+{
+    struct rho_tracker_config config;
+    const unsigned how = byte(script);
+    enum rho_status status;
+
+    rho_tracker_config_default(&config);
+    config.gate = (uint8_t)(how % 4 == 3 ? 0 : how % 4);
+    config.input.is_estimated = how >> 2 & 1;
+    config.input.model = how >> 3 & 1;
+    config.v_max_mps = how >> 4 & 1 ? 300.0f : 700.0f;
+    for (unsigned edits = how >> 5; edits > 0; edits--) {
+        float *const floats[] = {
+            &config.pd,
+            &config.v_min_mps,
+            &config.v_max_mps,
+            &config.accel_max_mps2,
+            &config.steady_s,
+#if RHO_SECTORS
+            &config.late_max_s,
+#endif
+            &config.theta_cell_rad,
+            &config.input.sigma_mps2,
+            &config.input.threshold,
+            &config.input.gamma,
+            &config.input.noise_density,
+            &config.input.noise_m,
+            &config.input.noise_mps,
+            &config.input.velocity_variance
+        };
+        const unsigned field = byte(script), num = sizeof floats / sizeof floats[0];
+
+        if (field % 16 < num) {
+            *floats[field % 16] = odd_number(script);
+        } else if (field < 128) {
+            config.coast_scans_max = (uint16_t)byte(script);
+        } else {
+            config.planes = (uint8_t)byte(script);
+        }
+    }
+    status = rho_tracker_init(&chain.tracker, sizeof chain.tracker, &config);
+    if (status != RHO_OK) {
+        check_unchanged(status);
+        rho_tracker_config_default(&config);
+        status = rho_tracker_init(&chain.tracker, sizeof chain.tracker, &config);
+    }
+    return status == RHO_OK;
+}
+
+static int configure_initiator(struct script *script, struct rho_initiator *initiator)
+{
+    static const uint32_t works[8] = {RHO_INITIATOR_WORK, 0, 1, 1000, 20000, 100000000, 60, 5000};
+    struct rho_initiator_config config;
+    const unsigned how = byte(script);
+    enum rho_status status;
+
+    rho_initiator_config_default(&config);
+    config.work_max = works[how % 8];
+    config.false_tracks_per_hour = how >> 3 & 1 ? 0.0f : 1.0f; /* thresholds cost most of a step */
+    config.scans = (uint16_t)(how >> 4 & 1 ? 3 : config.scans);
+    for (unsigned edits = how >> 5; edits > 0; edits--) {
+        float *const floats[] = {&config.v_min_mps,
+                                 &config.v_max_mps,
+                                 &config.pd,
+                                 &config.false_tracks_per_hour,
+                                 &config.score_min_nat,
+                                 &config.process_noise_mps2,
+                                 &config.area.x_min_m,
+                                 &config.area.x_max_m,
+                                 &config.area.y_min_m,
+                                 &config.area.y_max_m};
+        const unsigned field = byte(script) % 16;
+
+        if (field < 10) {
+            *floats[field] = odd_number(script);
+        } else if (field < 12) {
+            config.scans = (uint16_t)(byte(script) % (RHO_MAX_SCANS + 2));
+        } else if (field < 14) {
+            config.min_scans = (uint16_t)(byte(script) % (RHO_MAX_SCANS + 2));
+        } else {
+            const float half_m = 1e3f * (float)(1 + byte(script));
+
+            config.area_is_fixed = 1;
+            config.area = (struct rho_extent){-half_m, half_m, -half_m, half_m};
+        }
+    }
+    status = rho_initiator_init(initiator, sizeof *initiator, &config);
+    if (status != RHO_OK) {
+        check_unchanged(status);
+        rho_initiator_config_default(&config);
+        status = rho_initiator_init(initiator, sizeof *initiator, &config);
+    }
+    return status == RHO_OK;
+}
+
+static int configure_passive(struct script *script, struct rho_passive *passive)
+{
+    struct rho_passive_config config;
+    const unsigned how = byte(script);
+    enum rho_status status;
+
+    rho_passive_config_default(&config);
+    config.scans = how & 1                                ? 4
+                   : config.scans < RHO_MAX_PASSIVE_SCANS ? config.scans
+                                                          : RHO_MAX_PASSIVE_SCANS;
+    config.rule = how & 2 ? RHO_GHOST_SAFE : (enum rho_ghost_rule)0;
+    for (unsigned edits = how >> 6; edits > 0; edits--) {
+        float *const floats[] = {&config.range_max_m,
+                                 &config.v_max_mps,
+                                 &config.pd,
+                                 &config.field_of_view_rad,
+                                 &config.hits_min,
+                                 &config.rho_cell_m,
+                                 &config.theta_cell_rad,
+                                 &config.false_tracks_per_hour};
+
+        *floats[byte(script) % 8] = odd_number(script);
+    }
+    status = rho_passive_init(passive, sizeof *passive, &config);
+    if (status != RHO_OK) {
+        check_unchanged(status);
+        rho_passive_config_default(&config);
+        config.scans = 4;
+        status = rho_passive_init(passive, sizeof *passive, &config);
+    }
+    return status == RHO_OK;
+}
+
+/* Of fresh memory, whatever it held. */
+static void begin(struct script *script, int fill)
+{
+    int is_ready = 1;
+
+    memset(&chain, fill, sizeof chain);
+    memset(&chain.report, 0, sizeof chain.report);
+    touched = ALL;
+    remember();
+    memset(&known, 0, sizeof known);
+    image_bytes = 0;
+    step_number = 0;
+    begin_world(script);
+    is_ready = configure_tracker(script);
+    touched = TRACKER;
+    remember();
+    for (unsigned i = 0; i < INITIATORS; i++) {
+        is_ready = configure_initiator(script, &chain.initiators[i]) && is_ready;
+        touched = INITIATOR(i);
+        remember();
+    }
+    for (unsigned i = 0; i < PASSIVES; i++) {
+        is_ready = configure_passive(script, &chain.passives[i]) && is_ready;
+        touched = PASSIVE(i);
+        remember();
+    }
+    HOLDS("default configurations are taken", is_ready);
+    touched = ALL;
+    check_objects();
+    remember();
+}
+
+/* ---- scans of plots --------------------------------------------------------------------------- */
+
+static struct rho_plot plot_at(double x_m, double y_m)
+{
+    return (struct rho_plot){.x_m = (float)x_m,
+                             .y_m = (float)y_m,
+                             .z_m = (float)uniform(900, 1100),
+                             .vx_mps = (float)uniform(-90, 90),
+                             .vy_mps = 90.0f,
+                             .range_rate_mps = (float)uniform(-90, 90),
+                             .sigma_range_m = 20.0f,
+                             .sigma_cross_m = 30.0f,
+                             .sigma_up_m = 50.0f,
+                             .sigma_mps = 20.0f,
+                             .sigma_range_rate_mps = 40.0f};
+}
+
+static int is_in_sector(const struct rho_scan *scan, const struct look_from *from, double x_m,
+                        double y_m)
+{
+    const double azimuth_rad = atan2(y_m - (double)from->y_m, x_m - (double)from->x_m);
+    const double width_rad =
+        fmod((double)scan->sector_to_rad - (double)scan->sector_from_rad + 4 * PI, 2 * PI);
+
+    return from->sectors < 2 ||
+           fmod(azimuth_rad - (double)scan->sector_from_rad + 4 * PI, 2 * PI) < width_rad;
+}
+
+/* The sector that comes next, in float as a radar's program would have it. */
+static void set_sector(struct look_from *from, float *sector_from_rad, float *sector_to_rad)
+{
+    const float width_rad = (float)(2 * PI / from->sectors);
+
+    if (from->sectors > 1) {
+        *sector_from_rad = (float)-PI + width_rad * (float)from->next;
+        *sector_to_rad = (float)-PI + width_rad * (float)(from->next + 1);
+        from->next = (from->next + 1) % from->sectors;
+    }
+}
+
+/* Clutter: spread out, in one place, on a target, or on a line that moves; few, or more than there is room for. */
+static uint32_t add_clutter(struct script *script, struct rho_plot *plots, uint32_t num)
+{
+    const unsigned how = byte(script);
+    uint32_t more = how % 8 < 6 || world.full_scans >= FULL_SCANS_MAX
+                        ? byte(script) % 16
+                        : (how % 8 == 6 ? RHO_MAX_PLOTS / 2 : 2 * RHO_MAX_PLOTS) + byte(script);
+
+    world.full_scans += more > RHO_MAX_PLOTS / 2;
+    for (; more > 0 && num < PLOTS_MAX; more--) {
+        switch (how / 8 % 4) {
+        case 0:
+            plots[num++] = plot_at(uniform(-2e4, 2e4), uniform(-2e4, 2e4));
+            break;
+        case 1:
+            plots[num++] = plot_at(target_m(0, 0), target_m(0, 1));
+            break;
+        case 2:
+            plots[num] = plots[num > 0 ? num - 1 : 0];
+            plots[num] = num > 0 ? plots[num - 1] : plot_at(5e3, 5e3);
+            num++;
+            break;
+        default:
+            plots[num] = plot_at(300.0 * (double)more, 4e3 + 20 * world.clock_s);
+            plots[num++].offset_us = (int32_t)more * 1000;
+        }
+    }
+    return num;
+}
+
+static void edit_plot(struct script *script, struct rho_plot *plot)
+{
+    float *const floats[] = {&plot->x_m,
+                             &plot->y_m,
+                             &plot->z_m,
+                             &plot->vx_mps,
+                             &plot->vy_mps,
+                             &plot->vz_mps,
+                             &plot->range_rate_mps,
+                             &plot->sigma_range_m,
+                             &plot->sigma_cross_m,
+                             &plot->sigma_up_m,
+                             &plot->sigma_mps,
+                             &plot->sigma_range_rate_mps,
+                             &plot->snr_db};
+    const unsigned field = byte(script) % 16;
+
+    if (field < 13) {
+        *floats[field] = odd_number(script);
+    } else if (field < 15) {
+        plot->offset_us = 1000000 * ((int32_t)byte(script) % 128 - 64);
+    } else {
+        const uint32_t bits = word(script);
+
+        memcpy(&plot->offset_us, &bits, sizeof bits);
+    }
+}
+
+/* The scan as a whole. */
+static void edit_scan(struct script *script, struct rho_scan *scan)
+{
+    switch (byte(script) % 8) {
+    case 0:
+        scan->sector_from_rad = odd_number(script);
+        break;
+    case 1:
+        scan->sector_to_rad = odd_number(script);
+        break;
+    case 2:
+        scan->measures = word(script);
+        break;
+    case 3:
+        scan->plots = NULL;
+        break;
+    case 4:
+        scan->num_plots = 0;
+        break;
+    case 5:
+        scan->sensor_id = (int32_t)byte(script) - 100;
+        break;
+    default: /* all plots alike */
+        for (uint32_t i = 1; i < scan->num_plots; i++) {
+            ((struct rho_plot *)(uintptr_t)scan->plots)[i] = scan->plots[0];
+        }
+    }
+}
+
+/* Bits of a scan's first byte: 0 .. 2 radar, 3 and 4 initiator, 5 clutter, 6 changes of plots, 7 changes of the scan. */
+static struct rho_scan make_scan(struct script *script, unsigned how, struct rho_plot *plots)
+{
+    struct look_from *from = &world.radars[how % 8 % RADARS];
+    struct rho_scan scan = {.time_us = next_time(script),
+                            .sensor_id = from->sensor_id,
+                            .measures = from->measures,
+                            .plots = plots};
+
+    set_sector(from, &scan.sector_from_rad, &scan.sector_to_rad);
+    for (unsigned i = 0; i < world.num_targets; i++) {
+        const double x_m = target_m(i, 0) + uniform(-20, 20);
+        const double y_m = target_m(i, 1) + uniform(-20, 20);
+
+        if (uniform(0, 1) < 0.9 && is_in_sector(&scan, from, x_m, y_m)) {
+            plots[scan.num_plots++] = plot_at(x_m, y_m);
+        }
+    }
+    if (how & 32) {
+        scan.num_plots = add_clutter(script, plots, scan.num_plots);
+    }
+    if (how & 64) {
+        for (unsigned edits = 1 + byte(script) % 4; edits > 0 && scan.num_plots > 0; edits--) {
+            edit_plot(script, &plots[byte(script) % scan.num_plots]);
+        }
+    }
+    if (how & 128) {
+        edit_scan(script, &scan);
+    }
+    return scan;
+}
+
+/* The plots in memory of exactly their size. */
+static struct rho_plot *exact_plots(const struct rho_scan *scan)
+{
+    const size_t bytes = scan->num_plots * sizeof *scan->plots;
+    struct rho_plot *plots = malloc(bytes > 0 ? bytes : 1);
+
+    HOLDS("there is memory", plots);
+    if (scan->plots) {
+        memcpy(plots, scan->plots, bytes);
+    }
+    return plots;
+}
+
+static void step_scan(struct script *script)
+{
+    static struct rho_plot plots[PLOTS_MAX];
+    const unsigned how = byte(script), which = how >> 3 & 3;
+    struct rho_scan scan = make_scan(script, how, plots);
+    struct rho_plot *exact = exact_plots(&scan);
+    enum rho_status status;
+
+    scan.plots = scan.plots ? exact : NULL;
+    touched = TRACKER | (which == 3 ? 0u : INITIATOR(which % 2));
+    status = rho_tracker_step(&chain.tracker, which == 3 ? NULL : &chain.initiators[which % 2],
+                              &scan, &chain.report);
+    if (status == RHO_OK) {
+        check_step(scan.num_plots, scan.time_us, &scan);
+        world.time_us = chain.tracker.time_us;
+    } else {
+        check_unchanged(status);
+    }
+    free(exact);
+}
+
+/* ---- an initiator by itself ------------------------------------------------------------------- */
+
+static void search_lone(struct script *script)
+{
+    struct rho_initiator *lone = &chain.initiators[LONE];
+    const unsigned how = byte(script);
+    enum rho_status status;
+
+    touched = INITIATOR(LONE);
+    if (how % 4 == 0 && lone->num_candidates > 0) {
+        const unsigned used =
+            rho_initiator_consume(lone, &lone->candidates[how / 4 % lone->num_candidates]);
+
+        HOLDS("no more plots are used than the window has scans", used <= RHO_MAX_SCANS);
+    } else {
+        known.was_batch |= how & 1;
+        status = rho_initiator_search(lone, how & 1 ? RHO_SEARCH_BATCH : RHO_SEARCH_NEWEST);
+        HOLDS("a search is taken", status == RHO_OK);
+    }
+    check_objects();
+}
+
+static void push_lone(struct script *script)
+{
+    static struct rho_plot plots[PLOTS_MAX];
+    static uint8_t fates[PLOTS_MAX], fates_before[PLOTS_MAX];
+    struct rho_initiator *lone = &chain.initiators[LONE];
+    const unsigned how = byte(script);
+    struct rho_scan scan = make_scan(script, how & ~128u, plots);
+    struct rho_plot *exact = exact_plots(&scan);
+    uint32_t left_unused = 0;
+    enum rho_status status;
+
+    scan.plots = exact;
+    if (scan.time_us > RHO_LIMIT_TIME_US || scan.time_us < -RHO_LIMIT_TIME_US) {
+        scan.time_us = world.time_us; /* pushes take valid scans */
+    }
+    for (uint32_t i = 0; i < scan.num_plots; i++) {
+        const int is_held = rho_measurement_is_valid(&scan.plots[i], scan.measures);
+
+        fates[i] = fates_before[i] = (uint8_t)(is_held ? RHO_FATE_HELD : RHO_FATE_INVALID);
+    }
+    touched = INITIATOR(LONE);
+    status = rho_initiator_push(lone, &scan, NULL, fates, &left_unused);
+    if (status == RHO_OK) {
+        for (uint32_t i = 0; i < scan.num_plots; i++) {
+            HOLDS("a held plot stays so or finds no room, and others stay what they are",
+                  fates[i] == fates_before[i] ||
+                      (fates_before[i] == RHO_FATE_HELD && fates[i] == RHO_FATE_NO_ROOM));
+        }
+        HOLDS("no candidate outlives a push", lone->num_candidates == 0);
+        world.time_us = scan.time_us > world.time_us ? scan.time_us : world.time_us;
+    } else {
+        check_unchanged(status);
+        HOLDS("a refused push leaves the fates",
+              left_unused == 0 && memcmp(fates, fates_before, scan.num_plots) == 0);
+    }
+    free(exact);
+    check_objects();
+}
+
+/* ---- frames of bearings ----------------------------------------------------------------------- */
+
+struct bearings {
+    struct rho_bearing_scan looks[LOOKS_MAX];
+    struct rho_bearing bearings[LOOKS_MAX][BEARINGS_MAX];
+};
+
+static void see_targets(struct rho_bearing_scan *look, const struct look_from *from,
+                        struct rho_bearing *bearings)
+{
+    const struct rho_scan sector = {.sector_from_rad = look->sector_from_rad,
+                                    .sector_to_rad = look->sector_to_rad};
+
+    for (unsigned i = 0; i < world.num_targets; i++) {
+        const double x_m = target_m(i, 0), y_m = target_m(i, 1);
+        const double bearing_rad = atan2(y_m - (double)look->y_m, x_m - (double)look->x_m);
+
+        if (uniform(0, 1) < 0.95 && is_in_sector(&sector, from, x_m, y_m)) {
+            bearings[look->num_bearings++] = (struct rho_bearing){
+                .bearing_rad =
+                    (float)remainder(bearing_rad + uniform(-2e-3, 2e-3), 2 * PI) * 0.9999f,
+                .sigma_rad = 0.002f};
+        }
+    }
+}
+
+static void edit_frame(struct script *script, struct rho_frame *frame, struct bearings *seen)
+{
+    const unsigned which = byte(script), s = byte(script) % LOOKS_MAX;
+    struct rho_bearing_scan *look = &seen->looks[s];
+    struct rho_bearing *bearing = &seen->bearings[s][byte(script) % BEARINGS_MAX];
+
+    switch (which % 12) {
+    case 0:
+        look->x_m = odd_number(script);
+        break;
+    case 1:
+        look->y_m = odd_number(script);
+        break;
+    case 2:
+        look->sector_from_rad = odd_number(script);
+        break;
+    case 3:
+        look->sector_to_rad = odd_number(script);
+        break;
+    case 4:
+        look->time_us += (int64_t)byte(script) * 500000 - 64000000;
+        break;
+    case 5:
+        look->sensor_id = (int32_t)byte(script) % 32;
+        break;
+    case 6:
+        look->bearings = NULL;
+        break;
+    case 7:
+        frame->scans = NULL;
+        break;
+    case 8:
+        look->time_us = long_word(script);
+        break;
+    case 9:
+        bearing->offset_us = (int32_t)(word(script) >> 1);
+        break;
+    case 10:
+        bearing->sigma_rad = odd_number(script);
+        break;
+    default:
+        bearing->bearing_rad = odd_number(script);
+    }
+}
+
+/* Bits of a frame's first byte: 0 .. 2 sensors, 3 without passive initiation, 4 more bearings, 5 and 6 changes. */
+static struct rho_frame make_frame(struct script *script, unsigned how, struct bearings *seen)
+{
+    struct rho_frame frame = {.time_us = next_time(script),
+                              .num_scans = how % 8 < LOOKS_MAX ? how % 8 : 3,
+                              .scans = seen->looks};
+
+    memset(seen, 0, sizeof *seen);
+    for (uint32_t s = 0; s < LOOKS_MAX; s++) {
+        struct look_from *from = &world.posts[s];
+        struct rho_bearing_scan *look = &seen->looks[s];
+
+        *look = (struct rho_bearing_scan){.time_us = frame.time_us,
+                                          .sensor_id = from->sensor_id,
+                                          .x_m = from->x_m,
+                                          .y_m = from->y_m,
+                                          .bearings = seen->bearings[s]};
+        set_sector(from, &look->sector_from_rad, &look->sector_to_rad);
+        see_targets(look, from, seen->bearings[s]);
+    }
+    if (how & 16) {
+        struct rho_bearing_scan *look = &seen->looks[byte(script) % LOOKS_MAX];
+
+        for (unsigned more = byte(script) % BEARINGS_MAX;
+             more > 0 && look->num_bearings < BEARINGS_MAX; more--) {
+            ((struct rho_bearing *)(uintptr_t)look->bearings)[look->num_bearings++] =
+                (struct rho_bearing){.bearing_rad = (float)uniform(-3.14, 3.14),
+                                     .sigma_rad = 0.003f};
+        }
+    }
+    for (unsigned edits = how >> 5 & 3; edits > 0; edits--) {
+        edit_frame(script, &frame, seen);
+    }
+    return frame;
+}
+
+static void step_frame(struct script *script)
+{
+    static struct bearings seen;
+    const unsigned how = byte(script);
+    struct rho_frame frame = make_frame(script, how, &seen);
+    uint32_t num_bearings = 0;
+    enum rho_status status;
+
+    touched = TRACKER | (how & 8 ? 0u : PASSIVE(0));
+    status = rho_tracker_step_frame(&chain.tracker, how & 8 ? NULL : &chain.passives[0], &frame,
+                                    &chain.report);
+    if (status == RHO_OK) {
+        for (uint32_t s = 0; s < frame.num_scans; s++) {
+            num_bearings += frame.scans[s].num_bearings;
+        }
+        check_step(num_bearings, frame.time_us, NULL);
+        world.time_us = chain.tracker.time_us;
+    } else {
+        check_unchanged(status);
+    }
+}
+
+static void use_lone_passive(struct script *script)
+{
+    static struct bearings seen;
+    static uint8_t fates[LOOKS_MAX * BEARINGS_MAX], fates_before[LOOKS_MAX * BEARINGS_MAX];
+    struct rho_passive *lone = &chain.passives[1];
+    const unsigned how = byte(script);
+    struct rho_frame frame;
+    enum rho_status status, accepts;
+
+    touched = PASSIVE(1);
+    if (how & 128) {
+        if (how & 1 && lone->num_tracks > 0) {
+            HOLDS("a track of the last search has bearings to take",
+                  rho_passive_consume(lone, &lone->tracks[0]) <= lone->tracks[0].hits);
+            lone->num_tracks = 0; /* each may be taken once */
+        } else {
+            status = rho_passive_search(lone);
+            HOLDS("a search is taken", status == RHO_OK);
+        }
+        check_objects();
+        return;
+    }
+    frame = make_frame(script, how, &seen);
+    memset(fates, RHO_FATE_HELD, sizeof fates);
+    memcpy(fates_before, fates, sizeof fates);
+    accepts = rho_passive_accepts(lone, &frame);
+    status = rho_passive_push(lone, &frame, fates);
+    HOLDS("rho_passive_push does what rho_passive_accepts said", status == accepts);
+    if (status != RHO_OK) {
+        check_unchanged(status);
+        HOLDS("a refused frame leaves the fates", memcmp(fates, fates_before, sizeof fates) == 0);
+    } else if (frame.time_us > world.time_us && frame.time_us <= RHO_LIMIT_TIME_US) {
+        world.time_us = frame.time_us; /* batches take any time, pushes of scans do not */
+    }
+    check_objects();
+}
+
+/* ---- other calls ------------------------------------------------------------------------------ */
+
+static void describe_sensor(struct script *script)
+{
+    const unsigned how = byte(script);
+    const struct look_from *from =
+        how & 8 ? &world.posts[how % 8 % LOOKS_MAX] : &world.radars[how % 8 % RADARS];
+    struct rho_sensor sensor = {.sensor_id = from->sensor_id,
+                                .x_m = from->x_m,
+                                .y_m = from->y_m,
+                                .pd = 0.9f,
+                                .range_max_m = 50e3f};
+    enum rho_status status;
+
+    for (unsigned edits = how >> 4 & 3; edits > 0; edits--) {
+        float *const floats[] = {
+            &sensor.x_m,
+            &sensor.y_m,
+            &sensor.z_m,
+            &sensor.pd,
+            &sensor.range_min_m,
+            &sensor.range_max_m,
+            &sensor.sector_from_rad,
+            &sensor.sector_to_rad,
+            &sensor.range_bias_m,
+            &sensor.azimuth_bias_rad,
+            &sensor.time_bias_s,
+#if RHO_SECTORS
+            &sensor.variance_factor,
+#endif
+#if RHO_AMBIGUOUS_RANGE_RATES
+            &sensor.range_rate_span_mps,
+#endif
+        };
+        *floats[byte(script) % (sizeof floats / sizeof floats[0])] = odd_number(script);
+    }
+#if RHO_AMBIGUOUS_RANGE_RATES
+    if (how & 64) {
+        sensor.range_rate_span_mps = 1.0f + (float)byte(script);
+    }
+#endif
+    if (how & 128) {
+        sensor.sensor_id = (int32_t)byte(script) + 100; /* one more */
+    }
+    touched = TRACKER;
+    status = rho_tracker_set_sensor(&chain.tracker, &sensor);
+    if (status != RHO_OK) {
+        check_unchanged(status);
+        HOLDS("a table with room refuses no sensor for it",
+              status != RHO_ERROR_CAPACITY || chain.tracker.num_sensors == RHO_MAX_SENSORS);
+    }
+    check_objects();
+}
+
+static void forget_sensor(struct script *script)
+{
+    const unsigned how = byte(script);
+    const int32_t sensor_id = how & 8    ? world.posts[how % 8 % LOOKS_MAX].sensor_id
+                              : how & 16 ? (int32_t)how
+                                         : world.radars[how % 8 % RADARS].sensor_id;
+    enum rho_status status;
+
+    touched = TRACKER;
+    status = rho_tracker_forget_sensor(&chain.tracker, sensor_id);
+    if (status != RHO_OK) {
+        check_unchanged(status);
+    }
+    check_objects();
+}
+
+static void list_parts(struct rho_snapshot_part parts[PARTS])
+{
+    unsigned num = 0;
+
+    parts[num++] =
+        (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, 0, &chain.tracker, sizeof chain.tracker};
+    for (unsigned i = 0; i < INITIATORS; i++) {
+        parts[num++] = (struct rho_snapshot_part){RHO_SNAPSHOT_INITIATOR, (int32_t)i,
+                                                  &chain.initiators[i], sizeof chain.initiators[i]};
+    }
+    for (unsigned i = 0; i < PASSIVES; i++) {
+        parts[num++] = (struct rho_snapshot_part){RHO_SNAPSHOT_PASSIVE, (int32_t)i,
+                                                  &chain.passives[i], sizeof chain.passives[i]};
+    }
+}
+
+static void save(const struct rho_snapshot_part parts[PARTS])
+{
+    const enum rho_status status =
+        rho_snapshot_save(parts, PARTS, 0, image, sizeof image, &image_bytes);
+
+    HOLDS("objects that were stepped can be saved", status == RHO_OK);
+    HOLDS("an image is as large as it was said", image_bytes == rho_snapshot_size(parts, PARTS));
+    HOLDS("saving changes nothing", memcmp(&before, &chain, sizeof chain) == 0);
+    world.images++;
+    known_of_image = known;
+    world_of_image = world;
+}
+
+/* Into objects that hold anything. */
+static void load(const struct rho_snapshot_part parts[PARTS])
+{
+    memset(&chain, 0x77, offsetof(struct chain, report));
+    HOLDS("what was saved can be loaded",
+          rho_snapshot_load(parts, PARTS, image, image_bytes) == RHO_OK);
+}
+
+/* An image is saved, and mostly loaded at once; or the last one is loaded, whatever has been stepped since. */
+static void save_or_load(struct script *script)
+{
+    struct rho_snapshot_part parts[PARTS];
+    const unsigned how = byte(script);
+
+    list_parts(parts);
+    touched = ALL;
+    if (image_bytes == 0 || (how & 1 && world.images < IMAGES_MAX)) {
+        save(parts);
+        if (!(how & 2)) {
+            load(parts);
+            HOLDS("what is loaded is what was saved, byte for byte",
+                  memcmp(&before, &chain, sizeof chain) == 0);
+        }
+    } else {
+        load(parts);
+        known = known_of_image;
+        world_of_image.images = world.images;
+        world_of_image.full_scans = world.full_scans;
+        world = world_of_image;
+    }
+    check_objects();
+}
+
+/* Calls that no program should make: refused, with nothing changed. */
+static void call_wrongly(struct script *script)
+{
+    static struct rho_plot plot;
+    const struct rho_scan scan = {.time_us = world.time_us, .num_plots = 1, .plots = &plot};
+    const struct rho_scan no_plots = {.time_us = world.time_us, .num_plots = 1};
+    const struct rho_frame frame = {.time_us = world.time_us};
+    const struct rho_frame no_scans = {.time_us = world.time_us, .num_scans = 1};
+    struct rho_tracker *tracker = &chain.tracker;
+    struct rho_initiator *initiator = &chain.initiators[0];
+    struct rho_report *report = &chain.report;
+    static struct rho_initiator empty_initiator;
+    static struct rho_passive empty_passive;
+    static struct rho_tracker empty;
+    uint32_t left;
+    uint8_t fate;
+    enum rho_status status;
+
+    switch (byte(script) % 16) {
+    case 0:
+        status = rho_tracker_step(NULL, initiator, &scan, report);
+        break;
+    case 1:
+        status = rho_tracker_step(tracker, initiator, NULL, report);
+        break;
+    case 2:
+        status = rho_tracker_step(tracker, initiator, &scan, NULL);
+        break;
+    case 3:
+        status = rho_tracker_step(tracker, initiator, &no_plots, report);
+        break;
+    case 4:
+        status = rho_tracker_step(tracker, &empty_initiator, &scan, report);
+        break;
+    case 5:
+        status = rho_tracker_step(&empty, initiator, &scan, report);
+        break;
+    case 6:
+        status = rho_tracker_step_frame(tracker, &empty_passive,
+                                        &(struct rho_frame){.time_us = RHO_LIMIT_TIME_US}, report);
+        break;
+    case 7:
+        status = rho_tracker_step_frame(tracker, NULL, &no_scans, report);
+        break;
+    case 8:
+        status = rho_tracker_step_frame(tracker, NULL, &frame, NULL);
+        break;
+    case 9:
+        status = rho_tracker_set_sensor(tracker, NULL);
+        break;
+    case 10:
+        status = rho_tracker_init(tracker, sizeof *tracker - 1, &tracker->config);
+        break;
+    case 11:
+        status = rho_initiator_init(initiator, 0, &initiator->config);
+        break;
+    case 12:
+        status = rho_initiator_push(initiator, NULL, NULL, &fate, &left);
+        break;
+    case 13:
+        status = rho_passive_init(&chain.passives[0], 1, &chain.passives[0].config);
+        break;
+    case 14:
+        status = rho_passive_push(&chain.passives[0], NULL, &fate);
+        break;
+    default:
+        status = rho_initiator_search(&empty_initiator, RHO_SEARCH_NEWEST);
+    }
+    check_unchanged(status);
+}
+
+static void ask(struct script *script)
+{
+    const float x_m = odd_number(script), y_m = odd_number(script);
+
+    for (unsigned i = 0; i < RADARS; i++) {
+#if RHO_SECTORS
+        const struct rho_tracker_look *look =
+            rho_tracker_look_of(&chain.tracker, world.radars[i].sensor_id);
+
+        HOLDS("what is known of a sensor is finite",
+              !look || (isfinite(look->seen_share) && isfinite(look->distance2) &&
+                        isfinite(look->sigma_m)));
+#endif
+        if (rho_is_coordinate(x_m) && rho_is_coordinate(y_m)) {
+            const float density = rho_initiator_density(&chain.initiators[i % INITIATORS],
+                                                        world.radars[i].sensor_id, x_m, y_m);
+
+            HOLDS("a density is finite and not negative", isfinite(density) && density >= 0.0f);
+        }
+    }
+    HOLDS("questions change nothing", memcmp(&before, &chain, sizeof chain) == 0);
+}
+
+/* ---- one run ---------------------------------------------------------------------------------- */
+
+static void run(const uint8_t *data, size_t size, int fill)
+{
+    static void (*const rare[])(struct script *) = {
+        describe_sensor,  describe_sensor,  forget_sensor, save_or_load, push_lone,
+        push_lone,        push_lone,        search_lone,   search_lone,  use_lone_passive,
+        use_lone_passive, use_lone_passive, call_wrongly,  ask};
+    struct script script = {data, size};
+
+    begin(&script, fill);
+    for (step_number = 1; step_number <= STEPS_MAX && script.size > 0; step_number++) {
+        const unsigned what = byte(&script);
+
+        if (what < 128) {
+            step_scan(&script);
+        } else if (what < 176) {
+            step_frame(&script);
+        } else {
+            rare[what % (sizeof rare / sizeof rare[0])](&script);
+        }
+        remember();
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    run(data, size, 0x3c);
+    if (size > 0 && data[size - 1] % 8 == 0) {
+        first_run = chain;
+        known_first = known;
+        run(data, size, 0xc3);
+        HOLDS("the same script gives the same bytes",
+              memcmp(&first_run, &chain, sizeof chain) == 0 &&
+                  memcmp(&known_first, &known, sizeof known) == 0);
+    }
+    return 0;
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+#include "refusal.h"
+
+#include <sanitizer/allocator_interface.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "check.h"
+#include "common.h"
+
+/* ---- What a run allocates ---- */
+
+#define KEPT_MAX 65536
+
+static const volatile void *kept[KEPT_MAX];
+static size_t num_kept;
+static bool is_keeping;
+
+static void on_malloc(const volatile void *memory, size_t size)
+{
+    (void)size;
+    if (is_keeping && memory) {
+        CHECK(num_kept < KEPT_MAX);
+        kept[num_kept++] = memory;
+    }
+}
+
+static void on_free(const volatile void *memory)
+{
+    for (size_t i = num_kept; is_keeping && i > 0; i--) {
+        if (kept[i - 1] == memory) {
+            kept[i - 1] = kept[--num_kept];
+            kept[num_kept] = NULL; /* for the search for leaks it is no pointer to the memory */
+            return;
+        }
+    }
+}
+
+static void free_kept(void)
+{
+    is_keeping = false;
+    while (num_kept > 0) {
+        free((void *)(uintptr_t)kept[--num_kept]);
+    }
+}
+
+/* Files that a run opened and did not close: those behind the first one that was free. */
+static int first_free_file(void)
+{
+    int file = dup(STDERR_FILENO);
+
+    CHECK(file >= 0 && close(file) == 0);
+    return file;
+}
+
+/* ---- Streams that a run has open ---- */
+
+/*
+ * The C library lists its open streams: one whose memory is given back while it is open breaks that list, and the program
+ * may then run in a circle when it ends.
+ */
+#define STREAMS_MAX 16
+
+static FILE *streams[STREAMS_MAX];
+static size_t num_streams;
+
+static FILE *keep_stream(FILE *stream)
+{
+    if (stream && is_keeping) {
+        CHECK(num_streams < STREAMS_MAX);
+        streams[num_streams++] = stream;
+    }
+    return stream;
+}
+
+FILE *__real_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode)
+{
+    return keep_stream(__real_fopen(path, mode));
+}
+
+FILE *__real_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size)
+{
+    return keep_stream(__real_open_memstream(text, size));
+}
+
+int __real_fclose(FILE *stream);
+int __wrap_fclose(FILE *stream);
+int __wrap_fclose(FILE *stream)
+{
+    for (size_t i = 0; i < num_streams; i++) {
+        if (streams[i] == stream) {
+            streams[i] = streams[--num_streams];
+            break;
+        }
+    }
+    return __real_fclose(stream);
+}
+
+static void close_streams(void)
+{
+    while (num_streams > 0) {
+        CHECK(__real_fclose(streams[--num_streams]) == 0);
+    }
+}
+
+/* ---- fail() ---- */
+
+static jmp_buf refused;
+
+_Noreturn void __wrap_fail(int exit_code, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* One line that names the file or says what is wrong; exit 2. */
+_Noreturn void __wrap_fail(int exit_code, const char *format, ...)
+{
+    char message[8192];
+    va_list arguments;
+
+    va_start(arguments, format);
+    CHECK(vsnprintf(message, sizeof message, format, arguments) > 0);
+    va_end(arguments);
+    CHECK(exit_code == EXIT_USAGE);
+    close_streams(); /* before the jump: a stream into memory writes where its opener's variables are */
+    longjmp(refused, 1);
+}
+
+/* ---- One run ---- */
+
+void refusal_begin(void)
+{
+    CHECK(__sanitizer_install_malloc_and_free_hooks(on_malloc, on_free) != 0);
+}
+
+static void forget_kept(void)
+{
+    is_keeping = false;
+    while (num_kept > 0) {
+        kept[--num_kept] = NULL;
+    }
+}
+
+bool refusal_ends(void (*read)(void *context), void *context)
+{
+    const int first_free = first_free_file();
+
+    is_keeping = true;
+    if (setjmp(refused) == 0) {
+        read(context);
+        forget_kept();
+        CHECK(num_streams == 0);
+        return false;
+    }
+    free_kept();
+    CHECK(close_range((unsigned)first_free, (unsigned)first_free + 8, 0) == 0);
+    return true;
+}
+
+char *refusal_write_file(const uint8_t *data, size_t size)
+{
+    static int file = -1;
+    static char path[64];
+
+    if (file < 0) {
+        file = memfd_create("fuzz", 0);
+        CHECK(file >= 0);
+        snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    }
+    CHECK(ftruncate(file, 0) == 0 && pwrite(file, data, size, 0) == (ssize_t)size);
+    return path;
+}
