@@ -16,7 +16,7 @@ m4_flags := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -DMPS2_ET
 m7_flags := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0xA0000000u
 firmware_flags := -std=c99 $(common_flags) $(warnings) -ffunction-sections -fdata-sections -I$(firmware_folder)
 firmware_link := -nostartfiles -Wl,--gc-sections -L$(board)/mps2
-radar_flags := $(firmware_flags) -DRHO_CONFIG_FILE='"radar_capacities.h"'
+radar_flags := $(firmware_flags) -DRHO_CONFIG_FILE='"nodes/full.h"'
 replay_flags := $(firmware_flags) -DNODE_BEARINGS=1
 # What a compiler calls must not be made of calls to itself.
 memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
@@ -33,10 +33,17 @@ replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.
 
 # --- images: build/firmware/CORE/IMAGE.elf ---------------------------------------------------
 
+# The configurations of nodes/, and whose processor is to take them.
+node_names_m4 := en_route marine smallest
+node_names_m7 := traffic
+worst_names_m4 := full $(node_names_m4)
+worst_names_m7 := $(node_names_m7)
+node_images := $(foreach core,m4 m7,$(node_names_$(core):%=$(firmware)/$(core)/nodes/%.elf))
+worst_images := $(foreach core,m4 m7,$(worst_names_$(core):%=$(firmware)/$(core)/worst/%.elf))
 firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf $(firmware)/$(core)/replay.elf)
 
 ## Build the firmware example for Cortex-M4F and M7: a radar node, and the node on records (build/firmware)
-firmware: $(firmware_images)
+firmware: $(firmware_images) $(node_images)
 	@BUILD=$(BUILD) $(firmware_folder)/budget.sh
 
 ## Run these images in QEMU: the same bytes as everywhere, LCM over their Ethernet, load; ends with `N passed, N failed`
@@ -44,7 +51,7 @@ firmware-test:
 	@tools/setup.sh
 	@tools/setup.sh firmware
 	@BUILD=$(BUILD) tools/python.sh
-	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(replay) $(replay_radar) $(firmware_tests)
+	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(worst_images) $(replay) $(replay_radar) $(firmware_tests)
 	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 
 firmware_tests := $(BUILD)/tests/firmware/test_udp_frame
@@ -68,11 +75,35 @@ $(firmware)/$(1)/replay/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 endef
 $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 
+# --- the configurations of nodes/: build/firmware/CORE/nodes/NAME.elf, and the search for their worst scans in worst/ --------
+
+worst_sources := $(library_sources) tools/instructions/worst.c \
+                 $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
+
+define node_of # core, name
+$(firmware)/$(1)/nodes/$(2).elf: $(radar_sources:%.c=$(firmware)/$(1)/nodes/$(2)/%.o) $(firmware_scripts)
+	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nostdlib -T node.ld,$$(filter %.o,$$^) -lgcc)
+$(firmware)/$(1)/nodes/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
+	$$(call firmware_compile,$$($(1)_flags) $(firmware_flags) -DRHO_CONFIG_FILE='"nodes/$(2).h"' $(FIRMWARE_OPT) $$(part_flags))
+endef
+define worst_of # core, name
+$(firmware)/$(1)/worst/$(2).elf: $(worst_sources:%.c=$(firmware)/$(1)/worst/$(2)/%.o) $(firmware_scripts)
+	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) --specs=rdimon.specs -T large.ld,$$(filter %.o,$$^))
+$(firmware)/$(1)/worst/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
+	$$(call firmware_compile,$$($(1)_flags) $(firmware_flags) -DCOUNT_ON_TARGET -DRHO_CONFIG_FILE='"nodes/$(2).h"' $(FIRMWARE_OPT))
+endef
+$(foreach core,m4 m7,$(foreach name,$(node_names_$(core)),$(eval $(call node_of,$(core),$(name)))))
+$(foreach core,m4 m7,$(foreach name,$(worst_names_$(core)),$(eval $(call worst_of,$(core),$(name)))))
+
+## Search for the scans that cost each shipped configuration of the node most (WORST_SKIES=400 WORST_SEED=1); minutes
+worst: $(worst_images)
+	@BUILD=$(BUILD) tools/worst.sh
+
 # --- jobs of tools/instructions: build/firmware/CORE/jobs/NAME.elf ---------------------------
 
 job_sources := $(sort $(wildcard tools/instructions/*.c))
 job_parts := $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
-job_names := $(filter-out hough,$(basename $(notdir $(job_sources))))
+job_names := $(filter-out hough worst,$(basename $(notdir $(job_sources))))
 job_images := $(foreach core,m4 m7,$(job_names:%=$(firmware)/$(core)/jobs/%.elf))
 job_flags := $(firmware_flags) -DCOUNT_ON_TARGET -O2
 
@@ -102,7 +133,7 @@ replay_radar := $(BUILD)/firmware/replay-radar
 $(replay_radar): $(replay_needs) $(library_sources) $(replay_headers) Makefile
 	$(call compile,$(radar_flags)) $(LDFLAGS) -MF /dev/null -o $@ $(filter %.c,$^)
 
-.PHONY: firmware firmware-test job-images
+.PHONY: firmware firmware-test job-images worst
 job-images: $(job_images)
 .SECONDARY: $(foreach core,m4 m7,$(job_sources:%.c=$(firmware)/$(core)/jobs/%.o) $(job_parts:%.c=$(firmware)/$(core)/jobs/%.o))
 
