@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS, RHO_SENSORS and RHO_CLUTTER.
+ * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS, RHO_WORK, RHO_SENSORS and
+ * RHO_CLUTTER.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
@@ -58,6 +59,13 @@ RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *ini
 void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *frames,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status);
+
+/*
+ * Fills what the limit on work did, work_max itself among it; each may be NULL, and counts as zeros. scan, epoch, num_steps,
+ * reports_not_printed and events_not_logged are 0: they are the caller's. Constant cost.
+ */
+void rho_publish_work(const struct rho_tracker *tracker, const struct rho_initiator *initiator,
+                      struct rho_message_work *work);
 
 /*
  * How one sensor is doing (sensor_t): what the feed hears of it, and of a sensor of plots what the tracker makes of it.

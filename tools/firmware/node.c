@@ -70,6 +70,11 @@ static enum rho_status write_status(uint8_t *message, size_t capacity, size_t *s
     return rho_message_status_encode(status, message, capacity, size);
 }
 
+static enum rho_status write_work(uint8_t *message, size_t capacity, size_t *size, const void *work)
+{
+    return rho_message_work_encode(work, message, capacity, size);
+}
+
 static void add(int32_t *counter, uint32_t more)
 {
     *counter = more < (uint32_t)(INT32_MAX - *counter) ? *counter + (int32_t)more : INT32_MAX;
@@ -91,6 +96,23 @@ static void publish_status(void)
     }
     node.step_sum_us = node.step_max_us = node.step_count = 0;
     publish(RHO_MESSAGE_STATUS_CHANNEL, write_status, &status);
+}
+
+static void publish_work(void)
+{
+    struct rho_message_work work;
+    rho_publish_work(&tracker, &initiator, &work);
+    work.utime = report.time_us;
+    work.scan = node.step;
+    work.epoch = epoch();
+    work.num_steps = (uint32_t)node.step;
+    publish(RHO_MESSAGE_WORK_CHANNEL, write_work, &work);
+}
+
+static void publish_state(void)
+{
+    publish_status();
+    publish_work();
 }
 
 /* ---- Steps ---- */
@@ -164,10 +186,12 @@ int node_describe(const struct rho_sensor *sensor)
 
 static enum rho_status open_tracker(void)
 {
-    struct rho_tracker_counters counters = tracker.counters;
+    const struct rho_tracker_counters counters = tracker.counters;
+    const struct rho_tracker_work work = tracker.work;
     enum rho_status status = rho_tracker_init(&tracker, sizeof tracker, &settings.tracker);
     if (status == RHO_OK) {
         tracker.counters = counters;
+        tracker.work = work;
         status = rho_initiator_init(&initiator, sizeof initiator, &settings.initiator);
     }
     return status;
@@ -235,7 +259,7 @@ void node_tick(int64_t now_us)
     step_due(now_us);
     if (now_us >= node.status_due_us) {
         node.status_due_us = now_us + STATUS_INTERVAL_US;
-        publish_status();
+        publish_state();
     }
 }
 
@@ -250,7 +274,7 @@ void node_flush(void)
     if (node.is_started) {
         step_due(INT64_MAX);
         node_bearings_close_before(INT64_MAX);
-        publish_status();
+        publish_state();
     }
 }
 

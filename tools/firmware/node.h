@@ -10,7 +10,7 @@
  *         node_tick(now_us);                           wait for a datagram, or until node_due_us()
  *     }
  *
- * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS, once a second) and
+ * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and RHO_WORK, once a second) and
  * nothing of it stops the node. Built with NODE_BEARINGS=1 it takes passive sensors, too (node_bearings.h).
  */
 #ifndef NODE_H

@@ -327,6 +327,7 @@ static bool is_output(const char *channel)
     return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_PEAK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0;
 }
@@ -366,7 +367,11 @@ static void take_messages(struct node *node)
 
 static void send_status(struct node *node)
 {
-    node_core_status(node->core, transport_counters(node->transport).refused);
+    const struct node_core_losses losses = {
+        .datagrams_refused = transport_counters(node->transport).refused,
+        .reports_not_printed = node->print.left_out};
+
+    node_core_status(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
         node_core_send_clutter(node->core);
     }

@@ -66,8 +66,8 @@ struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed);
 void json_add_number(struct cJSON *object, const char *name, double value);
 
 /* work, work_worst, partial_steps, plots_not_tried. */
-struct rho_initiator_budget;
-void json_add_budget(struct cJSON *object, const struct rho_initiator_budget *budget);
+struct rho_tracker_work;
+void json_add_work(struct cJSON *object, const struct rho_tracker_work *work);
 
 /* Sorts the values, the largest first, and makes a list of them. */
 struct cJSON *json_descending(int *values, int count);
