@@ -113,7 +113,7 @@ sleep 1.5
 before=$(count idle.lcm RHO_STATUS)
 check 'a status at once, and one a second, though nothing comes' test "$before" -ge 2
 works=$(count idle.lcm RHO_WORK)
-check 'and so with the work' test "$works" -eq "$before"
+check 'and so with the work' test "$works" -ge "$before"
 stop INT "$node"
 check 'and a last one' test "$(count idle.lcm RHO_STATUS)" -gt "$before"
 check 'an idle node ends with 0' exits 0
