@@ -15,6 +15,8 @@ static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
 
+static struct rho_udpm_guard guard;
+
 static uint8_t buffer[RHO_UDPM_MAX_DATAGRAM]; /* the datagram that goes out */
 static struct {
     int is_started;
@@ -88,6 +90,8 @@ static void publish_status(void)
     status.scan = node.step;
     status.epoch = epoch();
     add(&status.fragments_refused, node.datagrams_refused);
+    add(&status.fragments_refused, guard.refused_source);
+    add(&status.fragments_refused, guard.refused_mac);
     add(&status.plots_in, node.plots_refused);
     add(&status.inputs_no_room, node.plots_refused);
     if (node.step_count > 0) {
@@ -231,11 +235,30 @@ static void step_due(int64_t now_us)
     }
 }
 
-void node_receive(const uint8_t *bytes, size_t size, int64_t now_us)
+const struct rho_udpm_guard *node_guard(void)
+{
+    return &guard;
+}
+
+static int is_welcome(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
+{
+    const size_t whole = *size;
+    if (!rho_udpm_admits(&guard, source_ipv4)) {
+        return 0;
+    }
+    if (settings.is_authentic &&
+        (!settings.is_authentic(settings.context, bytes, size) || *size > whole)) {
+        guard.refused_mac = rho_count(guard.refused_mac, 1);
+        return 0;
+    }
+    return 1;
+}
+
+void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us)
 {
     struct rho_udpm_datagram datagram;
     struct rho_feed_item item;
-    if (!node.is_started) {
+    if (!node.is_started || !is_welcome(bytes, &size, source_ipv4)) {
         return;
     }
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
@@ -294,7 +317,14 @@ enum rho_status node_start(const struct node_config *config)
     if (!config || !config->send || !config->clock_us) {
         return RHO_ERROR_NULL;
     }
+    if (config->num_sources > RHO_UDPM_MAX_SOURCES || (config->num_sources && !config->sources)) {
+        return RHO_ERROR_VALUE;
+    }
     settings = *config;
+    guard = (struct rho_udpm_guard){.num_sources = config->num_sources};
+    for (uint16_t i = 0; i < config->num_sources; i++) {
+        guard.sources[i] = config->sources[i];
+    }
     node.status_due_us = INT64_MIN; /* at once */
     status = rho_feed_init(&feed, sizeof feed, &config->feed);
     for (uint16_t i = 0; i < config->num_sensors && status == RHO_OK; i++) {

@@ -449,8 +449,9 @@ static void take_messages(struct node *node)
 
 static void send_status(struct node *node)
 {
+    const struct transport_counters network = transport_counters(node->transport);
     const struct node_core_losses losses = {.datagrams_refused =
-                                                transport_counters(node->transport).refused,
+                                                network.refused + network.refused_source,
                                             .reports_not_printed = node->print.left_out,
                                             .events_not_logged = node_log_left_out(node->log)};
 

@@ -134,8 +134,8 @@ static const struct command commands[] = {
      "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
      "It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
-     "udpm:// URLs have the options ttl=N (0: this machine, 1: this network) and\n"
-     "recv_buf_size=BYTES.\n"},
+     "udpm:// URLs have the options ttl=N (0: this machine, 1: this network), recv_buf_size=BYTES\n"
+     "and sources_allowed=ADDRESS,... (IPv4; others are refused and counted).\n"},
     {"publish", command_publish, "INPUT... [--lcm URL] [--speed X] [--loop]", 1, INT_MAX, "lxOTksC",
      "plays files as sensors, live",
      "Sends the messages of LCM logs, CSV files (plots, polar plots, bearings, truth, tracks) and\n"
