@@ -62,7 +62,8 @@ void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *fr
 
 /*
  * Fills what the limit on work did, work_max itself among it; each may be NULL, and counts as zeros. scan, epoch, num_steps,
- * reports_not_printed and events_not_logged are 0: they are the caller's. Constant cost.
+ * reports_not_printed and events_not_logged are 0: they are the caller's. Constant cost. Stack:
+ * 80 bytes.
  */
 void rho_publish_work(const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                       struct rho_message_work *work);
