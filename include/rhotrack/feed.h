@@ -134,8 +134,11 @@ struct rho_feed_counters {
         messages_flooded; /* and those of newcomers beyond stranger_plots_per_s, or their turn */
     uint32_t messages_not_allowed; /* of a sensor that is not in `allowed` */
     uint32_t scans_accepted;       /* of which a first part came */
-    /* older than one of the same sensor that was accepted, whatever becomes of them (those that found room are
-     * accepted, too), but for those of newcomers without a turn; and those of a clock that was given up */
+    /*
+     * older than one of the same sensor that was accepted, whatever becomes of them (those that
+     * found room are accepted, too), but for those of newcomers without a turn; and those of a
+     * clock that was given up
+     */
     uint32_t scans_late;
     /* scans, or parts of one, that were there before; parts that come when the scan is closed */
     uint32_t scans_duplicate;

@@ -314,8 +314,8 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_validate(
     const struct rho_message_truth *message, struct rho_message_place *place);
 const char *rho_message_truth_field(const struct rho_message_place *place);
 
-/* ---- work_t: What the limits of a tracker did: on the work of its steps, and of its outputs on what they had room for. Once a second, with ---- */
-/* status_t. Channel RHO_WORK. */
+/* ---- work_t: What the limits of a tracker did: on the work of its steps, and of its outputs on what they had ---- */
+/* room for. Once a second, with status_t. Channel RHO_WORK. */
 /* Counters count since the start and stay at the largest number that they may have. */
 
 #define RHO_MESSAGE_WORK_CHANNEL "RHO_WORK"
@@ -331,7 +331,7 @@ struct rho_message_work {
     int64_t work; /* of the last step; 0 .. 9223372036854775807 */
     int64_t work_worst; /* of the worst step; 0 .. 9223372036854775807 */
     int64_t partial_steps; /* steps that left something out; 0 .. 9223372036854775807 */
-    int64_t plots_not_tried; /* plots that were not tried with all that they might go with; 0 .. 9223372036854775807 */
+    int64_t plots_not_tried; /* with all that they might go with; 0 .. 9223372036854775807 */
     int64_t reports_not_printed; /* standard output took no more; 0 .. 9223372036854775807 */
     int64_t events_not_logged; /* the log's disk took no more; 0 .. 9223372036854775807 */
 };

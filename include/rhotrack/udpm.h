@@ -2,9 +2,10 @@
 /*
  * udpm: datagrams of LCM's UDP multicast, one message each.
  *
- * A datagram is "LC02", a sequence number (4 bytes, big endian), the channel's name with a NUL, and the message. Longer
- * messages go out in fragments ("LC03"), which this module refuses: all of rhotrack's messages fit one datagram. Group
- * and port are the caller's socket's; LCM's defaults are below.
+ * A datagram is "LC02", a sequence number (4 bytes, big endian), the channel's name with a NUL, and
+ * the message. Longer messages go out in fragments ("LC03"), which this module refuses: all of
+ * rhotrack's messages fit one datagram. Group and port are the caller's socket's; LCM's defaults
+ * are below.
  *
  * The message is written behind the head in place:
  *
@@ -12,9 +13,10 @@
  *     rho_message_..._encode(&message, buffer + head, sizeof buffer - head, &size);
  *     send(buffer, head + size);
  *
- * Anybody on the network can send. Where that matters, datagrams are looked at before rho_udpm_parse: whether they come from
- * an allowed address (rho_udpm_admits), and whether the code behind the message, if the senders put one there, is the right one.
- * That code is the caller's, with the caller's key: this library has no cryptography. It counts in the same guard what fails:
+ * Anybody on the network can send. Where that matters, datagrams are looked at before
+ * rho_udpm_parse: whether they come from an allowed address (rho_udpm_admits), and whether the code
+ * behind the message, if the senders put one there, is the right one. That code is the caller's,
+ * with the caller's key: this library has no cryptography. It counts in the same guard what fails:
  *
  *     if (!rho_udpm_admits(&guard, source)) {
  *         return;
@@ -65,8 +67,8 @@ struct rho_udpm_guard {
 };
 
 /*
- * Whether a datagram may come from this address; where not, refused_source moves. 0 where guard is NULL or its num_sources is
- * beyond RHO_UDPM_MAX_SOURCES, which nothing counts. Cost: num_sources.
+ * Whether a datagram may come from this address; where not, refused_source moves. 0 where guard is
+ * NULL or its num_sources is beyond RHO_UDPM_MAX_SOURCES, which nothing counts. Cost: num_sources.
  */
 int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4);
 

@@ -41,7 +41,10 @@ enum feed_verdict {
     FEED_STRAY_TIME    /* not believed: its time */
 };
 
-/* Of source.check: no first part was there; the scan was refused, as it was not a newcomer's turn. Above: the part's. */
+/*
+ * Of source.check: no first part was there; the scan was refused, as it was not a newcomer's turn.
+ * Above: the part's.
+ */
 #define FEED_CHECK_NONE 0u
 #define FEED_CHECK_NO_TURN 1u
 

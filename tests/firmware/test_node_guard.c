@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Who the firmware's node listens to: datagrams of allowed addresses, with the right code behind them, where it is told so. The
- * code here is a toy, a keyed sum that anybody forges who has seen two datagrams: a product puts an HMAC there.
+ * Who the firmware's node listens to: datagrams of allowed addresses, with the right code behind
+ * them, where it is told so. The code here is a toy, a keyed sum that anybody forges who has seen
+ * two datagrams: a product puts an HMAC there.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -117,7 +118,10 @@ static size_t make_scan(uint8_t *bytes, size_t capacity, int has_code)
     return size;
 }
 
-/* Scans that the node took of ten from there; each is changed in one byte first, but for flip_at SIZE_MAX. */
+/*
+ * Scans that the node took of ten from there; each is changed in one byte first, but for flip_at
+ * SIZE_MAX.
+ */
 static int32_t count_taken(uint32_t source, int has_code, size_t flip_at)
 {
     uint8_t bytes[RHO_UDPM_MAX_DATAGRAM];

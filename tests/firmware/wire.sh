@@ -104,7 +104,8 @@ heard_all() { # lists of tracks as many as in the log, peaks as scans, states an
     local tracks peaks states works last
     read -r tracks peaks states works last < <(tail -n 1 heard)
     echo "heard: $tracks $peaks $states $works $last"
-    [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] && [ "$works" -ge 2 ] && [ "$last" -eq "$scans" ]
+    [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] &&
+        [ "$works" -ge 2 ] && [ "$last" -eq "$scans" ]
 }
 
 for core in m4 m7; do

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node --log onto a disk that is full, or that stalls, and standard error into a full pipe: tracks go on, what is not written is
-# counted and said, live too (RHO_WORK), what is written can be read, and SIGTERM ends the node within a second.
+# node --log onto a disk that is full, or that stalls, and standard error into a full pipe: tracks go on,
+# what is not written is counted and said, live too (RHO_WORK), what is written can be read, and SIGTERM
+# ends the node within a second.
 # shellcheck source=tests/integration/loopback.bash
 . "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash
@@ -72,7 +73,8 @@ can_be_read() { # LOG
 start --log /dev/full
 play
 goes_on 'a full disk' 1
-check 'it is said once, with the reason' matches "$(grep -c '/dev/full: No space left on device; it goes on without the log' node.err)" 1
+why='/dev/full: No space left on device; it goes on without the log'
+check 'it is said once, with the reason' matches "$(grep -c "$why" node.err)" 1
 check "all events are counted ($left_out, live $live_left_out)" test "$left_out" -ge 1700 -a "$live_left_out" -ge 1700
 
 # ---- a file that may not grow any more: half an event does not stay at its end ----
@@ -115,8 +117,18 @@ else
 fi
 
 # ---- a disk that stalls: a pipe that is held open and never read ----
+# Holds a pipe open, as small as it gets, and never reads; full: filled beforehand. hold.py PIPE DONE [full]
+cat >hold.py <<'PYTHON'
+import fcntl, os, sys, time
+pipe = os.open(sys.argv[1], os.O_RDWR)
+fcntl.fcntl(pipe, 1031, 4096) # F_SETPIPE_SZ
+if "full" in sys.argv:
+    os.write(pipe, bytes(4096))
+open(sys.argv[2], "w").close()
+time.sleep(300)
+PYTHON
 mkfifo pipe
-python3 -c 'import fcntl, os, time; fcntl.fcntl(os.open("pipe", os.O_RDWR), 1031, 4096); open("held", "w"); time.sleep(300)' &
+python3 hold.py pipe held &
 wait_until 10 test -e held
 start --log pipe
 play
@@ -128,7 +140,8 @@ timeout -s INT 12 "$program" publish scene/plots.csv --config scene/scenario.ini
 player=$!
 check 'once the queue is full, events are left out, and RHO_WORK says so' wait_until 12 grep -q ' [1-9]' work
 kill -INT "$player" 2>/dev/null
-check 'it is said once' matches "$(grep -c 'pipe: the disk takes no more; events are left out, tracks go on' node.err)" 1
+why='pipe: the disk takes no more; events are left out, tracks go on'
+check 'it is said once' matches "$(grep -c "$why" node.err)" 1
 begin_ms=$(($(date +%s%N) / 1000000))
 kill -TERM "$node"
 status=0
@@ -167,20 +180,29 @@ check 'of more than the queue holds: it can be read' can_be_read whole.lcm
 
 # ---- standard error into a full pipe ----
 mkfifo errors
-python3 -c 'import fcntl, os, time; f = os.open("errors", os.O_RDWR); fcntl.fcntl(f, 1031, 4096); os.write(f, bytes(4096)); open("full", "w"); time.sleep(300)' &
-wait_until 10 test -e full
+python3 hold.py errors filled full &
+wait_until 10 test -e filled
 rm -f work
 "$program" node --config scene/scenario.ini --set hold_ms=500 --log node.lcm 2>errors </dev/null &
 node=$!
 wait_until 5 test -s work
-awk -F, -v OFS=, 'NR > 1 && NR % 7 == 0 { $3 = "1e9" } { print }' scene/plots.csv >bad.csv # something to say
 : >node.err
 play
 check 'standard error into a full pipe: SIGTERM ends the node with 0' exits 0
 check "standard error into a full pipe: within a second ($took_ms ms)" test "$took_ms" -lt 1000
 check "standard error into a full pipe: tracks went on ($live_steps steps)" test "$live_steps" -ge 560
 # ---- a snapshot onto a disk that does not answer: the program waits for it, but not for long ----
-echo 'int pause(void); int rename(const char *from, const char *to) { (void)from; (void)to; for (;;) { pause(); } }' >stall.c
+cat >stall.c <<'C'
+int pause(void);
+int rename(const char *from, const char *to)
+{
+    (void)from;
+    (void)to;
+    for (;;) {
+        pause();
+    }
+}
+C
 if gcc -shared -fPIC -o stall.so stall.c 2>/dev/null; then
     rm -f work
     LD_PRELOAD=./stall.so "$program" node --config scene/scenario.ini --set hold_ms=500 --snapshot saved --log node.lcm \

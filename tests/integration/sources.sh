@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node with sources_allowed: a radar's datagrams are tracked, those of other addresses are refused, counted and said, however many.
+# node with sources_allowed: a radar's datagrams are tracked, those of other addresses are refused, counted
+# and said, however many.
 # shellcheck source=tests/integration/loopback.bash
 . "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash

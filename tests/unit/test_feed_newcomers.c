@@ -248,7 +248,9 @@ static void newcomers_share_plots_and_turns(void **state)
     assert_int_equal(feed.counters.scans_accepted, TURNS + 4);
 }
 
-/* A scan that is not its turn is refused with all of its parts, and a late one is not late beside. */
+/*
+ * A scan that is not its turn is refused with all of its parts, and a late one is not late beside.
+ */
 static void parts_of_a_scan_without_a_turn_are_flooded_too(void **state)
 {
     const int64_t now_us = begin_with_a_radar() + SECOND_US;

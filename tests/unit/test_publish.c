@@ -432,7 +432,7 @@ static void nothing_is_zeros(void **state)
     assert_int_equal(rho_message_status_validate(&status, &place), RHO_OK);
 }
 
-/* ---- work ------------------------------------------------------------------------------------- */
+/* ---- work ----------------------------------------------------------------------------------- */
 
 static void work_is_the_trackers(void **state)
 {

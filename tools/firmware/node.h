@@ -10,8 +10,9 @@
  *         node_tick(now_us);                           wait for a datagram, or until node_due_us()
  *     }
  *
- * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and RHO_WORK, once a second) and
- * nothing of it stops the node. Built with NODE_BEARINGS=1 it takes passive sensors, too (node_bearings.h).
+ * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and
+ * RHO_WORK, once a second) and nothing of it stops the node. Built with NODE_BEARINGS=1 it takes
+ * passive sensors, too (node_bearings.h).
  */
 #ifndef NODE_H
 #define NODE_H
@@ -35,9 +36,10 @@ struct node_config {
     const struct rho_feed_sensor *sensors; /* num_sensors of them; only read by node_start */
     uint16_t num_sensors;
     /*
-     * Where the network is not closed: addresses that datagrams may come from (IPv4, 10.9.0.1 as 0x0a090001), num_sources of
-     * them, 0: any; only read by node_start. And who looks at the code behind each datagram: returns 0 where it is not the
-     * right one, else *size without it. NULL: there is none. What is sent gets its code in send.
+     * Where the network is not closed: addresses that datagrams may come from (IPv4, 10.9.0.1 as
+     * 0x0a090001), num_sources of them, 0: any; only read by node_start. And who looks at the code
+     * behind each datagram: returns 0 where it is not the right one, else *size without it. NULL:
+     * there is none. What is sent gets its code in send.
      */
     const uint32_t *sources;
     uint16_t num_sources;
@@ -59,7 +61,10 @@ void node_config_default(struct node_config *config);
 /* Once a program. The config is copied. Errors: those of the objects' init functions; the node then takes nothing. */
 RHO_MUST_CHECK enum rho_status node_start(const struct node_config *config);
 
-/* A datagram of any bytes and length that came from that IPv4 address at now_us of the reception clock. */
+/*
+ * A datagram of any bytes and length that came from that IPv4 address at now_us of the reception
+ * clock.
+ */
 void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us);
 
 /* Who was refused so far. RHO_STATUS counts them under fragments_refused, with what is no LCM. */

@@ -15,7 +15,10 @@
 /* The places' distance and the ranges' difference, together, are at most this share of the shorter range: then each sees about half
  * of what the other sees. */
 #define APART_MAX 0.8f
-/* Turns of one during a turn of the other; fewer where they have parted, so that they do not part and pair again by turns. */
+/*
+ * Turns of one during a turn of the other; fewer where they have parted, so that they do not part
+ * and pair again by turns.
+ */
 #define TURNS_MAX 1.5f
 #define TURNS_AGAIN_MAX 1.4f
 
@@ -45,7 +48,9 @@ static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sen
            (!is_known || fmaxf(one_s, other_s) <= turns_max * fminf(one_s, other_s));
 }
 
-/* Its plots were in a window of its own at some time: it has parted from whom it might pair with. */
+/*
+ * Its plots were in a window of its own at some time: it has parted from whom it might pair with.
+ */
 static bool had_own_window(const struct chain *chain, int32_t sensor_id)
 {
     for (size_t i = 0; i < chain->num_initiators && chain->has_sensor; i++) {

@@ -30,7 +30,10 @@
 
 /* Messages that are taken before signals and clocks are looked at again. */
 /* And how long what may come after all must be missing before it is said. */
-/* How long outputs have at the end for what is left, and the program for all of it once it is told to end. */
+/*
+ * How long outputs have at the end for what is left, and the program for all of it once it is told
+ * to end.
+ */
 /* The map of clutter goes out with every so manyth status. */
 enum {
     TURN_MESSAGES = 256,
@@ -323,8 +326,9 @@ static int open_signals(void)
 }
 
 /*
- * Standard error into a pipe or a terminal that is full: what does not fit is missing, and nobody waits for it. It is opened
- * anew for that, as other programs have the same pipe and may want to wait.
+ * Standard error into a pipe or a terminal that is full: what does not fit is missing, and nobody
+ * waits for it. It is opened anew for that, as other programs have the same pipe and may want to
+ * wait.
  */
 static void open_errors(void)
 {
@@ -346,7 +350,10 @@ static void open_errors(void)
     }
 }
 
-/* Whatever the program waits for, a disk or a network: once it is told to end it has END_MOST_US left. */
+/*
+ * Whatever the program waits for, a disk or a network: once it is told to end it has END_MOST_US
+ * left.
+ */
 static void *watch_end(void *signals)
 {
     static const char text[] = "rhotrack: an output does not answer; it ends without it\n";

@@ -25,7 +25,10 @@ struct node_log {
     pthread_mutex_t mutex;  /* for all below */
     pthread_cond_t changed; /* any of it */
     uint8_t *queue;         /* QUEUE_BYTES, round and round */
-    /* bytes since the start: put into the queue, written, and up to the end of the last event that is written */
+    /*
+     * bytes since the start: put into the queue, written, and up to the end of the last event that
+     * is written
+     */
     uint64_t put, written, whole;
     uint64_t events_put, events_whole, events_left_out;
     bool is_open;  /* the file */
@@ -104,7 +107,10 @@ static void write_pieces(struct node_log *log, int file)
     }
 }
 
-/* Half an event at the end of a file goes; where it does not, readers skip it. Returns errno of what the disk refused. */
+/*
+ * Half an event at the end of a file goes; where it does not, readers skip it. Returns errno of
+ * what the disk refused.
+ */
 static int end_file(int file, uint64_t written, uint64_t whole)
 {
     struct stat status;

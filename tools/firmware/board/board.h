@@ -16,8 +16,9 @@ int board_open(void);
 int64_t board_time_us(void);
 
 /*
- * A datagram to LCM's group and port that has come. It goes into the buffer; what is longer than capacity is left out
- * whole. Returns its bytes, and the address that it came from (IPv4, 10.9.0.1 as 0x0a090001); 0: none has come.
+ * A datagram to LCM's group and port that has come. It goes into the buffer; what is longer than
+ * capacity is left out whole. Returns its bytes, and the address that it came from (IPv4, 10.9.0.1
+ * as 0x0a090001); 0: none has come.
  */
 size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4);
 
