@@ -128,13 +128,17 @@ struct rho_feed_config {
 
 /* Since init; all saturate. */
 struct rho_feed_counters {
-    uint32_t messages_bad;         /* length, count, a value, the sensor's number */
-    uint32_t messages_wrong_type;  /* the fingerprint is not the channel's */
-    uint32_t messages_flooded;     /* and those of newcomers beyond stranger_plots_per_s */
+    uint32_t messages_bad;        /* length, count, a value, the sensor's number */
+    uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
+    uint32_t
+        messages_flooded; /* and those of newcomers beyond stranger_plots_per_s, or their turn */
     uint32_t messages_not_allowed; /* of a sensor that is not in `allowed` */
     uint32_t scans_accepted;       /* of which a first part came */
-    /* older than one of the same sensor that was accepted, whatever becomes of them (those that found room are
-     * accepted, too); and those of a clock that was given up */
+    /*
+     * older than one of the same sensor that was accepted, whatever becomes of them (those that
+     * found room are accepted, too), but for those of newcomers without a turn; and those of a
+     * clock that was given up
+     */
     uint32_t scans_late;
     /* scans, or parts of one, that were there before; parts that come when the scan is closed */
     uint32_t scans_duplicate;
@@ -184,7 +188,7 @@ struct rho_feed_source {
     uint32_t skipped;     /* bit i: it was not, and may still come */
     uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
     uint32_t known_us;    /* reception clock: for how long it was heard; up to RHO_FEED_TRUST_US */
-    uint32_t check;       /* of the newest scan's first part, as it came first; 0: it did not */
+    uint32_t check;       /* private; of the newest scan's first part, as it came first */
     uint16_t scans;       /* believed; saturates */
     uint8_t off_clock;    /* scans in a row; saturates; 0: it tells the common time */
     uint8_t has_twin;     /* 1: a scan came twice, with different contents */

@@ -43,6 +43,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_STATUS,
     RHO_MESSAGE_TYPE_TRACK,
     RHO_MESSAGE_TYPE_TRUTH,
+    RHO_MESSAGE_TYPE_WORK,
     RHO_MESSAGE_TYPE_BEARING_SCAN,
     RHO_MESSAGE_TYPE_CLUTTER_MAP,
     RHO_MESSAGE_TYPE_PEAK_LIST,
@@ -312,6 +313,35 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_decode(
 RHO_MUST_CHECK enum rho_status rho_message_truth_validate(
     const struct rho_message_truth *message, struct rho_message_place *place);
 const char *rho_message_truth_field(const struct rho_message_place *place);
+
+/* ---- work_t: What the limits of a tracker did: on the work of its steps, and of its outputs on what they had ---- */
+/* room for. Once a second, with status_t. Channel RHO_WORK. */
+/* Counters count since the start and stay at the largest number that they may have. */
+
+#define RHO_MESSAGE_WORK_CHANNEL "RHO_WORK"
+#define RHO_MESSAGE_WORK_FINGERPRINT UINT64_C(0x7bc3d15e8fc5de7a)
+#define RHO_MESSAGE_WORK_MAX_SIZE 88u
+
+struct rho_message_work {
+    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int64_t num_steps; /* made so far; 0 .. 9223372036854775807 */
+    int64_t work_max; /* that a step may do; 0: any; 0 .. 9223372036854775807 */
+    int64_t work; /* of the last step; 0 .. 9223372036854775807 */
+    int64_t work_worst; /* of the worst step; 0 .. 9223372036854775807 */
+    int64_t partial_steps; /* steps that left something out; 0 .. 9223372036854775807 */
+    int64_t plots_not_tried; /* with all that they might go with; 0 .. 9223372036854775807 */
+    int64_t reports_not_printed; /* standard output took no more; 0 .. 9223372036854775807 */
+    int64_t events_not_logged; /* the log's disk took no more; 0 .. 9223372036854775807 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_work_encode(
+    const struct rho_message_work *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_work_decode(
+    const uint8_t *data, size_t size, struct rho_message_work *message);
+RHO_MUST_CHECK enum rho_status rho_message_work_validate(
+    const struct rho_message_work *message, struct rho_message_place *place);
+const char *rho_message_work_field(const struct rho_message_place *place);
 
 /* ---- bearing_scan_t: Bearings of one look of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. ---- */
 

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS, RHO_SENSORS and RHO_CLUTTER.
+ * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS,
+ * RHO_WORK, RHO_SENSORS and RHO_CLUTTER.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
  *         send(RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer, size);
  *     }
  *
- * Messages are written element by element: nothing but the buffer is needed. `step` is the tracker's own number, one
- * more each, and `epoch` its boot number: receivers see by them what they missed.
+ * Messages are written element by element: nothing but the buffer is needed. `step` is the
+ * tracker's own number, one more each, and `epoch` its boot number: receivers see by them what they
+ * missed.
  *
  * Stack: 32 bytes at most where nothing else is said.
  */
@@ -58,6 +60,14 @@ RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *ini
 void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *frames,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status);
+
+/*
+ * Fills what the limit on work did, work_max itself among it; each may be NULL, and counts as
+ * zeros. scan, epoch, num_steps, reports_not_printed and events_not_logged are 0: they are the
+ * caller's. Constant cost. Stack: 80 bytes.
+ */
+void rho_publish_work(const struct rho_tracker *tracker, const struct rho_initiator *initiator,
+                      struct rho_message_work *work);
 
 /*
  * How one sensor is doing (sensor_t): what the feed hears of it, and of a sensor of plots what the tracker makes of it.

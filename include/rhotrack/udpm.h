@@ -2,15 +2,32 @@
 /*
  * udpm: datagrams of LCM's UDP multicast, one message each.
  *
- * A datagram is "LC02", a sequence number (4 bytes, big endian), the channel's name with a NUL, and the message. Longer
- * messages go out in fragments ("LC03"), which this module refuses: all of rhotrack's messages fit one datagram. Group
- * and port are the caller's socket's; LCM's defaults are below.
+ * A datagram is "LC02", a sequence number (4 bytes, big endian), the channel's name with a NUL, and
+ * the message. Longer messages go out in fragments ("LC03"), which this module refuses: all of
+ * rhotrack's messages fit one datagram. Group and port are the caller's socket's; LCM's defaults
+ * are below.
  *
  * The message is written behind the head in place:
  *
  *     rho_udpm_begin(buffer, sizeof buffer, sequence++, "RHO_TRACKS", &head);
  *     rho_message_..._encode(&message, buffer + head, sizeof buffer - head, &size);
  *     send(buffer, head + size);
+ *
+ * Anybody on the network can send. Where that matters, datagrams are looked at before
+ * rho_udpm_parse: whether they come from an allowed address (rho_udpm_admits), and whether the code
+ * behind the message, if the senders put one there, is the right one. That code is the caller's,
+ * with the caller's key: this library has no cryptography. It counts in the same guard what fails:
+ *
+ *     if (!rho_udpm_admits(&guard, source)) {
+ *         return;
+ *     }
+ *     if (!is_authentic(data, &size)) {                       an HMAC, say; size without it
+ *         guard.refused_mac = rho_count(guard.refused_mac, 1);
+ *         return;
+ *     }
+ *     rho_udpm_parse(data, size, &datagram)
+ *
+ * An address alone stops what comes by mistake and over routers. Within a network it can be forged.
  *
  * Stack: 32 bytes at most where nothing else is said.
  */
@@ -20,6 +37,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "rhotrack/config.h"
 #include "rhotrack/status.h"
 
 #define RHO_UDPM_GROUP "239.255.76.67"
@@ -36,6 +54,23 @@ struct rho_udpm_datagram {
     const uint8_t *payload;
     size_t payload_size;
 };
+
+/* As many addresses as there may be sensors. */
+#define RHO_UDPM_MAX_SOURCES RHO_MAX_SENSORS
+
+/* Who may send, and what was refused; zeros: everybody, nothing. Counters saturate. */
+struct rho_udpm_guard {
+    uint32_t refused_source;                /* datagrams: from another address */
+    uint32_t refused_mac;                   /* the caller's: without the right code */
+    uint32_t num_sources;                   /* 0: any address */
+    uint32_t sources[RHO_UDPM_MAX_SOURCES]; /* IPv4, 10.9.0.1 as 0x0a090001 */
+};
+
+/*
+ * Whether a datagram may come from this address; where not, refused_source moves. 0 where guard is
+ * NULL or its num_sources is beyond RHO_UDPM_MAX_SOURCES, which nothing counts. Cost: num_sources.
+ */
+int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4);
 
 /*
  * Writes the head of a datagram to the buffer; *head: its length, behind which the message goes.

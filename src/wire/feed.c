@@ -220,6 +220,9 @@ static void refuse(struct rho_feed *feed, struct rho_feed_source *source, enum f
     if (verdict == FEED_DUPLICATE && source->off_clock > 0) {
         rho_feed_count_one(
             &feed->counters.clock_jumps); /* another part of a scan that was refused */
+    } else if (verdict == FEED_DUPLICATE && source->check == FEED_CHECK_NO_TURN &&
+               heading->place.scan == source->place.scan) {
+        rho_feed_count_one(&feed->counters.messages_flooded); /* likewise, for want of a turn */
     } else if (verdict == FEED_DUPLICATE) {
         rho_feed_count_double(feed, source, heading);
     } else if (verdict == FEED_LATE) {
@@ -281,6 +284,8 @@ static void begin_scan(struct rho_feed *feed, struct rho_feed_source *source,
         rho_feed_count_one(&feed->counters.clock_jumps);
     } else if (has_turn(feed, heading, is_new)) {
         open_scan(feed, source, heading, message, FEED_ORDER_NEXT, now_us);
+    } else {
+        source->check = FEED_CHECK_NO_TURN;
     }
 }
 
@@ -289,8 +294,11 @@ static void begin_skipped(struct rho_feed *feed, struct rho_feed_source *source,
                           const struct feed_heading *heading, const union feed_message *message,
                           int is_new, int64_t now_us)
 {
+    if (!has_turn(feed, heading, is_new)) {
+        return;
+    }
     rho_feed_count_one(&feed->counters.scans_late);
-    if (!has_turn(feed, heading, is_new) || !rho_feed_find_state(feed, FEED_SLOT_FREE) ||
+    if (!rho_feed_find_state(feed, FEED_SLOT_FREE) ||
         (heading->num_parts > 1 && rho_feed_has_late_open(feed, source))) {
         return;
     }
@@ -378,7 +386,7 @@ static uint32_t check_of(const uint8_t *data, size_t size)
     for (size_t i = 0; i < size; i++) {
         check = (uint32_t)((uint64_t)(check ^ data[i]) * CHECK_FACTOR & UINT32_MAX);
     }
-    return check > 0 ? check : 1;
+    return check > FEED_CHECK_NO_TURN ? check : FEED_CHECK_NO_TURN + 1u;
 }
 
 enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel, const uint8_t *data,

@@ -267,7 +267,7 @@ uint32_t rho_feed_note_place(const struct rho_feed_config *config, struct rho_fe
                       : ahead < SEEN_SCANS ? source->skipped << ahead | ((1u << ahead) - 2u)
                                            : ~1u;
     source->place = *place;
-    source->check = 0;
+    source->check = FEED_CHECK_NONE;
     note_heard(config, source, now_us);
     memset(source->strays, 0, sizeof source->strays);
     source->scans = (uint16_t)(source->scans + (source->scans < UINT16_MAX));

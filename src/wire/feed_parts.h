@@ -41,6 +41,13 @@ enum feed_verdict {
     FEED_STRAY_TIME    /* not believed: its time */
 };
 
+/*
+ * Of source.check: no first part was there; the scan was refused, as it was not a newcomer's turn.
+ * Above: the part's.
+ */
+#define FEED_CHECK_NONE 0u
+#define FEED_CHECK_NO_TURN 1u
+
 /* ---- feed_admit.c: numbers and clocks ---- */
 
 enum feed_verdict rho_feed_judge(const struct rho_feed *feed, const struct rho_feed_source *source,

@@ -186,8 +186,8 @@ static int agrees(const struct rho_feed_slot *slot, const struct feed_heading *h
 void rho_feed_count_double(struct rho_feed *feed, struct rho_feed_source *source,
                            const struct feed_heading *heading)
 {
-    if (heading->part == 0 && heading->place.scan == source->place.scan && source->check != 0 &&
-        source->check != heading->check) {
+    if (heading->part == 0 && heading->place.scan == source->place.scan &&
+        source->check > FEED_CHECK_NO_TURN && source->check != heading->check) {
         source->has_twin = 1;
         rho_feed_count_one(&feed->counters.scans_other);
     } else {

@@ -30,6 +30,9 @@ const struct message_run rho_message_runs[] = {
     {offsetof(struct rho_message_track, hits), 2, 4},
     {offsetof(struct rho_message_track, update_age_us), 4, 33},
     {offsetof(struct rho_message_truth, target_id), 4, 7},
+    {offsetof(struct rho_message_work, utime), 8, 1},
+    {offsetof(struct rho_message_work, scan), 4, 2},
+    {offsetof(struct rho_message_work, num_steps), 8, 8},
     {offsetof(struct rho_message_bearing_scan, utime), 8, 1},
     {offsetof(struct rho_message_bearing_scan, scan), 4, 2},
     {offsetof(struct rho_message_bearing_scan, sensor_id), 2, 1},
@@ -121,6 +124,8 @@ const struct message_int_rule rho_message_int_rules[] = {
     {offsetof(struct rho_message_track, hits), 2, 2, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_track, plot), 2, 1, MESSAGE_RANGE, -1, 32767},
     {offsetof(struct rho_message_track, update_age_us), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_work, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_work, num_steps), 8, 8, MESSAGE_COUNT, 0, 0},
     {offsetof(struct rho_message_bearing_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_clutter_map, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_clutter_map, num_echoes_total), 2, 1, MESSAGE_RANGE, 0, 32767},
@@ -180,50 +185,54 @@ static const struct message_format truth_format = {
     RHO_MESSAGE_TRUTH_FINGERPRINT, {{21, 1}, {23, 2}, {20, 0}, 28},
     {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
 
+static const struct message_format work_format = {
+    RHO_MESSAGE_WORK_FINGERPRINT, {{22, 3}, {25, 0}, {20, 2}, 80},
+    {{0, 0}, {0, 0}, {0, 0}, 0}, 0, 0, 0, 0};
+
 static const struct message_format bearing_scan_format = {
-    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{22, 4}, {25, 2}, {20, 1}, 30},
-    {{26, 1}, {27, 1}, {0, 0}, 4},
+    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {{25, 4}, {25, 2}, {22, 1}, 30},
+    {{29, 1}, {27, 1}, {0, 0}, 4},
     offsetof(struct rho_message_bearing_scan, num_bearings), offsetof(struct rho_message_bearing_scan, bearing_rad),
     sizeof(float), RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD};
 
 static const struct message_format clutter_map_format = {
-    RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT, {{27, 3}, {28, 0}, {21, 4}, 22},
+    RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT, {{30, 3}, {28, 0}, {23, 4}, 22},
     {{0, 2}, {0, 4}, {0, 2}, 34},
     offsetof(struct rho_message_clutter_map, num_echoes), offsetof(struct rho_message_clutter_map, echoes),
     sizeof(struct rho_message_echo), RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES};
 
 static const struct message_format peak_list_format = {
-    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{30, 2}, {28, 0}, {25, 1}, 12},
+    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {{33, 2}, {28, 0}, {27, 1}, 12},
     {{2, 2}, {4, 4}, {2, 1}, 20},
     offsetof(struct rho_message_peak_list, num_peaks), offsetof(struct rho_message_peak_list, peaks),
     sizeof(struct rho_message_peak), RHO_MESSAGE_PEAK_LIST_MAX_PEAKS};
 
 static const struct message_format plot_scan_format = {
-    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{32, 6}, {28, 1}, {26, 4}, 31},
+    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {{35, 6}, {28, 1}, {28, 4}, 31},
     {{4, 1}, {8, 4}, {3, 1}, 40},
     offsetof(struct rho_message_plot_scan, num_plots), offsetof(struct rho_message_plot_scan, plots),
     sizeof(struct rho_message_plot), RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
 
 static const struct message_format polar_scan_format = {
-    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{38, 6}, {29, 5}, {30, 4}, 60},
+    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {{41, 6}, {29, 5}, {32, 4}, 60},
     {{5, 1}, {12, 5}, {4, 1}, 24},
     offsetof(struct rho_message_polar_scan, num_polar_plots), offsetof(struct rho_message_polar_scan, polar_plots),
     sizeof(struct rho_message_polar_plot), RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS};
 
 static const struct message_format sensor_list_format = {
-    RHO_MESSAGE_SENSOR_LIST_FINGERPRINT, {{44, 3}, {34, 0}, {34, 4}, 22},
+    RHO_MESSAGE_SENSOR_LIST_FINGERPRINT, {{47, 3}, {34, 0}, {36, 4}, 22},
     {{6, 7}, {17, 2}, {5, 6}, 38},
     offsetof(struct rho_message_sensor_list, num_sensors), offsetof(struct rho_message_sensor_list, sensors),
     sizeof(struct rho_message_sensor), RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS};
 
 static const struct message_format track_list_format = {
-    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{47, 3}, {34, 0}, {38, 4}, 22},
+    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {{50, 3}, {34, 0}, {40, 4}, 22},
     {{17, 4}, {20, 3}, {16, 4}, 145},
     offsetof(struct rho_message_track_list, num_tracks), offsetof(struct rho_message_track_list, tracks),
     sizeof(struct rho_message_track), RHO_MESSAGE_TRACK_LIST_MAX_TRACKS};
 
 static const struct message_format truth_list_format = {
-    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{50, 3}, {34, 0}, {42, 3}, 16},
+    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {{53, 3}, {34, 0}, {44, 3}, 16},
     {{21, 1}, {23, 2}, {20, 0}, 28},
     offsetof(struct rho_message_truth_list, num_targets), offsetof(struct rho_message_truth_list, targets),
     sizeof(struct rho_message_truth), RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS};
@@ -256,6 +265,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_STATUS_FINGERPRINT,
         RHO_MESSAGE_TRACK_FINGERPRINT,
         RHO_MESSAGE_TRUTH_FINGERPRINT,
+        RHO_MESSAGE_WORK_FINGERPRINT,
         RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
         RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
         RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
@@ -411,6 +421,24 @@ enum rho_status rho_message_truth_validate(
     const struct rho_message_truth *message, struct rho_message_place *place)
 {
     return rho_message_validate(&truth_format, message, place);
+}
+
+enum rho_status rho_message_work_encode(
+    const struct rho_message_work *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&work_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_work_decode(
+    const uint8_t *data, size_t size, struct rho_message_work *message)
+{
+    return rho_message_decode(&work_format, data, size, message);
+}
+
+enum rho_status rho_message_work_validate(
+    const struct rho_message_work *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&work_format, message, place);
 }
 
 enum rho_status rho_message_bearing_scan_encode(

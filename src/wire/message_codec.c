@@ -362,6 +362,8 @@ static int is_int_good(const uint8_t *bytes, const struct message_int_rule *rule
         return v >= rule->min && v < read_int(bytes + rule->max, 2);
     case MESSAGE_TIME:
         return v >= -RHO_LIMIT_TIME_US && v <= RHO_LIMIT_TIME_US;
+    case MESSAGE_COUNT:
+        return v >= 0;
     default:
         return v >= rule->min && v <= rule->max;
     }

@@ -35,7 +35,8 @@ enum message_rule_kind {
     MESSAGE_RANGE,  /* min .. max */
     MESSAGE_ONE_OF, /* bit v of max is set; v below 31 */
     MESSAGE_BELOW,  /* min .. less than the int16_t at offset max */
-    MESSAGE_TIME    /* within RHO_LIMIT_TIME_US either way */
+    MESSAGE_TIME,   /* within RHO_LIMIT_TIME_US either way */
+    MESSAGE_COUNT   /* 0 or more, of 8 bytes */
 };
 
 /* Integers of one width in a row that must keep the same rule; in few bytes, for there are many. */

@@ -151,6 +151,20 @@ static const struct name truth_names[] = {
     {offsetof(struct rho_message_truth, vz_mps), "vz_mps"},
 };
 
+static const struct name work_names[] = {
+    {offsetof(struct rho_message_work, utime), "utime"},
+    {offsetof(struct rho_message_work, scan), "scan"},
+    {offsetof(struct rho_message_work, epoch), "epoch"},
+    {offsetof(struct rho_message_work, num_steps), "num_steps"},
+    {offsetof(struct rho_message_work, work_max), "work_max"},
+    {offsetof(struct rho_message_work, work), "work"},
+    {offsetof(struct rho_message_work, work_worst), "work_worst"},
+    {offsetof(struct rho_message_work, partial_steps), "partial_steps"},
+    {offsetof(struct rho_message_work, plots_not_tried), "plots_not_tried"},
+    {offsetof(struct rho_message_work, reports_not_printed), "reports_not_printed"},
+    {offsetof(struct rho_message_work, events_not_logged), "events_not_logged"},
+};
+
 static const struct name bearing_scan_names[] = {
     {offsetof(struct rho_message_bearing_scan, utime), "utime"},
     {offsetof(struct rho_message_bearing_scan, scan), "scan"},
@@ -259,6 +273,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "status_t",
         "track_t",
         "truth_t",
+        "work_t",
         "bearing_scan_t",
         "clutter_map_t",
         "peak_list_t",
@@ -310,6 +325,11 @@ const char *rho_message_track_field(const struct rho_message_place *place)
 const char *rho_message_truth_field(const struct rho_message_place *place)
 {
     return place ? find(truth_names, 7, place->offset) : "unknown";
+}
+
+const char *rho_message_work_field(const struct rho_message_place *place)
+{
+    return place ? find(work_names, 11, place->offset) : "unknown";
 }
 
 const char *rho_message_bearing_scan_field(const struct rho_message_place *place)

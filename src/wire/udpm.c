@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "rhotrack/types.h"
+
 #define NUMBERS_BYTES 8u /* magic and sequence */
 
 static const uint8_t magic[4] = {'L', 'C', '0', '2'};
@@ -23,6 +25,20 @@ static size_t channel_length(const char *channel, size_t size)
 static int is_length(size_t length)
 {
     return length >= 1 && length <= RHO_UDPM_MAX_CHANNEL;
+}
+
+int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4)
+{
+    if (!guard || guard->num_sources > RHO_UDPM_MAX_SOURCES) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < guard->num_sources; i++) {
+        if (guard->sources[i] == source_ipv4) {
+            return 1;
+        }
+    }
+    guard->refused_source = rho_count(guard->refused_source, guard->num_sources > 0 ? 1 : 0);
+    return guard->num_sources == 0;
 }
 
 enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequence,

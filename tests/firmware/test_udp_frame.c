@@ -68,6 +68,7 @@ static void a_frame_of_liblcm_opens(void **state)
     assert_int_equal(open_frame(sizeof of_liblcm), 12);
     assert_ptr_equal(payload, frame + UDP_FRAME_HEAD);
     assert_memory_equal(payload, "LC02\0\0\0\0A\0hi", 12);
+    assert_int_equal(udp_frame_source(frame), 0x0a090001);
     frame[AT_UDP_CHECKSUM] = frame[AT_UDP_CHECKSUM + 1] = 0; /* none was made */
     assert_int_equal(open_frame(sizeof of_liblcm), 12);
     memset(frame + sizeof of_liblcm, 0xee, 6); /* short frames are padded */

@@ -31,7 +31,8 @@ import sys
 import lcm
 sys.path.insert(0, "bindings")
 import rhotrack
-types = {"RHO_TRACKS": rhotrack.track_list_t, "RHO_PEAKS": rhotrack.peak_list_t, "RHO_STATUS": rhotrack.status_t}
+types = {"RHO_TRACKS": rhotrack.track_list_t, "RHO_PEAKS": rhotrack.peak_list_t, "RHO_STATUS": rhotrack.status_t,
+         "RHO_WORK": rhotrack.work_t}
 counts, last, ended = collections.Counter(), None, []
 def take(channel, data):
     global last
@@ -99,11 +100,12 @@ same_tracks() {
         [ -s stock.tracks ] && cmp stock.tracks expected.tracks
 }
 
-heard_all() { # lists of tracks as many as in the log, peaks as scans, states of the node; up to the last scan
-    local tracks peaks states last
-    read -r tracks peaks states last < <(tail -n 1 heard)
-    echo "heard: $tracks $peaks $states $last"
-    [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] && [ "$last" -eq "$scans" ]
+heard_all() { # lists of tracks as many as in the log, peaks as scans, states and work of the node; up to the last scan
+    local tracks peaks states works last
+    read -r tracks peaks states works last < <(tail -n 1 heard)
+    echo "heard: $tracks $peaks $states $works $last"
+    [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] &&
+        [ "$works" -ge 2 ] && [ "$last" -eq "$scans" ]
 }
 
 for core in m4 m7; do

@@ -112,6 +112,8 @@ start idle
 sleep 1.5
 before=$(count idle.lcm RHO_STATUS)
 check 'a status at once, and one a second, though nothing comes' test "$before" -ge 2
+works=$(count idle.lcm RHO_WORK)
+check 'and so with the work' test "$works" -ge "$before"
 stop INT "$node"
 check 'and a last one' test "$(count idle.lcm RHO_STATUS)" -gt "$before"
 check 'an idle node ends with 0' exits 0
@@ -227,6 +229,9 @@ refused 'no group' udpm://10.1.2.3:7667 '* is no multicast group *'
 refused 'a port that is none' udpm://239.255.76.67:99999 "port '99999' *"
 refused 'an option that is none' 'udpm://239.255.76.67:7667?colour=red' 'unknown option *'
 refused 'a ttl that is none' 'udpm://239.255.76.67:7667?ttl=-1' "ttl '-1' *"
+refused 'an address that is none' 'udpm://239.255.76.67:7667?sources_allowed=10.9.0.1,ten' \
+    "sources_allowed: 'ten' is no IPv4 address"
+refused 'no address' 'udpm://239.255.76.67:7667?sources_allowed=,' 'sources_allowed has no address'
 refused 'a provider that is none' nix://there 'liblcm does not open it'
 refused 'a file that is not there' file://nothing.lcm 'liblcm does not open it'
 run publish scene/plots.csv --lcm file://played.lcm

@@ -144,6 +144,38 @@ static void turns_that_differ_much_part_them(void **state)
     }
 }
 
+static bool share_a_window(float first_s, float second_s)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct rho_tracker_pace *pace = &chain.tracker->paces[i];
+
+        pace->interval_s = pace->sensor_id == 1   ? first_s
+                           : pace->sensor_id == 2 ? second_s
+                                                  : pace->interval_s;
+    }
+    return of(1) == of(2);
+}
+
+/* Near 1.5 turns during a turn of the other they do not change windows by turns. */
+static void who_has_parted_pairs_again_well_below(void **state)
+{
+    (void)state;
+    for (int is_slow = 0; is_slow < 2; is_slow++) {
+        const float slow_s = is_slow ? 10.0f : 4.0f;
+
+        open_chain(INITIATORS_PAIRS);
+        describe(1, 0.0f, 80e3f);
+        describe(2, 0.0f, 80e3f);
+        turn(4, 4);
+        assert_true(share_a_window(slow_s, slow_s / 1.45f));
+        assert_true(share_a_window(slow_s, slow_s / 1.49f));
+        assert_false(share_a_window(slow_s, slow_s / 1.51f));
+        assert_false(share_a_window(slow_s, slow_s / 1.49f));
+        assert_false(share_a_window(slow_s / 1.45f, slow_s));
+        assert_true(share_a_window(slow_s, slow_s / 1.35f));
+    }
+}
+
 static int start_chain(void **state)
 {
     (void)state;
@@ -167,6 +199,7 @@ int main(void)
         cmocka_unit_test(live_a_sensor_that_the_config_does_not_name_pairs_with_nobody),
         cmocka_unit_test(sectors_have_their_radar_s_own),
         cmocka_unit_test(turns_that_differ_much_part_them),
+        cmocka_unit_test(who_has_parted_pairs_again_well_below),
     };
     return cmocka_run_group_tests(tests, start_chain, end_chain);
 }

@@ -19,6 +19,7 @@
 struct heard {
     unsigned lists, tracks; /* tracks: in the last list */
     struct rho_message_status status;
+    struct rho_message_work work;
 };
 
 static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
@@ -34,6 +35,9 @@ static void on_send(void *context, const char *channel, const uint8_t *data, siz
     } else if (strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
         assert_int_equal(rho_message_status_decode(data, size, &heard->status), RHO_OK);
         assert_int_equal(rho_message_status_validate(&heard->status, NULL), RHO_OK);
+    } else if (strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0) {
+        assert_int_equal(rho_message_work_decode(data, size, &heard->work), RHO_OK);
+        assert_int_equal(rho_message_work_validate(&heard->work, NULL), RHO_OK);
     }
 }
 
@@ -195,10 +199,11 @@ static void a_status_says_the_origin(void **state)
     struct live live;
     char reason[PARAMETER_REASON_BYTES];
     const struct rho_message_status *status = &live.heard.status;
+    const struct node_core_losses losses = {.datagrams_refused = 0};
 
     (void)state;
     start(&live);
-    node_core_status(live.core, 0);
+    node_core_status(live.core, &losses);
     assert_true(status->origin_lat_1e7deg == 0 && status->origin_lon_1e7deg == 0);
     assert_true(parameters_assign(&live.parameters, "origin_lat_deg", "-33.9461234", SOURCE_CONFIG,
                                   reason));
@@ -206,10 +211,36 @@ static void a_status_says_the_origin(void **state)
                                   reason));
     assert_true(
         parameters_assign(&live.parameters, "origin_alt_m", "27.4321", SOURCE_CONFIG, reason));
-    node_core_status(live.core, 0);
+    node_core_status(live.core, &losses);
     assert_int_equal(status->origin_lat_1e7deg, -339461234);
     assert_int_equal(status->origin_lon_1e7deg, 1511771234);
     assert_int_equal(status->origin_alt_mm, 27432);
+    node_core_close(live.core);
+}
+
+static void the_limits_have_a_message_of_their_own(void **state)
+{
+    struct live live;
+    const struct node_core_losses losses = {
+        .datagrams_refused = 3, .reports_not_printed = 5, .events_not_logged = UINT64_MAX};
+    const struct rho_message_work *work = &live.heard.work;
+
+    (void)state;
+    start(&live);
+    for (int32_t k = 0; k < 4; k++) {
+        look(&live, 1, 0.0f, 0.0f, k);
+        look(&live, 2, 0.0f, 20000.0f, k);
+    }
+    node_core_flush(live.core);
+    node_core_status(live.core, &losses);
+    assert_int_equal(live.heard.status.fragments_refused, 3);
+    assert_true(work->num_steps > 0);
+    assert_int_equal(work->num_steps, node_core_counters(live.core)->steps);
+    assert_int_equal(work->scan, live.heard.status.scan);
+    assert_int_equal(work->utime, live.heard.status.utime);
+    assert_int_equal(work->work_max, RHO_INITIATOR_WORK);
+    assert_int_equal(work->reports_not_printed, 5);
+    assert_true(work->events_not_logged == INT64_MAX);
     node_core_close(live.core);
 }
 
@@ -222,6 +253,7 @@ int main(void)
         cmocka_unit_test(a_sensor_that_has_moved_is_believed_in_the_end),
         cmocka_unit_test(sensors_that_have_moved_together_are_believed),
         cmocka_unit_test(a_status_says_the_origin),
+        cmocka_unit_test(the_limits_have_a_message_of_their_own),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

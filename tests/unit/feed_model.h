@@ -26,7 +26,8 @@ struct model_source {
     int64_t heard_us, bucket_us;
     wide interval_us, known_us;
     uint32_t bucket;
-    int has_first;
+    int has_first,
+        has_no_turn;   /* of its newest scan: its part 0 came; it was refused for want of a turn */
     struct look first; /* part 0 of its newest scan, as it came first */
     struct rho_feed_place place;
     int32_t
@@ -241,7 +242,7 @@ static inline void model_believe(struct model_source *source, const struct rho_f
     }
     source->numbers[source->num_numbers++] = place->scan;
     source->num_strays = 0;
-    source->has_first = 0;
+    source->has_first = source->has_no_turn = 0;
     source->place = *place;
     if (!is_first && model_past(source->heard_us, now_us) <= model.config.jump_max_us) {
         source->known_us += model_past(source->heard_us, now_us);
@@ -582,6 +583,7 @@ static inline void model_begin(struct model_source *source, const struct look *l
         return;
     }
     if (verdict != M_SKIPPED && !model_may_begin(is_new)) {
+        source->has_no_turn = 1;
         return;
     }
     model.counters.scans_accepted++;
@@ -607,7 +609,11 @@ static inline void model_refuse(struct model_source *source, const struct look *
     model.counters.scans_bad += verdict == M_NUMBER;
     model.counters.clock_jumps += verdict == M_TIME || (verdict == M_DOUBLE && source->off > 0);
     if (verdict == M_DOUBLE && source->off == 0) {
-        model_count_double(source, look);
+        if (source->has_no_turn && look->scan == source->place.scan) {
+            model.counters.messages_flooded++;
+        } else {
+            model_count_double(source, look);
+        }
     }
     model.counters.scans_late += verdict == M_LATE;
 }
@@ -744,10 +750,12 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         return RHO_OK;
     }
     if (verdict == M_SKIPPED) {
-        model.counters.scans_late++;
-        if (model_may_begin(is_new) && model_in_state(M_FREE) &&
-            (parts_of(look) == 1 || !model_open_late_one_of(source))) {
-            model_begin(source, look, verdict, is_new, now_us);
+        if (model_may_begin(is_new)) {
+            model.counters.scans_late++;
+            if (model_in_state(M_FREE) &&
+                (parts_of(look) == 1 || !model_open_late_one_of(source))) {
+                model_begin(source, look, verdict, is_new, now_us);
+            }
         }
         return RHO_OK;
     }

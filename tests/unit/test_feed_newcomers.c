@@ -248,6 +248,39 @@ static void newcomers_share_plots_and_turns(void **state)
     assert_int_equal(feed.counters.scans_accepted, TURNS + 4);
 }
 
+/*
+ * A scan that is not its turn is refused with all of its parts, and a late one is not late beside.
+ */
+static void parts_of_a_scan_without_a_turn_are_flooded_too(void **state)
+{
+    const int64_t now_us = begin_with_a_radar() + SECOND_US;
+    struct look look = {.count = 1, .num_parts = 3, .time_us = now_us, .sensor_id = 9};
+
+    (void)state;
+    for (; look.part < look.num_parts; look.part++) {
+        take(&look, now_us);
+    }
+    COUNTERS_ARE(.scans_accepted = TURNS + 2);
+    look.scan = 2;
+    look.time_us += 2 * SECOND_US;
+    for (look.part = 0; look.part < look.num_parts; look.part++) {
+        take(&look, now_us + 2 * SECOND_US);
+        COUNTERS_ARE(.scans_accepted = TURNS + 2, .scans_lost = 1,
+                     .messages_flooded = look.part + 1u);
+    }
+    look.tag = 7;
+    for (look.part = 0; look.part < look.num_parts; look.part++) { /* other contents, no twin */
+        take(&look, now_us + 2 * SECOND_US);
+    }
+    COUNTERS_ARE(.scans_accepted = TURNS + 2, .scans_lost = 1, .messages_flooded = 6);
+    look.scan = 1;
+    look.time_us -= SECOND_US;
+    for (look.part = 0; look.part < look.num_parts; look.part++) {
+        take(&look, now_us + 2 * SECOND_US);
+    }
+    COUNTERS_ARE(.scans_accepted = TURNS + 2, .scans_lost = 1, .messages_flooded = 9);
+}
+
 /* The message says 1 mm; the feed's own noise is 10 m. */
 static void a_newcomer_is_no_surer_than_the_config(void **state)
 {
@@ -325,6 +358,7 @@ int main(void)
         cmocka_unit_test(who_falls_silent_holds_nobody),
         cmocka_unit_test(in_a_record_nobody_is_new),
         cmocka_unit_test(newcomers_share_plots_and_turns),
+        cmocka_unit_test(parts_of_a_scan_without_a_turn_are_flooded_too),
         cmocka_unit_test(a_newcomer_is_no_surer_than_the_config),
         cmocka_unit_test(sensors_that_are_not_allowed_are_counted),
         cmocka_unit_test(two_senders_of_one_number_are_told),

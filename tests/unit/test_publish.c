@@ -432,6 +432,34 @@ static void nothing_is_zeros(void **state)
     assert_int_equal(rho_message_status_validate(&status, &place), RHO_OK);
 }
 
+/* ---- work ----------------------------------------------------------------------------------- */
+
+static void work_is_the_trackers(void **state)
+{
+    struct rho_message_work work, zeros;
+
+    (void)state;
+    memset(&work, 0x5a, sizeof work);
+    memset(&zeros, 0, sizeof zeros);
+    rho_publish_work(NULL, NULL, &work);
+    assert_memory_equal(&work, &zeros, sizeof work);
+    tracker.time_us = 77;
+    tracker.work = (struct rho_tracker_work){
+        .work = 1, .work_worst = 22, .partial_steps = 333, .plots_not_tried = UINT32_MAX};
+    initiator.config.work_max = 55555;
+    rho_publish_work(&tracker, &initiator, &work);
+    assert_int_equal(rho_message_work_validate(&work, &place), RHO_OK);
+    assert_int_equal(work.utime, 77);
+    assert_int_equal(work.work_max, 55555);
+    assert_int_equal(work.work, 1);
+    assert_int_equal(work.work_worst, 22);
+    assert_int_equal(work.partial_steps, 333);
+    assert_int_equal(work.plots_not_tried, UINT32_MAX);
+    assert_true(work.scan == 0 && work.epoch == 0 && work.num_steps == 0);
+    assert_true(work.reports_not_printed == 0 && work.events_not_logged == 0);
+    rho_publish_work(&tracker, &initiator, NULL);
+}
+
 /* Three targets that come, are seen, and go, the first one first or last. */
 static void follow_targets(int is_first)
 {
@@ -495,6 +523,7 @@ int main(void)
         cmocka_unit_test(every_field_comes_from_its_counter),
         cmocka_unit_test(full_counters_stay_at_the_end),
         cmocka_unit_test(nothing_is_zeros),
+        cmocka_unit_test(work_is_the_trackers),
         cmocka_unit_test(tracks_that_ended_are_not_counted),
     };
 

@@ -226,6 +226,33 @@ static void any_bytes_may_be_parsed(void **state)
     assert_in_range(good, 1000, 10000);
 }
 
+static void only_allowed_addresses_are_admitted(void **state)
+{
+    static struct rho_udpm_guard guard;
+
+    (void)state;
+    assert_true(rho_udpm_admits(&guard, 0) && rho_udpm_admits(&guard, 0x0a090001u));
+    assert_int_equal(guard.refused_source, 0);
+    guard.num_sources = RHO_UDPM_MAX_SOURCES;
+    for (uint32_t i = 0; i < RHO_UDPM_MAX_SOURCES; i++) {
+        guard.sources[i] = 0x0a090001u + i;
+    }
+    for (uint32_t i = 0; i < RHO_UDPM_MAX_SOURCES; i++) {
+        assert_true(rho_udpm_admits(&guard, 0x0a090001u + i));
+    }
+    assert_false(rho_udpm_admits(&guard, 0x0a090000u));
+    assert_false(rho_udpm_admits(&guard, 0x0a090001u + RHO_UDPM_MAX_SOURCES));
+    assert_false(rho_udpm_admits(&guard, 0));
+    assert_int_equal(guard.refused_source, 3);
+    guard.refused_source = UINT32_MAX;
+    assert_false(rho_udpm_admits(&guard, 0));
+    assert_int_equal(guard.refused_source, UINT32_MAX);
+    guard.num_sources = RHO_UDPM_MAX_SOURCES + 1;
+    assert_false(rho_udpm_admits(&guard, 0x0a090001u));
+    assert_false(rho_udpm_admits(NULL, 0x0a090001u));
+    assert_int_equal(guard.refused_mac, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -239,6 +266,7 @@ int main(void)
         cmocka_unit_test(no_alignment_is_needed),
         cmocka_unit_test(the_self_test_is_known_by_its_whole_name),
         cmocka_unit_test(any_bytes_may_be_parsed),
+        cmocka_unit_test(only_allowed_addresses_are_admitted),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

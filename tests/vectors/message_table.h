@@ -7,7 +7,7 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(echo, ECHO) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH)
+#define MESSAGES_WITHOUT_LIST(X) X(echo, ECHO) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK)
 #define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH")
 #endif
 
@@ -141,6 +141,20 @@ static const struct message_member MESSAGE_TABLE(truth)[] = {
     {"vz_mps", offsetof(MESSAGE_STRUCT(truth), vz_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
 };
 
+static const struct message_member MESSAGE_TABLE(work)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(work), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(work), scan), 0, 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(work), epoch), 0, 4, 1, .rule = MEMBER_ANY},
+    {"num_steps", offsetof(MESSAGE_STRUCT(work), num_steps), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+    {"work_max", offsetof(MESSAGE_STRUCT(work), work_max), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+    {"work", offsetof(MESSAGE_STRUCT(work), work), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+    {"work_worst", offsetof(MESSAGE_STRUCT(work), work_worst), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+    {"partial_steps", offsetof(MESSAGE_STRUCT(work), partial_steps), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+    {"plots_not_tried", offsetof(MESSAGE_STRUCT(work), plots_not_tried), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+    {"reports_not_printed", offsetof(MESSAGE_STRUCT(work), reports_not_printed), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+    {"events_not_logged", offsetof(MESSAGE_STRUCT(work), events_not_logged), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(9223372036854775807)},
+};
+
 static const struct message_member MESSAGE_TABLE(bearing_scan)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(bearing_scan), utime), MESSAGE_HEAD(bearing_scan, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(bearing_scan), scan), MESSAGE_HEAD(bearing_scan, scan), 4, 1, .rule = MEMBER_ANY},
@@ -234,6 +248,7 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"status_t", MESSAGE_TABLE(status), 35, sizeof(MESSAGE_STRUCT(status)), .element_members = NULL},
     {"track_t", MESSAGE_TABLE(track), 19, sizeof(MESSAGE_STRUCT(track)), .element_members = NULL},
     {"truth_t", MESSAGE_TABLE(truth), 7, sizeof(MESSAGE_STRUCT(truth)), .element_members = NULL},
+    {"work_t", MESSAGE_TABLE(work), 11, sizeof(MESSAGE_STRUCT(work)), .element_members = NULL},
     {"bearing_scan_t", MESSAGE_TABLE(bearing_scan), 7, sizeof(MESSAGE_STRUCT(bearing_scan)),
      {"num_bearings", offsetof(MESSAGE_STRUCT(bearing_scan), num_bearings), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(bearing_scan), bearing_rad), MESSAGE_TABLE(bearing_scan_element), 1, sizeof(float), 4, 256, MESSAGE_LIST_IS_POINTER},

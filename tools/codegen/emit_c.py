@@ -253,7 +253,8 @@ def int_rows(c_struct, fields, constants):
     group, group_rule = [], None
     for field in [*fields, None]:
         rule = field and int_rule(c_struct, field, constants)
-        if group and (rule != group_rule or field.type != group[0].type or "MESSAGE_RANGE" not in rule):
+        if group and (rule != group_rule or field.type != group[0].type or
+                      not rule.startswith(("MESSAGE_RANGE", "MESSAGE_COUNT"))):
             count = sum(member.length for member in group)
             yield f"{{offsetof({c_struct}, {group[0].name}), {PRIMITIVES[group[0].type]}, {count}, {group_rule}}}"
             group = []
@@ -278,7 +279,7 @@ def int_rule(c_struct, field, constants):
     if field.maximum.endswith(" - 1"):
         return f"MESSAGE_BELOW, {field.minimum}, offsetof({c_struct}, {field.maximum.removesuffix(' - 1')})"
     if field.type == "int64_t":
-        return "MESSAGE_TIME, 0, 0"
+        return "MESSAGE_TIME, 0, 0" if field.minimum.startswith("-") else "MESSAGE_COUNT, 0, 0"
     return f"MESSAGE_RANGE, {field.minimum}, {field.maximum}"
 
 

@@ -54,9 +54,10 @@ firmware-test:
 	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(worst_images) $(replay) $(replay_radar) $(firmware_tests)
 	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 
-firmware_tests := $(BUILD)/tests/firmware/test_udp_frame
+firmware_tests := $(addprefix $(BUILD)/tests/firmware/,test_udp_frame test_node_guard)
+$(BUILD)/tests/firmware/test_node_guard: $(firmware_node) $(library)
 $(BUILD)/tests/firmware/%: tests/firmware/%.c $(board)/udp_frame.c Makefile
-	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $(filter %.c,$^) -lcmocka
+	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $(filter %.c %.a,$^) -lcmocka -lm
 
 firmware_compile = @mkdir -p $(@D) && echo "  arm      $@" && $(ARM_CC) $(1) -c -o $@ $<
 firmware_bind = @echo "  link     $@" && $(ARM_CC) $(1) $(firmware_link) -Wl,-Map=$@.map -o $@ $(2)

@@ -56,9 +56,11 @@ static void say_growth(struct growth *growth, uint32_t number)
 static void report(void)
 {
     static struct growth stack = {.text = "stack           "},
-                         unsent = {.text = "unsent          "};
+                         unsent = {.text = "unsent          "},
+                         strange = {.text = "strange         "};
     say_growth(&stack, (uint32_t)board_stack_used());
     say_growth(&unsent, board_unsent());
+    say_growth(&strange, rho_count(node_guard()->refused_source, node_guard()->refused_mac));
 }
 
 int main(void)
@@ -76,9 +78,10 @@ int main(void)
     board_say("the node listens");
     for (;;) {
         int64_t now_us = board_time_us();
-        size_t size = board_receive(datagram, sizeof datagram);
+        uint32_t source_ipv4 = 0;
+        size_t size = board_receive(datagram, sizeof datagram, &source_ipv4);
         if (size > 0) {
-            node_receive(datagram, size, now_us);
+            node_receive(datagram, size, source_ipv4, now_us);
         }
         node_tick(now_us);
         if (now_us >= report_us) {

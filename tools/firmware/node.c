@@ -16,6 +16,8 @@ static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
 
+static struct rho_udpm_guard guard;
+
 static uint8_t buffer[RHO_UDPM_MAX_DATAGRAM]; /* the datagram that goes out */
 static struct {
     int is_started;
@@ -71,6 +73,11 @@ static enum rho_status write_status(uint8_t *message, size_t capacity, size_t *s
     return rho_message_status_encode(status, message, capacity, size);
 }
 
+static enum rho_status write_work(uint8_t *message, size_t capacity, size_t *size, const void *work)
+{
+    return rho_message_work_encode(work, message, capacity, size);
+}
+
 static void add(int32_t *counter, uint32_t more)
 {
     *counter = more < (uint32_t)(INT32_MAX - *counter) ? *counter + (int32_t)more : INT32_MAX;
@@ -84,6 +91,8 @@ static void publish_status(void)
     status.scan = node.step;
     status.epoch = epoch();
     add(&status.fragments_refused, node.datagrams_refused);
+    add(&status.fragments_refused, guard.refused_source);
+    add(&status.fragments_refused, guard.refused_mac);
     add(&status.plots_in, node.plots_refused);
     add(&status.inputs_no_room, node.plots_refused);
     if (node.step_count > 0) {
@@ -92,6 +101,23 @@ static void publish_status(void)
     }
     node.step_sum_us = node.step_max_us = node.step_count = 0;
     publish(RHO_MESSAGE_STATUS_CHANNEL, write_status, &status);
+}
+
+static void publish_work(void)
+{
+    struct rho_message_work work;
+    rho_publish_work(&tracker, &initiator, &work);
+    work.utime = report.time_us;
+    work.scan = node.step;
+    work.epoch = epoch();
+    work.num_steps = (uint32_t)node.step;
+    publish(RHO_MESSAGE_WORK_CHANNEL, write_work, &work);
+}
+
+static void publish_state(void)
+{
+    publish_status();
+    publish_work();
 }
 
 /* ---- Steps ---- */
@@ -165,10 +191,12 @@ int node_describe(const struct rho_sensor *sensor)
 
 static enum rho_status open_tracker(void)
 {
-    struct rho_tracker_counters counters = tracker.counters;
+    const struct rho_tracker_counters counters = tracker.counters;
+    const struct rho_tracker_work work = tracker.work;
     enum rho_status status = rho_tracker_init(&tracker, sizeof tracker, &settings.tracker);
     if (status == RHO_OK) {
         tracker.counters = counters;
+        tracker.work = work;
         status = rho_initiator_init(&initiator, sizeof initiator, &settings.initiator);
     }
     return status;
@@ -208,11 +236,30 @@ static void step_due(int64_t now_us)
     }
 }
 
-void node_receive(const uint8_t *bytes, size_t size, int64_t now_us)
+const struct rho_udpm_guard *node_guard(void)
+{
+    return &guard;
+}
+
+static int is_welcome(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
+{
+    const size_t whole = *size;
+    if (!rho_udpm_admits(&guard, source_ipv4)) {
+        return 0;
+    }
+    if (settings.is_authentic &&
+        (!settings.is_authentic(settings.context, bytes, size) || *size > whole)) {
+        guard.refused_mac = rho_count(guard.refused_mac, 1);
+        return 0;
+    }
+    return 1;
+}
+
+void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us)
 {
     struct rho_udpm_datagram datagram;
     struct rho_feed_item item;
-    if (!node.is_started) {
+    if (!node.is_started || !is_welcome(bytes, &size, source_ipv4)) {
         return;
     }
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
@@ -236,7 +283,7 @@ void node_tick(int64_t now_us)
     step_due(now_us);
     if (now_us >= node.status_due_us) {
         node.status_due_us = now_us + STATUS_INTERVAL_US;
-        publish_status();
+        publish_state();
     }
 }
 
@@ -251,7 +298,7 @@ void node_flush(void)
     if (node.is_started) {
         step_due(INT64_MAX);
         node_bearings_close_before(INT64_MAX);
-        publish_status();
+        publish_state();
     }
 }
 
@@ -275,7 +322,14 @@ enum rho_status node_start(const struct node_config *config)
     if (!config || !config->send || !config->clock_us) {
         return RHO_ERROR_NULL;
     }
+    if (config->num_sources > RHO_UDPM_MAX_SOURCES || (config->num_sources && !config->sources)) {
+        return RHO_ERROR_VALUE;
+    }
     settings = *config;
+    guard = (struct rho_udpm_guard){.num_sources = config->num_sources};
+    for (uint16_t i = 0; i < config->num_sources; i++) {
+        guard.sources[i] = config->sources[i];
+    }
     node.status_due_us = INT64_MIN; /* at once */
     status = rho_feed_init(&feed, sizeof feed, &config->feed);
     for (uint16_t i = 0; i < config->num_sensors && status == RHO_OK; i++) {

@@ -5,13 +5,14 @@
  *     node_start(&config);
  *     for (;;) {
  *         if (a datagram has come) {
- *             node_receive(datagram, size, now_us);
+ *             node_receive(datagram, size, source, now_us);
  *         }
  *         node_tick(now_us);                           wait for a datagram, or until node_due_us()
  *     }
  *
- * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS, once a second) and
- * nothing of it stops the node. Built with NODE_BEARINGS=1 it takes passive sensors, too (node_bearings.h).
+ * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and
+ * RHO_WORK, once a second) and nothing of it stops the node. Built with NODE_BEARINGS=1 it takes
+ * passive sensors, too (node_bearings.h).
  */
 #ifndef NODE_H
 #define NODE_H
@@ -22,6 +23,7 @@
 #include "rhotrack/feed.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/udpm.h"
 
 #ifndef NODE_BEARINGS
 #define NODE_BEARINGS 0
@@ -33,6 +35,15 @@ struct node_config {
     struct rho_initiator_config initiator;
     const struct rho_feed_sensor *sensors; /* num_sensors of them; only read by node_start */
     uint16_t num_sensors;
+    /*
+     * Where the network is not closed: addresses that datagrams may come from (IPv4, 10.9.0.1 as
+     * 0x0a090001), num_sources of them, 0: any; only read by node_start. And who looks at the code
+     * behind each datagram: returns 0 where it is not the right one, else *size without it. NULL:
+     * there is none. What is sent gets its code in send.
+     */
+    const uint32_t *sources;
+    uint16_t num_sources;
+    int (*is_authentic)(void *context, const uint8_t *datagram, size_t *size);
     /* Counts starts, in memory that stays: receivers see by it that track numbers began anew. Messages say 256 of it and
      * how often the sensors' clock was set. */
     int32_t boot;
@@ -50,8 +61,14 @@ void node_config_default(struct node_config *config);
 /* Once a program. The config is copied. Errors: those of the objects' init functions; the node then takes nothing. */
 RHO_MUST_CHECK enum rho_status node_start(const struct node_config *config);
 
-/* A datagram of any bytes and length that came at now_us of the reception clock. */
-void node_receive(const uint8_t *bytes, size_t size, int64_t now_us);
+/*
+ * A datagram of any bytes and length that came from that IPv4 address at now_us of the reception
+ * clock.
+ */
+void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us);
+
+/* Who was refused so far. RHO_STATUS counts them under fragments_refused, with what is no LCM. */
+const struct rho_udpm_guard *node_guard(void);
 
 /* Steps what is due though nothing has come, and says once a second how the node is. */
 void node_tick(int64_t now_us);

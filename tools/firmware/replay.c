@@ -191,7 +191,7 @@ static void measure(const uint8_t *datagram, size_t size)
     uint32_t from;
     tally.instructions_aside = 0;
     from = files_instructions();
-    node_receive(datagram, size, now_us);
+    node_receive(datagram, size, 0, now_us);
     since_step += files_instructions_between(from, files_instructions()) - tally.instructions_aside;
     if (tally.steps == before) {
         return;

@@ -126,20 +126,6 @@ void chain_open_passive(struct chain *chain, const struct parameters *parameters
     must_succeed(rho_passive_init(chain->passive, sizeof *chain->passive, &config), "passive");
 }
 
-struct rho_initiator_budget chain_budget(const struct chain *chain)
-{
-    struct rho_initiator_budget sum = {.work = chain->initiator->budget.work};
-
-    for (size_t i = 0; i < chain->num_initiators; i++) {
-        const struct rho_initiator_budget *budget = &chain->initiators[i].initiator->budget;
-
-        sum.work_worst = budget->work_worst > sum.work_worst ? budget->work_worst : sum.work_worst;
-        sum.partial_steps = rho_count(sum.partial_steps, budget->partial_steps);
-        sum.plots_not_tried = rho_count(sum.plots_not_tried, budget->plots_not_tried);
-    }
-    return sum;
-}
-
 void chain_step(struct chain *chain, const struct rho_scan *scan)
 {
     must_succeed(

@@ -52,9 +52,6 @@ int32_t chain_window_of(const struct chain *chain, const struct rho_scan *scan);
 /* Where a scan's plots start tracks: before its step, after its sensor was described. */
 struct rho_initiator *chain_initiator_of(struct chain *chain, const struct rho_scan *scan);
 
-/* What all initiators did: work of the newest scan's, the worst of any, and sums. */
-struct rho_initiator_budget chain_budget(const struct chain *chain);
-
 /* One step; the report is the chain's. */
 void chain_step(struct chain *chain, const struct rho_scan *scan);
 void chain_step_frame(struct chain *chain, const struct rho_frame *frame);

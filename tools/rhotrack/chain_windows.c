@@ -15,8 +15,12 @@
 /* The places' distance and the ranges' difference, together, are at most this share of the shorter range: then each sees about half
  * of what the other sees. */
 #define APART_MAX 0.8f
-/* Turns of one during a turn of the other. */
+/*
+ * Turns of one during a turn of the other; fewer where they have parted, so that they do not part
+ * and pair again by turns.
+ */
 #define TURNS_MAX 1.5f
+#define TURNS_AGAIN_MAX 1.4f
 
 /* Time from one look to the next; 0: not known yet. */
 static float interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
@@ -30,7 +34,7 @@ static float interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
 }
 
 static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sensor *one,
-                         const struct rho_sensor *other)
+                         const struct rho_sensor *other, float turns_max)
 {
     const float apart_m = hypotf(one->x_m - other->x_m, one->y_m - other->y_m);
     const float one_s = interval_s(tracker, one->sensor_id);
@@ -41,7 +45,20 @@ static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sen
            rho_angle_is_circle(other->sector_from_rad, other->sector_to_rad) &&
            apart_m + fabsf(one->range_max_m - other->range_max_m) <=
                APART_MAX * fminf(one->range_max_m, other->range_max_m) &&
-           (!is_known || fmaxf(one_s, other_s) <= TURNS_MAX * fminf(one_s, other_s));
+           (!is_known || fmaxf(one_s, other_s) <= turns_max * fminf(one_s, other_s));
+}
+
+/*
+ * Its plots were in a window of its own at some time: it has parted from whom it might pair with.
+ */
+static bool had_own_window(const struct chain *chain, int32_t sensor_id)
+{
+    for (size_t i = 0; i < chain->num_initiators && chain->has_sensor; i++) {
+        if (chain->initiators[i].sensor_id == sensor_id) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static bool is_named(const struct chain *chain, int32_t sensor_id)
@@ -68,8 +85,11 @@ int32_t chain_window_of(const struct chain *chain, const struct rho_scan *scan)
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
             const struct rho_sensor *other = &tracker->sensors[j];
 
-            is_paired[i] = !is_paired[j] && is_named(chain, one->sensor_id) &&
-                           is_named(chain, other->sensor_id) && see_the_same(tracker, one, other);
+            is_paired[i] =
+                !is_paired[j] && is_named(chain, one->sensor_id) &&
+                is_named(chain, other->sensor_id) &&
+                see_the_same(tracker, one, other,
+                             had_own_window(chain, other->sensor_id) ? TURNS_AGAIN_MAX : TURNS_MAX);
             is_paired[j] |= is_paired[i];
             if (is_paired[i] && other->sensor_id == scan->sensor_id) {
                 return one->sensor_id;

@@ -475,7 +475,12 @@ bool clutter_file_save(struct clutter_file *file, const struct rho_clutter_map *
     return true;
 }
 
+bool clutter_file_is_due(const struct clutter_file *file)
+{
+    return file->path && clock_us() >= file->saved_us + SAVE_US;
+}
+
 bool clutter_file_keep(struct clutter_file *file, const struct rho_clutter_map *map)
 {
-    return !file->path || clock_us() < file->saved_us + SAVE_US || clutter_file_save(file, map);
+    return !clutter_file_is_due(file) || clutter_file_save(file, map);
 }

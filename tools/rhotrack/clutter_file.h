@@ -49,7 +49,10 @@ struct clutter_file clutter_file_open(const char *path, const struct parameters 
 /* Writes what is known beside, then renamed. False: it could not be written, which is said. */
 bool clutter_file_save(struct clutter_file *file, const struct rho_clutter_map *map);
 
-/* The same, once a minute. */
+/* It is a minute since it was saved. */
+bool clutter_file_is_due(const struct clutter_file *file);
+
+/* Saves it where it is due. */
 bool clutter_file_keep(struct clutter_file *file, const struct rho_clutter_map *map);
 
 /* What an empty map takes over from another one, as through a file. */

@@ -12,6 +12,7 @@
 #include "initiate_passive.h"
 #include "initiate_passive_paper.h"
 #include "initiated_output.h"
+#include "rhotrack/tracker.h"
 #include "scan_reader.h"
 #include "turns.h"
 
@@ -141,7 +142,11 @@ static void print_json(const struct batch *batch)
     cJSON_AddNumberToObject(object, "distances", initiator->work.window.distances);
     cJSON_AddNumberToObject(object, "fits", initiator->work.fits);
     cJSON_AddNumberToObject(object, "candidates_dropped", initiator->work.candidates_dropped);
-    json_add_budget(object, &initiator->budget);
+    json_add_work(object,
+                  &(struct rho_tracker_work){.work = initiator->budget.work,
+                                             .work_worst = initiator->budget.work_worst,
+                                             .partial_steps = initiator->budget.partial_steps,
+                                             .plots_not_tried = initiator->budget.plots_not_tried});
     cJSON_AddNumberToObject(object, "plots_no_room", (double)batch->plots_no_room);
     json_print(object);
 }

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* node: the live tracker: LCM messages of sensors in, LCM messages of tracks out. */
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/signalfd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -16,8 +20,8 @@
 #include "clutter_file.h"
 #include "commands.h"
 #include "common.h"
-#include "lcm_log.h"
 #include "node_core.h"
+#include "node_log.h"
 #include "node_print.h"
 #include "node_sensors.h"
 #include "node_tally.h"
@@ -26,6 +30,10 @@
 
 /* Messages that are taken before signals and clocks are looked at again. */
 /* And how long what may come after all must be missing before it is said. */
+/*
+ * How long outputs have at the end for what is left, and the program for all of it once it is told
+ * to end.
+ */
 /* The map of clutter goes out with every so manyth status. */
 enum {
     TURN_MESSAGES = 256,
@@ -33,7 +41,9 @@ enum {
     CLUTTER_STATUSES = 5,
     COMPLAINT_US = 1000000,
     MISSING_US = 3000000,
-    SNAPSHOT_US = 60000000
+    SNAPSHOT_US = 60000000,
+    END_US = 500000,
+    END_MOST_US = 900000
 };
 
 struct complaint {
@@ -48,10 +58,11 @@ struct node {
     struct transport *transport;
     struct node_core *core;
     struct node_print print;
-    struct lcm_log_writer log;            /* file NULL: none */
-    const char *log_path, *snapshot_path; /* NULL: none */
-    int64_t snapshot_us;                  /* clock_us: when the next one is due */
-    pid_t snapshot_writer;                /* 0: none is at work */
+    struct node_log *log;      /* NULL: none */
+    const char *snapshot_path; /* NULL: none */
+    int64_t snapshot_us;       /* clock_us: when the next one is due */
+    pid_t snapshot_writer;     /* 0: none is at work */
+    pid_t clutter_writer;      /* likewise */
     struct complaint complaints[NODE_TALLIES];
     struct node_sensors sensors;
     struct clutter_file clutter;
@@ -65,16 +76,6 @@ struct node {
 
 /* ---- Log ---- */
 
-/* A log that cannot be written does not end the tracking. */
-static void give_up_log(struct node *node)
-{
-    fprintf(stderr, "rhotrack: %s: %s; it goes on without the log\n", node->log_path,
-            strerror(errno));
-    fclose(node->log.file);
-    node->log.file = NULL;
-    node->exit_code = EXIT_RUNTIME;
-}
-
 /* Stock readers of logs want channels that are text, which a hostile one need not be. */
 static bool is_text(const char *channel)
 {
@@ -87,49 +88,48 @@ static bool is_text(const char *channel)
 static void write_log(struct node *node, int64_t time_us, const char *channel, const uint8_t *data,
                       size_t size)
 {
-    if (node->log.file && is_text(channel) &&
-        !lcm_log_write(&node->log, time_us, channel, data, size)) {
-        give_up_log(node);
+    if (node->log && is_text(channel)) {
+        node_log_put(node->log, time_us, channel, data, size);
     }
 }
 
-static void flush_log(struct node *node)
+/* ---- Files that are saved ---- */
+
+/* A file that cannot be saved does not end the tracking. */
+static void note_saved(struct node *node, bool is_saved)
 {
-    if (node->log.file && fflush(node->log.file)) {
-        give_up_log(node);
-    }
+    node->exit_code = is_saved ? node->exit_code : EXIT_RUNTIME;
 }
 
-static void close_log(struct node *node)
+/* True where none is at work any more; *code is then the last one's exit code. */
+static bool has_ended(pid_t *writer, int options, int *code)
 {
-    flush_log(node);
-    if (node->log.file && fclose(node->log.file)) {
-        fail(EXIT_RUNTIME, "%s: %s", node->log_path, strerror(errno));
+    int status = 0;
+
+    if (*writer && waitpid(*writer, &status, options) == 0) {
+        return false;
     }
+    *writer = 0;
+    *code = WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_RUNTIME;
+    return true;
 }
 
-/* ---- Snapshots ---- */
-
-/* One that cannot be written does not end the tracking; the next one may be. */
+/* The next snapshot may be written. */
 static void complain_of_snapshot(struct node *node, const char *why)
 {
     fprintf(stderr, "rhotrack: %s: %s; the snapshot is not written\n", node->snapshot_path, why);
     node->exit_code = EXIT_RUNTIME;
 }
 
-/* True where none is at work any more. */
 static bool has_snapshot_ended(struct node *node, int options)
 {
-    int status = 0;
+    int code;
+    const bool is_ended = has_ended(&node->snapshot_writer, options, &code);
 
-    if (node->snapshot_writer && waitpid(node->snapshot_writer, &status, options) == 0) {
-        return false;
+    if (is_ended && code) {
+        complain_of_snapshot(node, strerror(code));
     }
-    node->snapshot_writer = 0;
-    if (WIFEXITED(status) && WEXITSTATUS(status)) {
-        complain_of_snapshot(node, strerror(WEXITSTATUS(status)));
-    }
-    return true;
+    return is_ended;
 }
 
 /* In a process of its own, as the copy of what is here now: messages do not wait for the disk. */
@@ -163,6 +163,36 @@ static void write_last_snapshot(struct node *node)
     }
 }
 
+static bool has_clutter_ended(struct node *node, int options)
+{
+    int code;
+    const bool is_ended = has_ended(&node->clutter_writer, options, &code);
+
+    note_saved(node, !is_ended || code == 0);
+    return is_ended;
+}
+
+/* Likewise; what goes wrong is said there. */
+static void keep_clutter(struct node *node)
+{
+    if (clutter_file_is_due(&node->clutter) && has_clutter_ended(node, WNOHANG)) {
+        node->clutter.saved_us = clock_us();
+        node->clutter_writer = fork();
+        if (node->clutter_writer == 0) {
+            _exit(clutter_file_save(&node->clutter, node_core_clutter(node->core)) ? 0
+                                                                                   : EXIT_RUNTIME);
+        }
+        note_saved(node, node->clutter_writer > 0);
+        node->clutter_writer = node->clutter_writer > 0 ? node->clutter_writer : 0;
+    }
+}
+
+static void save_last_clutter(struct node *node)
+{
+    (void)has_clutter_ended(node, 0);
+    note_saved(node, clutter_file_save(&node->clutter, node_core_clutter(node->core)));
+}
+
 /* ---- What the core says ---- */
 
 static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
@@ -170,7 +200,7 @@ static void on_send(void *context, const char *channel, const uint8_t *data, siz
     struct node *node = context;
 
     (void)transport_send(node->transport, channel, data, size); /* counted */
-    if (node->log.file) {
+    if (node->log) {
         write_log(node, transport_now_us(node->transport), channel, data, size);
     }
 }
@@ -243,6 +273,7 @@ static void print_summary(const struct node *node)
     const struct rho_tracker_counters *tracker = node_core_tracker(node->core);
     struct transport_counters network = transport_counters(node->transport);
     struct node_tally tallies[NODE_TALLIES];
+    const uint64_t events_left_out = node_log_left_out(node->log);
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " messages in, %" PRIu64 " out; %" PRIu64 " steps, %" PRIu32
@@ -258,7 +289,13 @@ static void print_summary(const struct node *node)
     if (node->print.left_out > 0) {
         fprintf(stderr, "rhotrack: reports not printed: %" PRIu64 "\n", node->print.left_out);
     }
+    if (events_left_out > 0) {
+        fprintf(stderr, "rhotrack: events not logged: %" PRIu64 "\n", events_left_out);
+    }
     node_sensors_print(node->core, stderr);
+    if (ferror(stderr)) {
+        fputs("rhotrack: standard error was full for a while: lines of it are missing\n", stderr);
+    }
 }
 
 /* ---- The loop ---- */
@@ -280,11 +317,63 @@ static int open_signals(void)
     }
     sigprocmask(SIG_BLOCK, &set, NULL);
     signal(SIGPIPE, SIG_IGN); /* standard output that ends shows as a write error */
+    signal(SIGXFSZ, SIG_IGN); /* and so does a log that is as long as the system allows */
     descriptor = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
     if (descriptor < 0) {
         fail(EXIT_RUNTIME, "signalfd: %s", strerror(errno));
     }
     return descriptor;
+}
+
+/*
+ * Standard error into a pipe or a terminal that is full: what does not fit is missing, and nobody
+ * waits for it. It is opened anew for that, as other programs have the same pipe and may want to
+ * wait.
+ */
+static void open_errors(void)
+{
+    const struct timeval little = {.tv_usec = 1000};
+    struct stat status;
+    int descriptor;
+
+    if (fstat(STDERR_FILENO, &status)) {
+        return;
+    }
+    if ((S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode))) {
+        descriptor = open("/dev/fd/2", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+        if (descriptor >= 0) {
+            dup2(descriptor, STDERR_FILENO);
+            close(descriptor);
+        }
+    } else if (S_ISSOCK(status.st_mode)) { /* of a service: it cannot be opened anew */
+        (void)setsockopt(STDERR_FILENO, SOL_SOCKET, SO_SNDTIMEO, &little, sizeof little);
+    }
+}
+
+/*
+ * Whatever the program waits for, a disk or a network: once it is told to end it has END_MOST_US
+ * left.
+ */
+static void *watch_end(void *signals)
+{
+    static const char text[] = "rhotrack: an output does not answer; it ends without it\n";
+    const struct timespec left = {0, END_MOST_US * 1000L};
+    struct pollfd here = {.fd = *(const int *)signals, .events = POLLIN};
+
+    while (poll(&here, 1, -1) <= 0) {
+    }
+    nanosleep(&left, NULL);
+    (void)!write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(EXIT_RUNTIME);
+}
+
+static void start_watch(int *signals)
+{
+    pthread_t thread;
+
+    if (pthread_create(&thread, NULL, watch_end, signals) == 0) {
+        pthread_detach(thread);
+    }
 }
 
 static int64_t least(int64_t a, int64_t b)
@@ -327,6 +416,7 @@ static bool is_output(const char *channel)
     return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_PEAK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0;
 }
@@ -366,7 +456,13 @@ static void take_messages(struct node *node)
 
 static void send_status(struct node *node)
 {
-    node_core_status(node->core, transport_counters(node->transport).refused);
+    const struct transport_counters network = transport_counters(node->transport);
+    const struct node_core_losses losses = {.datagrams_refused =
+                                                network.refused + network.refused_source,
+                                            .reports_not_printed = node->print.left_out,
+                                            .events_not_logged = node_log_left_out(node->log)};
+
+    node_core_status(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
         node_core_send_clutter(node->core);
     }
@@ -382,12 +478,6 @@ static void show(struct node *node, bool is_end)
         node->print.is_on = node->print.is_changed = false;
         node->is_over = true; /* whoever read it has gone */
     }
-}
-
-/* A map that cannot be written does not end the tracking. */
-static void note_saved(struct node *node, bool is_saved)
-{
-    node->exit_code = is_saved ? node->exit_code : EXIT_RUNTIME;
 }
 
 static void keep_clocks(struct node *node)
@@ -406,8 +496,8 @@ static void keep_clocks(struct node *node)
     show(node, false);
     complain(node);
     watch_sensors(node);
-    flush_log(node);
-    note_saved(node, clutter_file_keep(&node->clutter, node_core_clutter(node->core)));
+    note_saved(node, node_log_watch(node->log));
+    keep_clutter(node);
 }
 
 static void run(struct node *node)
@@ -419,21 +509,21 @@ static void run(struct node *node)
     }
     node_core_flush(node->core);
     node->statuses = 0;
-    write_last_snapshot(node);
     send_status(node);
     show(node, true);
-    note_saved(node, clutter_file_save(&node->clutter, node_core_clutter(node->core)));
 }
 
-static void open_log(struct node *node, const char *path)
+/* Those who take nothing are waited for END_US at most, all together. */
+static void finish(struct node *node)
 {
-    node->log_path = path;
-    if (path) {
-        node->log.file = fopen(path, "wb");
-        if (!node->log.file) {
-            fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
-        }
-    }
+    const int64_t until_us = clock_us() + END_US;
+
+    node_print_end(&node->print, until_us);
+    node_log_end(node->log, until_us);
+    note_saved(node, node_log_watch(node->log));
+    print_summary(node);
+    write_last_snapshot(node);
+    save_last_clutter(node);
 }
 
 int command_node(struct command_line *line)
@@ -441,8 +531,10 @@ int command_node(struct command_line *line)
     struct node node = {.status_us = clock_us(), .end_us = INT64_MAX};
     const struct node_core_events events = {&node, on_send, on_step};
     bool is_restored = false; /* the map of clutter, too */
+    bool is_live;
     int exit_code;
 
+    open_errors();
     if (line->log && transport_is_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
@@ -461,20 +553,20 @@ int command_node(struct command_line *line)
     node.clutter = clutter_file_open(line->clutter_map, &line->parameters,
                                      is_restored ? NULL : node_core_clutter(node.core));
     node.signals = open_signals();
+    start_watch(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
-    open_log(&node, line->log);
-    node.print =
-        node_print_start(line->print, strncmp(transport_url(node.transport), "file://", 7) != 0);
+    is_live = strncmp(transport_url(node.transport), "file://", 7) != 0;
+    node.log = node_log_open(line->log, is_live);
+    node.print = node_print_start(line->print, is_live);
     if (line->seconds > 0) {
         node.end_us = node.status_us + llround(line->seconds * 1e6);
     }
     run(&node);
-    node_print_end(&node.print);
-    close_log(&node);
-    print_summary(&node);
+    finish(&node);
     exit_code = node.exit_code;
     transport_close(node.transport);
     node_core_close(node.core);
+    node_log_close(node.log);
     close(node.signals);
     return exit_code;
 }

@@ -228,7 +228,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
                           const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
-    const struct rho_initiator_budget budget = chain_budget(&tracking->chain);
+    const struct rho_tracker_work *work = &tracking->chain.tracker->work;
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots, %" PRIu32 " tracks confirmed; lost: "
@@ -254,11 +254,11 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
                     tracking->chain.tracker->looks[i].sensor_id);
         }
     }
-    if (budget.partial_steps > 0) {
+    if (work->partial_steps > 0) {
         fprintf(stderr,
                 ", in %" PRIu32 " scans not all of %" PRIu32
                 " plots was tried for new tracks (work_max)",
-                budget.partial_steps, budget.plots_not_tried);
+                work->partial_steps, work->plots_not_tried);
     }
     fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),
             tracking->max_us);
@@ -356,7 +356,6 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
                        const struct inputs_counts *counts, const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
-    const struct rho_initiator_budget budget = chain_budget(&tracking->chain);
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddNumberToObject(object, "scans", (double)counts->steps);
@@ -369,7 +368,7 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
     cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
-    json_add_budget(object, &budget);
+    json_add_work(object, &tracking->chain.tracker->work);
     cJSON_AddItemToObject(object, "counters", counters_json(tracking->chain.tracker));
     cJSON_AddNumberToObject(object, "echoes_known",
                             echoes_known(&tracking->chain.tracker->clutter_map));

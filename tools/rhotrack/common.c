@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "rhotrack/initiator.h"
+#include "rhotrack/tracker.h"
 
 /* Unfinished outputs, for fail() and the signal handler. Children of a fork own none of them. */
 static char *volatile unfinished[OUTPUTS_MAX];
@@ -47,6 +47,15 @@ bool is_ignored(int number)
     struct sigaction action;
 
     return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+bool is_told_to_end(void)
+{
+    sigset_t pending;
+
+    return sigpending(&pending) == 0 &&
+           (sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1 ||
+            sigismember(&pending, SIGHUP) == 1);
 }
 
 void fail(int exit_code, const char *format, ...)
@@ -352,12 +361,12 @@ void json_add_number(struct cJSON *object, const char *name, double value)
                           isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
 }
 
-void json_add_budget(struct cJSON *object, const struct rho_initiator_budget *budget)
+void json_add_work(struct cJSON *object, const struct rho_tracker_work *work)
 {
-    cJSON_AddNumberToObject(object, "work", budget->work);
-    cJSON_AddNumberToObject(object, "work_worst", budget->work_worst);
-    cJSON_AddNumberToObject(object, "partial_steps", budget->partial_steps);
-    cJSON_AddNumberToObject(object, "plots_not_tried", budget->plots_not_tried);
+    cJSON_AddNumberToObject(object, "work", work->work);
+    cJSON_AddNumberToObject(object, "work_worst", work->work_worst);
+    cJSON_AddNumberToObject(object, "partial_steps", work->partial_steps);
+    cJSON_AddNumberToObject(object, "plots_not_tried", work->plots_not_tried);
 }
 
 struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed)

@@ -52,6 +52,9 @@ void output_flush(struct output *output); /* checks for write errors */
 /* Whether the signal is ignored, as nohup has it; it should stay so. */
 bool is_ignored(int number);
 
+/* Whether SIGTERM, SIGINT or SIGHUP has come where they are blocked. */
+bool is_told_to_end(void);
+
 /* mkdir -p. Exit 1 with the reason. */
 void make_folder(const char *path);
 
@@ -66,8 +69,8 @@ struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed);
 void json_add_number(struct cJSON *object, const char *name, double value);
 
 /* work, work_worst, partial_steps, plots_not_tried. */
-struct rho_initiator_budget;
-void json_add_budget(struct cJSON *object, const struct rho_initiator_budget *budget);
+struct rho_tracker_work;
+void json_add_work(struct cJSON *object, const struct rho_tracker_work *work);
 
 /* Sorts the values, the largest first, and makes a list of them. */
 struct cJSON *json_descending(int *values, int count);

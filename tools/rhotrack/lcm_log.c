@@ -355,6 +355,21 @@ void lcm_log_close(struct lcm_log_reader *reader)
 
 /* ---- Writing ---- */
 
+void lcm_log_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
+                    size_t channel, size_t data)
+{
+    memcpy(header, sync_word, SYNC_BYTES);
+    store(header + 4, (uint64_t)number, 8);
+    store(header + 12, (uint64_t)utime, 8);
+    store(header + LCM_LOG_CHANNEL_AT, channel, 4);
+    store(header + LCM_LOG_DATA_AT, data, 4);
+}
+
+uint64_t lcm_log_bytes(uint64_t channel, uint64_t data)
+{
+    return LCM_LOG_HEADER_BYTES + channel + data;
+}
+
 bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *channel,
                    const uint8_t *data, size_t size)
 {
@@ -365,11 +380,7 @@ bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *cha
         errno = EINVAL;
         return false;
     }
-    memcpy(header, sync_word, SYNC_BYTES);
-    store(header + 4, (uint64_t)writer->number, 8);
-    store(header + 12, (uint64_t)utime, 8);
-    store(header + 20, length, 4);
-    store(header + 24, size, 4);
+    lcm_log_header(header, writer->number, utime, length, size);
     if (fwrite(header, sizeof header, 1, writer->file) != 1 ||
         fwrite(channel, length, 1, writer->file) != 1 ||
         (size > 0 && fwrite(data, size, 1, writer->file) != 1)) {

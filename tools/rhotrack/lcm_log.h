@@ -17,6 +17,8 @@
 
 #define LCM_LOG_SYNC UINT32_C(0xEDA1DA01)
 #define LCM_LOG_HEADER_BYTES 28u
+#define LCM_LOG_CHANNEL_AT 20u /* in the header: the channel's length, the data's */
+#define LCM_LOG_DATA_AT 24u
 #define LCM_LOG_MAX_CHANNEL 63u /* characters, as in LCM's datagrams; at least one, and no NUL */
 #define LCM_LOG_MAX_DATA (UINT32_C(64) << 20)
 
@@ -70,6 +72,13 @@ void lcm_log_report(const struct lcm_log_reader *reader);
 void lcm_log_close(struct lcm_log_reader *reader);
 
 /* ---- Writing ---- */
+
+/* An event's header; channel and data: their bytes, which follow it. */
+void lcm_log_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
+                    size_t channel, size_t data);
+
+/* An event's bytes, with its header. */
+uint64_t lcm_log_bytes(uint64_t channel, uint64_t data);
 
 /* The file is the caller's: to be opened, flushed, and closed. Numbers go up from 0. */
 struct lcm_log_writer {

@@ -127,15 +127,15 @@ static const struct command commands[] = {
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
      "lpLRTgMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
-     "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS and RHO_SENSORS once a second, and what "
-     "is\n"
-     "known of clutter that comes back, RHO_CLUTTER, every five. Bad, late and lost messages are\n"
+     "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS, RHO_WORK and RHO_SENSORS once a second,\n"
+     "and what is known of clutter that comes back, RHO_CLUTTER, every five. Bad, late and lost "
+     "messages are\n"
      "counted and end nothing. Sensors that contradict the others or fall\n"
      "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
      "It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
-     "udpm:// URLs have the options ttl=N (0: this machine, 1: this network) and\n"
-     "recv_buf_size=BYTES.\n"},
+     "udpm:// URLs have the options ttl=N (0: this machine, 1: this network), recv_buf_size=BYTES\n"
+     "and sources_allowed=ADDRESS,... (IPv4; others are refused and counted).\n"},
     {"publish", command_publish, "INPUT... [--lcm URL] [--speed X] [--loop]", 1, INT_MAX, "lxOTksC",
      "plays files as sensors, live",
      "Sends the messages of LCM logs, CSV files (plots, polar plots, bearings, truth, tracks) and\n"

@@ -91,7 +91,8 @@ bool node_core_save(const struct node_core *core, const char *path)
 /* Tracks do not go on across a clock that was set; counters do, and what stands is where it was. */
 static void start_anew(struct node_core *core)
 {
-    struct rho_tracker_counters counters = core->chain.tracker->counters;
+    const struct rho_tracker_counters counters = core->chain.tracker->counters;
+    const struct rho_tracker_work work = core->chain.tracker->work;
     struct rho_clutter_map *clutter = must_alloc(sizeof *clutter);
 
     *clutter = core->chain.tracker->clutter_map;
@@ -99,6 +100,7 @@ static void start_anew(struct node_core *core)
     clutter_file_carry(&core->chain.tracker->clutter_map, clutter);
     free(clutter);
     core->chain.tracker->counters = counters;
+    core->chain.tracker->work = work;
     core->epoch = core->epoch == INT32_MAX ? 0 : core->epoch + 1;
     core->counters.restarts++;
 }
@@ -443,8 +445,31 @@ static void send_sensors(const struct node_core *core)
     }
 }
 
-void node_core_status(struct node_core *core, uint64_t refused)
+static int64_t at_most_int64(uint64_t count)
 {
+    return count < INT64_MAX ? (int64_t)count : INT64_MAX;
+}
+
+static void send_work(const struct node_core *core, const struct node_core_losses *losses)
+{
+    struct rho_message_work work;
+    uint8_t buffer[RHO_MESSAGE_WORK_MAX_SIZE];
+    size_t size;
+
+    rho_publish_work(core->chain.tracker, core->chain.initiator, &work);
+    work.scan = core->step;
+    work.epoch = core->epoch;
+    work.num_steps = at_most_int64(core->counters.steps);
+    work.reports_not_printed = at_most_int64(losses->reports_not_printed);
+    work.events_not_logged = at_most_int64(losses->events_not_logged);
+    if (rho_message_work_encode(&work, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_WORK_CHANNEL, buffer, size);
+    }
+}
+
+void node_core_status(struct node_core *core, const struct node_core_losses *losses)
+{
+    const uint64_t refused = losses->datagrams_refused;
     struct rho_message_status status;
     struct timing *lately = &core->lately;
     uint8_t buffer[RHO_MESSAGE_STATUS_MAX_SIZE];
@@ -464,6 +489,7 @@ void node_core_status(struct node_core *core, uint64_t refused)
     if (rho_message_status_encode(&status, buffer, sizeof buffer, &size) == RHO_OK) {
         core->events.send(core->events.context, RHO_MESSAGE_STATUS_CHANNEL, buffer, size);
     }
+    send_work(core, losses);
     send_sensors(core);
 }
 

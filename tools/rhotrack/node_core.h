@@ -4,7 +4,7 @@
  *
  *     node_core_take(core, channel, data, size, now_us);    for each message that comes
  *     node_core_tick(core, now_us);                         when nothing has come, at node_core_due_us at the latest
- *     node_core_status(core, refused);                      once a second
+ *     node_core_status(core, &losses);                      once a second
  *
  * Any bytes may be given: what they do wrong is counted, and nothing of it ends the program. Scans go out of the feed
  * in the order of time; bearings become frames on the way, and scans of plots wait for the frame that began before
@@ -75,8 +75,15 @@ int64_t node_core_due_us(const struct node_core *core);
 /* The end: all that is there is stepped. */
 void node_core_flush(struct node_core *core);
 
-/* Publishes RHO_STATUS and RHO_SENSORS. refused: datagrams that the transport has refused so far. */
-void node_core_status(struct node_core *core, uint64_t refused);
+/* What its surroundings lost so far. */
+struct node_core_losses {
+    uint64_t datagrams_refused;   /* by the transport */
+    uint64_t reports_not_printed; /* standard output took no more */
+    uint64_t events_not_logged;   /* the log took no more */
+};
+
+/* Publishes RHO_STATUS, RHO_WORK and RHO_SENSORS. */
+void node_core_status(struct node_core *core, const struct node_core_losses *losses);
 
 const struct rho_report *node_core_report(const struct node_core *core); /* of the last step */
 const struct rho_feed_counters *node_core_feed(const struct node_core *core);

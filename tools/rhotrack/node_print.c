@@ -5,7 +5,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <poll.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
@@ -22,7 +21,7 @@ enum { PERIOD_US = 100000, HEAD_LINES = 4, ROWS_DEFAULT = 24 };
 /* ---- Standard output that may be full ---- */
 
 /* What can be written without waiting: of a pipe that is ready so much fits. */
-enum { PIECE_BYTES = 4096, END_MS = 500 };
+enum { PIECE_BYTES = 4096, LOOK_MS = 100 };
 
 /* A text to fill; finish_text hands it on. */
 static FILE *begin_text(struct node_print *print)
@@ -40,14 +39,6 @@ static bool is_pending(const struct node_print *print)
     return print->at < print->size;
 }
 
-static bool is_told_to_end(void)
-{
-    sigset_t pending;
-
-    return sigpending(&pending) == 0 &&
-           (sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1);
-}
-
 /* Room on standard output within wait_ms; a record waits for it until the node is told to end. */
 static bool is_ready(const struct node_print *print, int wait_ms)
 {
@@ -55,7 +46,7 @@ static bool is_ready(const struct node_print *print, int wait_ms)
     int ready = poll(&out, 1, wait_ms);
 
     while (ready == 0 && !print->is_live && !is_told_to_end()) {
-        ready = poll(&out, 1, END_MS);
+        ready = poll(&out, 1, LOOK_MS);
     }
     return ready > 0;
 }
@@ -134,9 +125,11 @@ int64_t node_print_due_us(const struct node_print *print)
     return print->is_changed || is_pending(print) ? print->due_us : INT64_MAX;
 }
 
-void node_print_end(struct node_print *print)
+void node_print_end(struct node_print *print, int64_t until_us)
 {
-    push(print, END_MS);
+    const int64_t left_us = until_us - clock_us();
+
+    push(print, left_us > 0 ? (int)(left_us / 1000) : 0);
     print->left_out += is_pending(print);
     free(print->text);
     print->text = NULL;

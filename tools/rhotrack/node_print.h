@@ -35,8 +35,10 @@ void node_print_step(struct node_print *print, const struct rho_report *report);
 bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
                      bool is_end);
 
-/* What is left goes out, if that takes no longer than half a second. */
-void node_print_end(struct node_print *print);
+/*
+ * What is left goes out, if that is done by until_us of clock_us; what is not counts as left out.
+ */
+void node_print_end(struct node_print *print, int64_t until_us);
 
 /* When node_print_show is wanted, on clock_us; INT64_MAX: not before a step. */
 int64_t node_print_due_us(const struct node_print *print);

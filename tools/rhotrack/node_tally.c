@@ -12,6 +12,8 @@ void node_tally(const struct node_core *core, const struct transport *transport,
     struct transport_counters network = transport_counters(transport);
     const struct node_tally all[NODE_TALLIES] = {
         {"datagrams refused (fragments, or no LCM)", network.refused, NODE_TALLY_FAULT},
+        {"datagrams of addresses that are not in sources_allowed", network.refused_source,
+         NODE_TALLY_FAULT},
         {"datagrams dropped by the kernel (receive buffer full: net.core.rmem_max, recv_buf_size)",
          network.dropped, NODE_TALLY_FAULT},
         {"messages not sent", transport_can_send(transport) ? network.not_sent : 0,

@@ -9,7 +9,7 @@
 #include "node_core.h"
 #include "transport.h"
 
-#define NODE_TALLIES 36
+#define NODE_TALLIES 37
 
 enum node_tally_kind {
     NODE_TALLY_USUAL = 0, /* of the tracker's usual work */

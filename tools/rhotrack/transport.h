@@ -2,10 +2,11 @@
 /*
  * transport: LCM messages in and out.
  *
- * udpm://GROUP:PORT?ttl=N&recv_buf_size=BYTES goes over a multicast socket of this program with the library's module
- * udpm: liblcm puts fragments together before any of its users can look at them, and one that is forged makes it write
- * beyond its memory. The other providers (file://, memq://, tcpq://) are liblcm's, but for file://NAME?speed=0: it does
- * not tell the times of a log's events.
+ * udpm://GROUP:PORT?ttl=N&recv_buf_size=BYTES&sources_allowed=ADDRESS,ADDRESS goes over a multicast
+ * socket of this program with the library's module udpm: liblcm puts fragments together before any
+ * of its users can look at them, and one that is forged makes it write beyond its memory. The other
+ * providers (file://, memq://, tcpq://) are liblcm's, but for file://NAME?speed=0: it does not tell
+ * the times of a log's events.
  */
 #ifndef RHOTRACK_TOOL_TRANSPORT_H
 #define RHOTRACK_TOOL_TRANSPORT_H
@@ -38,8 +39,9 @@ struct transport_counters {
     uint64_t received, sent;
     uint64_t
         refused; /* datagrams: fragments, no LCM at all, or longer than any message of rhotrack */
-    uint64_t dropped;  /* by the kernel, because this program was too slow */
-    uint64_t not_sent; /* refused by the network, or read only */
+    uint64_t refused_source; /* datagrams of addresses that are not in sources_allowed */
+    uint64_t dropped;        /* by the kernel, because this program was too slow */
+    uint64_t not_sent;       /* refused by the network, or read only */
 };
 
 /*

@@ -37,7 +37,9 @@ struct udpm {
     unsigned interface;    /* of the loopback, where there is no route; else 0 */
     int receiver, sender;  /* -1: none */
     uint32_t sequence;
+    struct rho_udpm_guard guard;
     int num_here, next; /* of the batch */
+    struct sockaddr_in sources[BATCH];
     struct mmsghdr here[BATCH];
     struct iovec parts[BATCH];
     union control controls[BATCH];
@@ -60,6 +62,27 @@ static long read_number(const struct transport *transport, const char *name, con
     return number;
 }
 
+static void read_sources(const struct transport *transport, struct rho_udpm_guard *guard,
+                         char *text)
+{
+    char *rest = NULL;
+    struct in_addr address;
+
+    for (char *word = strtok_r(text, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
+        if (inet_pton(AF_INET, word, &address) != 1) {
+            transport_refuse(transport, "sources_allowed: '%s' is no IPv4 address", word);
+        }
+        if (guard->num_sources == RHO_UDPM_MAX_SOURCES) {
+            transport_refuse(transport, "sources_allowed: more than %d addresses",
+                             RHO_UDPM_MAX_SOURCES);
+        }
+        guard->sources[guard->num_sources++] = ntohl(address.s_addr);
+    }
+    if (guard->num_sources == 0) {
+        transport_refuse(transport, "sources_allowed has no address");
+    }
+}
+
 static void read_option(struct transport *transport, struct udpm *udpm, char *option)
 {
     char *value = strchr(option, '=');
@@ -72,8 +95,12 @@ static void read_option(struct transport *transport, struct udpm *udpm, char *op
         udpm->ttl = (int)read_number(transport, option, value, 0, 255);
     } else if (strcmp(option, "recv_buf_size") == 0) {
         udpm->wanted_bytes = (int)read_number(transport, option, value, 2048, 1 << 30);
+    } else if (strcmp(option, "sources_allowed") == 0) {
+        read_sources(transport, &udpm->guard, value);
     } else {
-        transport_refuse(transport, "unknown option '%s'; there are ttl and recv_buf_size", option);
+        transport_refuse(transport,
+                         "unknown option '%s'; there are ttl, recv_buf_size and sources_allowed",
+                         option);
     }
 }
 
@@ -221,7 +248,9 @@ static void take_batch(struct udpm *udpm)
     int count;
 
     for (int i = 0; i < BATCH; i++) {
-        udpm->here[i].msg_hdr = (struct msghdr){.msg_iov = &udpm->parts[i],
+        udpm->here[i].msg_hdr = (struct msghdr){.msg_name = &udpm->sources[i],
+                                                .msg_namelen = sizeof udpm->sources[i],
+                                                .msg_iov = &udpm->parts[i],
                                                 .msg_iovlen = 1,
                                                 .msg_control = &udpm->controls[i],
                                                 .msg_controllen = sizeof udpm->controls[i]};
@@ -251,6 +280,26 @@ static int64_t read_control(struct transport *transport, struct msghdr *header)
     }
     return time_us == INT64_MAX ? transport_now_us(transport)
                                 : transport_time_us(transport, time_us);
+}
+
+/* What this program has sent comes back, and is nobody's fault. */
+static bool is_own(const struct udpm *udpm, const struct sockaddr_in *source)
+{
+    struct sockaddr_in own = {.sin_port = 0};
+    socklen_t size = sizeof own;
+
+    return getsockname(udpm->sender, (struct sockaddr *)&own, &size) == 0 &&
+           own.sin_port == source->sin_port;
+}
+
+static bool is_admitted(struct transport *transport, struct udpm *udpm,
+                        const struct sockaddr_in *source)
+{
+    if (rho_udpm_admits(&udpm->guard, ntohl(source->sin_addr.s_addr))) {
+        return true;
+    }
+    transport->counters.refused_source += !is_own(udpm, source);
+    return false;
 }
 
 /* False: no message. Messages of other programs may be longer than the buffer: their channels tell them. */
@@ -288,7 +337,8 @@ static enum transport_found receive(struct transport *transport, void *object,
     while (udpm->next < udpm->num_here) {
         int i = udpm->next++;
 
-        if (open_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
+        if (is_admitted(transport, udpm, &udpm->sources[i]) &&
+            open_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
             return TRANSPORT_MESSAGE;
         }
     }

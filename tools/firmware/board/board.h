@@ -16,10 +16,11 @@ int board_open(void);
 int64_t board_time_us(void);
 
 /*
- * A datagram to LCM's group and port that has come. It goes into the buffer; what is longer than capacity is left out
- * whole. Returns its bytes, 0: none has come.
+ * A datagram to LCM's group and port that has come. It goes into the buffer; what is longer than
+ * capacity is left out whole. Returns its bytes, and the address that it came from (IPv4, 10.9.0.1
+ * as 0x0a090001); 0: none has come.
  */
-size_t board_receive(uint8_t *buffer, size_t capacity);
+size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4);
 
 /* Sends a datagram to LCM's group and port; waits some milliseconds for room, and drops it then. */
 void board_send(const uint8_t *datagram, size_t size);

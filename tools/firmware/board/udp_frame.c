@@ -124,6 +124,12 @@ size_t udp_frame_open(const uint8_t *frame, size_t size, const uint8_t **payload
     return length - UDP_HEAD;
 }
 
+uint32_t udp_frame_source(const uint8_t *frame)
+{
+    const uint8_t *source = frame + ETHERNET_HEAD + 12;
+    return (uint32_t)get16(source) << 16 | get16(source + 2);
+}
+
 void udp_frame_join(uint8_t frame[UDP_FRAME_JOIN], const struct udp_frame_host *from)
 {
     static const uint8_t router_alert[4] = {0x94, 0x04, 0, 0};

@@ -31,6 +31,12 @@ size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16
  */
 size_t udp_frame_open(const uint8_t *frame, size_t size, const uint8_t **payload);
 
+/*
+ * The address that a frame comes from which udp_frame_open has opened: IPv4, 10.9.0.1 as
+ * 0x0a090001.
+ */
+uint32_t udp_frame_source(const uint8_t *frame);
+
 /* Writes an IGMP version 2 report for the group, UDP_FRAME_JOIN bytes. */
 void udp_frame_join(uint8_t frame[UDP_FRAME_JOIN], const struct udp_frame_host *from);
 

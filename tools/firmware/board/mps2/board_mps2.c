@@ -86,7 +86,7 @@ static void join(void)
     }
 }
 
-size_t board_receive(uint8_t *buffer, size_t capacity)
+size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4)
 {
     static uint8_t frame[UDP_FRAME_MAX];
     const uint8_t *payload;
@@ -96,6 +96,7 @@ size_t board_receive(uint8_t *buffer, size_t capacity)
         length = udp_frame_open(frame, size, &payload);
         if (length > 0 && length <= capacity) {
             memcpy(buffer, payload, length);
+            *source_ipv4 = udp_frame_source(frame);
             return length;
         }
     }

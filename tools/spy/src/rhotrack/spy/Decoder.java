@@ -19,6 +19,7 @@ import rhotrack.status_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
 import rhotrack.truth_list_t;
+import rhotrack.work_t;
 
 /**
  * Messages into the model. A message that is not one of ours to the last byte (another version's fingerprint, counts
@@ -37,7 +38,7 @@ final class Decoder {
                 || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
                 || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
                 || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT
-                || fingerprint == clutter_map_t.LCM_FINGERPRINT;
+                || fingerprint == clutter_map_t.LCM_FINGERPRINT || fingerprint == work_t.LCM_FINGERPRINT;
     }
 
     void decode(String channel, byte[] data) {
@@ -76,6 +77,9 @@ final class Decoder {
         }
         if (fingerprint == clutter_map_t.LCM_FINGERPRINT) {
             return take(new clutter_map_t(in), in);
+        }
+        if (fingerprint == work_t.LCM_FINGERPRINT) {
+            return take(new work_t(in), in);
         }
         return fingerprint == status_t.LCM_FINGERPRINT && take(new status_t(in), in);
     }
@@ -203,6 +207,16 @@ final class Decoder {
         model.setStatus(new Scene.Status(status.scans_accepted, status.scans_lost, status.scans_late,
                 saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative, status.tracks_confirmed,
                 status.tracks_coasting, status.step_us, status.step_max_us, status.clutter_per_km2));
+        return true;
+    }
+
+    private boolean take(work_t work, DataInputStream in) throws IOException {
+        if (in.available() > 0 || work.work < 0 || work.work_max < 0 || work.partial_steps < 0
+                || work.reports_not_printed < 0 || work.events_not_logged < 0) {
+            return false;
+        }
+        model.setWork(new Scene.Work(work.work_max == 0 ? -1 : (double) work.work / work.work_max, work.partial_steps,
+                work.reports_not_printed, work.events_not_logged));
         return true;
     }
 

@@ -28,6 +28,7 @@ final class Model {
     /** RHO_SENSORS: what is wrong with sensors, of each part of the list. */
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
     private Scene.Status status;
+    private Scene.Work work;
     private long statusNanos;
     private long tracksNanos;
     private long received;
@@ -78,6 +79,10 @@ final class Model {
         statusNanos = System.nanoTime();
     }
 
+    synchronized void setWork(Scene.Work newWork) {
+        work = newWork;
+    }
+
     /** Of a list with more parts than there are sensors, those beyond are not kept. */
     synchronized void setSensorFaults(int part, int numParts, List<String> faults) {
         if (part < MAX_CHANNELS) {
@@ -121,7 +126,7 @@ final class Model {
         List<String> faults = new ArrayList<>();
         sensorFaults.values().forEach(faults::addAll);
         Scene.Health health =
-                new Scene.Health(status, faults, age(statusNanos), age(tracksNanos), received, ignored);
+                new Scene.Health(status, work, faults, age(statusNanos), age(tracksNanos), received, ignored);
         return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
                 echoes, new TreeMap<>(sensors), health);
     }

@@ -35,8 +35,12 @@ record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearin
             double stepMaxUs, double clutterPerKm2) {
     }
 
+    /** RHO_WORK: work of the last step as a share of what it may be, negative where any is allowed; what was left out. */
+    record Work(double share, long partialSteps, long notPrinted, long notLogged) {
+    }
+
     /** How the messages themselves are doing; ages in seconds, negative where nothing came yet. */
-    record Health(Status status, List<String> sensorFaults, double statusAge, double tracksAge, long received,
-            long ignored) {
+    record Health(Status status, Work work, List<String> sensorFaults, double statusAge, double tracksAge,
+            long received, long ignored) {
     }
 }

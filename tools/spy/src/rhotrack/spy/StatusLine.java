@@ -61,10 +61,30 @@ final class StatusLine extends JComponent {
             x = text(g, x, Palette.MUTED, "step");
             x = text(g, x, Palette.TEXT, String.format(Locale.ROOT, "%.0f \u00b5s, at most %.0f", status.stepUs(),
                     status.stepMaxUs())) + 14;
+            x = paintWork(g, x, health.work());
             x = text(g, x, Palette.MUTED, "clutter");
             x = text(g, x, Palette.TEXT, String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()));
         }
         paintFreshness(g, health, x);
+    }
+
+    /** Without a limit there is no share of it; what was not left out is not said. */
+    private float paintWork(Graphics2D g, float from, Scene.Work work) {
+        float x = from;
+        if (work != null && work.share() >= 0) {
+            x = text(g, x, Palette.MUTED, "work");
+            x = text(g, x, Palette.TEXT, String.format(Locale.ROOT, "%.0f %%", 100 * work.share()));
+        }
+        if (work != null && work.partialSteps() > 0) {
+            x = text(g, x, Palette.WARNING, work.partialSteps() + " partial");
+        }
+        if (work != null && work.notPrinted() > 0) {
+            x = text(g, x, Palette.WARNING, work.notPrinted() + " not printed");
+        }
+        if (work != null && work.notLogged() > 0) {
+            x = text(g, x, Palette.WARNING, work.notLogged() + " not logged");
+        }
+        return x + 14;
     }
 
     private float paintFaults(Graphics2D g, float from, List<String> faults) {

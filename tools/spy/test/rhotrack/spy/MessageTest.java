@@ -21,6 +21,7 @@ import rhotrack.sensor_t;
 import rhotrack.status_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
+import rhotrack.work_t;
 
 /** From messages, good and bad, to what is painted. */
 final class MessageTest {
@@ -119,6 +120,15 @@ final class MessageTest {
         return list;
     }
 
+    private static work_t work(long work, long most, long partial) {
+        work_t message = new work_t();
+        message.work = work;
+        message.work_max = most;
+        message.partial_steps = partial;
+        message.events_not_logged = 9;
+        return message;
+    }
+
     private static void good(Checks check) throws IOException {
         Model model = new Model();
         Decoder decoder = new Decoder(model);
@@ -138,6 +148,10 @@ final class MessageTest {
         check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
         check.near("peaks", -300, scene.peaks().get(0).content().peaks().get(0).rho());
         check.equal("counters stay at their limit", Integer.MAX_VALUE, scene.health().status().bad());
+        decoder.decode("RHO_WORK", bytes(work(250, 1000, 3)));
+        check.equal("work", new Scene.Work(0.25, 3, 0, 9), model.scene().health().work());
+        decoder.decode("RHO_WORK", bytes(work(250, 0, 0)));
+        check.equal("work without a limit", new Scene.Work(-1, 0, 0, 9), model.scene().health().work());
         decoder.decode("RHO_SENSORS", bytes(sensors(0, 2, 3, 1, 0)));
         decoder.decode("RHO_SENSORS", bytes(sensors(1, 2, 4, 1, 1)));
         check.equal("faults of sensors", List.of("S3 doubted", "S4 doubted", "S4 silent"),
@@ -185,8 +199,10 @@ final class MessageTest {
         clutter_map_t sure = echoes(1, 0, 1, 300);
         sure.echoes[0].chance = 1.5f;
         decoder.decode("RHO_CLUTTER", bytes(sure));
+        decoder.decode("RHO_WORK", bytes(work(-1, 1000, 0)));
+        check.equal("no work", null, model.scene().health().work());
         check.equal("no echoes", List.of(), model.scene().echoes());
-        check.equal("all refused", 12L, model.scene().health().ignored());
+        check.equal("all refused", 13L, model.scene().health().ignored());
         check.equal("nothing shown", 0, model.scene().tracks().size());
         track_list_t vague = trackList(1, track_t.CONFIRMED);
         vague.tracks[0].covariance[0] = Float.NaN;
@@ -200,7 +216,7 @@ final class MessageTest {
         Decoder decoder = new Decoder(model);
         byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
             bytes(peaks()), bytes(new status_t()),
-            bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300))};
+            bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();
@@ -226,6 +242,8 @@ final class MessageTest {
         BufferedImage before = panel.picture(900, 600);
         Decoder decoder = new Decoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));
+        decoder.decode("RHO_STATUS", bytes(new status_t()));
+        decoder.decode("RHO_WORK", bytes(work(1, 2, 3)));
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
         BufferedImage after = panel.picture(900, 600);
         int confirmed = Palette.of(TrackMark.Status.CONFIRMED).getRGB();

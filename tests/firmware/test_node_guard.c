@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Who the firmware's node listens to: datagrams of allowed addresses, with the right code behind
+ * them, where it is told so. The code here is a toy, a keyed sum that anybody forges who has seen
+ * two datagrams: a product puts an HMAC there.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "../../tools/firmware/node.h"
+#include "rhotrack/message.h"
+#include "rhotrack/udpm.h"
+
+#define RADAR UINT32_C(0x0a090001)
+#define OTHER_RADAR UINT32_C(0x0a090002)
+#define STRANGER UINT32_C(0x0a090042)
+#define TOY_BYTES 4u
+
+static const uint32_t toy_key = 0x5eed1234u;
+static struct rho_message_status status; /* the newest one that was sent */
+static int64_t now_us;
+static int32_t scans_sent;
+
+static uint32_t toy_keyed_sum(const uint8_t *bytes, size_t size)
+{
+    uint32_t sum = toy_key;
+    for (size_t i = 0; i < size; i++) {
+        sum = sum * 31u + bytes[i];
+    }
+    return sum;
+}
+
+static void store(uint8_t *to, uint32_t value)
+{
+    for (unsigned i = 0; i < TOY_BYTES; i++) {
+        to[i] = (uint8_t)(value >> (24 - 8 * i));
+    }
+}
+
+/* The hook: the last four bytes are the code of those before. */
+static int is_authentic(void *context, const uint8_t *datagram, size_t *size)
+{
+    uint8_t code[TOY_BYTES];
+    (void)context;
+    if (*size < TOY_BYTES) {
+        return 0;
+    }
+    store(code, toy_keyed_sum(datagram, *size - TOY_BYTES));
+    *size -= TOY_BYTES;
+    return memcmp(code, datagram + *size, TOY_BYTES) == 0;
+}
+
+/* One that does not keep to the rules: the datagram would be longer than it is. */
+static int makes_longer(void *context, const uint8_t *datagram, size_t *size)
+{
+    (void)context;
+    (void)datagram;
+    *size += 1;
+    return 1;
+}
+
+static void take_status(void *context, const uint8_t *bytes, size_t size)
+{
+    struct rho_udpm_datagram datagram;
+    (void)context;
+    assert_int_equal(rho_udpm_parse(bytes, size, &datagram), RHO_OK);
+    if (strcmp(datagram.channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
+        assert_int_equal(
+            rho_message_status_decode(datagram.payload, datagram.payload_size, &status), RHO_OK);
+    }
+}
+
+static int64_t clock_us(void *context)
+{
+    (void)context;
+    return now_us;
+}
+
+static void start(const uint32_t *sources, uint16_t num_sources,
+                  int (*hook)(void *context, const uint8_t *datagram, size_t *size))
+{
+    struct node_config config;
+    node_config_default(&config);
+    config.send = take_status;
+    config.clock_us = clock_us;
+    config.sources = sources;
+    config.num_sources = num_sources;
+    config.is_authentic = hook;
+    assert_int_equal(node_start(&config), RHO_OK);
+    assert_int_equal(node_guard()->refused_source, 0);
+}
+
+/* The next scan, an empty one, as a datagram, with or without a code. Returns its bytes. */
+static size_t make_scan(uint8_t *bytes, size_t capacity, int has_code)
+{
+    static struct rho_message_plot_scan scan;
+    size_t head, size;
+    scan = (struct rho_message_plot_scan){.utime = now_us,
+                                          .scan = scans_sent++,
+                                          .epoch = 1,
+                                          .sensor_id = 1,
+                                          .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D,
+                                          .num_parts = 1};
+    assert_int_equal(rho_udpm_begin(bytes, capacity, 0, RHO_MESSAGE_PLOT_SCAN_CHANNEL "1", &head),
+                     RHO_OK);
+    assert_int_equal(rho_message_plot_scan_encode(&scan, bytes + head, capacity - head, &size),
+                     RHO_OK);
+    size += head;
+    if (has_code) {
+        store(bytes + size, toy_keyed_sum(bytes, size));
+        size += TOY_BYTES;
+    }
+    return size;
+}
+
+/*
+ * Scans that the node took of ten from there; each is changed in one byte first, but for flip_at
+ * SIZE_MAX.
+ */
+static int32_t count_taken(uint32_t source, int has_code, size_t flip_at)
+{
+    uint8_t bytes[RHO_UDPM_MAX_DATAGRAM];
+    int32_t before;
+    node_flush();
+    before = status.scans_accepted;
+    for (int i = 0; i < 10; i++) {
+        size_t size;
+        now_us += 1000000;
+        size = make_scan(bytes, sizeof bytes, has_code);
+        if (flip_at < size) {
+            bytes[flip_at] ^= 1;
+        }
+        node_receive(bytes, size, source, now_us);
+    }
+    node_flush();
+    return status.scans_accepted - before;
+}
+
+static void everybody_is_heard_where_nothing_is_said(void **state)
+{
+    (void)state;
+    start(NULL, 0, NULL);
+    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 10);
+    assert_int_equal(count_taken(STRANGER, 0, SIZE_MAX), 10);
+    assert_int_equal(node_guard()->refused_source, 0);
+    assert_int_equal(node_guard()->refused_mac, 0);
+}
+
+static void a_stranger_is_not_heard_and_counted(void **state)
+{
+    const uint32_t sources[] = {RADAR, OTHER_RADAR};
+    int32_t refused;
+    (void)state;
+    start(sources, 2, NULL);
+    node_flush();
+    refused = status.fragments_refused;
+    assert_int_equal(count_taken(STRANGER, 0, SIZE_MAX), 0);
+    assert_int_equal(node_guard()->refused_source, 10);
+    assert_int_equal(status.fragments_refused - refused, 10);
+    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 10);
+    assert_int_equal(count_taken(OTHER_RADAR, 0, SIZE_MAX), 10);
+    assert_int_equal(node_guard()->refused_source, 10);
+}
+
+/* Each byte of a datagram, its code's too, is protected: none that is changed gets in. */
+static void without_the_code_nothing_is_heard(void **state)
+{
+    uint8_t bytes[RHO_UDPM_MAX_DATAGRAM];
+    const size_t size = make_scan(bytes, sizeof bytes, 1);
+    uint32_t refused = 0;
+    (void)state;
+    start(NULL, 0, is_authentic);
+    assert_int_equal(count_taken(STRANGER, 1, SIZE_MAX), 10);
+    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 0);
+    assert_int_equal(node_guard()->refused_mac, refused += 10);
+    for (size_t i = 0; i < size; i++) {
+        assert_int_equal(count_taken(RADAR, 1, i), 0);
+        assert_int_equal(node_guard()->refused_mac, refused += 10);
+    }
+    for (size_t i = 0; i < TOY_BYTES; i++) {
+        node_receive(bytes, i, RADAR, now_us);
+        assert_int_equal(node_guard()->refused_mac, ++refused);
+    }
+    assert_int_equal(node_guard()->refused_source, 0);
+}
+
+static void the_address_comes_first(void **state)
+{
+    const uint32_t source = RADAR;
+    (void)state;
+    start(&source, 1, is_authentic);
+    assert_int_equal(count_taken(STRANGER, 1, SIZE_MAX), 0);
+    assert_int_equal(node_guard()->refused_source, 10);
+    assert_int_equal(node_guard()->refused_mac, 0);
+    assert_int_equal(count_taken(RADAR, 1, SIZE_MAX), 10);
+}
+
+static void a_hook_cannot_make_a_datagram_longer(void **state)
+{
+    (void)state;
+    start(NULL, 0, makes_longer);
+    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 0);
+    assert_int_equal(node_guard()->refused_mac, 10);
+}
+
+static void no_more_addresses_than_there_is_room_for(void **state)
+{
+    static const uint32_t sources[RHO_UDPM_MAX_SOURCES + 1];
+    struct node_config config;
+    (void)state;
+    node_config_default(&config);
+    config.send = take_status;
+    config.clock_us = clock_us;
+    config.sources = sources;
+    config.num_sources = RHO_UDPM_MAX_SOURCES + 1;
+    assert_int_equal(node_start(&config), RHO_ERROR_VALUE);
+    config.num_sources = 1;
+    config.sources = NULL;
+    assert_int_equal(node_start(&config), RHO_ERROR_VALUE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(everybody_is_heard_where_nothing_is_said),
+        cmocka_unit_test(a_stranger_is_not_heard_and_counted),
+        cmocka_unit_test(without_the_code_nothing_is_heard),
+        cmocka_unit_test(the_address_comes_first),
+        cmocka_unit_test(a_hook_cannot_make_a_datagram_longer),
+        cmocka_unit_test(no_more_addresses_than_there_is_room_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

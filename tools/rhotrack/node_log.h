@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * node_log: a node's LCM log. A thread writes it, from a queue: no disk stops the tracking, full or
+ * stalled. Where the queue is full, events are left out whole, and counted; where the disk refuses
+ * them the log ends, behind the last whole event. Of a record, which waits, none are left out.
+ */
+#ifndef RHOTRACK_TOOL_NODE_LOG_H
+#define RHOTRACK_TOOL_NODE_LOG_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* All of the functions below take NULL for: there is no log. */
+struct node_log;
+
+/*
+ * A file that cannot be opened: exit 1. One that does not open by now (a FIFO that nobody reads) is
+ * waited for beside the tracking.
+ *   path     NULL: no log
+ *   is_live  what comes in does not wait for what goes out
+ */
+struct node_log *node_log_open(const char *path, bool is_live);
+
+/* channel: 1 to LCM_LOG_MAX_CHANNEL characters. */
+void node_log_put(struct node_log *log, int64_t time_us, const char *channel, const uint8_t *data,
+                  size_t size);
+
+/* Events so far that are not in the log, and will not be. */
+uint64_t node_log_left_out(struct node_log *log);
+
+/* Says once on standard error what is wrong. False: the disk has refused something. */
+bool node_log_watch(struct node_log *log);
+
+/*
+ * What is in the queue goes out, if that is done by until_us of clock_us; what is not counts as
+ * left out.
+ */
+void node_log_end(struct node_log *log, int64_t until_us);
+
+/* A log whose disk does not answer stays as it is, until the program ends. */
+void node_log_close(struct node_log *log);
+
+#endif
