@@ -180,10 +180,10 @@ static void gate_plots(struct step *step, unsigned row)
     int by_hough = opens_hough(step, track, &hough);
     rho_tracker_open_gate(step, track, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
-    const struct plot_range near = rho_tracker_plots_between(
-        step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0]);
-    for (uint32_t place = near.first; place < near.end; place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    struct plots_near near = rho_tracker_plots_near(
+        step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
+        gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         float dx_m = plot->x_m - gate.predicted.state[0],
               dy_m = plot->y_m - gate.predicted.state[1];
@@ -223,15 +223,13 @@ static float log_miss_of(const struct step *step, const struct rho_track *track)
 }
 
 /* By the noise and the own time of the plots that have most of them. */
-static struct plot_range plots_in_reach(const struct step *step, const struct rho_track *track,
+static struct plots_near plots_in_reach(const struct step *step, const struct rho_track *track,
                                         struct rho_hypotheses_reach *reach)
 {
-    float slack_m = 0.0f;
-    if (RHO_PLOT_STRIPS > 1) {
-        slack_m = rho_hypotheses_slack_m(&step->tracker->hypotheses, track->slot, reach,
-                                         step->sigma_max_m, step->offset_max_s);
-    }
-    return rho_tracker_plots_between(step, reach->x_min_m - slack_m, reach->x_max_m + slack_m);
+    const float slack_m = rho_hypotheses_slack_m(&step->tracker->hypotheses, track->slot, reach,
+                                                 step->sigma_max_m, step->offset_max_s);
+    return rho_tracker_plots_near(step, reach->x_min_m - slack_m, reach->x_max_m + slack_m,
+                                  reach->y_min_m - slack_m, reach->y_max_m + slack_m);
 }
 
 /*
@@ -248,9 +246,8 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
     struct rho_imm_plot seen;
     float gain_nat;
     rho_hypotheses_look(&tracker->hypotheses, track->slot, &reach);
-    const struct plot_range near = plots_in_reach(step, track, &reach);
-    for (uint32_t place = near.first; place < near.end; place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    struct plots_near near = plots_in_reach(step, track, &reach);
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (step->report->fates[i] != RHO_FATE_HELD ||
             (claims && claims[i] >= 0 && claims[i] != (int)row) ||

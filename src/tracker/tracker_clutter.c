@@ -74,18 +74,24 @@ struct rate_ratios {
     float exact, other;
 };
 
-/* Density of a range rate that is normal, over that of clutter, which is spread over all rates. */
-static float over_all_rates(const struct step *step, float off_mps, float variance)
+/* Density of a range rate that is normal, over that of clutter, which is spread over so many m/s. */
+static float over_all_rates(float rates_mps, float off_mps, float variance)
 {
-    return rho_exp(rho_tracker_log_range_rates(step)) *
+    return rates_mps *
            (rho_exp(-0.5f * off_mps * off_mps / variance) *
             rho_inverse_sqrt(RHO_TWO_PI * variance));
 }
 
-float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance)
+static float other_ratio(float rates_mps, float off_mps, float variance)
 {
     return 1.0f - RATE_SHARE +
-           RATE_SHARE * over_all_rates(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
+           RATE_SHARE *
+               over_all_rates(rates_mps, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
+}
+
+float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance)
+{
+    return other_ratio(rho_exp(rho_tracker_log_range_rates(step)), off_mps, variance);
 }
 
 static struct rate_ratios rate_ratios(const struct step *step, const struct rho_echo *echo,
@@ -94,8 +100,9 @@ static struct rate_ratios rate_ratios(const struct step *step, const struct rho_
     const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
-    return (struct rate_ratios){over_all_rates(step, off_mps, variance),
-                                rho_tracker_rate_ratio(step, off_mps, variance)};
+    const float rates_mps = rho_exp(rho_tracker_log_range_rates(step));
+    return (struct rate_ratios){over_all_rates(rates_mps, off_mps, variance),
+                                other_ratio(rates_mps, off_mps, variance)};
 }
 
 /* The share of echoes' plots whose rate is just their speed, as learned. */
@@ -161,10 +168,9 @@ static void look_for(struct step *step, unsigned place)
     const float sigma_m = step->sigma_max_m;
     const float half_m =
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
-    const struct plot_range near =
-        rho_tracker_plots_between(step, echo->x_m - half_m, echo->x_m + half_m);
-    for (uint32_t at = near.first; at < near.end; at++) {
-        const uint32_t i = rho_tracker_plot_at(step, at);
+    struct plots_near near = rho_tracker_plots_near(step, echo->x_m - half_m, echo->x_m + half_m,
+                                                    echo->y_m - half_m, echo->y_m + half_m);
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -229,6 +235,13 @@ static struct direction direction_of(const struct step *step, uint32_t row)
     return (struct direction){bin < RHO_STROBE_BINS ? bin : 0, view.range_m};
 }
 
+/* An eighth of the range. */
+static unsigned range_part(float range_m, float range_max_m)
+{
+    const float eighth = STROBE_RANGES * range_m / range_max_m;
+    return eighth < STROBE_RANGES ? (unsigned)eighth : STROBE_RANGES_LAST;
+}
+
 /* Counts the plots by direction. Returns how many there are. */
 static float count_directions(struct step *step, float range_max_m)
 {
@@ -241,10 +254,8 @@ static float count_directions(struct step *step, float range_max_m)
             continue;
         }
         const struct direction at = direction_of(step, i);
-        const float eighth = STROBE_RANGES * at.range_m / range_max_m;
         map->strobe_count[at.bin]++;
-        map->strobe_ranges[at.bin] |=
-            (uint8_t)(1u << (eighth < STROBE_RANGES ? (unsigned)eighth : STROBE_RANGES_LAST));
+        map->strobe_ranges[at.bin] |= (uint8_t)(1u << range_part(at.range_m, range_max_m));
         plots += 1.0f;
     }
     return plots;
@@ -272,6 +283,9 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
         count += map->strobe_count[bins[k]];
         ranges |= map->strobe_ranges[bins[k]];
     }
+    if (!((float)count > STROBE_PLOTS_MIN)) {
+        return 0.0f; /* most directions */
+    }
     const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_STROBE_BINS;
     const float others_rad = sector_width(step) - width_rad;
     const float usual = others_rad > 0.0f ? (plots - (float)count) * width_rad / others_rad : plots;
@@ -281,10 +295,29 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
                : 0.0f;
 }
 
+/* Counts plots, and the parts of the range that have any. */
+static int may_have_strobes(const struct step *step, float range_max_m)
+{
+    float plots = 0.0f;
+    unsigned ranges = 0;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &step->scan->plots[i];
+            const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
+            ranges |= 1u << range_part(view.range_m, range_max_m);
+            plots += 1.0f;
+        }
+    }
+    return plots > STROBE_PLOTS_MIN && rho_count_bits(ranges) >= STROBE_RANGES_MIN;
+}
+
 /* A jammer's strobe lies in one direction, at all ranges: too narrow for the density map. */
 static void look_for_strobes(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
+    if (!may_have_strobes(step, range_max_m)) {
+        return;
+    }
     const float plots = count_directions(step, range_max_m);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] != RHO_FATE_HELD) {

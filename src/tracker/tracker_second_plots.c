@@ -340,10 +340,9 @@ static void look_near(struct step *step, const struct rho_second_plots *table, u
     const struct rho_track *track = &step->tracker->tracks[row];
     const struct rho_plot *first = &step->scan->plots[track->plot];
     const float half_m = REACH_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
-    const struct plot_range near =
-        rho_tracker_plots_between(step, first->x_m - half_m, first->x_m + half_m);
-    for (uint32_t place = near.first; place < near.end; place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    struct plots_near near = rho_tracker_plots_near(step, first->x_m - half_m, first->x_m + half_m,
+                                                    first->y_m - half_m, first->y_m + half_m);
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
