@@ -64,9 +64,9 @@ static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct 
 
 /* At the plot's own time. What is expected of range rates is known at the hypotheses' time alone. */
 static inline int weigh_one(struct rho_hypotheses *pool, uint16_t slot, unsigned i,
-                            const struct offer *offer, struct rho_imm_match *match)
+                            const struct rho_hypothesis *at, const struct offer *offer,
+                            struct rho_imm_match *match)
 {
-    const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
     if (at->time_us == offer->time_us) {
         if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
             open_rates(pool, slot, offer->seen->sensor);
@@ -84,9 +84,10 @@ static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct
     struct rho_imm_match match;
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        if (weigh_one(pool, slot, i, offer, &match)) {
+        struct rho_hypothesis *at = &pool->nodes[nodes[i]];
+        if (weigh_one(pool, slot, i, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
-            const float worth = note_candidate(&pool->nodes[nodes[i]], pd_over_clutter + match.log_likelihood,
+            const float worth = note_candidate(at, pd_over_clutter + match.log_likelihood,
                                match.probability, offer->row);
             best = worth > best ? worth : best;
         }

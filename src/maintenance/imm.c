@@ -286,11 +286,13 @@ static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct 
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
     const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = more->a;
     const struct axis was = *steady;
-    steady->p += by->into_steady * p;
-    steady->v += by->into_steady * v;
-    steady->pp = mixed(s, was.pp, manoeuvre->pp, p * p);
-    steady->vp = mixed(s, was.vp, manoeuvre->vp, v * p);
-    steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
+    if (by->into_steady > 0.0f) {
+        steady->p += by->into_steady * p;
+        steady->v += by->into_steady * v;
+        steady->pp = mixed(s, was.pp, manoeuvre->pp, p * p);
+        steady->vp = mixed(s, was.vp, manoeuvre->vp, v * p);
+        steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
+    }
     manoeuvre->p -= by->into_manoeuvre * p;
     manoeuvre->v -= by->into_manoeuvre * v;
     manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, p * p);

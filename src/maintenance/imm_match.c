@@ -211,47 +211,48 @@ static void view_all(struct view *view, const struct rho_imm_plot *seen,
 }
 
 /*
- * A range rate after the places: what these say of it, by their L and D. Returns the determinant's factor. Which range rate is
- * meant may be unclear: then any is as likely, with the density 1 / span.
+ * A range rate after the places: what these say of it, by their L and D. Returns its squared distance, and in *det what it brings
+ * to the determinant. Which range rate is meant may be unclear: then any is as likely, with the density 1 / span.
  */
-static inline float view_rate(struct view *view, const struct rho_imm_plot *seen,
-                              float expected_off, float explained)
+static inline float view_rate(const struct view *view, const struct rho_imm_plot *seen,
+                              float expected_off, float explained, float *det)
 {
     const float variance = view->rate_variance + rate_noise(seen) - explained;
     float off = seen->plot->range_rate_mps - view->expected_mps;
-    view->counts = view->counts && expects_rate(view) && variance > 0.0f;
+    *det = variance;
 #if RHO_AMBIGUOUS_RANGE_RATES
     if (rho_measurement_has_span(seen->sensor)) {
         const float span_mps = seen->sensor->range_rate_span_mps;
         if (!rho_measurement_is_range_rate_clear(seen->sensor, variance)) {
-            return span_mps * span_mps * (1.0f / RHO_TWO_PI);
+            *det = variance > 0.0f ? span_mps * span_mps * (1.0f / RHO_TWO_PI) : variance;
+            return 0.0f;
         }
         off = expected_off + rho_measurement_range_rate_error_mps(seen->sensor, off, expected_off);
     }
 #endif
     off -= expected_off;
-    view->distance2 += off * off / variance;
-    return variance;
+    return off * off / variance;
 }
 
 /* Places in the plane, and a range rate: S = L D L^T by hand. */
 static inline void view_plane(struct view *view, const struct rho_imm_plot *seen, int has_rate)
 {
     const float *p = view->covariance, *r = seen->covariance, *rate = view->projected;
-    const float s10 = p[1] + r[1], inverse0 = 1.0f / (p[0] + r[0]), l10 = s10 * inverse0;
+    const float s00 = p[0] + r[0], s10 = p[1] + r[1], inverse0 = 1.0f / s00, l10 = s10 * inverse0;
     const float s11 = p[2] + r[2] - l10 * s10, inverse1 = 1.0f / s11;
     const float d0 = seen->position.place_m[0] - view->state[0];
     const float d1 = seen->position.place_m[1] - view->state[1] - l10 * d0;
     const float to0 = d0 * inverse0, to1 = d1 * inverse1;
-    float det = (p[0] + r[0]) * s11;
-    view->distance2 = d0 * to0 + d1 * to1;
-    view->counts = s11 > 0.0f;
+    float distance2 = d0 * to0 + d1 * to1, det = s00 * s11, rate_det = 1.0f;
     if (has_rate) {
         const float rate0 = rate[0], rate1 = rate[1] - l10 * rate0;
-        det *= view_rate(view, seen, rate0 * to0 + rate1 * to1,
-                         rate0 * rate0 * inverse0 + rate1 * rate1 * inverse1);
+        distance2 += view_rate(view, seen, rate0 * to0 + rate1 * to1,
+                               rate0 * rate0 * inverse0 + rate1 * rate1 * inverse1, &rate_det);
+        det *= rate_det;
     }
-    view->counts = view->counts && view->distance2 <= COUNTS_MAX;
+    view->distance2 = distance2;
+    view->counts = distance2 <= COUNTS_MAX && s11 > 0.0f && rate_det > 0.0f &&
+                   (!has_rate || expects_rate(view));
     if (view->counts) {
         view->root = rho_inverse_sqrt(det);
     }
@@ -270,16 +271,17 @@ static void view_space(struct view *view, const struct rho_imm_plot *seen, int h
     const float d1 = seen->position.place_m[1] - view->state[1] - l10 * d0;
     const float d2 = seen->position.place_m[2] - view->state[2] - l20 * d0 - l21 * d1;
     const float to0 = d0 / s00, to1 = d1 / s11, to2 = d2 / s22;
-    float rate_det = 1.0f;
-    view->distance2 = d0 * to0 + d1 * to1 + d2 * to2;
-    view->counts = s11 > 0.0f && s22 > 0.0f;
+    float distance2 = d0 * to0 + d1 * to1 + d2 * to2, rate_det = 1.0f;
     if (has_rate) {
         const float rate0 = rate[0], rate1 = rate[1] - l10 * rate0;
         const float rate2 = rate[2] - l20 * rate0 - l21 * rate1;
-        rate_det = view_rate(view, seen, rate0 * to0 + rate1 * to1 + rate2 * to2,
-                             rate0 * rate0 / s00 + rate1 * rate1 / s11 + rate2 * rate2 / s22);
+        distance2 +=
+            view_rate(view, seen, rate0 * to0 + rate1 * to1 + rate2 * to2,
+                      rate0 * rate0 / s00 + rate1 * rate1 / s11 + rate2 * rate2 / s22, &rate_det);
     }
-    view->counts = view->counts && view->distance2 <= COUNTS_MAX;
+    view->distance2 = distance2;
+    view->counts = distance2 <= COUNTS_MAX && s11 > 0.0f && s22 > 0.0f && rate_det > 0.0f &&
+                   (!has_rate || expects_rate(view));
     if (view->counts) {
         /* apart: the product of four variances may be no number */
         view->root = rho_inverse_sqrt(s00 * s11 * s22) * rho_inverse_sqrt(rate_det);

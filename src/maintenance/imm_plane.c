@@ -44,10 +44,9 @@ int rho_imm_plane_see_rate(const float *state, const float *covariance,
     return 1;
 }
 
-float rho_imm_plane_project(int num_states, const float *covariance, float x, float y,
-                            float spread[RHO_PLANE_MANOEUVRE])
+float rho_imm_plane_project(int num_states, const float *restrict p, float x, float y,
+                            float *restrict spread)
 {
-    const float *p = covariance;
     spread[0] = p[0] * x + p[1] * y;
     spread[1] = p[1] * x + p[2] * y;
     spread[2] = p[VX] * x + p[VX + 1] * y;
@@ -59,32 +58,27 @@ float rho_imm_plane_project(int num_states, const float *covariance, float x, fl
     return spread[0] * x + spread[1] * y;
 }
 
-float rho_imm_plane_project_rate(int num_states, const float *covariance,
-                                 const float row[RHO_PLANE_STEADY],
-                                 float spread[RHO_PLANE_MANOEUVRE])
+float rho_imm_plane_project_rate(int num_states, const float *restrict p,
+                                 const float *restrict row, float *restrict spread)
 {
-    const float *p = covariance;
-    const float vx = row[2], vy = row[3];
-    (void)rho_imm_plane_project(num_states, covariance, row[0], row[1], spread);
-    spread[0] += p[VX] * vx + p[VY] * vy;
-    spread[1] += p[VX + 1] * vx + p[VY + 1] * vy;
-    spread[2] += p[VX + 3] * vx + p[VY + 3] * vy;
-    spread[3] += p[VY + 3] * vx + p[VY + 4] * vy;
+    const float x = row[0], y = row[1], vx = row[2], vy = row[3];
+    spread[0] = p[0] * x + p[1] * y + p[VX] * vx + p[VY] * vy;
+    spread[1] = p[1] * x + p[2] * y + p[VX + 1] * vx + p[VY + 1] * vy;
+    spread[2] = p[VX] * x + p[VX + 1] * y + p[VX + 3] * vx + p[VY + 3] * vy;
+    spread[3] = p[VY] * x + p[VY + 1] * y + p[VY + 3] * vx + p[VY + 4] * vy;
     if (num_states > RHO_PLANE_STEADY) {
-        spread[4] += p[AX + 3] * vx + p[AX + 4] * vy;
-        spread[5] += p[AY + 3] * vx + p[AY + 4] * vy;
+        spread[4] = p[AX] * x + p[AX + 1] * y + p[AX + 3] * vx + p[AX + 4] * vy;
+        spread[5] = p[AY] * x + p[AY + 1] * y + p[AY + 3] * vx + p[AY + 4] * vy;
     }
-    return spread[0] * row[0] + spread[1] * row[1] + spread[2] * vx + spread[3] * vy;
+    return spread[0] * x + spread[1] * y + spread[2] * vx + spread[3] * vy;
 }
 
-/* A variance keeps the floor: at 0 an axis would look closed. */
 static inline float lowered(float variance, float taken)
 {
-    const float left = variance * ROUNDING_ALLOWANCE - taken;
-    return left > RHO_KALMAN_VARIANCE_MIN ? left : RHO_KALMAN_VARIANCE_MIN;
+    return variance * ROUNDING_ALLOWANCE - taken;
 }
 
-static inline void lower_steady(float *p, const float s[4], float inverse)
+static inline void lower_steady(float *restrict p, const float *restrict s, float inverse)
 {
     const float x = s[0] * inverse, y = s[1] * inverse, vx = s[2] * inverse, vy = s[3] * inverse;
     p[0] = lowered(p[0], x * s[0]);
@@ -99,7 +93,7 @@ static inline void lower_steady(float *p, const float s[4], float inverse)
     p[VY + 4] = lowered(p[VY + 4], vy * s[3]);
 }
 
-static inline void lower_manoeuvre(float *p, const float s[6], float inverse)
+static inline void lower_manoeuvre(float *restrict p, const float *restrict s, float inverse)
 {
     const float ax = s[4] * inverse, ay = s[5] * inverse;
     p[AX] -= ax * s[0];
@@ -120,12 +114,12 @@ static int is_finite(float v)
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-enum rho_status rho_imm_plane_update(int num_states, float *state, float *covariance,
-                                     const float spread[RHO_PLANE_MANOEUVRE], float predicted,
-                                     float innovation, float variance)
+enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
+                                     float *restrict covariance, const float *restrict spread,
+                                     float predicted, float innovation, float variance)
 {
     const float sum = predicted + variance, inverse = 1.0f / sum, step = innovation * inverse;
-    if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && inverse <= FLT_MAX)) {
+    if (!(predicted >= 0.0f && sum <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
     state[0] += spread[0] * step;
@@ -138,7 +132,27 @@ enum rho_status rho_imm_plane_update(int num_states, float *state, float *covari
         state[7] += spread[5] * step;
         lower_manoeuvre(covariance, spread, inverse);
     }
-    return is_finite(innovation * step) && is_finite(state[0] + state[1] + state[3] + state[4])
+    /* all are far below FLT_MAX, but for what is no number */
+    return is_finite(innovation * step + state[0] + state[1] + state[3] + state[4])
                ? RHO_OK
                : RHO_ERROR_VALUE;
+}
+
+static inline void keep_floor(float *variance)
+{
+    if (*variance < RHO_KALMAN_VARIANCE_MIN) {
+        *variance = RHO_KALMAN_VARIANCE_MIN;
+    }
+}
+
+void rho_imm_plane_keep_floors(int num_states, float *covariance)
+{
+    keep_floor(&covariance[0]);
+    keep_floor(&covariance[2]);
+    keep_floor(&covariance[VX + 3]);
+    keep_floor(&covariance[VY + 4]);
+    if (num_states > RHO_PLANE_STEADY) {
+        keep_floor(&covariance[AX + 6]);
+        keep_floor(&covariance[AY + 7]);
+    }
 }

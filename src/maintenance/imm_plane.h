@@ -29,19 +29,24 @@ static inline int is_plane(const struct rho_imm *imm)
 int rho_imm_plane_see_rate(const float *state, const float *covariance,
                            const struct rho_sensor *sensor, struct plane_rate *rate);
 
-/* spread := covariance row, for a place along the direction x y, or a range rate; returns row . spread. */
-float rho_imm_plane_project(int num_states, const float *covariance, float x, float y,
-                            float spread[RHO_PLANE_MANOEUVRE]);
-float rho_imm_plane_project_rate(int num_states, const float *covariance,
-                                 const float row[RHO_PLANE_STEADY],
-                                 float spread[RHO_PLANE_MANOEUVRE]);
+/*
+ * The six states' covariances with a place along the direction x y, or with a range rate, by its row; those with accelerations
+ * where num_states has them. Return the variance.
+ */
+float rho_imm_plane_project(int num_states, const float *restrict covariance, float x, float y,
+                            float *restrict spread);
+float rho_imm_plane_project_rate(int num_states, const float *restrict covariance,
+                                 const float *restrict row, float *restrict spread);
 
 /*
- * A scalar update by what a projection has found: the variance `predicted` and what it spreads to. Errors: as
- * rho_linalg_update_along.
+ * A scalar update by what a projection has found: spread, and the variance `predicted`. variance: RHO_KALMAN_VARIANCE_MIN at
+ * least. Errors: SINGULAR, VALUE, as rho_linalg_update_along; then the estimate is of no more use.
  */
-enum rho_status rho_imm_plane_update(int num_states, float *state, float *covariance,
-                                     const float spread[RHO_PLANE_MANOEUVRE], float predicted,
-                                     float innovation, float variance);
+enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
+                                     float *restrict covariance, const float *restrict spread,
+                                     float predicted, float innovation, float variance);
+
+/* After the updates: no variance of an open axis falls below the floor, as it would look closed. */
+void rho_imm_plane_keep_floors(int num_states, float *covariance);
 
 #endif

@@ -299,22 +299,24 @@ static enum rho_status update_plane_along(struct rho_imm *imm, float x, float y,
 static enum rho_status update_plane_rate(int num_states, float *state, float *covariance,
                                          const struct rho_imm_plot *seen)
 {
-    const float rate_mps = seen->plot->range_rate_mps;
-    const float noise =
-        at_least(seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps);
+    const float sigma_mps = seen->plot->sigma_range_rate_mps;
     float spread[RHO_PLANE_MANOEUVRE];
     struct plane_rate rate;
     if (!rho_imm_plane_see_rate(state, covariance, seen->sensor, &rate)) {
         return RHO_OK;
     }
     const float predicted = rho_imm_plane_project_rate(num_states, covariance, rate.row, spread);
-    const float variance = noise + rate.bend;
-    if (!rho_measurement_is_range_rate_clear(seen->sensor, predicted + variance)) {
-        return RHO_OK;
+    const float variance = at_least(sigma_mps * sigma_mps) + rate.bend;
+    float off_mps = seen->plot->range_rate_mps - rate.expected_mps;
+    if (rho_measurement_has_span(seen->sensor)) {
+        if (!rho_measurement_is_range_rate_clear(seen->sensor, predicted + variance)) {
+            return RHO_OK;
+        }
+        off_mps = rho_measurement_range_rate_error_mps(
+            seen->sensor, seen->plot->range_rate_mps, rate.expected_mps);
     }
-    return rho_imm_plane_update(
-        num_states, state, covariance, spread, predicted,
-        rho_measurement_range_rate_error_mps(seen->sensor, rate_mps, rate.expected_mps), variance);
+    return rho_imm_plane_update(num_states, state, covariance, spread, predicted, off_mps,
+                                variance);
 }
 
 /* A plot with a height counts as level, with the noise that it has there. */
@@ -334,6 +336,8 @@ static enum rho_status update_plane(struct rho_imm *imm, const struct rho_imm_pl
             status = update_plane_rate(RHO_PLANE_MANOEUVRE, imm->state, imm->covariance, seen);
         }
     }
+    rho_imm_plane_keep_floors(RHO_PLANE_STEADY, imm->steady.covariance);
+    rho_imm_plane_keep_floors(RHO_PLANE_MANOEUVRE, imm->covariance);
     return status;
 }
 

@@ -182,6 +182,9 @@ static void look_for(struct step *step, unsigned place)
             chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen);
         }
         const float density = chance * density_at(step, echo, &view, plot);
+        if (!(density > 0.0f)) {
+            continue;
+        }
         map->denser[i] += density;
         if (density > map->best_per_m2[i]) {
             map->best_per_m2[i] = density;

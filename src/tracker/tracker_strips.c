@@ -101,21 +101,17 @@ struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m,
 
 int rho_tracker_next_box(const struct step *step, struct plots_near *near)
 {
-    const struct plot_box *within = &near->within;
-    while (near->box < RHO_PLOT_BOXES) {
-        const struct plot_box *box = &step->boxes[near->box];
-        const uint32_t first = near->box++ * step->plots_of_box;
-        if (first >= step->num_gated) {
-            return 0;
+    const struct plot_box within = near->within;
+    for (unsigned k = near->box; k < RHO_PLOT_BOXES; k++) {
+        const struct plot_box *box = &step->boxes[k];
+        if (!(box->x_min_m > within.x_max_m || box->x_max_m < within.x_min_m ||
+              box->y_min_m > within.y_max_m || box->y_max_m < within.y_min_m)) {
+            const uint32_t end = (k + 1u) * step->plots_of_box;
+            near->box = k + 1u;
+            near->next = k * step->plots_of_box;
+            near->end = end < step->num_gated ? end : step->num_gated;
+            return near->next < near->end;
         }
-        if (box->x_min_m > within->x_max_m || box->x_max_m < within->x_min_m ||
-            box->y_min_m > within->y_max_m || box->y_max_m < within->y_min_m) {
-            continue;
-        }
-        near->next = first;
-        near->end = first + step->plots_of_box;
-        near->end = near->end < step->num_gated ? near->end : step->num_gated;
-        return 1;
     }
     return 0;
 }
