@@ -296,13 +296,15 @@ static inline void find_way(struct sums *sums, const struct rho_imm *imm, float 
     sums->way[i] += steady->scaled[i] + manoeuvre->scaled[i];
 }
 
-static inline void add_square(float *out, const struct way *s, const struct way *m, int i, int j)
+static inline void add_square(float *restrict out, const struct way *restrict s,
+                              const struct way *restrict m, int i, int j)
 {
     out[RHO_AT(i, j)] += s->scaled[i] * s->way[j] + m->scaled[i] * m->way[j];
 }
 
 /* The squares of both ways, in the plane. Written out, as what follows: a loop would take three times as long. */
-static inline void add_plane_squares(float *out, const struct way *s, const struct way *m)
+static inline void add_plane_squares(float *restrict out, const struct way *restrict s,
+                                     const struct way *restrict m)
 {
     add_square(out, s, m, 0, 0);
     add_square(out, s, m, 1, 0);
@@ -316,7 +318,8 @@ static inline void add_plane_squares(float *out, const struct way *s, const stru
     add_square(out, s, m, 4, 4);
 }
 
-static inline void add_height_squares(float *out, const struct way *s, const struct way *m)
+static inline void add_height_squares(float *restrict out, const struct way *restrict s,
+                                      const struct way *restrict m)
 {
     add_square(out, s, m, 2, 0);
     add_square(out, s, m, 2, 1);
@@ -331,14 +334,15 @@ static inline void add_height_squares(float *out, const struct way *s, const str
     add_square(out, s, m, 5, 5);
 }
 
-static inline void add_covariance(float *out, const struct rho_imm *imm, int place, float s,
-                                  float m)
+static inline void add_covariance(float *restrict out, const struct rho_imm *restrict imm,
+                                  int place, float s, float m)
 {
     out[place] += s * imm->steady.covariance[place] + m * imm->covariance[place];
 }
 
 /* What couples the axes of the plane, beside add_axes. */
-static void add_plane_covariances(float *out, const struct rho_imm *imm, float s, float m)
+static void add_plane_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
+                                  float m)
 {
     add_covariance(out, imm, RHO_AT(1, 0), s, m);
     add_covariance(out, imm, RHO_AT(3, 1), s, m);
@@ -347,7 +351,8 @@ static void add_plane_covariances(float *out, const struct rho_imm *imm, float s
 }
 
 /* What couples them with the height. */
-static void add_height_covariances(float *out, const struct rho_imm *imm, float s, float m)
+static void add_height_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
+                                   float m)
 {
     add_covariance(out, imm, RHO_AT(2, 0), s, m);
     add_covariance(out, imm, RHO_AT(2, 1), s, m);
@@ -359,7 +364,8 @@ static void add_height_covariances(float *out, const struct rho_imm *imm, float 
     add_covariance(out, imm, RHO_AT(5, 4), s, m);
 }
 
-static void add_axes(float *out, const struct rho_imm *imm, int has_height, float s, float m)
+static void add_axes(float *restrict out, const struct rho_imm *restrict imm, int has_height,
+                     float s, float m)
 {
     add_covariance(out, imm, RHO_AT(0, 0), s, m);
     add_covariance(out, imm, RHO_AT(1, 1), s, m);

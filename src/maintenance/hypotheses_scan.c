@@ -88,7 +88,7 @@ static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct
         if (weigh_one(pool, slot, i, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
             const float worth = note_candidate(at, pd_over_clutter + match.log_likelihood,
-                               match.probability, offer->row);
+                                               match.probability, offer->row);
             best = worth > best ? worth : best;
         }
     }

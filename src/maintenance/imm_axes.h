@@ -89,21 +89,16 @@ struct way {
 
 /* Where they begin in the triangle's rows, of axes 1 and 0, 2 and 0, 2 and 1: pp; pv; pa va; vp vv; ap av aa. */
 static const uint8_t pair_rows[NUM_AXES][5] = {
-    {PLACE(1, 0, 0, 0), PLACE(1, 0, 0, 1), PLACE(1, 0, 0, 2), PLACE(1, 1, 0, 0),
-     PLACE(1, 2, 0, 0)},
-    {PLACE(2, 0, 0, 0), PLACE(2, 0, 0, 1), PLACE(2, 0, 0, 2), PLACE(2, 1, 0, 0),
-     PLACE(2, 2, 0, 0)},
-    {PLACE(2, 0, 1, 0), PLACE(2, 0, 1, 1), PLACE(2, 0, 1, 2), PLACE(2, 1, 1, 0),
-     PLACE(2, 2, 1, 0)},
+    {PLACE(1, 0, 0, 0), PLACE(1, 0, 0, 1), PLACE(1, 0, 0, 2), PLACE(1, 1, 0, 0), PLACE(1, 2, 0, 0)},
+    {PLACE(2, 0, 0, 0), PLACE(2, 0, 0, 1), PLACE(2, 0, 0, 2), PLACE(2, 1, 0, 0), PLACE(2, 2, 0, 0)},
+    {PLACE(2, 0, 1, 0), PLACE(2, 0, 1, 1), PLACE(2, 0, 1, 2), PLACE(2, 1, 1, 0), PLACE(2, 2, 1, 0)},
 };
 
 static inline struct pair take_steady_pair(const float *covariance, const uint8_t rows[5])
 {
     const float *by_v = &covariance[rows[3]];
-    return (struct pair){.pp = covariance[rows[0]],
-                         .pv = covariance[rows[1]],
-                         .vp = by_v[0],
-                         .vv = by_v[NUM_AXES]};
+    return (struct pair){
+        .pp = covariance[rows[0]], .pv = covariance[rows[1]], .vp = by_v[0], .vv = by_v[NUM_AXES]};
 }
 
 static inline void put_steady_pair(float *covariance, const uint8_t rows[5], const struct pair *in)

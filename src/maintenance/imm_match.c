@@ -295,7 +295,7 @@ static void view_space(struct view *view, const struct rho_imm_plot *seen, int h
  * number.
  */
 static inline void combine(const float factor[2], const float distance2[2], int num_dimensions,
-                    struct rho_imm_match *match)
+                           struct rho_imm_match *match)
 {
     float s = factor[0], m = factor[1];
     if (distance2[0] <= distance2[1]) {
@@ -359,7 +359,7 @@ static inline int is_in_gate(const struct view views[2])
 
 /* One that does not count is farther than all, and weighs nothing. */
 static inline int weigh_models(const struct view views[2], float probability, int num_dimensions,
-                        struct rho_imm_match *match)
+                               struct rho_imm_match *match)
 {
     const float factor[2] = {views[0].counts ? believable(1.0f - probability) * views[0].root
                                              : 0.0f,
@@ -374,7 +374,7 @@ static inline int weigh_models(const struct view views[2], float probability, in
 }
 
 static void open_rate(const struct rho_kalman *at, const struct rho_sensor *sensor,
-                     float *expected_mps, float *variance, float projected[RHO_KALMAN_STATES])
+                      float *expected_mps, float *variance, float projected[RHO_KALMAN_STATES])
 {
     struct rho_kalman_row rate;
     if (!rho_kalman_see_range_rate(at, sensor, 0.0f, FLT_MIN, &rate)) {
@@ -385,8 +385,8 @@ static void open_rate(const struct rho_kalman *at, const struct rho_sensor *sens
 }
 
 static void open_plane_rate(const float *state, const float *covariance,
-                           const struct rho_sensor *sensor, float *expected_mps, float *variance,
-                           float projected[RHO_KALMAN_STATES])
+                            const struct rho_sensor *sensor, float *expected_mps, float *variance,
+                            float projected[RHO_KALMAN_STATES])
 {
     struct plane_rate rate;
     float spread[RHO_PLANE_MANOEUVRE];
@@ -415,8 +415,8 @@ void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
         *expected_mps = 0.0f;
         *variance = -1.0f;
         if (is_in_plane) {
-            open_plane_rate(states[model], covariances[model], sensor, expected_mps,
-                                  variance, rates->projected[model]);
+            open_plane_rate(states[model], covariances[model], sensor, expected_mps, variance,
+                            rates->projected[model]);
         } else {
             struct rho_kalman at;
             take_leading(&at, states[model], covariances[model]);

@@ -33,8 +33,7 @@ int rho_imm_plane_see_rate(const float *state, const float *covariance,
     }
     const float per_m = 1.0f / range_m, along_x = dx_m * per_m, along_y = dy_m * per_m;
     const float rate_mps = along_x * vx_mps + along_y * vy_mps;
-    const float share =
-        (covariance[RHO_AT(0, 0)] + covariance[RHO_AT(1, 1)]) * per_m * per_m;
+    const float share = (covariance[RHO_AT(0, 0)] + covariance[RHO_AT(1, 1)]) * per_m * per_m;
     *rate = (struct plane_rate){
         .row = {(vx_mps - rate_mps * along_x) * per_m, (vy_mps - rate_mps * along_y) * per_m,
                 along_x, along_y},
@@ -58,8 +57,8 @@ float rho_imm_plane_project(int num_states, const float *restrict p, float x, fl
     return spread[0] * x + spread[1] * y;
 }
 
-float rho_imm_plane_project_rate(int num_states, const float *restrict p,
-                                 const float *restrict row, float *restrict spread)
+float rho_imm_plane_project_rate(int num_states, const float *restrict p, const float *restrict row,
+                                 float *restrict spread)
 {
     const float x = row[0], y = row[1], vx = row[2], vy = row[3];
     spread[0] = p[0] * x + p[1] * y + p[VX] * vx + p[VY] * vy;

@@ -282,11 +282,10 @@ static enum rho_status update_plane_along(struct rho_imm *imm, float x, float y,
 {
     const float noise = at_least(variance);
     float *steady = imm->steady.state, *state = imm->state, spread[RHO_PLANE_MANOEUVRE];
-    float predicted =
-        rho_imm_plane_project(RHO_PLANE_STEADY, imm->steady.covariance, x, y, spread);
-    enum rho_status status = rho_imm_plane_update(
-        RHO_PLANE_STEADY, steady, imm->steady.covariance, spread, predicted,
-        x * (place_m[0] - steady[0]) + y * (place_m[1] - steady[1]), noise);
+    float predicted = rho_imm_plane_project(RHO_PLANE_STEADY, imm->steady.covariance, x, y, spread);
+    enum rho_status status =
+        rho_imm_plane_update(RHO_PLANE_STEADY, steady, imm->steady.covariance, spread, predicted,
+                             x * (place_m[0] - steady[0]) + y * (place_m[1] - steady[1]), noise);
     if (status != RHO_OK) {
         return status;
     }
@@ -312,8 +311,8 @@ static enum rho_status update_plane_rate(int num_states, float *state, float *co
         if (!rho_measurement_is_range_rate_clear(seen->sensor, predicted + variance)) {
             return RHO_OK;
         }
-        off_mps = rho_measurement_range_rate_error_mps(
-            seen->sensor, seen->plot->range_rate_mps, rate.expected_mps);
+        off_mps = rho_measurement_range_rate_error_mps(seen->sensor, seen->plot->range_rate_mps,
+                                                       rate.expected_mps);
     }
     return rho_imm_plane_update(num_states, state, covariance, spread, predicted, off_mps,
                                 variance);
@@ -324,14 +323,13 @@ static enum rho_status update_plane(struct rho_imm *imm, const struct rho_imm_pl
 {
     const struct rho_measurement *at = &seen->position;
     const float ca = at->cos_azimuth, sa = at->sin_azimuth;
-    enum rho_status status =
-        update_plane_along(imm, -sa, ca, at->place_m, at->variance_m2[1]);
+    enum rho_status status = update_plane_along(imm, -sa, ca, at->place_m, at->variance_m2[1]);
     if (status == RHO_OK) {
         status = update_plane_along(imm, ca, sa, at->place_m, level_variance(at));
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
-        status = update_plane_rate(RHO_PLANE_STEADY, imm->steady.state, imm->steady.covariance,
-                                   seen);
+        status =
+            update_plane_rate(RHO_PLANE_STEADY, imm->steady.state, imm->steady.covariance, seen);
         if (status == RHO_OK) {
             status = update_plane_rate(RHO_PLANE_MANOEUVRE, imm->state, imm->covariance, seen);
         }

@@ -77,9 +77,8 @@ struct rate_ratios {
 /* Density of a range rate that is normal, over that of clutter, which is spread over so many m/s. */
 static float over_all_rates(float rates_mps, float off_mps, float variance)
 {
-    return rates_mps *
-           (rho_exp(-0.5f * off_mps * off_mps / variance) *
-            rho_inverse_sqrt(RHO_TWO_PI * variance));
+    return rates_mps * (rho_exp(-0.5f * off_mps * off_mps / variance) *
+                        rho_inverse_sqrt(RHO_TWO_PI * variance));
 }
 
 static float other_ratio(float rates_mps, float off_mps, float variance)
