@@ -302,7 +302,10 @@ static inline void add_square(float *restrict out, const struct way *restrict s,
     out[RHO_AT(i, j)] += s->scaled[i] * s->way[j] + m->scaled[i] * m->way[j];
 }
 
-/* The squares of both ways, in the plane. Written out, as what follows: a loop would take three times as long. */
+/*
+ * The squares of both ways, in the plane. Written out, as what follows: a loop would take three
+ * times as long.
+ */
 static inline void add_plane_squares(float *restrict out, const struct way *restrict s,
                                      const struct way *restrict m)
 {

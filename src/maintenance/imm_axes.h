@@ -75,7 +75,10 @@ static inline void put_accel(struct rho_imm *imm, int axis, const struct accel *
     by_a[2 * NUM_AXES] = in->aa;
 }
 
-/* The covariances of two axes: of the later one's derivative with the earlier one's. The steady model has those without a. */
+/*
+ * The covariances of two axes: of the later one's derivative with the earlier one's. The steady
+ * model has those without a.
+ */
 struct pair {
     float pp, pv, pa;
     float vp, vv, va;
@@ -87,7 +90,10 @@ struct way {
     float p, v, a;
 };
 
-/* Where they begin in the triangle's rows, of axes 1 and 0, 2 and 0, 2 and 1: pp; pv; pa va; vp vv; ap av aa. */
+/*
+ * Where they begin in the triangle's rows, of axes 1 and 0, 2 and 0, 2 and 1: pp; pv; pa va; vp vv;
+ * ap av aa.
+ */
 static const uint8_t pair_rows[NUM_AXES][5] = {
     {PLACE(1, 0, 0, 0), PLACE(1, 0, 0, 1), PLACE(1, 0, 0, 2), PLACE(1, 1, 0, 0), PLACE(1, 2, 0, 0)},
     {PLACE(2, 0, 0, 0), PLACE(2, 0, 0, 1), PLACE(2, 0, 0, 2), PLACE(2, 1, 0, 0), PLACE(2, 2, 0, 0)},

@@ -211,8 +211,9 @@ static void view_all(struct view *view, const struct rho_imm_plot *seen,
 }
 
 /*
- * A range rate after the places: what these say of it, by their L and D. Returns its squared distance, and in *det what it brings
- * to the determinant. Which range rate is meant may be unclear: then any is as likely, with the density 1 / span.
+ * A range rate after the places: what these say of it, by their L and D. Returns its squared
+ * distance, and in *det its factor of the determinant. Which range rate is meant may be unclear:
+ * then any is as likely, with the density 1 / span.
  */
 static inline float view_rate(const struct view *view, const struct rho_imm_plot *seen,
                               float expected_off, float explained, float *det)
@@ -373,25 +374,29 @@ static inline int weigh_models(const struct view views[2], float probability, in
     return is_likelihood(match->log_likelihood);
 }
 
-static void open_rate(const struct rho_kalman *at, const struct rho_sensor *sensor,
-                      float *expected_mps, float *variance, float projected[RHO_KALMAN_STATES])
+/* What one model expects; 0: it is in the sensor's own place. */
+static int open_rate(const float *state, const float *covariance, const struct rho_sensor *sensor,
+                     float *expected_mps, float *variance, float projected[RHO_KALMAN_STATES])
 {
     struct rho_kalman_row rate;
-    if (!rho_kalman_see_range_rate(at, sensor, 0.0f, FLT_MIN, &rate)) {
-        return;
+    struct rho_kalman at;
+    take_leading(&at, state, covariance);
+    if (!rho_kalman_see_range_rate(&at, sensor, 0.0f, FLT_MIN, &rate)) {
+        return 0;
     }
     *expected_mps = -rate.innovation;
-    *variance = rate.variance + rho_linalg_project6(at->covariance, rate.row, projected);
+    *variance = rate.variance + rho_linalg_project6(at.covariance, rate.row, projected);
+    return 1;
 }
 
-static void open_plane_rate(const float *state, const float *covariance,
-                            const struct rho_sensor *sensor, float *expected_mps, float *variance,
-                            float projected[RHO_KALMAN_STATES])
+static int open_plane_rate(const float *state, const float *covariance,
+                           const struct rho_sensor *sensor, float *expected_mps, float *variance,
+                           float projected[RHO_KALMAN_STATES])
 {
     struct plane_rate rate;
     float spread[RHO_PLANE_MANOEUVRE];
     if (!rho_imm_plane_see_rate(state, covariance, sensor, &rate)) {
-        return;
+        return 0;
     }
     *expected_mps = rate.expected_mps;
     *variance =
@@ -402,25 +407,25 @@ static void open_plane_rate(const float *state, const float *covariance,
     projected[3] = spread[2];
     projected[4] = spread[3];
     projected[5] = 0.0f;
+    return 1;
 }
 
 void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                         const struct rho_sensor *sensor)
 {
-    const int is_in_plane = is_plane(imm);
     const float *states[2] = {imm->steady.state, imm->state};
     const float *covariances[2] = {imm->steady.covariance, imm->covariance};
-    for (int model = 0; model < 2; model++) {
-        float *expected_mps = &rates->expected_mps[model], *variance = &rates->variance[model];
-        *expected_mps = 0.0f;
-        *variance = -1.0f;
-        if (is_in_plane) {
-            open_plane_rate(states[model], covariances[model], sensor, expected_mps, variance,
-                            rates->projected[model]);
-        } else {
-            struct rho_kalman at;
-            take_leading(&at, states[model], covariances[model]);
-            open_rate(&at, sensor, expected_mps, variance, rates->projected[model]);
+    const int has_height = is_open(imm, 2);
+    for (int i = 0; i < 2; i++) {
+        float *expected_mps = &rates->expected_mps[i], *variance = &rates->variance[i];
+        float *projected = rates->projected[i];
+        if (!(has_height
+                  ? open_rate(states[i], covariances[i], sensor, expected_mps, variance, projected)
+                  : open_plane_rate(states[i], covariances[i], sensor, expected_mps, variance,
+                                    projected))) {
+            *expected_mps = 0.0f;
+            *variance = -1.0f;
+            memset(projected, 0, sizeof rates->projected[i]);
         }
     }
 }
@@ -435,7 +440,7 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
     return rho_imm_weigh_with(imm, &rates, seen, match);
 }
 
-/* Places in the plane, of axes or plots that are coupled, or with range rates: most radars' plots. */
+/* Places in the plane, of coupled axes or plots, or with range rates: most radars' plots. */
 static int is_of_plane(const struct rho_imm *imm, const struct rho_imm_plot *seen,
                        const struct rho_imm_match *match)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * imm_plane: projections and updates of coupled estimates without a height, in a third of the instructions that all axes take.
- * Written out, as loops would take twice the time.
+ * imm_plane: range rates, projections and updates of estimates without a height, in a third of the
+ * instructions that three axes take. Written out: loops would take twice the time.
  */
 #include "imm_plane.h"
 
@@ -15,7 +15,7 @@
 /* As in measurement.c. */
 #define RANGE_LEAST_M 1.0f
 
-/* Rows of the triangle: of both velocities, of both accelerations. Columns are the states before. */
+/* Where rows of the triangle begin: of both velocities, of both accelerations. */
 #define VX RHO_TRIANGLE(3)
 #define VY RHO_TRIANGLE(4)
 #define AX RHO_TRIANGLE(6)

@@ -275,7 +275,7 @@ static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
     return status;
 }
 
-/* ---- without a height -------------------------------------------------------------------------- */
+/* ---- without a height ------------------------------------------------------------------------ */
 
 static enum rho_status update_plane_along(struct rho_imm *imm, float x, float y,
                                           const float place_m[3], float variance)

@@ -74,7 +74,7 @@ struct rate_ratios {
     float exact, other;
 };
 
-/* Density of a range rate that is normal, over that of clutter, which is spread over so many m/s. */
+/* Density of a normal range rate, over that of clutter, which is spread over so many m/s. */
 static float over_all_rates(float rates_mps, float off_mps, float variance)
 {
     return rates_mps * (rho_exp(-0.5f * off_mps * off_mps / variance) *

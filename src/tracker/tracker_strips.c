@@ -2,9 +2,10 @@
 /*
  * tracker_strips: the scan's plots by strips of x, so that a track looks at those near it alone.
  *
- * A track's box is as wide as its uncertainty, a strip as the scan over RHO_PLOT_STRIPS. Within a strip plots keep their
- * order. With one strip nothing is sorted: plots that follow each other share a box, one of RHO_PLOT_BOXES, and boxes that are
- * elsewhere are passed over. Radars send plots as the antenna turns, so that their boxes are small.
+ * A track's box is as wide as its uncertainty, a strip as the scan over RHO_PLOT_STRIPS. Within a
+ * strip plots keep their order. With one strip nothing is sorted: plots that follow each other
+ * share a box, one of RHO_PLOT_BOXES, and boxes that are elsewhere are passed over. Radars send
+ * plots as the antenna turns, so that their boxes are small.
  */
 #include <string.h>
 
