@@ -122,12 +122,12 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
 /*
  * Mixes the models and moves both on. Errors: VALUE (a result not finite, or beyond RHO_KALMAN_VARIANCE_MAX): then the
  * object is of no more use. Cost: about 800 instructions, coupled with a height 1 400.
- * Stack: 320 bytes.
+ * Stack: 330 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_predict(struct rho_imm *imm,
                                                const struct rho_imm_step *step);
 
-/* The same without mixing: to a plot's own time, or back from it. Stack: 320 bytes. */
+/* The same without mixing: to a plot's own time, or back from it. Stack: 330 bytes. */
 RHO_MUST_CHECK enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step);
 
 /* Opens a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: the origin). Both stay the caller's. */
