@@ -121,12 +121,13 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
 
 /*
  * Mixes the models and moves both on. Errors: VALUE (a result not finite, or beyond RHO_KALMAN_VARIANCE_MAX): then the
- * object is of no more use. Cost: about 800 instructions, coupled 1 600. Stack: 320 bytes.
+ * object is of no more use. Cost: about 800 instructions, coupled with a height 1 400.
+ * Stack: 330 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_predict(struct rho_imm *imm,
                                                const struct rho_imm_step *step);
 
-/* The same without mixing: to a plot's own time, or back from it. Stack: 320 bytes. */
+/* The same without mixing: to a plot's own time, or back from it. Stack: 330 bytes. */
 RHO_MUST_CHECK enum rho_status rho_imm_move(struct rho_imm *imm, const struct rho_imm_step *step);
 
 /* Opens a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: the origin). Both stay the caller's. */
@@ -149,7 +150,7 @@ struct rho_imm_rates {
     float projected[2][RHO_KALMAN_STATES]; /* covariances with the state */
 };
 
-/* Fills *rates. Cost: 1 400 instructions. Stack: 320 bytes. */
+/* Fills *rates. Cost: 1 400 instructions, without a height 400. Stack: 320 bytes. */
 void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                         const struct rho_sensor *sensor);
 
@@ -182,7 +183,7 @@ int rho_imm_weigh_in(const struct rho_imm_gate *gate, const float place_m[3], fl
 /*
  * Updates both models with a plot that was weighed, and takes the match's probability. A first z opens the third axis.
  * Errors: as rho_kalman_update; then the object is of no more use: work on a copy.
- * Cost: about 400 instructions, coupled 4 500. Stack: 600 bytes.
+ * Cost: about 400 instructions, coupled 4 500, without a height 1 600. Stack: 600 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_imm_update(struct rho_imm *imm,
                                               const struct rho_imm_model *model,

@@ -204,7 +204,7 @@ RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
 
 /*
  * At the end of a step: `kalman`, acceleration and manoeuvre as all hypotheses have them, at time_us. With input estimation,
- * what the step's bearings tell together of inputs is decided. Else nothing. Stack: 800 bytes.
+ * what the step's bearings tell together of inputs is decided. Else nothing. Stack: 890 bytes.
  */
 void rho_track_settle(struct rho_track *track, int64_t time_us,
                       const struct rho_track_model *model);
@@ -236,7 +236,7 @@ RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track,
  * step count as one hit: the first, while plot is -1. gain_mnat is added to the score. Inputs are decided on by
  * rho_track_settle.
  * Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its hypotheses.
- * Cost: two predictions and an update. Stack: 1.1 KB.
+ * Cost: two predictions and an update. Stack: 1.2 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
                                                         const struct rho_track_bearing *bearing,

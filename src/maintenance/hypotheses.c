@@ -274,6 +274,7 @@ float rho_hypotheses_sum(const struct rho_hypotheses *pool, uint16_t slot)
  */
 struct sums {
     float about[RHO_KALMAN_STATES];
+    int has_height; /* of any of them; else what belongs to z is 0 */
     float share, maneuver;
     float way[RHO_KALMAN_STATES]; /* from there */
     float accel_mps2[3];
@@ -285,76 +286,125 @@ struct way {
     float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
 };
 
-static inline void find_ways(struct sums *sums, const struct rho_imm *imm, float s, float m,
-                             struct way *steady, struct way *manoeuvre)
+static inline void find_way(struct sums *sums, const struct rho_imm *imm, float s, float m,
+                            struct way *steady, struct way *manoeuvre, int i)
 {
-    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        steady->way[i] = imm->steady.state[i] - sums->about[i];
-        manoeuvre->way[i] = imm->state[i] - sums->about[i];
-        steady->scaled[i] = s * steady->way[i];
-        manoeuvre->scaled[i] = m * manoeuvre->way[i];
-        sums->way[i] += steady->scaled[i] + manoeuvre->scaled[i];
-    }
+    steady->way[i] = imm->steady.state[i] - sums->about[i];
+    manoeuvre->way[i] = imm->state[i] - sums->about[i];
+    steady->scaled[i] = s * steady->way[i];
+    manoeuvre->scaled[i] = m * manoeuvre->way[i];
+    sums->way[i] += steady->scaled[i] + manoeuvre->scaled[i];
 }
 
-/* The squares of both ways. Written out, as what follows: a loop would take three times as long. */
-static inline void add_squares(float *out, const struct way *s, const struct way *m)
+static inline void add_square(float *restrict out, const struct way *restrict s,
+                              const struct way *restrict m, int i, int j)
 {
-    out[0] += s->scaled[0] * s->way[0] + m->scaled[0] * m->way[0];
-    out[1] += s->scaled[1] * s->way[0] + m->scaled[1] * m->way[0];
-    out[2] += s->scaled[1] * s->way[1] + m->scaled[1] * m->way[1];
-    out[3] += s->scaled[2] * s->way[0] + m->scaled[2] * m->way[0];
-    out[4] += s->scaled[2] * s->way[1] + m->scaled[2] * m->way[1];
-    out[5] += s->scaled[2] * s->way[2] + m->scaled[2] * m->way[2];
-    out[6] += s->scaled[3] * s->way[0] + m->scaled[3] * m->way[0];
-    out[7] += s->scaled[3] * s->way[1] + m->scaled[3] * m->way[1];
-    out[8] += s->scaled[3] * s->way[2] + m->scaled[3] * m->way[2];
-    out[9] += s->scaled[3] * s->way[3] + m->scaled[3] * m->way[3];
-    out[10] += s->scaled[4] * s->way[0] + m->scaled[4] * m->way[0];
-    out[11] += s->scaled[4] * s->way[1] + m->scaled[4] * m->way[1];
-    out[12] += s->scaled[4] * s->way[2] + m->scaled[4] * m->way[2];
-    out[13] += s->scaled[4] * s->way[3] + m->scaled[4] * m->way[3];
-    out[14] += s->scaled[4] * s->way[4] + m->scaled[4] * m->way[4];
-    out[15] += s->scaled[5] * s->way[0] + m->scaled[5] * m->way[0];
-    out[16] += s->scaled[5] * s->way[1] + m->scaled[5] * m->way[1];
-    out[17] += s->scaled[5] * s->way[2] + m->scaled[5] * m->way[2];
-    out[18] += s->scaled[5] * s->way[3] + m->scaled[5] * m->way[3];
-    out[19] += s->scaled[5] * s->way[4] + m->scaled[5] * m->way[4];
-    out[20] += s->scaled[5] * s->way[5] + m->scaled[5] * m->way[5];
+    out[RHO_AT(i, j)] += s->scaled[i] * s->way[j] + m->scaled[i] * m->way[j];
 }
 
-static inline void add_covariance(float *out, const struct rho_imm *imm, int place, float s,
-                                  float m)
+/*
+ * The squares of both ways, in the plane. Written out, as what follows: a loop would take three
+ * times as long.
+ */
+static inline void add_plane_squares(float *restrict out, const struct way *restrict s,
+                                     const struct way *restrict m)
+{
+    add_square(out, s, m, 0, 0);
+    add_square(out, s, m, 1, 0);
+    add_square(out, s, m, 1, 1);
+    add_square(out, s, m, 3, 0);
+    add_square(out, s, m, 3, 1);
+    add_square(out, s, m, 3, 3);
+    add_square(out, s, m, 4, 0);
+    add_square(out, s, m, 4, 1);
+    add_square(out, s, m, 4, 3);
+    add_square(out, s, m, 4, 4);
+}
+
+static inline void add_height_squares(float *restrict out, const struct way *restrict s,
+                                      const struct way *restrict m)
+{
+    add_square(out, s, m, 2, 0);
+    add_square(out, s, m, 2, 1);
+    add_square(out, s, m, 2, 2);
+    add_square(out, s, m, 3, 2);
+    add_square(out, s, m, 4, 2);
+    add_square(out, s, m, 5, 0);
+    add_square(out, s, m, 5, 1);
+    add_square(out, s, m, 5, 2);
+    add_square(out, s, m, 5, 3);
+    add_square(out, s, m, 5, 4);
+    add_square(out, s, m, 5, 5);
+}
+
+static inline void add_covariance(float *restrict out, const struct rho_imm *restrict imm,
+                                  int place, float s, float m)
 {
     out[place] += s * imm->steady.covariance[place] + m * imm->covariance[place];
 }
 
-static void add_covariances(float *out, const struct rho_imm *imm, float s, float m)
+/* What couples the axes of the plane, beside add_axes. */
+static void add_plane_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
+                                  float m)
 {
-    if (imm->is_coupled) {
-        for (int place = 0; place < RHO_TRIANGLE(RHO_KALMAN_STATES); place++) {
-            add_covariance(out, imm, place, s, m);
-        }
-        return;
-    }
+    add_covariance(out, imm, RHO_AT(1, 0), s, m);
+    add_covariance(out, imm, RHO_AT(3, 1), s, m);
+    add_covariance(out, imm, RHO_AT(4, 0), s, m);
+    add_covariance(out, imm, RHO_AT(4, 3), s, m);
+}
+
+/* What couples them with the height. */
+static void add_height_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
+                                   float m)
+{
+    add_covariance(out, imm, RHO_AT(2, 0), s, m);
+    add_covariance(out, imm, RHO_AT(2, 1), s, m);
+    add_covariance(out, imm, RHO_AT(3, 2), s, m);
+    add_covariance(out, imm, RHO_AT(4, 2), s, m);
+    add_covariance(out, imm, RHO_AT(5, 0), s, m);
+    add_covariance(out, imm, RHO_AT(5, 1), s, m);
+    add_covariance(out, imm, RHO_AT(5, 3), s, m);
+    add_covariance(out, imm, RHO_AT(5, 4), s, m);
+}
+
+static void add_axes(float *restrict out, const struct rho_imm *restrict imm, int has_height,
+                     float s, float m)
+{
     add_covariance(out, imm, RHO_AT(0, 0), s, m);
     add_covariance(out, imm, RHO_AT(1, 1), s, m);
-    add_covariance(out, imm, RHO_AT(2, 2), s, m);
     add_covariance(out, imm, RHO_AT(3, 0), s, m);
     add_covariance(out, imm, RHO_AT(3, 3), s, m);
     add_covariance(out, imm, RHO_AT(4, 1), s, m);
     add_covariance(out, imm, RHO_AT(4, 4), s, m);
-    add_covariance(out, imm, RHO_AT(5, 2), s, m);
-    add_covariance(out, imm, RHO_AT(5, 5), s, m);
+    if (has_height) {
+        add_covariance(out, imm, RHO_AT(2, 2), s, m);
+        add_covariance(out, imm, RHO_AT(5, 2), s, m);
+        add_covariance(out, imm, RHO_AT(5, 5), s, m);
+    }
 }
 
 static void add_hypothesis(struct sums *sums, const struct rho_imm *imm, float share)
 {
     const float m = share * imm->probability, s = share - m;
+    const int has_height = sums->has_height;
     struct way steady, manoeuvre;
-    find_ways(sums, imm, s, m, &steady, &manoeuvre);
-    add_squares(sums->covariance, &steady, &manoeuvre);
-    add_covariances(sums->covariance, imm, s, m);
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 0);
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 1);
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 3);
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 4);
+    add_plane_squares(sums->covariance, &steady, &manoeuvre);
+    if (has_height) {
+        find_way(sums, imm, s, m, &steady, &manoeuvre, 2);
+        find_way(sums, imm, s, m, &steady, &manoeuvre, 5);
+        add_height_squares(sums->covariance, &steady, &manoeuvre);
+    }
+    add_axes(sums->covariance, imm, has_height, s, m);
+    if (imm->is_coupled) {
+        add_plane_covariances(sums->covariance, imm, s, m);
+    }
+    if (imm->is_coupled && has_height) {
+        add_height_covariances(sums->covariance, imm, s, m);
+    }
     sums->share += share;
     sums->maneuver += m;
     for (int axis = 0; axis < 3; axis++) {
@@ -367,6 +417,10 @@ static void sum_up(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us, 
 {
     int is_first = 1;
     memset(sums, 0, sizeof *sums);
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
+        sums->has_height |= imm->covariance[RHO_AT(2, 2)] > 0.0f;
+    }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         const struct rho_imm *imm =

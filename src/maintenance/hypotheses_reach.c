@@ -64,10 +64,14 @@ static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
                        struct rho_hypotheses_reach *reach)
 {
     const struct span x = span_of(pool, slot, 0), y = span_of(pool, slot, 1);
-    const struct span z = span_of(pool, slot, 2);
-    /* a hypothesis without a height does not mind that of a plot */
     const float x_m = far_of(&x), y_m = far_of(&y);
-    const float z_m = have_heights(pool, slot) ? far_of(&z) : 1e30f;
+    /* a hypothesis without a height does not mind that of a plot */
+    struct span z = {0.0f, 0.0f, 0.0f};
+    float z_m = 1e30f;
+    if (have_heights(pool, slot)) {
+        z = span_of(pool, slot, 2);
+        z_m = far_of(&z);
+    }
     *reach = (struct rho_hypotheses_reach){
         .x_min_m = x.min - x_m,
         .x_max_m = x.max + x_m,

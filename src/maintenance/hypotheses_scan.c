@@ -13,19 +13,22 @@
 
 /* ---- weigh ------------------------------------------------------------------------------------ */
 
-/* Of places alone, in two or three axes. */
-static inline float log_clutter_of_place(const struct rho_hypotheses_clutter *clutter, int num_axes)
+/* In two or three axes. */
+static float log_clutter(const struct rho_hypotheses_clutter *clutter, uint32_t measures,
+                         int num_axes)
 {
-    return num_axes > 2 ? clutter->log_per_m2 + clutter->log_per_m : clutter->log_per_m2;
+    return clutter->log_per_m2 + (num_axes > 2 ? clutter->log_per_m : 0.0f) +
+           (measures & RHO_MEASURES_VELOCITY ? (float)num_axes * clutter->log_per_mps : 0.0f) +
+           (measures & RHO_MEASURES_RANGE_RATE ? clutter->log_per_range_rate : 0.0f);
 }
 
-static float log_clutter(const struct rho_hypotheses_clutter *clutter,
-                         const struct rho_imm_match *match)
-{
-    return log_clutter_of_place(clutter, match->num_axes) +
-           (match->has_velocity ? (float)match->num_axes * clutter->log_per_mps : 0.0f) +
-           (match->has_range_rate ? clutter->log_per_range_rate : 0.0f);
-}
+/* A plot, and its pd over the clutter's density, ln: without and with heights. */
+struct offer {
+    const struct rho_imm_plot *seen;
+    int64_t time_us;
+    float level, high;
+    int16_t row;
+};
 
 /* Into the hypothesis' list of its best plots, of equals behind the earlier ones. Returns what it is worth with the plot. */
 static inline float note_candidate(struct rho_hypothesis *at, float gain_nat, float probability,
@@ -60,30 +63,32 @@ static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct 
 }
 
 /* At the plot's own time. What is expected of range rates is known at the hypotheses' time alone. */
-static int weigh_one(struct rho_hypotheses *pool, uint16_t slot, unsigned i,
-                     const struct rho_imm_plot *seen, int64_t time_us, struct rho_imm_match *match)
+static inline int weigh_one(struct rho_hypotheses *pool, uint16_t slot, unsigned i,
+                            const struct rho_hypothesis *at, const struct offer *offer,
+                            struct rho_imm_match *match)
 {
-    const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-    const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, time_us);
-    if (imm != &at->imm || !(seen->measures & RHO_MEASURES_RANGE_RATE)) {
-        return imm && rho_imm_weigh(imm, seen, match);
+    if (at->time_us == offer->time_us) {
+        if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
+            open_rates(pool, slot, offer->seen->sensor);
+        }
+        return rho_imm_weigh_with(&at->imm, &pool->opened.rates[i], offer->seen, match);
     }
-    open_rates(pool, slot, seen->sensor);
-    return rho_imm_weigh_with(imm, &pool->opened.rates[i], seen, match);
+    const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, offer->time_us);
+    return imm && rho_imm_weigh(imm, offer->seen, match);
 }
 
 /* One by one. Returns what the best hypothesis with the plot is worth; -FLT_MAX: none. */
-static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct rho_imm_plot *seen,
-                        int64_t time_us, int16_t row, float log_pd,
-                        const struct rho_hypotheses_clutter *clutter)
+static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct offer *offer)
 {
+    const uint16_t *nodes = pool->node_of[slot];
     struct rho_imm_match match;
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
-        if (weigh_one(pool, slot, i, seen, time_us, &match)) {
-            const float gain = log_pd + match.log_likelihood - log_clutter(clutter, &match);
-            const float worth = note_candidate(at, gain, match.probability, row);
+        struct rho_hypothesis *at = &pool->nodes[nodes[i]];
+        if (weigh_one(pool, slot, i, at, offer, &match)) {
+            const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
+            const float worth = note_candidate(at, pd_over_clutter + match.log_likelihood,
+                                               match.probability, offer->row);
             best = worth > best ? worth : best;
         }
     }
@@ -147,17 +152,14 @@ static inline float weigh_in_gate(struct rho_hypothesis *at, const struct rho_im
 }
 
 /* The same as weigh_each, in the gates that are open. */
-static float weigh_in_gates(struct rho_hypotheses *pool, uint16_t slot, const float place_m[3],
-                            int16_t row, float log_pd, const struct rho_hypotheses_clutter *clutter)
+static float weigh_in_gates(struct rho_hypotheses *pool, uint16_t slot, const struct offer *offer)
 {
-    const float level = log_pd - log_clutter_of_place(clutter, 2);
-    const float high = log_pd - log_clutter_of_place(clutter, 3);
     const uint16_t *nodes = pool->node_of[slot];
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm_gate *gate = &pool->opened.gates[i];
-        best = weigh_in_gate(&pool->nodes[nodes[i]], gate, place_m, row,
-                             gate->num_axes > 2 ? high : level, best);
+        best = weigh_in_gate(&pool->nodes[nodes[i]], gate, offer->seen->position.place_m,
+                             offer->row, gate->num_axes > 2 ? offer->high : offer->level, best);
     }
     return best;
 }
@@ -170,10 +172,15 @@ int rho_hypotheses_weigh(struct rho_hypotheses *pool, uint16_t slot,
     if (!pool || !seen || !clutter || !gain_nat || !rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
-    const float best =
-        has_gates(pool, slot, seen, time_us)
-            ? weigh_in_gates(pool, slot, seen->position.place_m, row, log_pd, clutter)
-            : weigh_each(pool, slot, seen, time_us, row, log_pd, clutter);
+    const struct offer offer = {
+        .seen = seen,
+        .time_us = time_us,
+        .level = log_pd - log_clutter(clutter, seen->measures, 2),
+        .high = log_pd - log_clutter(clutter, seen->measures, 3),
+        .row = row,
+    };
+    const float best = has_gates(pool, slot, seen, time_us) ? weigh_in_gates(pool, slot, &offer)
+                                                            : weigh_each(pool, slot, &offer);
     if (!(best > -FLT_MAX)) {
         return 0;
     }

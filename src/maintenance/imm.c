@@ -244,51 +244,6 @@ struct mixing {
     float own, other, between;
 };
 
-static inline void mix_at(struct rho_imm *imm, int place, float product,
-                          const struct mixing *steady, const struct mixing *manoeuvre)
-{
-    const float s = imm->steady.covariance[place], m = imm->covariance[place];
-    imm->steady.covariance[place] = steady->own * s + steady->other * m + steady->between * product;
-    imm->covariance[place] =
-        manoeuvre->own * m + manoeuvre->other * s + manoeuvre->between * product;
-}
-
-/* The acceleration is 0 in the steady model, and known to be. */
-static inline void mix_accel_at(struct rho_imm *imm, int place, float product,
-                                const struct mixing *manoeuvre)
-{
-    imm->covariance[place] = manoeuvre->own * imm->covariance[place] + manoeuvre->between * product;
-}
-
-static void mix_covariances(struct rho_imm *imm, const float way[9], const struct mixing *steady,
-                            const struct mixing *manoeuvre)
-{
-    int place = 0;
-    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        for (int j = 0; j <= i; j++) {
-            mix_at(imm, place++, way[i] * way[j], steady, manoeuvre);
-        }
-    }
-    for (int i = RHO_KALMAN_STATES; i < RHO_IMM_STATES; i++) {
-        for (int j = 0; j <= i; j++) {
-            mix_accel_at(imm, place++, way[i] * way[j], manoeuvre);
-        }
-    }
-}
-
-static void mix_states(struct rho_imm *imm, float way[9], float into_steady, float into_manoeuvre)
-{
-    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        way[i] = imm->state[i] - imm->steady.state[i];
-        imm->steady.state[i] += into_steady * way[i];
-        imm->state[i] -= into_manoeuvre * way[i];
-    }
-    for (int i = RHO_KALMAN_STATES; i < RHO_IMM_STATES; i++) {
-        way[i] = imm->state[i];
-        imm->state[i] -= into_manoeuvre * way[i];
-    }
-}
-
 /* What both models take from each other. */
 struct exchange {
     float into_steady, into_manoeuvre; /* share of what is in a model now that was in the other */
@@ -319,13 +274,6 @@ static struct exchange change(struct rho_imm *imm, const struct rho_imm_step *st
     };
 }
 
-static void mix_coupled(struct rho_imm *imm, const struct exchange *by)
-{
-    float way[RHO_IMM_STATES];
-    mix_states(imm, way, by->into_steady, by->into_manoeuvre);
-    mix_covariances(imm, way, &by->steady, &by->manoeuvre);
-}
-
 static inline float mixed(const struct mixing *by, float own, float other, float product)
 {
     return by->own * own + by->other * other + by->between * product;
@@ -338,11 +286,13 @@ static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct 
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
     const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = more->a;
     const struct axis was = *steady;
-    steady->p += by->into_steady * p;
-    steady->v += by->into_steady * v;
-    steady->pp = mixed(s, was.pp, manoeuvre->pp, p * p);
-    steady->vp = mixed(s, was.vp, manoeuvre->vp, v * p);
-    steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
+    if (by->into_steady > 0.0f) {
+        steady->p += by->into_steady * p;
+        steady->v += by->into_steady * v;
+        steady->pp = mixed(s, was.pp, manoeuvre->pp, p * p);
+        steady->vp = mixed(s, was.vp, manoeuvre->vp, v * p);
+        steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
+    }
     manoeuvre->p -= by->into_manoeuvre * p;
     manoeuvre->v -= by->into_manoeuvre * v;
     manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, p * p);
@@ -352,6 +302,28 @@ static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct 
     more->ap = m->own * more->ap + m->between * a * p;
     more->av = m->own * more->av + m->between * a * v;
     more->aa = m->own * more->aa + m->between * a * a;
+}
+
+/* The covariances of two axes, by the ways between the models on both. */
+static inline void mix_pair(struct pair *steady, struct pair *manoeuvre, const struct way *a,
+                            const struct way *b, const struct exchange *by)
+{
+    const struct mixing *s = &by->steady, *m = &by->manoeuvre;
+    const struct pair was = *steady;
+    steady->pp = mixed(s, was.pp, manoeuvre->pp, a->p * b->p);
+    steady->pv = mixed(s, was.pv, manoeuvre->pv, a->p * b->v);
+    steady->vp = mixed(s, was.vp, manoeuvre->vp, a->v * b->p);
+    steady->vv = mixed(s, was.vv, manoeuvre->vv, a->v * b->v);
+    manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, a->p * b->p);
+    manoeuvre->pv = mixed(m, manoeuvre->pv, was.pv, a->p * b->v);
+    manoeuvre->vp = mixed(m, manoeuvre->vp, was.vp, a->v * b->p);
+    manoeuvre->vv = mixed(m, manoeuvre->vv, was.vv, a->v * b->v);
+    /* the steady model's acceleration is 0, and known to be */
+    manoeuvre->pa = m->own * manoeuvre->pa + m->between * a->p * b->a;
+    manoeuvre->va = m->own * manoeuvre->va + m->between * a->v * b->a;
+    manoeuvre->ap = m->own * manoeuvre->ap + m->between * a->a * b->p;
+    manoeuvre->av = m->own * manoeuvre->av + m->between * a->a * b->v;
+    manoeuvre->aa = m->own * manoeuvre->aa + m->between * a->a * b->a;
 }
 
 /* ---- predict ---------------------------------------------------------------------------------- */
@@ -424,56 +396,70 @@ static void predict_axis(struct rho_imm *imm, int axis, const struct exchange *b
     checks->places += steady.p + steady.v + manoeuvre.p + manoeuvre.v + more.a;
 }
 
-/* Where the covariances of two axes lie: by derivative of the first, of the second. */
-static const uint8_t pair_places[NUM_AXES][9] = {
-#define PAIR(a, b)                                                                                 \
-    {                                                                                              \
-        PLACE(a, 0, b, 0), PLACE(a, 0, b, 1), PLACE(a, 0, b, 2), PLACE(a, 1, b, 0),                \
-            PLACE(a, 1, b, 1), PLACE(a, 1, b, 2), PLACE(a, 2, b, 0), PLACE(a, 2, b, 1),            \
-            PLACE(a, 2, b, 2)                                                                      \
-    }
-    PAIR(1, 0), PAIR(2, 0), PAIR(2, 1)
-#undef PAIR
-};
-
-/* F C F^T for the covariances of one axis with another: three columns, then three rows. */
-static inline void move_pair(float *p, const uint8_t at[9], const struct rho_imm_step *step)
+/* F C F^T of the manoeuvring model's axes: three columns, then three rows. */
+static inline void move_pair(struct pair *at, const struct rho_imm_step *step)
 {
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
                 h = step->accel_by_accel;
-    const float c00 = p[at[0]] + dt * p[at[3]] + f * p[at[6]];
-    const float c01 = p[at[1]] + dt * p[at[4]] + f * p[at[7]];
-    const float c02 = p[at[2]] + dt * p[at[5]] + f * p[at[8]];
-    const float c10 = p[at[3]] + g * p[at[6]], c11 = p[at[4]] + g * p[at[7]];
-    const float c12 = p[at[5]] + g * p[at[8]];
-    const float c20 = h * p[at[6]], c21 = h * p[at[7]], c22 = h * p[at[8]];
-    p[at[0]] = c00 + dt * c01 + f * c02;
-    p[at[1]] = c01 + g * c02;
-    p[at[2]] = h * c02;
-    p[at[3]] = c10 + dt * c11 + f * c12;
-    p[at[4]] = c11 + g * c12;
-    p[at[5]] = h * c12;
-    p[at[6]] = c20 + dt * c21 + f * c22;
-    p[at[7]] = c21 + g * c22;
-    p[at[8]] = h * c22;
+    const float pp = at->pp + dt * at->vp + f * at->ap, pv = at->pv + dt * at->vv + f * at->av;
+    const float pa = at->pa + dt * at->va + f * at->aa;
+    const float vp = at->vp + g * at->ap, vv = at->vv + g * at->av, va = at->va + g * at->aa;
+    const float ap = h * at->ap, av = h * at->av, aa = h * at->aa;
+    *at = (struct pair){
+        .pp = pp + dt * pv + f * pa,
+        .pv = pv + g * pa,
+        .pa = h * pa,
+        .vp = vp + dt * vv + f * va,
+        .vv = vv + g * va,
+        .va = h * va,
+        .ap = ap + dt * av + f * aa,
+        .av = av + g * aa,
+        .aa = h * aa,
+    };
 }
 
-/* The same of the steady model, whose velocities alone move on. */
-static inline void move_steady_pair(float *p, const uint8_t at[9], float dt_s)
+/* The same of the steady model's, whose velocities alone move on. */
+static inline void move_steady_pair(struct pair *at, float dt_s)
 {
-    const float pv = p[at[1]] + dt_s * p[at[4]], vp = p[at[3]] + dt_s * p[at[4]];
-    p[at[0]] += dt_s * (p[at[1]] + vp);
-    p[at[1]] = pv;
-    p[at[3]] = vp;
+    const float pv = at->pv + dt_s * at->vv;
+    at->vp += dt_s * at->vv;
+    at->pp += dt_s * (at->pv + at->vp);
+    at->pv = pv;
 }
 
-/* What couples the axes. */
-static void move_pairs(struct rho_imm *imm, const struct rho_imm_step *step)
+static inline struct way way_of(const struct rho_imm *imm, int axis)
 {
-    const int num_pairs = is_open(imm, 2) ? 3 : 1;
-    for (int i = 0; i < num_pairs; i++) {
-        move_pair(imm->covariance, pair_places[i], step);
-        move_steady_pair(imm->steady.covariance, pair_places[i], step->dt_s);
+    return (struct way){
+        .p = imm->state[axis] - imm->steady.state[axis],
+        .v = imm->state[NUM_AXES + axis] - imm->steady.state[NUM_AXES + axis],
+        .a = imm->state[2 * NUM_AXES + axis],
+    };
+}
+
+/* What couples the axis with an earlier one, before either is mixed. */
+static void predict_pair(struct rho_imm *imm, int axis, int other, const struct exchange *by,
+                         const struct rho_imm_step *step)
+{
+    float *p = imm->covariance, *q = imm->steady.covariance;
+    const uint8_t *rows = pair_rows[axis + other - 1];
+    struct pair steady = take_steady_pair(q, rows), manoeuvre = take_pair(p, rows);
+    if (by) {
+        const struct way a = way_of(imm, axis), b = way_of(imm, other);
+        mix_pair(&steady, &manoeuvre, &a, &b, by);
+    }
+    move_steady_pair(&steady, step->dt_s);
+    move_pair(&manoeuvre, step);
+    put_steady_pair(q, rows, &steady);
+    put_pair(p, rows, &manoeuvre);
+}
+
+static void predict_pairs(struct rho_imm *imm, const struct exchange *by,
+                          const struct rho_imm_step *step)
+{
+    predict_pair(imm, 1, 0, by, step);
+    if (is_open(imm, 2)) {
+        predict_pair(imm, 2, 0, by, step);
+        predict_pair(imm, 2, 1, by, step);
     }
 }
 
@@ -481,7 +467,7 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
 {
     struct checks checks = {0.0f, 1};
     struct exchange by;
-    const struct exchange *mixing = 0; /* axis by axis */
+    const struct exchange *mixing = 0;
     if (!imm || !step) {
         return RHO_ERROR_NULL;
     }
@@ -490,14 +476,10 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
     }
     if (may_change && step->begins + step->ends > 0.0f) {
         by = change(imm, step);
-        if (imm->is_coupled) {
-            mix_coupled(imm, &by);
-        } else {
-            mixing = &by;
-        }
+        mixing = &by;
     }
     if (imm->is_coupled) {
-        move_pairs(imm, step);
+        predict_pairs(imm, mixing, step);
     }
     const float density =
         step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);

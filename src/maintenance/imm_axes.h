@@ -75,6 +75,70 @@ static inline void put_accel(struct rho_imm *imm, int axis, const struct accel *
     by_a[2 * NUM_AXES] = in->aa;
 }
 
+/*
+ * The covariances of two axes: of the later one's derivative with the earlier one's. The steady
+ * model has those without a.
+ */
+struct pair {
+    float pp, pv, pa;
+    float vp, vv, va;
+    float ap, av, aa;
+};
+
+/* From the steady model's estimate to the manoeuvring one's, on one axis. */
+struct way {
+    float p, v, a;
+};
+
+/*
+ * Where they begin in the triangle's rows, of axes 1 and 0, 2 and 0, 2 and 1: pp; pv; pa va; vp vv;
+ * ap av aa.
+ */
+static const uint8_t pair_rows[NUM_AXES][5] = {
+    {PLACE(1, 0, 0, 0), PLACE(1, 0, 0, 1), PLACE(1, 0, 0, 2), PLACE(1, 1, 0, 0), PLACE(1, 2, 0, 0)},
+    {PLACE(2, 0, 0, 0), PLACE(2, 0, 0, 1), PLACE(2, 0, 0, 2), PLACE(2, 1, 0, 0), PLACE(2, 2, 0, 0)},
+    {PLACE(2, 0, 1, 0), PLACE(2, 0, 1, 1), PLACE(2, 0, 1, 2), PLACE(2, 1, 1, 0), PLACE(2, 2, 1, 0)},
+};
+
+static inline struct pair take_steady_pair(const float *covariance, const uint8_t rows[5])
+{
+    const float *by_v = &covariance[rows[3]];
+    return (struct pair){
+        .pp = covariance[rows[0]], .pv = covariance[rows[1]], .vp = by_v[0], .vv = by_v[NUM_AXES]};
+}
+
+static inline void put_steady_pair(float *covariance, const uint8_t rows[5], const struct pair *in)
+{
+    float *by_v = &covariance[rows[3]];
+    covariance[rows[0]] = in->pp;
+    covariance[rows[1]] = in->pv;
+    by_v[0] = in->vp;
+    by_v[NUM_AXES] = in->vv;
+}
+
+static inline struct pair take_pair(const float *covariance, const uint8_t rows[5])
+{
+    const float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
+    struct pair out = take_steady_pair(covariance, rows);
+    out.pa = with_a[0];
+    out.va = with_a[NUM_AXES];
+    out.ap = by_a[0];
+    out.av = by_a[NUM_AXES];
+    out.aa = by_a[2 * NUM_AXES];
+    return out;
+}
+
+static inline void put_pair(float *covariance, const uint8_t rows[5], const struct pair *in)
+{
+    float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
+    put_steady_pair(covariance, rows, in);
+    with_a[0] = in->pa;
+    with_a[NUM_AXES] = in->va;
+    by_a[0] = in->ap;
+    by_a[NUM_AXES] = in->av;
+    by_a[2 * NUM_AXES] = in->aa;
+}
+
 /* Positions and velocities of a model: the first states, and the first elements of the covariance. */
 static inline void take_leading(struct rho_kalman *to, const float *state, const float *covariance)
 {

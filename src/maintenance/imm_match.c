@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "imm_axes.h"
+#include "imm_plane.h"
 #include "rhotrack/approx.h"
 
 #define LOG_TWO_PI 1.83787707f
@@ -210,67 +210,82 @@ static void view_all(struct view *view, const struct rho_imm_plot *seen,
 #endif
 }
 
-/* A range rate after the places: what these say of it, by their L and D. */
-static void view_rate(struct view *view, const struct rho_imm_plot *seen, float expected_off,
-                      float explained)
+/*
+ * A range rate after the places: what these say of it, by their L and D. Returns its squared
+ * distance, and in *det its factor of the determinant. Which range rate is meant may be unclear:
+ * then any is as likely, with the density 1 / span.
+ */
+static inline float view_rate(const struct view *view, const struct rho_imm_plot *seen,
+                              float expected_off, float explained, float *det)
 {
     const float variance = view->rate_variance + rate_noise(seen) - explained;
-    float off = rate_off(view, seen);
+    float off = seen->plot->range_rate_mps - view->expected_mps;
+    *det = variance;
 #if RHO_AMBIGUOUS_RANGE_RATES
     if (rho_measurement_has_span(seen->sensor)) {
-        /* which range rate is meant may be unclear: then any is as likely, with the density 1 / span */
+        const float span_mps = seen->sensor->range_rate_span_mps;
         if (!rho_measurement_is_range_rate_clear(seen->sensor, variance)) {
-            view->counts = view->counts && variance > 0.0f;
-            view->root *= ROOT_TWO_PI / seen->sensor->range_rate_span_mps;
-            return;
+            *det = variance > 0.0f ? span_mps * span_mps * (1.0f / RHO_TWO_PI) : variance;
+            return 0.0f;
         }
         off = expected_off + rho_measurement_range_rate_error_mps(seen->sensor, off, expected_off);
     }
 #endif
     off -= expected_off;
-    view->distance2 += off * off / variance;
-    view->counts = view->counts && view->distance2 <= COUNTS_MAX && variance > 0.0f;
-    view->root *= rho_inverse_sqrt(variance);
+    return off * off / variance;
 }
 
-/* Places, and a range rate: S = L D L^T by hand. */
-static inline void view_coupled_places(struct view *view, const struct rho_imm_plot *seen,
-                                       int has_z, int has_rate)
+/* Places in the plane, and a range rate: S = L D L^T by hand. */
+static inline void view_plane(struct view *view, const struct rho_imm_plot *seen, int has_rate)
+{
+    const float *p = view->covariance, *r = seen->covariance, *rate = view->projected;
+    const float s00 = p[0] + r[0], s10 = p[1] + r[1], inverse0 = 1.0f / s00, l10 = s10 * inverse0;
+    const float s11 = p[2] + r[2] - l10 * s10, inverse1 = 1.0f / s11;
+    const float d0 = seen->position.place_m[0] - view->state[0];
+    const float d1 = seen->position.place_m[1] - view->state[1] - l10 * d0;
+    const float to0 = d0 * inverse0, to1 = d1 * inverse1;
+    float distance2 = d0 * to0 + d1 * to1, det = s00 * s11, rate_det = 1.0f;
+    if (has_rate) {
+        const float rate0 = rate[0], rate1 = rate[1] - l10 * rate0;
+        distance2 += view_rate(view, seen, rate0 * to0 + rate1 * to1,
+                               rate0 * rate0 * inverse0 + rate1 * rate1 * inverse1, &rate_det);
+        det *= rate_det;
+    }
+    view->distance2 = distance2;
+    view->counts = distance2 <= COUNTS_MAX && s11 > 0.0f && rate_det > 0.0f &&
+                   (!has_rate || expects_rate(view));
+    if (view->counts) {
+        view->root = rho_inverse_sqrt(det);
+    }
+}
+
+/* The same in space. */
+static void view_space(struct view *view, const struct rho_imm_plot *seen, int has_rate)
 {
     const float *p = view->covariance, *r = seen->covariance, *rate = view->projected;
     const float s00 = p[0] + r[0], s10 = p[1] + r[1], l10 = s10 / s00;
+    const float s20 = p[3] + r[3], l20 = s20 / s00;
     const float s11 = p[2] + r[2] - l10 * s10;
+    const float c21 = p[4] + r[4] - l20 * s10, l21 = c21 / s11;
+    const float s22 = p[5] + r[5] - l20 * s20 - l21 * c21;
     const float d0 = seen->position.place_m[0] - view->state[0];
     const float d1 = seen->position.place_m[1] - view->state[1] - l10 * d0;
-    const float to0 = d0 / s00, to1 = d1 / s11;
-    float det = s00 * s11, least = s00 < s11 ? s00 : s11;
-    float rate2 = 0.0f, s22 = 1.0f, to2 = 0.0f, l20 = 0.0f, l21 = 0.0f;
-    view->distance2 = d0 * to0 + d1 * to1;
-    if (has_z) {
-        const float s20 = p[3] + r[3];
-        l20 = s20 / s00;
-        const float c21 = p[4] + r[4] - l20 * s10;
-        l21 = c21 / s11;
-        s22 = p[5] + r[5] - l20 * s20 - l21 * c21;
-        const float d2 = seen->position.place_m[2] - view->state[2] - l20 * d0 - l21 * d1;
-        to2 = d2 / s22;
-        view->distance2 += d2 * to2;
-        det *= s22;
-        least = s22 < least ? s22 : least;
-    }
-    view->counts = view->distance2 <= COUNTS_MAX && least > 0.0f;
-    if (has_rate) {
-        view->counts = view->counts && expects_rate(view);
-    }
-    if (!view->counts) {
-        return;
-    }
-    view->root = rho_inverse_sqrt(det);
+    const float d2 = seen->position.place_m[2] - view->state[2] - l20 * d0 - l21 * d1;
+    const float to0 = d0 / s00, to1 = d1 / s11, to2 = d2 / s22;
+    float distance2 = d0 * to0 + d1 * to1 + d2 * to2, rate_det = 1.0f;
     if (has_rate) {
         const float rate0 = rate[0], rate1 = rate[1] - l10 * rate0;
-        rate2 = has_z ? rate[2] - l20 * rate0 - l21 * rate1 : 0.0f;
-        view_rate(view, seen, rate0 * to0 + rate1 * to1 + rate2 * to2,
-                  rate0 * rate0 / s00 + rate1 * rate1 / s11 + rate2 * rate2 / s22);
+        const float rate2 = rate[2] - l20 * rate0 - l21 * rate1;
+        distance2 +=
+            view_rate(view, seen, rate0 * to0 + rate1 * to1 + rate2 * to2,
+                      rate0 * rate0 / s00 + rate1 * rate1 / s11 + rate2 * rate2 / s22, &rate_det);
+    }
+    view->distance2 = distance2;
+    view->counts = distance2 <= COUNTS_MAX && s11 > 0.0f && s22 > 0.0f && rate_det > 0.0f &&
+                   (!has_rate || expects_rate(view));
+    if (view->counts) {
+        /* apart: the product of four variances may be no number */
+        view->root = rho_inverse_sqrt(s00 * s11 * s22) * rho_inverse_sqrt(rate_det);
     }
 }
 
@@ -280,8 +295,8 @@ static inline void view_coupled_places(struct view *view, const struct rho_imm_p
  * Factors and distances of both models; the nearer one's exponent is taken out of both densities, so that their sum is a
  * number.
  */
-static void combine(const float factor[2], const float distance2[2], int num_dimensions,
-                    struct rho_imm_match *match)
+static inline void combine(const float factor[2], const float distance2[2], int num_dimensions,
+                           struct rho_imm_match *match)
 {
     float s = factor[0], m = factor[1];
     if (distance2[0] <= distance2[1]) {
@@ -322,30 +337,30 @@ void rho_imm_judge_scalar(struct rho_imm *imm, const float off[2], const float v
 }
 
 /* By the shortest way. */
-static inline void look(struct view *view, const struct rho_imm *imm,
-                        const struct rho_imm_plot *seen, const struct rho_imm_match *match)
+static void look(struct view *view, const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                 const struct rho_imm_match *match)
 {
     const int is_coupled = imm->is_coupled || !seen->position.is_isotropic;
     if (match->has_velocity && (is_coupled || match->has_range_rate)) {
         view_all(view, seen, match);
-    } else if (is_coupled || match->has_range_rate) {
-        view_coupled_places(view, seen, match->num_axes > 2, match->has_range_rate);
     } else if (match->has_velocity) {
         view_places_and_velocities(view, seen, match->num_axes);
-    } else {
+    } else if (!is_coupled && !match->has_range_rate) {
         view_places(view, seen, match->num_axes > 2);
+    } else {
+        view_space(view, seen, match->has_range_rate);
     }
 }
 
-static int is_in_gate(const struct view views[2])
+static inline int is_in_gate(const struct view views[2])
 {
     return (views[0].counts && views[0].distance2 <= RHO_IMM_GATE) ||
            (views[1].counts && views[1].distance2 <= RHO_IMM_GATE);
 }
 
 /* One that does not count is farther than all, and weighs nothing. */
-static int weigh_models(const struct view views[2], float probability, int num_dimensions,
-                        struct rho_imm_match *match)
+static inline int weigh_models(const struct view views[2], float probability, int num_dimensions,
+                               struct rho_imm_match *match)
 {
     const float factor[2] = {views[0].counts ? believable(1.0f - probability) * views[0].root
                                              : 0.0f,
@@ -359,27 +374,60 @@ static int weigh_models(const struct view views[2], float probability, int num_d
     return is_likelihood(match->log_likelihood);
 }
 
-static void open_rate(struct rho_imm_rates *rates, int model, const struct rho_kalman *at,
-                      const struct rho_sensor *sensor)
+/* What one model expects; 0: it is in the sensor's own place. */
+static int open_rate(const float *state, const float *covariance, const struct rho_sensor *sensor,
+                     float *expected_mps, float *variance, float projected[RHO_KALMAN_STATES])
 {
     struct rho_kalman_row rate;
-    rates->variance[model] = -1.0f;
-    rates->expected_mps[model] = 0.0f;
-    memset(rates->projected[model], 0, sizeof rates->projected[model]);
-    if (rho_kalman_see_range_rate(at, sensor, 0.0f, FLT_MIN, &rate)) {
-        rates->expected_mps[model] = -rate.innovation;
-        rates->variance[model] =
-            rate.variance + rho_linalg_project6(at->covariance, rate.row, rates->projected[model]);
+    struct rho_kalman at;
+    take_leading(&at, state, covariance);
+    if (!rho_kalman_see_range_rate(&at, sensor, 0.0f, FLT_MIN, &rate)) {
+        return 0;
     }
+    *expected_mps = -rate.innovation;
+    *variance = rate.variance + rho_linalg_project6(at.covariance, rate.row, projected);
+    return 1;
+}
+
+static int open_plane_rate(const float *state, const float *covariance,
+                           const struct rho_sensor *sensor, float *expected_mps, float *variance,
+                           float projected[RHO_KALMAN_STATES])
+{
+    struct plane_rate rate;
+    float spread[RHO_PLANE_MANOEUVRE];
+    if (!rho_imm_plane_see_rate(state, covariance, sensor, &rate)) {
+        return 0;
+    }
+    *expected_mps = rate.expected_mps;
+    *variance =
+        rate.bend + rho_imm_plane_project_rate(RHO_PLANE_STEADY, covariance, rate.row, spread);
+    projected[0] = spread[0];
+    projected[1] = spread[1];
+    projected[2] = 0.0f;
+    projected[3] = spread[2];
+    projected[4] = spread[3];
+    projected[5] = 0.0f;
+    return 1;
 }
 
 void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                         const struct rho_sensor *sensor)
 {
-    struct rho_kalman at;
-    take_leading(&at, imm->state, imm->covariance);
-    open_rate(rates, 0, &imm->steady, sensor);
-    open_rate(rates, 1, &at, sensor);
+    const float *states[2] = {imm->steady.state, imm->state};
+    const float *covariances[2] = {imm->steady.covariance, imm->covariance};
+    const int has_height = is_open(imm, 2);
+    for (int i = 0; i < 2; i++) {
+        float *expected_mps = &rates->expected_mps[i], *variance = &rates->variance[i];
+        float *projected = rates->projected[i];
+        if (!(has_height
+                  ? open_rate(states[i], covariances[i], sensor, expected_mps, variance, projected)
+                  : open_plane_rate(states[i], covariances[i], sensor, expected_mps, variance,
+                                    projected))) {
+            *expected_mps = 0.0f;
+            *variance = -1.0f;
+            memset(projected, 0, sizeof rates->projected[i]);
+        }
+    }
 }
 
 int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
@@ -392,25 +440,56 @@ int rho_imm_weigh(const struct rho_imm *imm, const struct rho_imm_plot *seen,
     return rho_imm_weigh_with(imm, &rates, seen, match);
 }
 
+/* Places in the plane, of coupled axes or plots, or with range rates: most radars' plots. */
+static int is_of_plane(const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                       const struct rho_imm_match *match)
+{
+    return match->num_axes < 3 && !match->has_velocity &&
+           (imm->is_coupled || !seen->position.is_isotropic || match->has_range_rate);
+}
+
+static inline void open_view(struct view *view, int model, const struct rho_imm *imm,
+                             const struct rho_imm_rates *rates, int has_rate)
+{
+    view->state = model == 0 ? imm->steady.state : imm->state;
+    view->covariance = model == 0 ? imm->steady.covariance : imm->covariance;
+    if (has_rate) {
+        view->projected = rates->projected[model];
+        view->expected_mps = rates->expected_mps[model];
+        view->rate_variance = rates->variance[model];
+    }
+}
+
+/* Apart, and written out: it runs for each plot in the gate of each hypothesis. */
+static int weigh_in_plane(const struct rho_imm *imm, const struct rho_imm_rates *rates,
+                          const struct rho_imm_plot *seen, struct rho_imm_match *match)
+{
+    const int has_rate = match->has_range_rate;
+    struct view views[2];
+    open_view(&views[0], 0, imm, rates, has_rate);
+    view_plane(&views[0], seen, has_rate);
+    open_view(&views[1], 1, imm, rates, has_rate);
+    view_plane(&views[1], seen, has_rate);
+    return weigh_models(views, imm->probability, 2 + has_rate, match);
+}
+
 int rho_imm_weigh_with(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                        const struct rho_imm_plot *seen, struct rho_imm_match *match)
 {
-    struct view views[2] = {{.state = imm->steady.state, .covariance = imm->steady.covariance},
-                            {.state = imm->state, .covariance = imm->covariance}};
+    struct view views[2];
     match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;
-    const int num_dimensions =
-        (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate;
+    if (is_of_plane(imm, seen, match)) {
+        return weigh_in_plane(imm, rates, seen, match);
+    }
     for (int i = 0; i < 2; i++) {
-        if (match->has_range_rate) {
-            views[i].projected = rates->projected[i];
-            views[i].expected_mps = rates->expected_mps[i];
-            views[i].rate_variance = rates->variance[i];
-        }
+        open_view(&views[i], i, imm, rates, match->has_range_rate);
         look(&views[i], imm, seen, match);
     }
-    return weigh_models(views, imm->probability, num_dimensions, match);
+    return weigh_models(views, imm->probability,
+                        (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate,
+                        match);
 }
 
 /* ---- many plots of one noise -------------------------------------------------------------------- */

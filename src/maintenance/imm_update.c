@@ -5,7 +5,7 @@
  */
 #include <float.h>
 
-#include "imm_axes.h"
+#include "imm_plane.h"
 #include "rhotrack/approx.h"
 
 /* As in linalg.c. */
@@ -196,6 +196,14 @@ static enum rho_status update_element(struct rho_imm *imm, int element, float va
                             : status;
 }
 
+/* Along the ground: a plot without heights has none. */
+static float level_variance(const struct rho_measurement *seen)
+{
+    return seen->has_z ? seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
+                             seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2]
+                       : seen->variance_m2[0];
+}
+
 /* Where only one of plot and estimate has heights, the plot counts as level, with the noise that it has there. */
 static enum rho_status update_directions(struct rho_imm *imm, int num_axes,
                                          const struct rho_measurement *seen)
@@ -205,12 +213,8 @@ static enum rho_status update_directions(struct rho_imm *imm, int num_axes,
     const float ce = has_z ? seen->cos_elevation : 1.0f, se = has_z ? seen->sin_elevation : 0.0f;
     const float along[3] = {ce * ca, ce * sa, se}, cross[3] = {-sa, ca, 0.0f};
     const float up[3] = {-se * ca, -se * sa, ce};
-    float variance = seen->variance_m2[0];
-    float place_m[3] = {seen->place_m[0], seen->place_m[1], seen->place_m[2]};
-    if (!has_z && seen->has_z) {
-        variance = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
-                   seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
-    }
+    const float variance = has_z ? seen->variance_m2[0] : level_variance(seen);
+    const float *place_m = seen->place_m;
     enum rho_status status = update_along(imm, cross, place_m, seen->variance_m2[1]);
     if (status == RHO_OK && has_z) {
         status = update_along(imm, up, place_m, seen->variance_m2[2]);
@@ -253,7 +257,6 @@ static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
                                       const struct rho_imm_plot *seen)
 {
     enum rho_status status = RHO_OK;
-    imm->is_coupled = 1;
     if (!seen->position.is_isotropic) {
         status = update_directions(imm, num_axes, &seen->position);
     } else {
@@ -269,6 +272,70 @@ static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
         status = update_range_rate(imm, seen);
     }
     keep_floors(imm);
+    return status;
+}
+
+/* ---- without a height ------------------------------------------------------------------------ */
+
+static enum rho_status update_plane_along(struct rho_imm *imm, float x, float y,
+                                          const float place_m[3], float variance)
+{
+    const float noise = at_least(variance);
+    float *steady = imm->steady.state, *state = imm->state, spread[RHO_PLANE_MANOEUVRE];
+    float predicted = rho_imm_plane_project(RHO_PLANE_STEADY, imm->steady.covariance, x, y, spread);
+    enum rho_status status =
+        rho_imm_plane_update(RHO_PLANE_STEADY, steady, imm->steady.covariance, spread, predicted,
+                             x * (place_m[0] - steady[0]) + y * (place_m[1] - steady[1]), noise);
+    if (status != RHO_OK) {
+        return status;
+    }
+    predicted = rho_imm_plane_project(RHO_PLANE_MANOEUVRE, imm->covariance, x, y, spread);
+    return rho_imm_plane_update(RHO_PLANE_MANOEUVRE, state, imm->covariance, spread, predicted,
+                                x * (place_m[0] - state[0]) + y * (place_m[1] - state[1]), noise);
+}
+
+/* By one model's view of the rate, linearised where the place has just been found. */
+static enum rho_status update_plane_rate(int num_states, float *state, float *covariance,
+                                         const struct rho_imm_plot *seen)
+{
+    const float sigma_mps = seen->plot->sigma_range_rate_mps;
+    float spread[RHO_PLANE_MANOEUVRE];
+    struct plane_rate rate;
+    if (!rho_imm_plane_see_rate(state, covariance, seen->sensor, &rate)) {
+        return RHO_OK;
+    }
+    const float predicted = rho_imm_plane_project_rate(num_states, covariance, rate.row, spread);
+    const float variance = at_least(sigma_mps * sigma_mps) + rate.bend;
+    float off_mps = seen->plot->range_rate_mps - rate.expected_mps;
+    if (rho_measurement_has_span(seen->sensor)) {
+        if (!rho_measurement_is_range_rate_clear(seen->sensor, predicted + variance)) {
+            return RHO_OK;
+        }
+        off_mps = rho_measurement_range_rate_error_mps(seen->sensor, seen->plot->range_rate_mps,
+                                                       rate.expected_mps);
+    }
+    return rho_imm_plane_update(num_states, state, covariance, spread, predicted, off_mps,
+                                variance);
+}
+
+/* A plot with a height counts as level, with the noise that it has there. */
+static enum rho_status update_plane(struct rho_imm *imm, const struct rho_imm_plot *seen)
+{
+    const struct rho_measurement *at = &seen->position;
+    const float ca = at->cos_azimuth, sa = at->sin_azimuth;
+    enum rho_status status = update_plane_along(imm, -sa, ca, at->place_m, at->variance_m2[1]);
+    if (status == RHO_OK) {
+        status = update_plane_along(imm, ca, sa, at->place_m, level_variance(at));
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status =
+            update_plane_rate(RHO_PLANE_STEADY, imm->steady.state, imm->steady.covariance, seen);
+        if (status == RHO_OK) {
+            status = update_plane_rate(RHO_PLANE_MANOEUVRE, imm->state, imm->covariance, seen);
+        }
+    }
+    rho_imm_plane_keep_floors(RHO_PLANE_STEADY, imm->steady.covariance);
+    rho_imm_plane_keep_floors(RHO_PLANE_MANOEUVRE, imm->covariance);
     return status;
 }
 
@@ -303,8 +370,11 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
     const int num_axes = seen->position.has_z && !opens ? 3 : 2;
     const int is_simple = !imm->is_coupled && seen->position.is_isotropic &&
                           !(seen->measures & RHO_MEASURES_RANGE_RATE);
-    enum rho_status status =
-        is_simple ? update_axes(imm, num_axes, seen) : update_coupled(imm, num_axes, seen);
+    const int is_in_plane = !is_open(imm, 2) && !(seen->measures & RHO_MEASURES_VELOCITY);
+    imm->is_coupled |= !is_simple;
+    enum rho_status status = is_simple     ? update_axes(imm, num_axes, seen)
+                             : is_in_plane ? update_plane(imm, seen)
+                                           : update_coupled(imm, num_axes, seen);
     if (status == RHO_OK && opens) {
         status = open_height(imm, model, seen);
     }

@@ -190,19 +190,19 @@ static void gate_plots(struct step *step, unsigned row)
     int by_hough = opens_hough(step, track, &hough);
     rho_tracker_open_gate(step, track, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
-    const struct plot_range near = rho_tracker_plots_between(
-        step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0]);
+    struct plots_near near = rho_tracker_plots_near(
+        step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
+        gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
+    struct plots_near counted = near;
     struct plot_choice choice = rho_tracker_choose_plots(step, track);
-    for (uint32_t place = near.first; place < near.end && choice.most < near.end - near.first;
-         place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    for (uint32_t i; choice.most < rho_tracker_most_near(step, &near) &&
+                     rho_tracker_next_plot(step, &counted, &i);) {
         if (is_in_box(step, &gate, half_m, i)) {
             rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
         }
     }
     rho_tracker_settle_choice(step, &choice);
-    for (uint32_t place = near.first; place < near.end; place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (is_in_box(step, &gate, half_m, i) && rho_tracker_takes(step, &choice, track, plot) &&
             rho_gate_test(&gate, plot, &result)) {
@@ -238,15 +238,13 @@ static float log_miss_of(const struct step *step, const struct rho_track *track)
 }
 
 /* By the noise and the own time of the plots that have most of them. */
-static struct plot_range plots_in_reach(const struct step *step, const struct rho_track *track,
+static struct plots_near plots_in_reach(const struct step *step, const struct rho_track *track,
                                         struct rho_hypotheses_reach *reach)
 {
-    float slack_m = 0.0f;
-    if (RHO_PLOT_STRIPS > 1) {
-        slack_m = rho_hypotheses_slack_m(&step->tracker->hypotheses, track->slot, reach,
-                                         step->sigma_max_m, step->offset_max_s);
-    }
-    return rho_tracker_plots_between(step, reach->x_min_m - slack_m, reach->x_max_m + slack_m);
+    const float slack_m = rho_hypotheses_slack_m(&step->tracker->hypotheses, track->slot, reach,
+                                                 step->sigma_max_m, step->offset_max_s);
+    return rho_tracker_plots_near(step, reach->x_min_m - slack_m, reach->x_max_m + slack_m,
+                                  reach->y_min_m - slack_m, reach->y_max_m + slack_m);
 }
 
 /* The plots that a track may go on with: those of all hypotheses' reach; with claims, but for those that others got. */
@@ -254,7 +252,7 @@ struct offer {
     unsigned row;
     const int16_t *claims;
     struct rho_hypotheses_reach reach;
-    struct plot_range near;
+    struct plots_near near;
 };
 
 static int is_offered(const struct step *step, struct offer *offer, uint32_t i)
@@ -271,9 +269,9 @@ static struct plot_choice choose(struct step *step, struct offer *offer)
 {
     const struct rho_track *track = &step->tracker->tracks[offer->row];
     struct plot_choice choice = rho_tracker_choose_plots(step, track);
-    for (uint32_t place = offer->near.first;
-         place < offer->near.end && choice.most < offer->near.end - offer->near.first; place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    struct plots_near counted = offer->near;
+    for (uint32_t i; choice.most < rho_tracker_most_near(step, &offer->near) &&
+                     rho_tracker_next_plot(step, &counted, &i);) {
         if (is_offered(step, offer, i)) {
             rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
         }
@@ -298,8 +296,7 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
     rho_hypotheses_look(&tracker->hypotheses, track->slot, &offer.reach);
     offer.near = plots_in_reach(step, track, &offer.reach);
     struct plot_choice choice = choose(step, &offer);
-    for (uint32_t place = offer.near.first; place < offer.near.end; place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    for (uint32_t i; rho_tracker_next_plot(step, &offer.near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (!is_offered(step, &offer, i) || !rho_tracker_takes(step, &choice, track, plot)) {
             continue;

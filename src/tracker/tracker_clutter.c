@@ -78,7 +78,7 @@ struct rate_ratios {
     float exact, other;
 };
 
-/* Density of a range rate that is normal, over that of clutter, which is spread over all rates. */
+/* Density of a normal range rate, over that of clutter, which is spread over all rates. */
 static float over_all_rates(const struct step *step, float off_mps, float variance)
 {
     return step->range_rates_mps *
@@ -165,11 +165,10 @@ static void look_for(struct step *step, unsigned place)
     const float sigma_m = step->sigma_max_m;
     const float half_m =
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
-    const struct plot_range near =
-        rho_tracker_plots_between(step, echo->x_m - half_m, echo->x_m + half_m);
-    rho_tracker_spend(step, (near.end - near.first) / PLOTS_A_UNIT);
-    for (uint32_t at = near.first; at < near.end; at++) {
-        const uint32_t i = rho_tracker_plot_at(step, at);
+    struct plots_near near = rho_tracker_plots_near(step, echo->x_m - half_m, echo->x_m + half_m,
+                                                    echo->y_m - half_m, echo->y_m + half_m);
+    uint32_t passed = 0;
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i); passed++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -182,12 +181,16 @@ static void look_for(struct step *step, unsigned place)
         }
         rho_tracker_spend(step, ECHO_UNITS);
         const float density = chance * density_at(step, echo, &view, plot);
+        if (!(density > 0.0f)) {
+            continue;
+        }
         map->denser[i] += density;
         if (density > map->best_per_m2[i]) {
             map->best_per_m2[i] = density;
             map->best_echo[i] = (uint16_t)place;
         }
     }
+    rho_tracker_spend(step, passed / PLOTS_A_UNIT);
 }
 
 /* An echo that there is no work left for is none that the scan could see. */
@@ -264,6 +267,13 @@ static struct direction direction_of(const struct step *step, uint32_t row)
     return (struct direction){bin < RHO_STROBE_BINS ? bin : 0, view.range_m};
 }
 
+/* An eighth of the range. */
+static unsigned range_part(float range_m, float range_max_m)
+{
+    const float eighth = STROBE_RANGES * range_m / range_max_m;
+    return eighth < STROBE_RANGES ? (unsigned)eighth : STROBE_RANGES_LAST;
+}
+
 /* Counts the plots by direction. Returns how many there are. */
 static float count_directions(struct step *step, float range_max_m)
 {
@@ -276,10 +286,8 @@ static float count_directions(struct step *step, float range_max_m)
             continue;
         }
         const struct direction at = direction_of(step, i);
-        const float eighth = STROBE_RANGES * at.range_m / range_max_m;
         map->strobe_count[at.bin]++;
-        map->strobe_ranges[at.bin] |=
-            (uint8_t)(1u << (eighth < STROBE_RANGES ? (unsigned)eighth : STROBE_RANGES_LAST));
+        map->strobe_ranges[at.bin] |= (uint8_t)(1u << range_part(at.range_m, range_max_m));
         plots += 1.0f;
     }
     return plots;
@@ -307,6 +315,9 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
         count += map->strobe_count[bins[k]];
         ranges |= map->strobe_ranges[bins[k]];
     }
+    if (!((float)count > STROBE_PLOTS_MIN)) {
+        return 0.0f; /* most directions */
+    }
     const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_STROBE_BINS;
     const float others_rad = sector_width(step) - width_rad;
     const float usual = others_rad > 0.0f ? (plots - (float)count) * width_rad / others_rad : plots;
@@ -316,10 +327,29 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
                : 0.0f;
 }
 
+/* Counts plots, and the parts of the range that have any. */
+static int may_have_strobes(const struct step *step, float range_max_m)
+{
+    float plots = 0.0f;
+    unsigned ranges = 0;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &step->scan->plots[i];
+            const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
+            ranges |= 1u << range_part(view.range_m, range_max_m);
+            plots += 1.0f;
+        }
+    }
+    return plots > STROBE_PLOTS_MIN && rho_count_bits(ranges) >= STROBE_RANGES_MIN;
+}
+
 /* A jammer's strobe lies in one direction, at all ranges: too narrow for the density map. */
 static void look_for_strobes(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
+    if (!may_have_strobes(step, range_max_m)) {
+        return;
+    }
     const float plots = count_directions(step, range_max_m);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] != RHO_FATE_HELD) {

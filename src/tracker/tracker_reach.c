@@ -45,6 +45,7 @@ int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *p
         return 0;
     }
     return !(cross_sigma_m < ground_m) ||
+           rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad) ||
            rho_tracker_covers_bearing(sensor, rho_atan2(dy_m, dx_m), cross_sigma_m / ground_m);
 }
 

@@ -344,11 +344,10 @@ static void look_near(struct step *step, const struct rho_second_plots *table, u
     const struct rho_track *track = &step->tracker->tracks[row];
     const struct rho_plot *first = &step->scan->plots[track->plot];
     const float half_m = REACH_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
-    const struct plot_range near =
-        rho_tracker_plots_between(step, first->x_m - half_m, first->x_m + half_m);
-    rho_tracker_spend(step, (near.end - near.first) / PLOTS_A_UNIT);
-    for (uint32_t place = near.first; place < near.end; place++) {
-        const uint32_t i = rho_tracker_plot_at(step, place);
+    struct plots_near near = rho_tracker_plots_near(step, first->x_m - half_m, first->x_m + half_m,
+                                                    first->y_m - half_m, first->y_m + half_m);
+    uint32_t passed = 0;
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i); passed++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -364,6 +363,7 @@ static void look_near(struct step *step, const struct rho_second_plots *table, u
             found->across[offset.across] += share;
         }
     }
+    rho_tracker_spend(step, passed / PLOTS_A_UNIT);
 }
 
 static void teach_track(struct rho_track *track, float plots, float share)

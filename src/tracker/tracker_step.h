@@ -18,6 +18,13 @@ struct work_share {
     unsigned waiting;
 };
 
+/* Limits of places, inclusive. */
+struct plot_box {
+    float x_min_m, x_max_m, y_min_m, y_max_m;
+};
+
+#define RHO_PLOT_BOXES 8
+
 struct step {
     struct rho_tracker *tracker;
     int64_t time_us;
@@ -50,6 +57,10 @@ struct step {
     int is_partial;
     /* bit i: track i is within the scan's reach, or there is no scan but a frame */
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
+#if RHO_PLOT_STRIPS == 1
+    struct plot_box boxes[RHO_PLOT_BOXES]; /* of plots that follow each other, as many in each */
+    uint32_t plots_of_box;
+#endif
     struct rho_track_model model;
     float log_pd;
     float log_miss;  /* ln(1 - pd) */
@@ -275,37 +286,54 @@ uint32_t rho_tracker_work_left(const struct step *step);
 /* What the step has done is told. */
 void rho_tracker_end_work(struct step *step);
 
-/* tracker_strips.c: plots near a track, by their places in an order of its own */
-struct plot_range {
-    uint32_t first, end;
+/*
+ * tracker_strips.c: the rows of the plots near a place. Those between these limits are among them:
+ *     struct plots_near near = rho_tracker_plots_near(step, x_min_m, x_max_m, y_min_m, y_max_m);
+ *     for (uint32_t row; rho_tracker_next_plot(step, &near, &row);)
+ */
+struct plots_near {
+    uint32_t next, end; /* places in the order of the strip or box that is looked at */
+    unsigned box;       /* the next one */
+    struct plot_box within;
 };
 
-#if RHO_PLOT_STRIPS > 1
 void rho_tracker_sort_plots(struct step *step);
-struct plot_range rho_tracker_plots_between(const struct step *step, float x_min_m, float x_max_m);
-
-/* The row of the plot in that place. */
-static inline uint32_t rho_tracker_plot_at(const struct step *step, uint32_t place)
+struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
+                                         float y_min_m, float y_max_m);
+#if RHO_PLOT_STRIPS > 1
+static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
+                                        uint32_t *row)
 {
-    return step->tracker->strips.plots[place];
+    if (near->next >= near->end) {
+        return 0;
+    }
+    *row = step->tracker->strips.plots[near->next++];
+    return 1;
+}
+
+/* How many they may be. */
+static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
+{
+    (void)step;
+    return near->end - near->next;
 }
 #else
-static inline void rho_tracker_sort_plots(struct step *step)
+int rho_tracker_next_box(const struct step *step, struct plots_near *near);
+
+static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
+                                        uint32_t *row)
 {
-    (void)step;
+    if (near->next >= near->end && !rho_tracker_next_box(step, near)) {
+        return 0;
+    }
+    *row = near->next++;
+    return 1;
 }
 
-static inline struct plot_range rho_tracker_plots_between(const struct step *step, float x_min_m,
-                                                          float x_max_m)
+static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
 {
-    (void)x_min_m, (void)x_max_m;
-    return (struct plot_range){0, step->num_gated};
-}
-
-static inline uint32_t rho_tracker_plot_at(const struct step *step, uint32_t place)
-{
-    (void)step;
-    return place;
+    (void)near;
+    return step->num_gated;
 }
 #endif
 

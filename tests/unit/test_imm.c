@@ -887,6 +887,47 @@ static void an_estimate_is_coupled_where_any_two_axes_are(void **state)
     }
 }
 
+/* Near the sensor too, where the line of sight turns much within what is known of the place. */
+static void range_rates_without_a_height_are_those_the_kalman_filter_expects(void **state)
+{
+    const struct rho_sensor sensor = {
+        .sensor_id = 1, .x_m = 300.0f, .y_m = -200.0f, .z_m = 40.0f, .range_max_m = 1e6f};
+    struct rho_imm_model model = some_model();
+
+    (void)state;
+    for (int n = 0; n < 500; ++n) {
+        struct rho_kalman at;
+        struct rho_imm imm;
+        struct rho_imm_rates rates;
+        struct rho_kalman_row row;
+        float projected[RHO_KALMAN_STATES];
+        const float range_m = (float)pow(10.0, uniform(1.5, 4.0));
+        rho_kalman_init(&at);
+        for (int axis = 0; axis < 2; ++axis) {
+            assert_int_equal(rho_kalman_open_axis(&at, axis, range_m, 0.04f * range_m * range_m,
+                                                  (float)uniform(10.0, 1e4)),
+                             RHO_OK);
+            at.state[3 + axis] = (float)uniform(-300.0, 300.0);
+        }
+        at.covariance[RHO_AT(1, 0)] = (float)uniform(-0.03, 0.03) * range_m * range_m;
+        at.covariance[RHO_AT(4, 0)] = (float)uniform(-0.1, 0.1) * range_m;
+        at.covariance[RHO_AT(4, 3)] = (float)uniform(-8.0, 8.0);
+        rho_imm_start(&imm, &model, &at);
+        rho_imm_open_rates(&rates, &imm, &sensor);
+        assert_true(rho_kalman_see_range_rate(&at, &sensor, 0.0f, FLT_MIN, &row));
+        const float variance =
+            row.variance + rho_linalg_project6(at.covariance, row.row, projected);
+        for (int i = 0; i < 2; ++i) {
+            assert_true(fabsf(rates.expected_mps[i] + row.innovation) <= 1e-3f);
+            assert_true(fabsf(rates.variance[i] - variance) <= 1e-4f * variance);
+            for (int k = 0; k < RHO_KALMAN_STATES; ++k) {
+                assert_true(fabsf(rates.projected[i][k] - projected[k]) <=
+                            1e-4f * sqrtf(variance * at.covariance[RHO_AT(k, k)]));
+            }
+        }
+    }
+}
+
 static void a_bearing_from_its_own_place_does_nothing(void **state)
 {
     const struct rho_imm_model model = interval_model(5.0);
@@ -918,6 +959,7 @@ int main(void)
         cmocka_unit_test(a_gate_weighs_as_one_plot_does),
         cmocka_unit_test(both_models_start_from_the_estimate),
         cmocka_unit_test(an_estimate_is_coupled_where_any_two_axes_are),
+        cmocka_unit_test(range_rates_without_a_height_are_those_the_kalman_filter_expects),
         cmocka_unit_test(a_bearing_from_its_own_place_does_nothing),
     };
 
