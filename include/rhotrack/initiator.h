@@ -185,8 +185,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initia
 
 /* The same with so much work instead of the config's work_max: what a step has left for it. */
 RHO_MUST_CHECK enum rho_status rho_initiator_search_within(struct rho_initiator *initiator,
-                                                           enum rho_search kind,
-                                                           uint32_t work_max);
+                                                           enum rho_search kind, uint32_t work_max);
 
 /*
  * Marks the plots of a candidate of the last search as used: they leave all later searches.

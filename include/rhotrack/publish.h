@@ -62,12 +62,11 @@ void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *fr
                         struct rho_message_status *status);
 
 /*
- * Fills what the limit on work did, work_max itself among it; each may be NULL, and counts as
+ * Fills what the limit on work did, work_max itself among it; a tracker that is NULL counts as
  * zeros. scan, epoch, num_steps, reports_not_printed and events_not_logged are 0: they are the
  * caller's. Constant cost. Stack: 80 bytes.
  */
-void rho_publish_work(const struct rho_tracker *tracker, const struct rho_initiator *initiator,
-                      struct rho_message_work *work);
+void rho_publish_work(const struct rho_tracker *tracker, struct rho_message_work *work);
 
 /*
  * How one sensor is doing (sensor_t): what the feed hears of it, and of a sensor of plots what the tracker makes of it.

@@ -87,8 +87,8 @@ struct rho_tracker_config {
      * looked at where RHO_FILTERS has no input estimation */
     struct rho_input_config input;
     float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
-    /* work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have half of it at most, the
-     * search what is left, and at most its own work_max */
+    /* work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have half of it at most, clutter
+     * a quarter, the search what is left, and at most its own work_max */
     uint32_t work_max;
 };
 
@@ -118,8 +118,11 @@ struct rho_tracker_counters {
 /*
  * What the limits on work did. A unit is 40 instructions of a Cortex-M4 or so: those of struct rho_initiator_budget, and for
  * a plot that a track weighs, by each of its hypotheses, 4 to 80. Where plots crowd in a track's gate those far from its
- * expected place are left out, and the counters move. All saturate, and only rho_tracker_init clears them.
+ * expected place are left out, and the counters move. All saturate, and only rho_tracker_init clears them. work is at most
+ * work_max and RHO_TRACKER_WORK_BEYOND: what was begun is ended. Of frames the passive initiator's search is none of it:
+ * what it costs follows from the capacities alone.
  */
+#define RHO_TRACKER_WORK_BEYOND (RHO_INITIATOR_WORK_BEYOND + 64u * RHO_MAX_PLOTS)
 struct rho_tracker_work {
     uint32_t work, work_worst; /* units of the last step, of the worst one */
     uint32_t partial_steps;    /* steps that left something out */
@@ -228,7 +231,7 @@ struct rho_report {
     /* of the scan: fates of the first RHO_MAX_PLOTS follow; the others are claimed, INVALID or NO_ROOM, or STALE of a late scan */
     uint32_t num_plots;
     uint16_t num_tracks, num_ended;
-    uint32_t is_partial; /* work ended before all plots were tried */
+    uint32_t is_partial;                 /* work ended before all plots were tried */
     uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
     uint8_t fates[RHO_MAX_PLOTS];        /* enum rho_fate */
     struct rho_track_report tracks[RHO_MAX_TRACKS];

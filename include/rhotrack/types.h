@@ -29,7 +29,7 @@
 #define RHO_LIMIT_SIGMA_RAD_MIN 1.0e-6f /* of an angle */
 #define RHO_LIMIT_SIGMA_RAD_MAX 0.5f
 #define RHO_LIMIT_WORK 100000000 /* of a step, units */
-#define RHO_LIMIT_BIAS_M 1.0e4f /* of a sensor, either way */
+#define RHO_LIMIT_BIAS_M 1.0e4f  /* of a sensor, either way */
 #define RHO_LIMIT_BIAS_RAD 0.5f
 #define RHO_LIMIT_BIAS_S 10.0f
 #define RHO_LIMIT_SPAN_MIN_MPS 1.0f /* of ambiguous range rates */

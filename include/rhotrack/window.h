@@ -133,7 +133,8 @@ struct rho_window_place {
 struct rho_window_work {
     uint32_t lookups;   /* queries */
     uint32_t distances; /* plots compared */
-    uint32_t passed;    /* rows of bins, and what else costs as much: two for a plot in its own noise */
+    uint32_t
+        passed; /* rows of bins, and what else costs as much: two for a plot in its own noise */
 };
 
 /*

@@ -11,7 +11,6 @@
 /* Slower "fastest targets" would leave no room for velocities in float32. */
 #define V_MAX_LEAST_MPS 0.01f
 
-
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */

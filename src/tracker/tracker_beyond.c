@@ -12,8 +12,6 @@
 
 #if RHO_CLAIMS_BEYOND
 
-/* Work is bounded: what lies beyond so many parts nobody looks at. */
-#define PARTS_MAX 4u
 /* Rows that a track can tell. */
 #define ROWS_MAX ((uint32_t)INT16_MAX)
 
@@ -84,8 +82,9 @@ static void end_part(struct step *step, const struct part *part)
 
 static uint32_t end_of_parts(const struct rho_scan *whole)
 {
-    const uint32_t most =
-        PARTS_MAX * RHO_MAX_PLOTS < ROWS_MAX ? PARTS_MAX * RHO_MAX_PLOTS : ROWS_MAX;
+    const uint32_t most = RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS < ROWS_MAX
+                              ? RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS
+                              : ROWS_MAX;
     return whole->num_plots < most ? whole->num_plots : most;
 }
 

@@ -301,11 +301,10 @@ static void search_newest(struct step *step)
 {
     struct rho_initiator *initiator = step->initiator;
     const struct rho_initiator_budget before = initiator->budget;
-    (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST,
-                                       rho_tracker_work_left(step));
+    (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST, rho_tracker_work_left(step));
     step->work = rho_count(step->work, initiator->budget.work);
-    step->plots_not_tried = rho_count(
-        step->plots_not_tried, initiator->budget.plots_not_tried - before.plots_not_tried);
+    step->plots_not_tried = rho_count(step->plots_not_tried,
+                                      initiator->budget.plots_not_tried - before.plots_not_tried);
     step->is_partial |= initiator->budget.partial_steps != before.partial_steps;
 }
 

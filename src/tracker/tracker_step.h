@@ -337,7 +337,8 @@ static inline uint32_t rho_tracker_most_near(const struct step *step, const stru
 }
 #endif
 
-/* tracker_beyond.c: claim and update, of a scan of more than RHO_MAX_PLOTS */
+/* tracker_beyond.c: claim and update, of a scan of more than RHO_MAX_PLOTS. What lies beyond so many parts nobody looks at */
+#define RHO_TRACKER_PARTS_MAX 4u
 #if RHO_CLAIMS_BEYOND
 void rho_tracker_claim_parts(struct step *step);
 #endif

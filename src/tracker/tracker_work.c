@@ -21,10 +21,20 @@
 #define VELOCITY_3D_UNITS 140u
 #define GATE_UNITS 12u
 
+/* A scan of more plots than there is room for is claimed part by part, in as many phases. */
+static uint32_t num_parts(const struct step *step)
+{
+    const uint32_t parts = (step->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
+    return !RHO_CLAIMS_BEYOND || parts < 1u ? 1u
+           : parts < RHO_TRACKER_PARTS_MAX  ? parts
+                                            : RHO_TRACKER_PARTS_MAX;
+}
+
 void rho_tracker_begin_share(struct step *step, uint32_t part)
 {
     const uint32_t work_max = step->tracker->config.work_max;
-    step->share.end = work_max > 0 ? rho_count(step->work, work_max / part) : UINT32_MAX;
+    step->share.end =
+        work_max > 0 ? rho_count(step->work, work_max / (part * num_parts(step))) : UINT32_MAX;
 }
 
 void rho_tracker_begin_work(struct step *step)
@@ -35,8 +45,9 @@ void rho_tracker_begin_work(struct step *step)
         waiting += rho_tracker_is_reached(step, row) ? 1u : 0u;
     }
     rho_tracker_begin_share(step, PHASE_SHARE);
-    step->share.kept =
-        waiting > 0 ? tracker->config.work_max / (PHASE_SHARE * KEPT_SHARE * waiting) : 0u;
+    step->share.kept = waiting > 0 ? tracker->config.work_max /
+                                         (PHASE_SHARE * KEPT_SHARE * num_parts(step) * waiting)
+                                   : 0u;
     step->share.waiting = waiting;
 }
 
@@ -81,7 +92,7 @@ static unsigned class_of(const struct rho_track *track, const struct rho_plot *p
     unsigned class = 0;
     while (class + 1u < RHO_WORK_CLASSES && dx_m * dx_m + dy_m * dy_m >= end_m2) {
         end_m2 *= 2.0f;
-        class++;
+        class ++;
     }
     return class;
 }

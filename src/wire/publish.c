@@ -275,8 +275,7 @@ void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *fr
 
 /* ---- Work ---- */
 
-void rho_publish_work(const struct rho_tracker *tracker, const struct rho_initiator *initiator,
-                      struct rho_message_work *work)
+void rho_publish_work(const struct rho_tracker *tracker, struct rho_message_work *work)
 {
     if (!work) {
         return;
@@ -284,12 +283,10 @@ void rho_publish_work(const struct rho_tracker *tracker, const struct rho_initia
     *work = (struct rho_message_work){.utime = 0};
     if (tracker) {
         work->utime = tracker->time_us;
+        work->work_max = tracker->config.work_max;
         work->work = tracker->work.work;
         work->work_worst = tracker->work.work_worst;
         work->partial_steps = tracker->work.partial_steps;
         work->plots_not_tried = tracker->work.plots_not_tried;
-    }
-    if (initiator) {
-        work->work_max = initiator->config.work_max;
     }
 }

@@ -505,6 +505,17 @@ static void check_work(const struct rho_initiator *initiator, int is_batch)
     HOLDS("the worst search worked no more", budget->work_worst <= most);
 }
 
+static void check_step_work(const struct rho_tracker *tracker)
+{
+    const uint64_t most = (uint64_t)tracker->config.work_max + RHO_TRACKER_WORK_BEYOND;
+
+    HOLDS("the tracker's work_worst is the worst", tracker->work.work_worst >= tracker->work.work);
+    HOLDS("a step works no more than work_max and RHO_TRACKER_WORK_BEYOND",
+          tracker->config.work_max == 0 || tracker->work.work_worst <= most);
+    HOLDS("what is left out makes steps partial",
+          tracker->work.plots_not_tried == 0 || tracker->work.partial_steps > 0);
+}
+
 static void check_passive(struct rho_passive *passive)
 {
     HOLDS("tracks of bearings are within their capacity",
@@ -530,6 +541,7 @@ static void check_passive(struct rho_passive *passive)
 static void check_objects(void)
 {
     HOLDS("the tracker is sound", !(touched & TRACKER) || rho_tracker_is_sound(&chain.tracker));
+    check_step_work(&chain.tracker);
     for (unsigned i = 0; i < INITIATORS; i++) {
         if (!(touched & INITIATOR(i))) {
             continue;
@@ -593,6 +605,8 @@ static void check_step(uint32_t num_plots, int64_t time_us, const struct rho_sca
 
 /* ---- configurations --------------------------------------------------------------------------- */
 
+static const uint32_t works[8] = {RHO_WORK_MAX, 0, 1, 1000, 20000, RHO_LIMIT_WORK, 60, 5000};
+
 static int configure_tracker(struct script *script)
 {
     struct rho_tracker_config config;
@@ -629,8 +643,10 @@ static int configure_tracker(struct script *script)
             *floats[field % 16] = odd_number(script);
         } else if (field < 128) {
             config.coast_scans_max = (uint16_t)byte(script);
-        } else {
+        } else if (field < 192) {
             config.planes = (uint8_t)byte(script);
+        } else {
+            config.work_max = works[byte(script) % 8];
         }
     }
     status = rho_tracker_init(&chain.tracker, sizeof chain.tracker, &config);
@@ -644,7 +660,6 @@ static int configure_tracker(struct script *script)
 
 static int configure_initiator(struct script *script, struct rho_initiator *initiator)
 {
-    static const uint32_t works[8] = {RHO_INITIATOR_WORK, 0, 1, 1000, 20000, 100000000, 60, 5000};
     struct rho_initiator_config config;
     const unsigned how = byte(script);
     enum rho_status status;

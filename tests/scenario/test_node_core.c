@@ -238,7 +238,7 @@ static void the_limits_have_a_message_of_their_own(void **state)
     assert_int_equal(work->num_steps, node_core_counters(live.core)->steps);
     assert_int_equal(work->scan, live.heard.status.scan);
     assert_int_equal(work->utime, live.heard.status.utime);
-    assert_int_equal(work->work_max, RHO_INITIATOR_WORK);
+    assert_int_equal(work->work_max, RHO_WORK_MAX);
     assert_int_equal(work->reports_not_printed, 5);
     assert_true(work->events_not_logged == INT64_MAX);
     node_core_close(live.core);

@@ -441,13 +441,13 @@ static void work_is_the_trackers(void **state)
     (void)state;
     memset(&work, 0x5a, sizeof work);
     memset(&zeros, 0, sizeof zeros);
-    rho_publish_work(NULL, NULL, &work);
+    rho_publish_work(NULL, &work);
     assert_memory_equal(&work, &zeros, sizeof work);
     tracker.time_us = 77;
     tracker.work = (struct rho_tracker_work){
         .work = 1, .work_worst = 22, .partial_steps = 333, .plots_not_tried = UINT32_MAX};
-    initiator.config.work_max = 55555;
-    rho_publish_work(&tracker, &initiator, &work);
+    tracker.config.work_max = 55555;
+    rho_publish_work(&tracker, &work);
     assert_int_equal(rho_message_work_validate(&work, &place), RHO_OK);
     assert_int_equal(work.utime, 77);
     assert_int_equal(work.work_max, 55555);
@@ -457,7 +457,7 @@ static void work_is_the_trackers(void **state)
     assert_int_equal(work.plots_not_tried, UINT32_MAX);
     assert_true(work.scan == 0 && work.epoch == 0 && work.num_steps == 0);
     assert_true(work.reports_not_printed == 0 && work.events_not_logged == 0);
-    rho_publish_work(&tracker, &initiator, NULL);
+    rho_publish_work(&tracker, NULL);
 }
 
 /* Three targets that come, are seen, and go, the first one first or last. */

@@ -110,7 +110,8 @@ static void others_than_the_crowded_track_have_their_share(void **state)
         const struct rho_track_report *track = report_of(id), *was = &alone.tracks[id - 1];
         assert_non_null(track);
         assert_int_equal(was->track_id, id);
-        if (hypot((double)was->state[0] - target_x_m(0, SCANS - 1), (double)was->state[1]) < 400.0) {
+        if (hypot((double)was->state[0] - target_x_m(0, SCANS - 1), (double)was->state[1]) <
+            400.0) {
             assert_true(hypot((double)(track->state[0] - was->state[0]),
                               (double)(track->state[1] - was->state[1])) < 150.0);
         } else {

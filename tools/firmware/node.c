@@ -106,7 +106,7 @@ static void publish_status(void)
 static void publish_work(void)
 {
     struct rho_message_work work;
-    rho_publish_work(&tracker, &initiator, &work);
+    rho_publish_work(&tracker, &work);
     work.utime = report.time_us;
     work.scan = node.step;
     work.epoch = epoch();

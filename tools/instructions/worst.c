@@ -58,30 +58,18 @@ static const struct range {
     float low, high;
     int is_log;
 } ranges[GENES] = {
-    [TARGETS] = {0.0f, 1.0f, 0},
-    [TARGET_PLOTS] = {1.0f, 8.99f, 0},
-    [TARGET_SIGMAS] = {0.01f, 5.0f, 1},
-    [SPACING_M] = {1.0f, 30000.0f, 1},
-    [SPEED_SHARE] = {0.0f, 1.1f, 0},
-    [SEEN] = {0.2f, 1.0f, 0},
-    [PLOTS] = {0.0f, 1.0f, 0},
-    [SHAPE] = {0.0f, 3.99f, 0},
-    [HEAPS] = {1.0f, 16.99f, 0},
-    [HEAP_M] = {0.1f, 30000.0f, 1},
-    [STAYS] = {0.0f, 1.0f, 0},
-    [DRIFTS] = {0.0f, 1.99f, 0},
-    [PLACE] = {0.01f, 0.9f, 0},
-    [SIGMA_RANGE_M] = {0.1f, 3000.0f, 1},
-    [SIGMA_RAD] = {1e-4f, 0.3f, 1},
-    [SIGMA_RATE_MPS] = {0.05f, 100.0f, 1},
-    [MEASURES] = {0.0f, 7.99f, 0},
-    [SPAN_MPS] = {2.0f, 2000.0f, 1},
-    [RATE_MPS] = {0.1f, 1000.0f, 1},
-    [OWN_TIMES] = {0.0f, 1.99f, 0},
-    [INTERVAL] = {0.1f, 2.0f, 1},
-    [SENSORS] = {1.0f, 4.99f, 0},
-    [QUIET] = {0.0f, 12.99f, 0},
-    [DRAW] = {0.0f, 255.0f, 0},
+    [TARGETS] = {0.0f, 1.0f, 0},        [TARGET_PLOTS] = {1.0f, 8.99f, 0},
+    [TARGET_SIGMAS] = {0.01f, 5.0f, 1}, [SPACING_M] = {1.0f, 30000.0f, 1},
+    [SPEED_SHARE] = {0.0f, 1.1f, 0},    [SEEN] = {0.2f, 1.0f, 0},
+    [PLOTS] = {0.0f, 1.0f, 0},          [SHAPE] = {0.0f, 3.99f, 0},
+    [HEAPS] = {1.0f, 16.99f, 0},        [HEAP_M] = {0.1f, 30000.0f, 1},
+    [STAYS] = {0.0f, 1.0f, 0},          [DRIFTS] = {0.0f, 1.99f, 0},
+    [PLACE] = {0.01f, 0.9f, 0},         [SIGMA_RANGE_M] = {0.1f, 3000.0f, 1},
+    [SIGMA_RAD] = {1e-4f, 0.3f, 1},     [SIGMA_RATE_MPS] = {0.05f, 100.0f, 1},
+    [MEASURES] = {0.0f, 7.99f, 0},      [SPAN_MPS] = {2.0f, 2000.0f, 1},
+    [RATE_MPS] = {0.1f, 1000.0f, 1},    [OWN_TIMES] = {0.0f, 1.99f, 0},
+    [INTERVAL] = {0.1f, 2.0f, 1},       [SENSORS] = {1.0f, 4.99f, 0},
+    [QUIET] = {0.0f, 12.99f, 0},        [DRAW] = {0.0f, 255.0f, 0},
 };
 
 struct sky {
@@ -190,8 +178,8 @@ static struct place draw_clutter(const struct sky *sky, float t_s)
         at.x_m = draw_uniform(0.0f, NODE_RANGE_MAX_M);
         at.y_m = heap_m * (float)heap;
     } else {
-        const struct place middle = target_at(
-            sky, shape == ON_TARGETS && targets > 0 ? heap % targets : 7u * heap, t_s);
+        const struct place middle =
+            target_at(sky, shape == ON_TARGETS && targets > 0 ? heap % targets : 7u * heap, t_s);
         at.x_m = middle.x_m + draw_normal(heap_m);
         at.y_m = middle.y_m + draw_normal(heap_m);
     }
@@ -285,8 +273,8 @@ static void watch(struct sky *sky)
 
 static void say(const struct sky *sky)
 {
-    printf("%lu instructions, work %lu, sky ", (unsigned long)sky->instructions,
-           (unsigned long)sky->work);
+    printf("%lu instructions, work %lu of %lu, sky ", (unsigned long)sky->instructions,
+           (unsigned long)sky->work, (unsigned long)NODE_WORK_MAX);
     for (int i = 0; i < GENES; i++) {
         printf("%02x", sky->genes[i]);
     }
@@ -322,7 +310,9 @@ static void bear(struct sky *child, const struct sky *parent, const struct sky *
         const int moved = (int)child->genes[gene] + (int)draw_below(41) - 20;
         child->genes[gene] = way == 0   ? (uint8_t)draw_below(256)
                              : way == 1 ? other->genes[gene]
-                                        : (uint8_t)(moved < 0 ? 0 : moved > 255 ? 255 : moved);
+                                        : (uint8_t)(moved < 0     ? 0
+                                                    : moved > 255 ? 255
+                                                                  : moved);
     }
 }
 

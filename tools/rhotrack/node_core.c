@@ -456,7 +456,7 @@ static void send_work(const struct node_core *core, const struct node_core_losse
     uint8_t buffer[RHO_MESSAGE_WORK_MAX_SIZE];
     size_t size;
 
-    rho_publish_work(core->chain.tracker, core->chain.initiator, &work);
+    rho_publish_work(core->chain.tracker, &work);
     work.scan = core->step;
     work.epoch = core->epoch;
     work.num_steps = at_most_int64(core->counters.steps);

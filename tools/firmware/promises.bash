@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# What a step of each shipped configuration of the node (nodes/) costs at most: `promise_of NAME` sets core, a step's fixed
+# instructions (a), those of a unit of work (b), and what the processor has time for (most): a quarter of the scan interval at
+# 168 MHz (M4) or 480 MHz (M7), for `smallest` 4 million; `full` is any radar's, here one of 4 s.
+shipped='full en_route marine traffic smallest'
+promise_of() {
+    core=m4 a=5000000 b=90
+    case $1 in
+    full) most=168000000 ;;
+    en_route) most=420000000 ;;
+    marine) most=105000000 ;;
+    traffic) core=m7 a=2500000 most=6000000 ;;
+    smallest) a=2200000 most=4000000 ;;
+    *) return 1 ;;
+    esac
+}
+
+# worst_of NAME ARGUMENT...: runs its program (search or sky); sets instructions, work, work_max, sky of the worst.
+worst_of() {
+    local name=$1 line
+    shift
+    line=$("$root/tools/firmware/emulate.sh" "$core" "$build/firmware/$core/worst/$name.elf" "$@" | grep 'instructions, work' | tail -1)
+    read -r instructions work work_max sky < <(sed -n 's/^\([0-9]*\) instructions, work \([0-9]*\) of \([0-9]*\), sky \([0-9a-f]*\)$/\1 \2 \3 \4/p' <<<"$line")
+    [ -n "${sky:-}" ]
+}
