@@ -395,34 +395,6 @@ void rho_initiator_lay_chance(const struct search *search, struct chance *chance
 
 /* ---- how many --------------------------------------------------------------------------------- */
 
-/*
- * Sets of a pattern in a class that reach s, of tracks that had not started at start_nat before: weight y^k times the
- * share of them whose track had not started without its newest hit. Its chi2 / 2 then was above `before`, and is below y
- * with it: of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q = before / y.
- * Asked for too often for logarithms: k is a multiple of a half.
- */
-static float sets_in(const struct pattern *pattern, const struct reach *reach, float before,
-                     float s_nat)
-{
-    float k = pattern->half_dimensions, y = reach->best_nat - s_nat;
-    if (!(y > 0.0f)) {
-        return 0.0f;
-    }
-    y = y < pattern->most ? y : pattern->most;
-    if (before >= y) {
-        return 0.0f;
-    }
-    unsigned halves = (unsigned)(2.0f * k + 0.5f);
-    float q = before / y, content = halves % 2u ? rho_sqrt(y) : 1.0f;
-    float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(k - 1) */
-    for (; halves >= 4u; halves -= 2u) {
-        content *= y;
-        raised *= q;
-    }
-    float share = before > 0.0f ? 1.0f - k * raised + (k - 1.0f) * raised * q : 1.0f;
-    return reach->weight * (content * y) * share;
-}
-
 /* A scan ago a track was as long, by a hit less: what its pattern, of one scan later and one hit less, leaves at start_nat. */
 static float before_of(const struct chance *chance, unsigned place, unsigned k, float start_nat)
 {
@@ -436,6 +408,37 @@ static float before_of(const struct chance *chance, unsigned place, unsigned k, 
     return before < most ? before : most;
 }
 
+/*
+ * Sets of a pattern in a class that reach s, of tracks that had not started at start_nat before: weight y^k times the
+ * share of them whose track had not started without its newest hit. Its chi2 / 2 then was above `before`, and is below y
+ * with it: of a ball's content, with one hit's two dimensions fewer, 1 - k q^(k - 1) + (k - 1) q^k, q = before / y.
+ * Asked for too often for logarithms: k is a multiple of a half.
+ */
+static float sets_in(const struct chance *chance, unsigned place, unsigned k, float s_nat,
+                     float start_nat)
+{
+    const struct pattern *pattern = &chance->patterns[k];
+    const struct reach *reach = &chance->reaches[place][k];
+    float half = pattern->half_dimensions, y = reach->best_nat - s_nat;
+    if (!(y > 0.0f)) {
+        return 0.0f;
+    }
+    const float before = before_of(chance, place, k, start_nat);
+    y = y < pattern->most ? y : pattern->most;
+    if (before >= y) {
+        return 0.0f;
+    }
+    unsigned halves = (unsigned)(2.0f * half + 0.5f);
+    float q = before / y, content = halves % 2u ? rho_sqrt(y) : 1.0f;
+    float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(half - 1) */
+    for (; halves >= 4u; halves -= 2u) {
+        content *= y;
+        raised *= q;
+    }
+    float share = before > 0.0f ? 1.0f - half * raised + (half - 1.0f) * raised * q : 1.0f;
+    return reach->weight * (content * y) * share;
+}
+
 static float sets_of(const struct chance *chance, unsigned k, float s_nat, float start_nat)
 {
     float sum = 0.0f;
@@ -443,8 +446,7 @@ static float sets_of(const struct chance *chance, unsigned k, float s_nat, float
         return 0.0f;
     }
     for (unsigned i = 0; i < chance->num_classes; i++) {
-        sum += sets_in(&chance->patterns[k], &chance->reaches[i][k],
-                       before_of(chance, i, k, start_nat), s_nat);
+        sum += sets_in(chance, i, k, s_nat, start_nat);
     }
     return sum;
 }

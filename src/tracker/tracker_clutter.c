@@ -46,8 +46,9 @@
 #define STROBE_RANGES 8.0f
 #define STROBE_RANGES_LAST 7u
 #define STROBE_RANGES_MIN 6u
-/* Units of work: an echo and a plot near it; and how many further away are one unit. The part of a step's work for all. */
-#define ECHO_UNITS 10u
+/* Units of work: an echo and a plot near it, more of them with range rates; and how many plots further away are one unit. The part of a step's work for all. */
+#define ECHO_UNITS 4u
+#define RATE_UNITS 6u
 #define PLOTS_A_UNIT 4u
 #define ECHOES_SHARE 8u
 /* Plots without clutter near them: the least density that is believed, plots a m^2. */
@@ -166,6 +167,8 @@ static void look_for(struct step *step, unsigned place)
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
     struct plots_near near = rho_tracker_plots_near(step, echo->x_m - half_m, echo->x_m + half_m,
                                                     echo->y_m - half_m, echo->y_m + half_m);
+    const uint32_t units =
+        ECHO_UNITS + (step->scan->measures & RHO_MEASURES_RANGE_RATE ? RATE_UNITS : 0u);
     uint32_t passed = 0;
     for (uint32_t i; rho_tracker_next_plot(step, &near, &i); passed++) {
         const struct rho_plot *plot = &step->scan->plots[i];
@@ -178,7 +181,7 @@ static void look_for(struct step *step, unsigned place)
             view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
             chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen);
         }
-        rho_tracker_spend(step, ECHO_UNITS);
+        rho_tracker_spend(step, units);
         const float density = chance * density_at(step, echo, &view, plot);
         if (!(density > 0.0f)) {
             continue;

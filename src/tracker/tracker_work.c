@@ -33,21 +33,20 @@ static uint32_t num_parts(const struct step *step)
 void rho_tracker_begin_share(struct step *step, uint32_t part)
 {
     const uint32_t work_max = step->tracker->config.work_max;
-    step->share.end =
-        work_max > 0 ? rho_count(step->work, work_max / (part * num_parts(step))) : UINT32_MAX;
+    step->share.end = work_max > 0 ? rho_count(step->work, work_max / part) : UINT32_MAX;
 }
 
 void rho_tracker_begin_work(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
+    const uint32_t part = PHASE_SHARE * num_parts(step);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting += rho_tracker_is_reached(step, row) ? 1u : 0u;
     }
-    rho_tracker_begin_share(step, PHASE_SHARE);
-    step->share.kept = waiting > 0 ? tracker->config.work_max /
-                                         (PHASE_SHARE * KEPT_SHARE * num_parts(step) * waiting)
-                                   : 0u;
+    rho_tracker_begin_share(step, part);
+    step->share.kept =
+        waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
     step->share.waiting = waiting;
 }
 

@@ -145,7 +145,8 @@ static void fly(struct live *live, int32_t from, int32_t to, enum fault fault)
         node_core_tick(live->core, START_US + (round + 1) * ROUND_US);
         node_sensors_watch(&live->said, live->core, live->lines);
     }
-    node_core_status(live->core, 0);
+    const struct node_core_losses none = {.reports_not_printed = 0};
+    node_core_status(live->core, &none);
     fflush(live->lines);
 }
 

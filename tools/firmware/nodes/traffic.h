@@ -2,7 +2,8 @@
 /*
  * traffic: a 24 GHz radar above a road, 20 looks a second of 64 plots with range rates at most: vehicles of up to 90 m/s.
  */
-#define RHO_WORK_MAX 36000
+#define RHO_WORK_MAX 40000
+#define RHO_MAX_SCANS 6
 #define RHO_MAX_PLOTS 64
 #define RHO_MAX_TRACKS 32
 #define RHO_MAX_BINS 144
