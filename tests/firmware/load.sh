@@ -13,7 +13,9 @@ load() { # text, record, settings...: one row; its $mean and $worst, the most $s
     local text=$1 name=$2 row
     shift 2
     "$root/tools/firmware/emulate.sh" m4 "$images/m4/replay.elf" "$name.lcm" out.lcm "$@" >said || { cat said; return 1; }
-    read -r mean worst used < <(sed -n 's/.*mean \([0-9]*\) max \([0-9]*\) stack \([0-9]*\).*/\1 \2 \3/p' said)
+    read -r partial mean worst used < <(
+        sed -n 's/.*partial \([0-9]*\) .*mean \([0-9]*\) max \([0-9]*\) stack \([0-9]*\).*/\1 \2 \3 \4/p' said)
+    partial_steps=$((partial_steps + partial))
     row=$(awk -v text="$text" -v mean="$mean" -v worst="$worst" -v hz="$cpu_hz" 'BEGIN {
         printf "| %s | %.3g M | %.3g M | %.0f |", text, mean / 1e6, worst / 1e6, 1000 * worst / hz
         exit !(mean > 0 && worst >= mean) }') && rows+=("$row") && [ "$used" -gt 0 ] &&
@@ -43,7 +45,7 @@ record_loads() {
 
 check 'the records are made' record_loads
 rows=()
-mean=0 worst=0 stack=0
+mean=0 worst=0 stack=0 partial_steps=0
 check 'a record of a large area' load '500 x 500 km, 10 s a scan, 50 m' sparse v_min_mps=50 v_max_mps=300 accel_mps2=5
 check 'a record of a smaller one' load '60 x 60 km, 4 s, 50 m' dense v_min_mps=50 v_max_mps=300 accel_mps2=5
 check 'a record of a small one' load '20 x 20 km, 2 s, 50 m' denser v_min_mps=50 v_max_mps=300 accel_mps2=5
@@ -53,6 +55,7 @@ check 'a turning radar' load 'turning radar, 20 to 60 km, 4 s, 15 m x 3 mrad, ta
 printf '%s\n' "${rows[@]}"
 check "the turning radar's mean is at most $mean_most" test "$mean" -gt 0 -a "$mean" -le "$mean_most"
 check "its worst is at most $worst_most" test "$worst" -gt 0 -a "$worst" -le "$worst_most"
+check 'no step of these was partial' test "$partial_steps" -eq 0
 check 'README.md says so' in_readme
 check 'so do flash and RAM' env BUILD="$build" "$root/tools/firmware/budget.sh" --readme
 check "the stack ($stack bytes) is at most $stack_most" test "$stack" -gt 0 -a "$stack" -le "$stack_most"

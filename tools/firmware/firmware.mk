@@ -38,6 +38,7 @@ node_names_m4 := en_route marine smallest
 node_names_m7 := traffic
 worst_names_m4 := full $(node_names_m4)
 worst_names_m7 := $(node_names_m7)
+smallest_replay := $(firmware)/m4/nodes/smallest-replay.elf
 node_images := $(foreach core,m4 m7,$(node_names_$(core):%=$(firmware)/$(core)/nodes/%.elf))
 worst_images := $(foreach core,m4 m7,$(worst_names_$(core):%=$(firmware)/$(core)/worst/%.elf))
 firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf $(firmware)/$(core)/replay.elf)
@@ -51,7 +52,7 @@ firmware-test:
 	@tools/setup.sh
 	@tools/setup.sh firmware
 	@BUILD=$(BUILD) tools/python.sh
-	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(worst_images) $(replay) $(replay_radar) $(firmware_tests)
+	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(smallest_replay) $(worst_images) $(replay) $(replay_radar) $(firmware_tests)
 	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 
 firmware_tests := $(addprefix $(BUILD)/tests/firmware/,test_udp_frame test_node_guard)
@@ -95,6 +96,12 @@ $(firmware)/$(1)/worst/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 endef
 $(foreach core,m4 m7,$(foreach name,$(node_names_$(core)),$(eval $(call node_of,$(core),$(name)))))
 $(foreach core,m4 m7,$(foreach name,$(worst_names_$(core)),$(eval $(call worst_of,$(core),$(name)))))
+
+# The smallest one also on records.
+smallest_replay_own := $(firmware_folder)/replay.c $(board)/mps2/semihosting.c
+$(smallest_replay): $(filter-out %/main.o %/udp_frame.o %/board_mps2.o %/lan9118.o,$(radar_sources:%.c=$(firmware)/m4/nodes/smallest/%.o)) \
+                    $(smallest_replay_own:%.c=$(firmware)/m4/nodes/smallest/%.o) $(firmware_scripts)
+	$(call firmware_bind,$(m4_flags) $(FIRMWARE_OPT) -nodefaultlibs -T large.ld,$(filter %.o,$^) -lc -lgcc)
 
 ## Search for the scans that cost each shipped configuration of the node most (WORST_SKIES=400 WORST_SEED=1); minutes
 worst: $(worst_images)

@@ -7,7 +7,7 @@
  * IN.lcm is an LCM log of scans; each message goes into the node as the datagram that it would be, at the time at which
  * it was recorded. OUT.lcm holds the node's own datagrams as messages, and beside them on the channel FATES what the
  * messages do not say: a byte a plot or bearing of each step. Both machines right, both files are the same bytes.
- * At the end one line: steps, tracks' reports, and where the machine can count them instructions and stack.
+ * At the end one line: steps, tracks' reports, partial steps, and where the machine can count them instructions and stack.
  */
 #include <string.h>
 
@@ -25,7 +25,7 @@ static int output;
 static int64_t now_us, events_written;
 static int has_failed;
 static struct {
-    uint32_t steps, track_reports;
+    uint32_t steps, track_reports, partial_steps;
     uint32_t instructions_max, instructions_aside; /* aside: in the functions that the node calls */
     uint64_t instructions_sum;
     uint32_t instructions_steps;
@@ -110,6 +110,7 @@ static void count_step(void *context, const struct rho_report *report)
     (void)context;
     tally.steps++;
     tally.track_reports += report->num_tracks;
+    tally.partial_steps += report->is_partial;
     write_event("FATES", report->fates,
                 report->num_plots < RHO_MAX_PLOTS ? report->num_plots : RHO_MAX_PLOTS);
     tally.instructions_aside += files_instructions_between(from, files_instructions());
@@ -223,6 +224,7 @@ static void report(void)
 {
     say("steps ", tally.steps);
     say(" reports ", tally.track_reports);
+    say(" partial ", tally.partial_steps);
     if (tally.instructions_max > 0 && tally.instructions_steps > 0) {
         say(" instructions mean ", (uint32_t)(tally.instructions_sum / tally.instructions_steps));
         say(" max ", tally.instructions_max);

@@ -260,7 +260,8 @@ static const struct {
     const char *name;
     void (*run)(const struct bench *bench);
 } benches[] = {{"kalman", bench_kalman}, {"initiate", bench_initiate}, {"track", bench_track},
-               {"hough", bench_hough},   {"passive", bench_passive},   {"node", bench_node}};
+               {"hough", bench_hough},   {"passive", bench_passive},   {"node", bench_node},
+               {"work", bench_work}};
 
 #define NUM_BENCHES (sizeof benches / sizeof benches[0])
 

@@ -1,0 +1,56 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# What a step of each shipped configuration of the node costs at most (tools/firmware/promises.bash) holds for the worst scans
+# that were found (worst_skies.txt), and for a few that are drawn now; the limit on work is why. The smallest node also runs
+# here on a record, and fits.
+# shellcheck source=tests/firmware/records.bash
+. "$(dirname "$0")/records.bash"
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/../integration/checks.bash"
+# shellcheck source=tools/firmware/promises.bash
+. "$root/tools/firmware/promises.bash"
+export EMULATE_SECONDS=300
+smallest_flash=$((62 * 1024)) smallest_ram=$((64 * 1024))
+
+keeps() { # the promise, and what the processor has time for
+    printf '%-10s %10d of %10d promised, %10d in time\n' "$1" "$instructions" "$((a + b * work_max))" "$most"
+    [ "$instructions" -gt 0 ] && [ "$instructions" -le "$((a + b * work_max))" ] && [ "$instructions" -le "$most" ]
+}
+
+keeps_under() { # name, sky
+    promise_of "$1" && worst_of "$1" sky "$2" && keeps "$1"
+}
+
+keeps_drawn() { # name
+    promise_of "$1" && worst_of "$1" search 7 3 && keeps "$1"
+}
+
+# The smallest node follows eight targets among 40 clutter plots, in the emulator, and no step costs more than it may.
+runs_on_a_record() {
+    promise_of smallest &&
+        record small polar plots --set targets.0.count=8 --set duration_s=120 --set clutter.0.plots=40 &&
+        "$root/tools/firmware/emulate.sh" m4 "$images/m4/nodes/smallest-replay.elf" small.lcm out.lcm >said && cat said &&
+        read -r reports instructions < <(sed -n 's/.*reports \([0-9]*\) .*max \([0-9]*\) .*/\1 \2/p' said) &&
+        [ "$reports" -gt 0 ] && [ "$instructions" -le "$most" ]
+}
+
+# Flash and RAM in bytes, stack included.
+fits() {
+    local flash ram
+    read -r flash ram < <(arm-none-eabi-size -A "$images/m4/nodes/smallest.elf" | awk '
+        $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
+        $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
+        END {print flash + 0, ram + 0}')
+    echo "smallest: $flash bytes of flash, $ram of RAM"
+    [ "$flash" -gt 0 ] && [ "$flash" -le "$smallest_flash" ] && [ "$ram" -le "$smallest_ram" ]
+}
+
+while read -r name sky; do
+    [ "$name" = '#' ] || check "$name keeps its promise: $sky" keeps_under "$name" "$sky"
+done <"$root/tests/firmware/worst_skies.txt"
+for name in $shipped; do
+    check "$name keeps it when others are drawn" keeps_drawn "$name"
+done
+check 'the smallest node runs on a record' runs_on_a_record
+check 'it fits' fits
+finish
