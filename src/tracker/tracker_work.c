@@ -45,8 +45,7 @@ void rho_tracker_begin_work(struct step *step)
         waiting += rho_tracker_is_reached(step, row) ? 1u : 0u;
     }
     rho_tracker_begin_share(step, part);
-    step->share.kept =
-        waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
+    step->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
     step->share.waiting = waiting;
 }
 
