@@ -43,7 +43,7 @@
 
 /* Work that a step may do where nothing else is said, in units (work_max of struct rho_tracker_config and rho_initiator_config). */
 #ifndef RHO_WORK_MAX
-#define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 24000000)
+#define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 8000000)
 #endif
 
 /* Cells along each side of a clutter density map. RAM: 2 bytes a cell and map. 1 .. 64. */

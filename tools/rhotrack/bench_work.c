@@ -52,8 +52,9 @@ static double within(struct random *random, double side_m)
 static void place(const struct sky *sky, struct random *random, size_t i, size_t scan,
                   struct rho_plot *plot)
 {
-    const double heap_m = 100e3 * (double)(i % HEAPS % 5) - 200e3;
-    const double row_m = 100e3 * (double)(i % HEAPS / 5) - 150e3;
+    const size_t heap = i % HEAPS, heap_row = heap / 5, target = i % TARGETS, row = target / 40;
+    const double heap_m = 100e3 * (double)(heap % 5) - 200e3;
+    const double row_m = 100e3 * (double)heap_row - 150e3;
     const double turn_rad = random_between(random, 0.0, 2.0 * M_PI);
     double x_m = within(random, SIDE_M), y_m = within(random, SIDE_M);
     if (sky->shape == PILE) {
@@ -63,17 +64,15 @@ static void place(const struct sky *sky, struct random *random, size_t i, size_t
         x_m = heap_m + 5e3 * random_normal(random);
         y_m = row_m + 5e3 * random_normal(random);
     } else if (sky->shape == LINES) {
-        y_m = 25e3 * (double)(i % HEAPS) - 250e3;
+        y_m = 25e3 * (double)heap - 250e3;
     } else if (sky->shape == RINGS) {
         x_m = heap_m + 100.0 * cos(turn_rad);
         y_m = row_m + 100.0 * sin(turn_rad);
     } else if (sky->shape == MANY_TARGETS || sky->shape == CROWDED_TARGETS) {
         const double spacing_m = sky->shape == MANY_TARGETS ? 11e3 : 400.0;
-        const size_t target = i % TARGETS;
         x_m = spacing_m * (double)(target % 40) - 20.0 * spacing_m +
               200.0 * INTERVAL_S * (double)scan + sky->sigma_m * random_normal(random);
-        y_m = spacing_m * (double)(target / 40) - 20.0 * spacing_m +
-              sky->sigma_m * random_normal(random);
+        y_m = spacing_m * (double)row - 20.0 * spacing_m + sky->sigma_m * random_normal(random);
     }
     *plot = (struct rho_plot){
         .x_m = (float)x_m,
