@@ -453,8 +453,8 @@ static inline void open_view(struct view *view, int model, const struct rho_imm 
 {
     view->state = model == 0 ? imm->steady.state : imm->state;
     view->covariance = model == 0 ? imm->steady.covariance : imm->covariance;
+    view->projected = rates->projected[model];
     if (has_rate) {
-        view->projected = rates->projected[model];
         view->expected_mps = rates->expected_mps[model];
         view->rate_variance = rates->variance[model];
     }

@@ -27,13 +27,13 @@ int rho_imm_plane_see_rate(const float *state, const float *covariance,
                            const struct rho_sensor *sensor, struct plane_rate *rate);
 
 /*
- * spread := the states' covariances with a place along the direction x y, or with a range rate.
+ * spread := by the covariance p the states' covariances with a place along the direction x y, or with a range rate.
  * Returns the variance of that.
  */
-float rho_imm_plane_project(int num_states, const float *restrict covariance, float x, float y,
+float rho_imm_plane_project(int num_states, const float *restrict p, float x, float y,
                             float *restrict spread);
-float rho_imm_plane_project_rate(int num_states, const float *restrict covariance,
-                                 const float *restrict row, float *restrict spread);
+float rho_imm_plane_project_rate(int num_states, const float *restrict p, const float *restrict row,
+                                 float *restrict spread);
 
 /*
  * A scalar update by what a projection has found: spread, and the variance `predicted`. The

@@ -62,7 +62,7 @@
     X(PROCESS_NOISE_MPS2, "process_noise_mps2", "m/s^2", 0, 0, 1000, 0, 1,                         \
       "acceleration that the initiation window allows for; 0: straight")                           \
     X(WORK_MAX, "work_max", "-", RHO_WORK_MAX, 0, 1e8, 1, 1,                                       \
-      "units of work for new tracks, a scan (20 to 90 instructions each); 0: no limit")            \
+      "units of work, a scan (20 to 90 instructions each), tracks first; 0: no limit")             \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
       "misses in a row that end a track")                                                          \
     X(LATE_MAX_S, "late_max_s", "s", 20, 0, 60, 0, 1,                                              \
