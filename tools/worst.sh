@@ -13,7 +13,10 @@ failed=0
 printf '%-10s %12s %12s %12s %12s %7s\n' node 'worst found' 'its work' promised 'time for' 'verdict'
 for name in ${WORST_NODES:-$shipped}; do
     promise_of "$name"
-    worst_of "$name" search "${WORST_SEED:-1}" "${WORST_SKIES:-300}"
+    worst_of "$name" search "${WORST_SEED:-1}" "${WORST_SKIES:-300}" || {
+        echo "worst.sh: $name: the search ended before its time" >&2
+        exit 1
+    }
     promised=$((a + b * work_max)) verdict=ok
     if [ "$instructions" -gt "$promised" ] || [ "$instructions" -gt "$most" ]; then
         verdict=BROKEN failed=1

@@ -69,7 +69,7 @@ struct rho_clutter_map {
     float rate_plots,
         exact_plots; /* of echoes, with range rates; those whose rate is just the echo's speed */
     float scans_to_blocks; /* scans until the tables below are moved on */
-    uint16_t first_echo;   /* of the next scan: work ended before all were looked for; else 0 */
+    uint16_t first_echo;   /* that the next scan looks for first: where work ended the last time */
     uint16_t is_looked;    /* ratios and best echoes below are those of the newest scan */
     /* by regions of range and azimuth about the sensor, and of all of them. [1], [2]: of the last scans, not believed yet: their
      * plots may turn out to be a target's */

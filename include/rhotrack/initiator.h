@@ -85,7 +85,8 @@ struct rho_initiator_turn {
  * 400. All saturate, and only rho_initiator_init clears them. work is at most work_max (of a batch: for each scan that kernels end in) and RHO_INITIATOR_WORK_BEYOND: what was
  * begun is ended. Thresholds and the density map come on top; what they cost follows from the capacities alone.
  */
-#define RHO_INITIATOR_WORK_BEYOND ((16u + 10u * RHO_MAX_SCANS) * (RHO_MAX_PLOTS + RHO_MAX_BINS))
+#define RHO_INITIATOR_WORK_BEYOND                                                                  \
+    ((16u + 30u * RHO_MAX_SCANS) * (RHO_MAX_PLOTS + RHO_MAX_BINS) + 4000u * RHO_MAX_SCANS)
 struct rho_initiator_budget {
     uint32_t work, work_worst; /* units of the last search, of the worst one */
     uint32_t

@@ -116,17 +116,21 @@ struct rho_tracker_counters {
 };
 
 /*
- * What the limits on work did. A unit is 40 instructions of a Cortex-M4 or so: those of struct rho_initiator_budget, and for
- * a plot that a track weighs, by each of its hypotheses, 4 to 80. Where plots crowd in a track's gate those far from its
- * expected place are left out, and the counters move. All saturate, and only rho_tracker_init clears them. work is at most
- * work_max and RHO_TRACKER_WORK_BEYOND: what was begun is ended. Of frames the passive initiator's search is none of it:
- * what it costs follows from the capacities alone.
+ * What the limits on work did. A unit is 40 to 90 instructions of a Cortex-M4: those of struct
+ * rho_initiator_budget; for a plot that a track weighs 20 to 220 by each of its hypotheses, or 12 by
+ * a Kalman filter's gate; for an echo of clutter and a plot near it 4 or 10, for two plots near each
+ * other 12. Where plots crowd in a track's gate those far from its expected place are left out, and
+ * the counters move. All saturate, and only rho_tracker_init clears them. work is at most work_max
+ * and RHO_TRACKER_WORK_BEYOND: what was begun is ended. Of frames the passive initiator's search is
+ * none of it: what it costs follows from the capacities alone.
  */
 #define RHO_TRACKER_WORK_BEYOND (RHO_INITIATOR_WORK_BEYOND + 64u * RHO_MAX_PLOTS)
 struct rho_tracker_work {
     uint32_t work, work_worst; /* units of the last step, of the worst one */
     uint32_t partial_steps;    /* steps that left something out */
-    uint32_t plots_not_tried;  /* by the search; and by tracks, once by each */
+    /* newest plots that the search left out; and by each track; echoes and plots' neighbours that
+     * were not looked for */
+    uint32_t plots_not_tried;
 };
 
 #if RHO_PLOT_STRIPS > 1

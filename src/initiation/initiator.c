@@ -259,6 +259,7 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     };
     initiator->num_candidates = 0;
     memset(&initiator->work, 0, sizeof initiator->work);
+    initiator->budget.work = 0;
     if (search.num_scans == 0) {
         return RHO_OK;
     }

@@ -130,6 +130,10 @@ static int vote_aliases(struct search *search, const struct span *span,
             *next = i + 1 - aliases.first;
             return 1;
         }
+        if (i < aliases.last && rho_initiator_is_spent(search)) {
+            search->is_partial = 1;
+            return 0;
+        }
     }
     return 0;
 }

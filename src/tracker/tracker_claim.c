@@ -414,6 +414,8 @@ static void commit(struct step *step, unsigned row)
     }
     if (lacks_plots(step, row)) {
         weigh_plots(step, row, assignment->column_row);
+    } else {
+        rho_tracker_waive(step);
     }
     /* the track is one of hypotheses: nothing to refuse */
     (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);

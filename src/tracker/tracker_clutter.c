@@ -195,30 +195,21 @@ static void look_for(struct step *step, unsigned place)
     rho_tracker_spend(step, passed / PLOTS_A_UNIT);
 }
 
-/* An echo that there is no work left for is none that the scan could see. */
-static void pass_over(struct step *step, struct rho_echo *echo)
-{
-    if (echo->hits > 0) {
-        echo->was_looked_at = 0;
-        echo->plot = -1;
-        echo->weight = 0.0f;
-        step->is_partial = 1;
-        step->plots_not_tried = rho_count(step->plots_not_tried, 1);
-    }
-}
-
-/* 1 where the scan may see the echo, which is then at the scan's time. */
-static int meet(struct step *step, struct rho_echo *echo, float range_max_m)
+/* 1 where the scan may see the echo. None is looked at or has a plot yet. */
+static int is_within(const struct step *step, struct rho_echo *echo)
 {
     const struct rho_scan *scan = step->scan;
     echo->was_looked_at = 0;
     echo->plot = -1;
     echo->weight = 0.0f;
-    if (echo->hits == 0 || echo->sensor_id != scan->sensor_id ||
-        !rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                  echo->x_m, echo->y_m)) {
-        return 0;
-    }
+    return echo->hits > 0 && echo->sensor_id == scan->sensor_id &&
+           rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                    echo->x_m, echo->y_m);
+}
+
+/* Brings the echo to the scan's time; 0 where it is none any more. */
+static int meet(struct step *step, struct rho_echo *echo, float range_max_m)
+{
     echo->was_looked_at = 1;
     echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
     if (rho_clutter_map_is_lost(echo)) {
@@ -236,21 +227,25 @@ static int meet(struct step *step, struct rho_echo *echo, float range_max_m)
     return 1;
 }
 
-/* Where work ends before all are looked for the next scan begins with the others. */
+/* Where work ends before all are looked for the next scan begins with the others; the scan is none that could see them. */
 static void look_for_echoes(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
-    unsigned place = map->first_echo, left_out = RHO_MAX_ECHOES;
+    unsigned place = map->first_echo, left_out = 0;
     rho_tracker_begin_share(step, ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_MAX_ECHOES; i++, place = (place + 1u) % RHO_MAX_ECHOES) {
+        if (!is_within(step, &map->echoes[place])) {
+            continue;
+        }
         if (rho_tracker_is_spent(step)) {
-            left_out = left_out < RHO_MAX_ECHOES ? left_out : place;
-            pass_over(step, &map->echoes[place]);
+            map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
+            left_out++;
         } else if (meet(step, &map->echoes[place], range_max_m)) {
             look_for(step, place);
         }
     }
-    map->first_echo = (uint16_t)(left_out < RHO_MAX_ECHOES ? left_out : 0u);
+    step->is_partial |= left_out > 0;
+    step->plots_not_tried = rho_count(step->plots_not_tried, left_out);
 }
 
 /* ---- strobes ---------------------------------------------------------------------------------- */

@@ -252,15 +252,15 @@ void rho_tracker_note_death(struct step *step, const struct rho_track *track);
 
 /* tracker_work.c: which of the plots in its reach a track has the time to weigh. A phase begins; then for each track that waits a
  * choice is made: where there may be more plots than `most`, all in reach are noted, and the choice is settled */
-#define RHO_WORK_CLASSES 40u
+#define RHO_WORK_OCTAVES 40u
 #define RHO_WORK_STARTS_SHARE 16u
 struct plot_choice {
     uint32_t most, units; /* plots; units for each */
     uint32_t in_reach;
     int is_partial;
-    unsigned last_class; /* all plots of the classes before; of this one: */
+    unsigned last; /* all plots of the octaves of distance before; of this one: */
     uint32_t of_last;
-    uint16_t in_class[RHO_WORK_CLASSES];
+    uint16_t in_octave[RHO_WORK_OCTAVES];
 };
 void rho_tracker_begin_work(struct step *step);
 /* Another phase, which has such a part of work_max: it spends, and ends where all is spent. */
@@ -268,6 +268,12 @@ void rho_tracker_begin_share(struct step *step, uint32_t part);
 static inline void rho_tracker_spend(struct step *step, uint32_t units)
 {
     step->work = rho_count(step->work, units);
+}
+
+/* One that waits does without its share. */
+static inline void rho_tracker_waive(struct step *step)
+{
+    step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
 }
 
 static inline int rho_tracker_is_spent(const struct step *step)

@@ -42,7 +42,8 @@ void rho_tracker_begin_work(struct step *step)
     const uint32_t part = PHASE_SHARE * num_parts(step);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        waiting += rho_tracker_is_reached(step, row) ? 1u : 0u;
+        waiting +=
+            tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_reached(step, row);
     }
     rho_tracker_begin_share(step, part);
     step->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
@@ -68,7 +69,7 @@ static uint32_t next_share(struct step *step)
     if (share->end == UINT32_MAX) {
         return UINT32_MAX;
     }
-    share->waiting -= share->waiting > 0 ? 1u : 0u;
+    rho_tracker_waive(step);
     const uint32_t used = step->work + share->kept * (share->waiting + 1u);
     const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
     return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
@@ -82,23 +83,23 @@ struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_
 }
 
 /* By octaves of the squared distance from the expected place, the nearest first. */
-static unsigned class_of(const struct rho_track *track, const struct rho_plot *plot)
+static unsigned octave_of(const struct rho_track *track, const struct rho_plot *plot)
 {
     const float dx_m = plot->x_m - track->kalman.state[0];
     const float dy_m = plot->y_m - track->kalman.state[1];
     float end_m2 = 1.0f;
-    unsigned class = 0;
-    while (class + 1u < RHO_WORK_CLASSES && dx_m * dx_m + dy_m * dy_m >= end_m2) {
+    unsigned octave = 0;
+    while (octave + 1u < RHO_WORK_OCTAVES && dx_m * dx_m + dy_m * dy_m >= end_m2) {
         end_m2 *= 2.0f;
-        class ++;
+        octave++;
     }
-    return class;
+    return octave;
 }
 
 void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
                              const struct rho_plot *plot)
 {
-    choice->in_class[class_of(track, plot)]++;
+    choice->in_octave[octave_of(track, plot)]++;
     choice->in_reach++;
 }
 
@@ -109,8 +110,8 @@ void rho_tracker_settle_choice(struct step *step, struct plot_choice *choice)
         return;
     }
     choice->is_partial = 1;
-    while (choice->in_class[choice->last_class] <= left) {
-        left -= choice->in_class[choice->last_class++];
+    while (choice->in_octave[choice->last] <= left) {
+        left -= choice->in_octave[choice->last++];
     }
     choice->of_last = left;
     step->is_partial = 1;
@@ -121,11 +122,11 @@ int rho_tracker_takes(struct step *step, struct plot_choice *choice, const struc
                       const struct rho_plot *plot)
 {
     if (choice->is_partial) {
-        const unsigned class = class_of(track, plot);
-        if (class > choice->last_class || (class == choice->last_class && choice->of_last == 0)) {
+        const unsigned octave = octave_of(track, plot);
+        if (octave > choice->last || (octave == choice->last && choice->of_last == 0)) {
             return 0;
         }
-        choice->of_last -= class == choice->last_class ? 1u : 0u;
+        choice->of_last -= octave == choice->last ? 1u : 0u;
     }
     rho_tracker_spend(step, choice->units);
     return 1;

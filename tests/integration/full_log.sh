@@ -211,7 +211,7 @@ if gcc -shared -fPIC -o stall.so stall.c 2>/dev/null; then
     wait_until 5 test -s work
     play
     goes_on 'a snapshot that cannot end' 1
-    check 'a snapshot that cannot end: it is said' grep -q 'an output does not answer; it ends without it' node.err
+    check 'a snapshot that cannot end: it is said' grep -q 'an output does not end in time; it ends without it' node.err
     check 'and the log is whole all the same' can_be_read node.lcm
 else
     echo 'skipped: a snapshot that cannot end: no gcc here'

@@ -10,8 +10,8 @@
 #define QUIET 8   /* scans before they come */
 #define SCANS 20
 #define WORK_MAX 20000u
-/* What a phase of tracks may do beyond its share: a track's own is at most a plot too many. */
-#define BEYOND (2u * 8u * 220u + RHO_INITIATOR_WORK_BEYOND)
+/* An echo and a track that were begun end: each with all plots near it. */
+#define BEYOND (30u * (CROWD + TARGETS))
 
 static double target_x_m(int i, int k)
 {
@@ -45,21 +45,41 @@ static void begin_with(uint32_t work_max, uint8_t gate)
 
 static const uint8_t gates[] = {RHO_TRACKER_BEST, RHO_TRACKER_NEAREST, RHO_TRACKER_HOUGH};
 
+/* Tracks that there are, without a search: the limit is theirs alone. */
+static void step_without_search(int k)
+{
+    const struct rho_scan scan = {
+        .time_us = (int64_t)(2e6 * k), .sensor_id = 1, .num_plots = num_plots, .plots = plots};
+    assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+    num_plots = 0;
+}
+
 static void a_step_does_no_more_than_it_may(void **state)
 {
     (void)state;
     for (unsigned g = 0; g < sizeof gates; g++) {
-        for (uint32_t work_max = WORK_MAX; work_max >= 500; work_max /= 4) {
-            begin_with(work_max, gates[g]);
-            for (int k = 0; k < SCANS; k++) {
+        uint32_t unlimited = 0;
+        for (uint32_t work_max = RHO_LIMIT_WORK; work_max >= 1000;
+             work_max = work_max > WORK_MAX ? WORK_MAX : work_max / 4) {
+            begin_with(RHO_LIMIT_WORK, gates[g]);
+            for (int k = 0; k < QUIET; k++) {
                 see_targets(k);
-                see_crowd(k, k < QUIET ? 2000.0 : 30.0);
                 step(2.0 * k);
+            }
+            assert_int_equal(report.num_tracks, TARGETS);
+            tracker.config.work_max = work_max;
+            for (int k = QUIET; k < SCANS; k++) {
+                see_targets(k);
+                see_crowd(k, 30.0);
+                step_without_search(k);
                 assert_true(tracker.work.work <= work_max + BEYOND);
             }
-            print_message("gate %u, limit %u: worst %u, partial %u\n", gates[g], (unsigned)work_max,
-                          (unsigned)tracker.work.work_worst, (unsigned)tracker.work.partial_steps);
-            assert_true(tracker.work.work_worst >= tracker.work.work);
+            print_message("gate %u, limit %u: worst %u, left out %u\n", gates[g],
+                          (unsigned)work_max, (unsigned)tracker.work.work_worst,
+                          (unsigned)tracker.work.plots_not_tried);
+            unlimited = work_max == RHO_LIMIT_WORK ? tracker.work.work_worst : unlimited;
+            assert_int_equal(tracker.work.partial_steps > 0, tracker.work.plots_not_tried > 0);
+            assert_int_equal(tracker.work.plots_not_tried > 0, work_max < unlimited);
         }
     }
 }
@@ -161,6 +181,40 @@ static void the_nearest_plots_are_weighed_first(void **state)
     assert_int_equal(report.tracks[0].plot, CROWD);
 }
 
+#if RHO_MAX_ECHOES > 0
+/* A sensor's plots that come back are more than there is work for; another's are few. */
+static void echoes_are_looked_for_in_turns(void **state)
+{
+    (void)state;
+    unsigned partial = 0, before = 0;
+    draw(5);
+    config.work_max = 600;
+    begin();
+    for (int k = 0; k < 2 * SCANS; k++) {
+        const int is_heavy = k % 2 == 0;
+        for (int i = 0; i < (is_heavy ? 100 : 3); i++) {
+            const double x_m = 40.0 * (i % 10) + (is_heavy ? 0.0 : 90e3) + normal();
+            add(x_m, 40.0 * (i / 10) + normal(), 20.0);
+        }
+        const struct rho_scan scan = {.time_us = (int64_t)(1e6 * k),
+                                      .sensor_id = is_heavy ? 1 : 2,
+                                      .num_plots = num_plots,
+                                      .plots = plots};
+        assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+        num_plots = 0;
+        if (!is_heavy) {
+            assert_int_equal(report.is_partial, 0);
+            assert_int_equal(tracker.clutter_map.first_echo, before);
+        } else if (report.is_partial) {
+            assert_int_not_equal(tracker.clutter_map.first_echo, before);
+            partial++;
+        }
+        before = tracker.clutter_map.first_echo;
+    }
+    assert_true(partial > SCANS / 2);
+}
+#endif
+
 static void a_limit_beyond_what_counts_is_refused(void **state)
 {
     (void)state;
@@ -177,6 +231,9 @@ int main(void)
         cmocka_unit_test(others_than_the_crowded_track_have_their_share),
         cmocka_unit_test(a_limit_that_is_not_reached_changes_nothing),
         cmocka_unit_test(the_nearest_plots_are_weighed_first),
+#if RHO_MAX_ECHOES > 0
+        cmocka_unit_test(echoes_are_looked_for_in_turns),
+#endif
         cmocka_unit_test(a_limit_beyond_what_counts_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# What a step of each shipped configuration of the node (nodes/) costs at most: `promise_of NAME` sets core, a step's fixed
-# instructions (a), those of a unit of work (b), and what the processor has time for (most): a quarter of the scan interval at
+# What a step of each shipped configuration of the node (nodes/) costs at most, as far as a guided search for the worst one can
+# tell: `promise_of NAME` sets core, a step's fixed instructions (a), those of a unit of work (b), and what the processor has
+# time for (most): a quarter of the scan interval at
 # 168 MHz (M4) or 480 MHz (M7), for `smallest` 4 million; `full` is any radar's, here one of 4 s.
 shipped='full en_route marine traffic smallest'
 promise_of() {
@@ -17,9 +18,13 @@ promise_of() {
 
 # worst_of NAME ARGUMENT...: runs its program (search or sky); sets instructions, work, work_max, sky of the worst.
 worst_of() {
-    local name=$1 line
+    local name=$1 line said
     shift
-    line=$("$root/tools/firmware/emulate.sh" "$core" "$build/firmware/$core/worst/$name.elf" "$@" | grep 'instructions, work' | tail -1)
+    said=$("$root/tools/firmware/emulate.sh" "$core" "$build/firmware/$core/worst/$name.elf" "$@") || {
+        echo "$said"
+        return 1
+    }
+    line=$(grep 'instructions, work' <<<"$said" | tail -1)
     read -r instructions work work_max sky < <(sed -n 's/^\([0-9]*\) instructions, work \([0-9]*\) of \([0-9]*\), sky \([0-9a-f]*\)$/\1 \2 \3 \4/p' <<<"$line")
     [ -n "${sky:-}" ]
 }

@@ -356,7 +356,7 @@ static void open_errors(void)
  */
 static void *watch_end(void *signals)
 {
-    static const char text[] = "rhotrack: an output does not answer; it ends without it\n";
+    static const char text[] = "rhotrack: an output does not end in time; it ends without it\n";
     const struct timespec left = {0, END_MOST_US * 1000L};
     struct pollfd here = {.fd = *(const int *)signals, .events = POLLIN};
 
@@ -441,6 +441,9 @@ static void take_messages(struct node *node)
     enum transport_found found = TRANSPORT_MESSAGE;
 
     for (int i = 0; i < TURN_MESSAGES && found == TRANSPORT_MESSAGE; i++) {
+        if (is_told_to_end()) {
+            return;
+        }
         found = transport_receive(node->transport, &message);
         if (found == TRANSPORT_MESSAGE) {
             take_message(node, &message);

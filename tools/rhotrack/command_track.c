@@ -255,9 +255,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
         }
     }
     if (work->partial_steps > 0) {
-        fprintf(stderr,
-                ", in %" PRIu32 " scans not all of %" PRIu32
-                " plots was tried for new tracks (work_max)",
+        fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
     }
     fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),

@@ -2,7 +2,8 @@
 /*
  * node_log: a node's LCM log. A thread writes it, from a queue: no disk stops the tracking, full or
  * stalled. Where the queue is full, events are left out whole, and counted; where the disk refuses
- * them the log ends, behind the last whole event. Of a record, which waits, none are left out.
+ * them the log ends, behind the last whole event. Of a record, which waits, none are left out
+ * that the queue could hold (4 MiB).
  */
 #ifndef RHOTRACK_TOOL_NODE_LOG_H
 #define RHOTRACK_TOOL_NODE_LOG_H
