@@ -41,7 +41,10 @@
 #define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 2048)
 #endif
 
-/* Work that a step may do where nothing else is said, in units (work_max of struct rho_tracker_config and rho_initiator_config). */
+/*
+ * Work that a step may do where nothing else is said, in units (work_max of struct
+ * rho_tracker_config and rho_initiator_config).
+ */
 #ifndef RHO_WORK_MAX
 #define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 8000000)
 #endif

@@ -151,9 +151,10 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
                                                unsigned index);
 
 /*
- * Moves all hypotheses of a slot to time_us. One that cannot be moved on is given up. Errors: NULL, STATE (slot), VALUE
- * (none is left: the slot is closed). Cost: rho_imm_predict each, and rho_imm_step_open wherever the interval is another
- * than the last one asked for: once a scan, but for hypotheses that took a plot at its own time. Stack: 490 bytes.
+ * Moves all hypotheses of a slot to time_us. One that cannot be moved on is given up. Errors: NULL,
+ * STATE (slot), VALUE (none is left: the slot is closed). Cost: rho_imm_predict each, and
+ * rho_imm_step_open wherever the interval is another than the last one asked for: once a scan, but
+ * for hypotheses that took a plot at its own time. Stack: 490 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
                                                       int64_t time_us);

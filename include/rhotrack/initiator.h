@@ -151,8 +151,10 @@ struct rho_initiator {
     struct rho_window window;
 };
 
-/* scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no process noise, RHO_WORK_MAX,
- * area from the plots; scans is cut to RHO_MAX_SCANS. Constant cost. */
+/*
+ * scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no
+ * process noise, RHO_WORK_MAX, area from the plots; scans is cut to RHO_MAX_SCANS. Constant cost.
+ */
 void rho_initiator_config_default(struct rho_initiator_config *config);
 
 /*
@@ -184,7 +186,10 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);
 
-/* The same with so much work instead of the config's work_max: what a step has left for it. Stack: 3.2 KB (embedded profile). */
+/*
+ * The same with so much work instead of the config's work_max: what a step has left for it.
+ * Stack: 3.2 KB (embedded profile).
+ */
 RHO_MUST_CHECK enum rho_status rho_initiator_search_within(struct rho_initiator *initiator,
                                                            enum rho_search kind, uint32_t work_max);
 

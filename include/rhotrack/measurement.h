@@ -77,8 +77,10 @@ int rho_measurement_is_bearing(const struct rho_bearing *bearing);
 void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out);
 
-/* True where a sensor's place, biases, variance factor and span of range rates are finite and within the limits of types.h.
- * Constant cost. */
+/*
+ * True where a sensor's place, biases, variance factor and span of range rates are finite and
+ * within the limits of types.h. Constant cost.
+ */
 int rho_measurement_is_sensor(const struct rho_sensor *sensor);
 
 /* The noise's covariance in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant cost. */

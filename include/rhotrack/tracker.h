@@ -87,8 +87,10 @@ struct rho_tracker_config {
      * looked at where RHO_FILTERS has no input estimation */
     struct rho_input_config input;
     float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
-    /* work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have half of it at most, clutter
-     * a quarter, the search what is left, and at most its own work_max */
+    /*
+     * work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have
+     * half of it at most, clutter a quarter, the search what is left, and at most its own work_max
+     */
     uint32_t work_max;
 };
 
@@ -117,12 +119,12 @@ struct rho_tracker_counters {
 
 /*
  * What the limits on work did. A unit is 40 to 90 instructions of a Cortex-M4: those of struct
- * rho_initiator_budget; for a plot that a track weighs 20 to 220 by each of its hypotheses, or 12 by
- * a Kalman filter's gate; for an echo of clutter and a plot near it 4 or 10, for two plots near each
- * other 12. Where plots crowd in a track's gate those far from its expected place are left out, and
- * the counters move. All saturate, and only rho_tracker_init clears them. work is at most work_max
- * and RHO_TRACKER_WORK_BEYOND: what was begun is ended. Of frames the passive initiator's search is
- * none of it: what it costs follows from the capacities alone.
+ * rho_initiator_budget; for a plot that a track weighs 20 to 220 by each of its hypotheses, or 12
+ * by a Kalman filter's gate; for an echo of clutter and a plot near it 4 or 10, for two plots near
+ * each other 12. Where plots crowd in a track's gate those far from its expected place are left
+ * out, and the counters move. All saturate, and only rho_tracker_init clears them. work is at most
+ * work_max and RHO_TRACKER_WORK_BEYOND: what was begun is ended. Of frames the passive initiator's
+ * search is none of it: what it costs follows from the capacities alone.
  */
 #define RHO_TRACKER_WORK_BEYOND (RHO_INITIATOR_WORK_BEYOND + 64u * RHO_MAX_PLOTS)
 struct rho_tracker_work {

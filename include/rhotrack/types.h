@@ -127,7 +127,10 @@ struct rho_sensor {
      * it off the scan's time, so that scans are in the right order; who makes scans without a feed should do so too */
     float range_bias_m, azimuth_bias_rad, time_bias_s;
 #if RHO_SECTORS
-    /* how many times the variances of its plots' places count, 0 .. 1e9; 0: once. The tracker sets it of a sensor that it doubts */
+    /*
+     * how many times the variances of its plots' places count, 0 .. 1e9; 0: once. The tracker sets
+     * it of a sensor that it doubts
+     */
     float variance_factor;
 #endif
 #if RHO_AMBIGUOUS_RANGE_RATES

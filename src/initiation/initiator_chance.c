@@ -395,7 +395,10 @@ void rho_initiator_lay_chance(const struct search *search, struct chance *chance
 
 /* ---- how many --------------------------------------------------------------------------------- */
 
-/* A scan ago a track was as long, by a hit less: what its pattern, of one scan later and one hit less, leaves at start_nat. */
+/*
+ * A scan ago a track was as long, by a hit less: what its pattern, of one scan later and one hit
+ * less, leaves at start_nat.
+ */
 static float before_of(const struct chance *chance, unsigned place, unsigned k, float start_nat)
 {
     if (chance->patterns[k].hits <= chance->least_hits) {
@@ -451,23 +454,14 @@ static float sets_of(const struct chance *chance, unsigned k, float s_nat, float
     return sum;
 }
 
-float rho_initiator_sets_above(const struct chance *chance, float s_nat, float start_nat)
+float rho_initiator_sets_above(const struct chance *chance, float s_nat, float start_nat,
+                               float enough)
 {
     float sum = 0.0f;
-    for (unsigned k = 0; k < chance->num_patterns; k++) {
+    for (unsigned k = 0; k < chance->num_patterns && sum <= enough; k++) {
         sum += sets_of(chance, k, s_nat, start_nat);
     }
     return sum;
-}
-
-int rho_initiator_has_more_sets(const struct chance *chance, float s_nat, float start_nat,
-                                float wanted)
-{
-    float sum = 0.0f;
-    for (unsigned k = 0; k < chance->num_patterns && sum <= wanted; k++) {
-        sum += sets_of(chance, k, s_nat, start_nat);
-    }
-    return sum > wanted;
 }
 
 float rho_initiator_stay_inside(const struct chance *chance, float start_nat)

@@ -64,11 +64,12 @@ struct chance {
 /* Lays out the search's window. */
 void rho_initiator_lay_chance(const struct search *search, struct chance *chance);
 
-/* Chance tracks a search that are new at start_nat, and whose score reaches s_nat at once. */
-float rho_initiator_sets_above(const struct chance *chance, float s_nat, float start_nat);
-/* The same, but only whether they are more than wanted, which is mostly known sooner. */
-int rho_initiator_has_more_sets(const struct chance *chance, float s_nat, float start_nat,
-                                float wanted);
+/*
+ * Chance tracks a search that are new at start_nat, and whose score reaches s_nat at once. Counting
+ * ends where they are more than enough: FLT_MAX counts all.
+ */
+float rho_initiator_sets_above(const struct chance *chance, float s_nat, float start_nat,
+                               float enough);
 
 /* Share of the tracks that start by chance at start_nat whose next place is still in the area. */
 float rho_initiator_stay_inside(const struct chance *chance, float start_nat);

@@ -82,8 +82,10 @@ static float squared(float v)
     return v * v;
 }
 
-/* What a kernel costs beside its votes, units: with noise of its plots' own; where these measure more than places; and of a
- * range rate each meaning. */
+/*
+ * What a kernel costs beside its votes, units: with noise of its plots' own; where these measure
+ * more than places; and of a range rate each meaning.
+ */
 #define OWN_UNITS 4u
 #define MORE_UNITS 16u
 #define ALIAS_UNITS 8u

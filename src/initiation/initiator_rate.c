@@ -6,6 +6,8 @@
  * chance started climb to the confirm threshold by more chance; the thresholds are where both together are what is
  * wanted.
  */
+#include <float.h>
+
 #include "initiator_chance.h"
 #include "rhotrack/approx.h"
 
@@ -100,7 +102,7 @@ static void find_climbs(struct climbs *climbs, const struct chance *chance, floa
 static int confirms_more(const struct climbs *climbs, const struct chance *chance, float s_nat,
                          float start_nat, float at_start, float wanted)
 {
-    float above = rho_initiator_sets_above(chance, s_nat, start_nat), sum = above;
+    float above = rho_initiator_sets_above(chance, s_nat, start_nat, FLT_MAX), sum = above;
     float lowest = s_nat - start_nat < CLIMB_STEP * (float)CLIMBS
                        ? start_nat
                        : s_nat - CLIMB_STEP * (float)CLIMBS;
@@ -110,7 +112,7 @@ static int confirms_more(const struct climbs *climbs, const struct chance *chanc
         if (sum > wanted || sum + (at_start - above) * climbs_up <= wanted) {
             break;
         }
-        float below = rho_initiator_sets_above(chance, s_nat - step * (float)i, start_nat);
+        float below = rho_initiator_sets_above(chance, s_nat - step * (float)i, start_nat, FLT_MAX);
         sum += (below - above) * climbs_up;
         above = below;
     }
@@ -121,12 +123,12 @@ static int confirms_more(const struct climbs *climbs, const struct chance *chanc
 static float start_threshold(const struct chance *chance)
 {
     float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
-    if (!rho_initiator_has_more_sets(chance, low, low, STARTS_A_SEARCH)) {
+    if (rho_initiator_sets_above(chance, low, low, STARTS_A_SEARCH) <= STARTS_A_SEARCH) {
         return low;
     }
     for (int i = 0; i < BISECTIONS; i++) {
         float middle = 0.5f * (low + high);
-        if (rho_initiator_has_more_sets(chance, middle, middle, STARTS_A_SEARCH)) {
+        if (rho_initiator_sets_above(chance, middle, middle, STARTS_A_SEARCH) > STARTS_A_SEARCH) {
             low = middle;
         } else {
             high = middle;
@@ -139,7 +141,7 @@ static float confirm_threshold(const struct chance *chance, float wanted, float 
 {
     struct climbs climbs;
     float low = start_nat, high = THRESHOLD_MAX_NAT;
-    float at_start = rho_initiator_sets_above(chance, start_nat, start_nat);
+    float at_start = rho_initiator_sets_above(chance, start_nat, start_nat, FLT_MAX);
     if (at_start <= wanted) {
         return low;
     }

@@ -62,7 +62,9 @@ static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct 
     }
 }
 
-/* At the plot's own time. What is expected of range rates is known at the hypotheses' time alone. */
+/*
+ * At the plot's own time. What is expected of range rates is known at the hypotheses' time alone.
+ */
 static inline int weigh_one(struct rho_hypotheses *pool, uint16_t slot, unsigned i,
                             const struct rho_hypothesis *at, const struct offer *offer,
                             struct rho_imm_match *match)

@@ -27,8 +27,8 @@ int rho_imm_plane_see_rate(const float *state, const float *covariance,
                            const struct rho_sensor *sensor, struct plane_rate *rate);
 
 /*
- * spread := by the covariance p the states' covariances with a place along the direction x y, or with a range rate.
- * Returns the variance of that.
+ * spread := by the covariance p the states' covariances with a place along the direction x y, or
+ * with a range rate. Returns the variance of that.
  */
 float rho_imm_plane_project(int num_states, const float *restrict p, float x, float y,
                             float *restrict spread);

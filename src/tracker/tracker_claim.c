@@ -247,7 +247,10 @@ static struct plots_near plots_in_reach(const struct step *step, const struct rh
                                   reach->y_min_m - slack_m, reach->y_max_m + slack_m);
 }
 
-/* The plots that a track may go on with: those of all hypotheses' reach; with claims, but for those that others got. */
+/*
+ * The plots that a track may go on with: those of all hypotheses' reach; with claims, but for those
+ * that others got.
+ */
 struct offer {
     unsigned row;
     const int16_t *claims;

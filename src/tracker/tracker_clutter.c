@@ -46,11 +46,9 @@
 #define STROBE_RANGES 8.0f
 #define STROBE_RANGES_LAST 7u
 #define STROBE_RANGES_MIN 6u
-/* Units of work: an echo and a plot near it, more of them with range rates; and how many plots further away are one unit. The part of a step's work for all. */
+/* Units of work: an echo and a plot near it, more of them with range rates. */
 #define ECHO_UNITS 4u
 #define RATE_UNITS 6u
-#define PLOTS_A_UNIT 4u
-#define ECHOES_SHARE 8u
 /* Plots without clutter near them: the least density that is believed, plots a m^2. */
 #define DENSITY_MIN 1e-12f
 
@@ -192,7 +190,7 @@ static void look_for(struct step *step, unsigned place)
             map->best_echo[i] = (uint16_t)place;
         }
     }
-    rho_tracker_spend(step, passed / PLOTS_A_UNIT);
+    rho_tracker_spend(step, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 /* 1 where the scan may see the echo. None is looked at or has a plot yet. */
@@ -227,12 +225,15 @@ static int meet(struct step *step, struct rho_echo *echo, float range_max_m)
     return 1;
 }
 
-/* Where work ends before all are looked for the next scan begins with the others; the scan is none that could see them. */
+/*
+ * Where work ends before all are looked for the next scan begins with the others; the scan is none
+ * that could see them.
+ */
 static void look_for_echoes(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     unsigned place = map->first_echo, left_out = 0;
-    rho_tracker_begin_share(step, ECHOES_SHARE);
+    rho_tracker_begin_share(step, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_MAX_ECHOES; i++, place = (place + 1u) % RHO_MAX_ECHOES) {
         if (!is_within(step, &map->echoes[place])) {
             continue;

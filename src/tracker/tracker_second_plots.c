@@ -18,10 +18,8 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
                                                  0.1f,  0.05f, 0.03f, 0.02f};
 #define BINS_PRIOR_PLOTS 4.0f
 #define REACH_SIGMAS 16.0f
-/* Units of work: two plots near each other; and how many further apart are one unit. The part of a step's work for all. */
+/* Units of work: two plots near each other. */
 #define PAIR_UNITS 12u
-#define PLOTS_A_UNIT 4u
-#define SECOND_SHARE 16u
 
 /* Second plots a claimed plot before anything was learned, and the weight of that, in looks. */
 #define RATE_PRIOR 0.01f
@@ -363,7 +361,7 @@ static void look_near(struct step *step, const struct rho_second_plots *table, u
             found->across[offset.across] += share;
         }
     }
-    rho_tracker_spend(step, passed / PLOTS_A_UNIT);
+    rho_tracker_spend(step, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 static void teach_track(struct rho_track *track, float plots, float share)
@@ -413,7 +411,7 @@ void rho_tracker_expect_second_plots(struct step *step)
             judge_twin(step, table, row);
         }
     }
-    rho_tracker_begin_share(step, SECOND_SHARE);
+    rho_tracker_begin_share(step, RHO_WORK_SECOND_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || track->plot < 0) {
@@ -477,7 +475,7 @@ void rho_tracker_expect_earlier_second_plots(struct step *step,
         if (((unsigned)candidate->mask >> m & 1u) && table && rho_tracker_is_spent(step)) {
             pass_over(step);
         } else if (((unsigned)candidate->mask >> m & 1u) && table) {
-            rho_tracker_spend(step, scan->num_plots / PLOTS_A_UNIT);
+            rho_tracker_spend(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
             look_near_in(step, table, scan, candidate->plot[m]);
         }
     }

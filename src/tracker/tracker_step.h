@@ -250,10 +250,20 @@ int rho_tracker_is_too_young(const struct step *step, const struct rho_track *tr
 void rho_tracker_note_growth(struct step *step, const struct rho_track *track);
 void rho_tracker_note_death(struct step *step, const struct rho_track *track);
 
-/* tracker_work.c: which of the plots in its reach a track has the time to weigh. A phase begins; then for each track that waits a
- * choice is made: where there may be more plots than `most`, all in reach are noted, and the choice is settled */
+/*
+ * tracker_work.c: which of the plots in its reach a track has the time to weigh. A phase begins;
+ * then for each track that waits a choice is made: where there may be more plots than `most`, all
+ * in reach are noted, and the choice is settled
+ */
 #define RHO_WORK_OCTAVES 40u
+/* Parts of work_max that phases have: of echoes, of claims and of second looks each, of second
+ * plots, of the tracks that start. */
+#define RHO_WORK_ECHOES_SHARE 8u
+#define RHO_WORK_TRACKS_SHARE 4u
+#define RHO_WORK_SECOND_SHARE 16u
 #define RHO_WORK_STARTS_SHARE 16u
+/* Plots that a box passes over are so many a unit. */
+#define RHO_WORK_PASSED_A_UNIT 4u
 struct plot_choice {
     uint32_t most, units; /* plots; units for each */
     uint32_t in_reach;
@@ -343,7 +353,10 @@ static inline uint32_t rho_tracker_most_near(const struct step *step, const stru
 }
 #endif
 
-/* tracker_beyond.c: claim and update, of a scan of more than RHO_MAX_PLOTS. What lies beyond so many parts nobody looks at */
+/*
+ * tracker_beyond.c: claim and update, of a scan of more than RHO_MAX_PLOTS. What lies beyond so
+ * many parts nobody looks at
+ */
 #define RHO_TRACKER_PARTS_MAX 4u
 #if RHO_CLAIMS_BEYOND
 void rho_tracker_claim_parts(struct step *step);

@@ -2,19 +2,22 @@
 /*
  * tracker_work: how much work a step's tracks may do, and which plots it is spent on first.
  *
- * A quarter of work_max is for what tracks claim, another for those whose plots others got and that look again. Half of
- * each is kept, in even shares for the tracks that wait; of the rest a track takes a quarter at most. A track that has more
- * plots in reach than it may weigh takes those nearest to its expected place. Before that an eighth is for echoes of clutter;
- * after it a sixteenth for second plots, and one is kept for those of the tracks that start. What is left is the search's.
+ * A quarter of work_max is for what tracks claim, another for those whose plots others got and that
+ * look again. Half of each is kept, in even shares for the tracks that wait; of the rest a track
+ * takes a quarter at most. A track that has more plots in reach than it may weigh takes those
+ * nearest to its expected place. Before that an eighth is for echoes of clutter; after it a
+ * sixteenth for second plots, and one is kept for those of the tracks that start. What is left is
+ * the search's.
  */
 #include "tracker_step.h"
 
-#define PHASE_SHARE 4u
 #define KEPT_SHARE 2u
 #define FREE_PARTS 4u
 
-/* To weigh a plot with one hypothesis, units; and more of them at the plot's own time, to which the hypothesis is moved, with
- * a velocity in two or three axes. With a Kalman filter's gate. */
+/*
+ * To weigh a plot with one hypothesis, units; and more of them at the plot's own time, to which the
+ * hypothesis is moved, with a velocity in two or three axes. With a Kalman filter's gate.
+ */
 #define WEIGH_UNITS 20u
 #define MOVE_UNITS 60u
 #define VELOCITY_UNITS 70u
@@ -39,7 +42,7 @@ void rho_tracker_begin_share(struct step *step, uint32_t part)
 void rho_tracker_begin_work(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
-    const uint32_t part = PHASE_SHARE * num_parts(step);
+    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts(step);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting +=

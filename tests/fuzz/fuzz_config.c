@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The reader of INI files (--config), and --set, on any text: it is refused with one line, or every parameter is within its limits,
- * and the library takes the configurations made of them. The first byte: 1 the library is asked, too; behind the file, each after
- * a byte 1, are assignments of --set.
+ * The reader of INI files (--config), and --set, on any text: it is refused with one line, or every
+ * parameter is within its limits, and the library takes the configurations made of them. The first
+ * byte: 1 the library is asked, too; behind the file, each after a byte 1, are assignments of
+ * --set.
  */
 #include <math.h>
 #include <stdio.h>
@@ -97,7 +98,10 @@ static void read_config(void *context)
     }
 }
 
-/* What PROJ keeps for the whole program is there before a run's memory is looked at. It does without its database. */
+/*
+ * What PROJ keeps for the whole program is there before a run's memory is looked at. It does
+ * without its database.
+ */
 static void warm_up(void)
 {
     CHECK(setenv("PROJ_DATA", "/nonexistent", 1) == 0);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The reader of scenes in JSON (`simulate FILE.json`), and --set, on any text: it is refused with one line, or the scene's numbers
- * are finite and within what its list of sensors and its capacities allow, and paths of its targets can be drawn. Behind the
- * file, each after a byte 1, are assignments of --set.
+ * The reader of scenes in JSON (`simulate FILE.json`), and --set, on any text: it is refused with
+ * one line, or the scene's numbers are finite and within what its list of sensors and its
+ * capacities allow, and paths of its targets can be drawn. Behind the file, each after a byte 1,
+ * are assignments of --set.
  */
 #include <math.h>
 #include <stdio.h>

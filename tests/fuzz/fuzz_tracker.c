@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracker, initiators and passive initiators over a script: the bytes are decoded into configurations, descriptions of sensors and
- * a sequence of calls, good and bad ones: scans and frames of a few moving targets among clutter, with any number in any field,
- * time that stands still, jumps and goes back, sectors, full capacities, piles of plots, images saved and loaded. Through the
- * public headers alone. After each call the promises of these headers are checked; the first that is broken is named.
+ * Tracker, initiators and passive initiators over a script: the bytes are decoded into
+ * configurations, descriptions of sensors and a sequence of calls, good and bad ones: scans and
+ * frames of a few moving targets among clutter, with any number in any field, time that stands
+ * still, jumps and goes back, sectors, full capacities, piles of plots, images saved and loaded.
+ * Through the public headers alone. After each call the promises of these headers are checked; the
+ * first that is broken is named.
  *
- * Built twice: with the embedded profile (fuzz_tracker), and with capacities that a short script exhausts (fuzz_tracker_small).
+ * Built twice: with the embedded profile (fuzz_tracker), and with capacities that a short script
+ * exhausts (fuzz_tracker_small).
  */
 #include <float.h>
 #include <math.h>
@@ -42,7 +45,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* ---- what must hold --------------------------------------------------------------------------- */
+/* ---- what must hold -------------------------------------------------------------------------- */
 
 static unsigned step_number;
 
@@ -55,7 +58,7 @@ static unsigned step_number;
         }                                                                                          \
     } while (0)
 
-/* ---- the script ------------------------------------------------------------------------------- */
+/* ---- the script ------------------------------------------------------------------------------ */
 
 struct script {
     const uint8_t *data;
@@ -144,7 +147,7 @@ static float odd_number(struct script *script)
     return number;
 }
 
-/* ---- the world that is seen ------------------------------------------------------------------- */
+/* ---- the world that is seen ------------------------------------------------------------------ */
 
 struct look_from {
     int32_t sensor_id;
@@ -243,7 +246,7 @@ static int64_t next_time(struct script *script)
     return time_us;
 }
 
-/* ---- the objects, and what is known of them --------------------------------------------------- */
+/* ---- the objects, and what is known of them -------------------------------------------------- */
 
 static struct chain {
     struct rho_tracker tracker;
@@ -302,7 +305,10 @@ static int finite_all(const float *numbers, size_t count)
     return 1;
 }
 
-/* Positive semidefinite: the correlations and a little of the identity have a Cholesky factor. Closed axes are all 0. */
+/*
+ * Positive semidefinite: the correlations and a little of the identity have a Cholesky factor.
+ * Closed axes are all 0.
+ */
 static int is_covariance(const float *lower, int n)
 {
     double factor[RHO_KALMAN_STATES][RHO_KALMAN_STATES] = {{0}};
@@ -330,7 +336,7 @@ static int is_covariance(const float *lower, int n)
     return 1;
 }
 
-/* ---- checks of the tracker -------------------------------------------------------------------- */
+/* ---- checks of the tracker ------------------------------------------------------------------- */
 
 static void check_counters(void)
 {
@@ -447,7 +453,10 @@ static void check_identities(void)
     known = now;
 }
 
-/* Plots that tracks claimed have that fate, two tracks may share one; a new track has one of those that it was found in. */
+/*
+ * Plots that tracks claimed have that fate, two tracks may share one; a new track has one of those
+ * that it was found in.
+ */
 static void check_claims(const struct rho_scan *scan)
 {
     for (unsigned i = 0; i < chain.report.num_tracks; i++) {
@@ -462,7 +471,7 @@ static void check_claims(const struct rho_scan *scan)
     }
 }
 
-/* ---- checks of the initiators ----------------------------------------------------------------- */
+/* ---- checks of the initiators ---------------------------------------------------------------- */
 
 static unsigned count_bits(uint32_t mask)
 {
@@ -603,7 +612,7 @@ static void check_step(uint32_t num_plots, int64_t time_us, const struct rho_sca
     check_objects();
 }
 
-/* ---- configurations --------------------------------------------------------------------------- */
+/* ---- configurations -------------------------------------------------------------------------- */
 
 static const uint32_t works[8] = {RHO_WORK_MAX, 0, 1, 1000, 20000, RHO_LIMIT_WORK, 60, 5000};
 
@@ -768,7 +777,7 @@ static void begin(struct script *script, int fill)
     remember();
 }
 
-/* ---- scans of plots --------------------------------------------------------------------------- */
+/* ---- scans of plots -------------------------------------------------------------------------- */
 
 static struct rho_plot plot_at(double x_m, double y_m)
 {
@@ -808,7 +817,10 @@ static void set_sector(struct look_from *from, float *sector_from_rad, float *se
     }
 }
 
-/* Clutter: spread out, in one place, on a target, or on a line that moves; few, or more than there is room for. */
+/*
+ * Clutter: spread out, in one place, on a target, or on a line that moves; few, or more than there
+ * is room for.
+ */
 static uint32_t add_clutter(struct script *script, struct rho_plot *plots, uint32_t num)
 {
     const unsigned how = byte(script);
@@ -895,7 +907,10 @@ static void edit_scan(struct script *script, struct rho_scan *scan)
     }
 }
 
-/* Bits of a scan's first byte: 0 .. 2 radar, 3 and 4 initiator, 5 clutter, 6 changes of plots, 7 changes of the scan. */
+/*
+ * Bits of a scan's first byte: 0 .. 2 radar, 3 and 4 initiator, 5 clutter, 6 changes of plots, 7
+ * changes of the scan.
+ */
 static struct rho_scan make_scan(struct script *script, unsigned how, struct rho_plot *plots)
 {
     struct look_from *from = &world.radars[how % 8 % RADARS];
@@ -961,7 +976,7 @@ static void step_scan(struct script *script)
     free(exact);
 }
 
-/* ---- an initiator by itself ------------------------------------------------------------------- */
+/* ---- an initiator by itself ------------------------------------------------------------------ */
 
 static void search_lone(struct script *script)
 {
@@ -1022,7 +1037,7 @@ static void push_lone(struct script *script)
     check_objects();
 }
 
-/* ---- frames of bearings ----------------------------------------------------------------------- */
+/* ---- frames of bearings ---------------------------------------------------------------------- */
 
 struct bearings {
     struct rho_bearing_scan looks[LOOKS_MAX];
@@ -1093,7 +1108,10 @@ static void edit_frame(struct script *script, struct rho_frame *frame, struct be
     }
 }
 
-/* Bits of a frame's first byte: 0 .. 2 sensors, 3 without passive initiation, 4 more bearings, 5 and 6 changes. */
+/*
+ * Bits of a frame's first byte: 0 .. 2 sensors, 3 without passive initiation, 4 more bearings, 5
+ * and 6 changes.
+ */
 static struct rho_frame make_frame(struct script *script, unsigned how, struct bearings *seen)
 {
     struct rho_frame frame = {.time_us = next_time(script),
@@ -1188,7 +1206,7 @@ static void use_lone_passive(struct script *script)
     check_objects();
 }
 
-/* ---- other calls ------------------------------------------------------------------------------ */
+/* ---- other calls ----------------------------------------------------------------------------- */
 
 static void describe_sensor(struct script *script)
 {
@@ -1295,7 +1313,10 @@ static void load(const struct rho_snapshot_part parts[PARTS])
           rho_snapshot_load(parts, PARTS, image, image_bytes) == RHO_OK);
 }
 
-/* An image is saved, and mostly loaded at once; or the last one is loaded, whatever has been stepped since. */
+/*
+ * An image is saved, and mostly loaded at once; or the last one is loaded, whatever has been
+ * stepped since.
+ */
 static void save_or_load(struct script *script)
 {
     struct rho_snapshot_part parts[PARTS];
@@ -1414,7 +1435,7 @@ static void ask(struct script *script)
     HOLDS("questions change nothing", memcmp(&before, &chain, sizeof chain) == 0);
 }
 
-/* ---- one run ---------------------------------------------------------------------------------- */
+/* ---- one run --------------------------------------------------------------------------------- */
 
 static void run(const uint8_t *data, size_t size, int fill)
 {

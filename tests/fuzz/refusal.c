@@ -60,8 +60,8 @@ static int first_free_file(void)
 /* ---- Streams that a run has open ---- */
 
 /*
- * The C library lists its open streams: one whose memory is given back while it is open breaks that list, and the program
- * may then run in a circle when it ends.
+ * The C library lists its open streams: one whose memory is given back while it is open breaks that
+ * list, and the program may then run in a circle when it ends.
  */
 #define STREAMS_MAX 16
 
@@ -128,7 +128,8 @@ _Noreturn void __wrap_fail(int exit_code, const char *format, ...)
     CHECK(vsnprintf(message, sizeof message, format, arguments) > 0);
     va_end(arguments);
     CHECK(exit_code == EXIT_USAGE);
-    close_streams(); /* before the jump: a stream into memory writes where its opener's variables are */
+    /* before the jump: a stream into memory writes where its opener's variables are */
+    close_streams();
     longjmp(refused, 1);
 }
 

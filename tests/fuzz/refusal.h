@@ -2,9 +2,10 @@
 /*
  * refusal: readers of the program that refuse their file.
  *
- * Such a reader calls fail(), which ends the program. Here it jumps out of the reader (linked with --wrap=fail), and the files that
- * it had open are closed (the streams by --wrap=fopen and its like), and what it had allocated is given back by the hooks of the
- * sanitizer's allocator. So leaks of runs that do not fail are still found.
+ * Such a reader calls fail(), which ends the program. Here it jumps out of the reader (linked with
+ * --wrap=fail), and the files that it had open are closed (the streams by --wrap=fopen and its
+ * like), and what it had allocated is given back by the hooks of the sanitizer's allocator. So
+ * leaks of runs that do not fail are still found.
  */
 #ifndef RHOTRACK_TESTS_FUZZ_REFUSAL_H
 #define RHOTRACK_TESTS_FUZZ_REFUSAL_H

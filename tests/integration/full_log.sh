@@ -40,17 +40,22 @@ start() {
     wait_until 5 test -s work
 }
 
-# Plays the scene, and ends the node: $status, $took_ms, $steps, $left_out; live: $live_steps, $live_left_out.
-play() {
+# Tells the node to end, and waits for it: $status, $took_ms.
+end_node() {
     local begin_ms
-    run publish scene/plots.csv --config scene/scenario.ini "${speed[@]}"
-    sleep 1.2
-    read -r live_steps live_left_out <work
     begin_ms=$(($(date +%s%N) / 1000000))
     kill -TERM "$node"
     status=0
     wait "$node" || status=$?
     took_ms=$(($(date +%s%N) / 1000000 - begin_ms))
+}
+
+# Plays the scene, and ends the node: $status, $took_ms, $steps, $left_out; live: $live_steps, $live_left_out.
+play() {
+    run publish scene/plots.csv --config scene/scenario.ini "${speed[@]}"
+    sleep 1.2
+    read -r live_steps live_left_out <work
+    end_node
     steps=$(sed -n 's/.*; \([0-9]*\) steps,.*/\1/p' node.err)
     left_out=$(sed -n 's/.*events not logged: \([0-9]*\)$/\1/p' node.err)
 }
@@ -142,11 +147,7 @@ check 'once the queue is full, events are left out, and RHO_WORK says so' wait_u
 kill -INT "$player" 2>/dev/null
 why='pipe: the disk takes no more; events are left out, tracks go on'
 check 'it is said once' matches "$(grep -c "$why" node.err)" 1
-begin_ms=$(($(date +%s%N) / 1000000))
-kill -TERM "$node"
-status=0
-wait "$node" || status=$?
-took_ms=$(($(date +%s%N) / 1000000 - begin_ms))
+end_node
 check 'a full queue: SIGTERM ends the node with 0' exits 0
 check "a full queue: within a second ($took_ms ms)" test "$took_ms" -lt 1000
 speed=(--speed 15)
@@ -165,11 +166,7 @@ check 'it is said' grep -q 'nobody: does not open; tracks go on' node.err
 node=$!
 sleep 4
 check 'a record waits for its log' kill -0 "$node"
-begin_ms=$(($(date +%s%N) / 1000000))
-kill -TERM "$node"
-status=0
-wait "$node" || status=$?
-took_ms=$(($(date +%s%N) / 1000000 - begin_ms))
+end_node
 check 'a record: SIGTERM ends the node with 0' exits 0
 check "a record: within a second ($took_ms ms)" test "$took_ms" -lt 1000
 

@@ -752,7 +752,10 @@ static void test_objects_that_saw_nothing(void **state)
     assert_int_equal(rho_snapshot_load(NULL, 0, image, length), RHO_OK);
 }
 
-/* Pushed by itself, an initiator takes plots of any row: it had no image where one was beyond RHO_MAX_PLOTS. */
+/*
+ * Pushed by itself, an initiator takes plots of any row: it had no image where one was beyond
+ * RHO_MAX_PLOTS.
+ */
 static void test_a_held_plot_of_a_late_row_goes_on(void **state)
 {
     static struct rho_plot plots[RHO_MAX_PLOTS + 2];

@@ -308,12 +308,7 @@ void node_config_default(struct node_config *config)
 {
     *config = (struct node_config){.boot = 0};
     rho_feed_config_default(&config->feed);
-    rho_tracker_config_default(&config->tracker);
-    rho_initiator_config_default(&config->initiator);
-    config->tracker.v_min_mps = config->initiator.v_min_mps = NODE_V_MIN_MPS;
-    config->tracker.v_max_mps = config->initiator.v_max_mps = NODE_V_MAX_MPS;
-    config->tracker.accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
-    config->tracker.work_max = config->initiator.work_max = NODE_WORK_MAX;
+    node_settings(&config->tracker, &config->initiator);
 }
 
 enum rho_status node_start(const struct node_config *config)

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_settings: what a node's configuration (nodes/NAME.h, which is RHO_CONFIG_FILE) may say beside its capacities: its radar,
- * how its targets move, the work that a step may do. What it does not say is as here.
+ * node_settings: what a node's configuration (nodes/NAME.h, which is RHO_CONFIG_FILE) may say
+ * beside its capacities: its radar, how its targets move, the work that a step may do. What it does
+ * not say is as here.
  */
 #ifndef RHOTRACK_FIRMWARE_NODE_SETTINGS_H
 #define RHOTRACK_FIRMWARE_NODE_SETTINGS_H
 
-#include "rhotrack/config.h"
+#include "rhotrack/initiator.h"
+#include "rhotrack/tracker.h"
 
 #ifndef NODE_INTERVAL_S
 #define NODE_INTERVAL_S 4.0f
@@ -35,5 +37,17 @@
 #ifndef NODE_WORK_MAX
 #define NODE_WORK_MAX RHO_WORK_MAX
 #endif
+
+/* The library's defaults, but for what the configuration says. */
+static inline void node_settings(struct rho_tracker_config *tracker,
+                                 struct rho_initiator_config *initiator)
+{
+    rho_tracker_config_default(tracker);
+    rho_initiator_config_default(initiator);
+    tracker->v_min_mps = initiator->v_min_mps = NODE_V_MIN_MPS;
+    tracker->v_max_mps = initiator->v_max_mps = NODE_V_MAX_MPS;
+    tracker->accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
+    tracker->work_max = initiator->work_max = NODE_WORK_MAX;
+}
 
 #endif

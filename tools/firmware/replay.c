@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * replay: the node on a record instead of a network, on any machine: `replay IN.lcm OUT.lcm [NAME=VALUE ...]`. Names are
- * gate (best, hough, nearest; the latter two with input estimation), v_min_mps, v_max_mps, accel_mps2, in whole numbers; radars=1: it
- * knows those of radars.h.
+ * replay: the node on a record instead of a network, on any machine: `replay IN.lcm OUT.lcm
+ * [NAME=VALUE ...]`. Names are gate (best, hough, nearest; the latter two with input estimation),
+ * v_min_mps, v_max_mps, accel_mps2, in whole numbers; radars=1: it knows those of radars.h.
  *
- * IN.lcm is an LCM log of scans; each message goes into the node as the datagram that it would be, at the time at which
- * it was recorded. OUT.lcm holds the node's own datagrams as messages, and beside them on the channel FATES what the
- * messages do not say: a byte a plot or bearing of each step. Both machines right, both files are the same bytes.
- * At the end one line: steps, tracks' reports, partial steps, and where the machine can count them instructions and stack.
+ * IN.lcm is an LCM log of scans; each message goes into the node as the datagram that it would be,
+ * at the time at which it was recorded. OUT.lcm holds the node's own datagrams as messages, and
+ * beside them on the channel FATES what the messages do not say: a byte a plot or bearing of each
+ * step. Both machines right, both files are the same bytes. At the end one line: steps, tracks'
+ * reports, partial steps, and where the machine can count them instructions and stack.
  */
 #include <string.h>
 

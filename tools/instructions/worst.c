@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * worst: a guided search for the scans that cost a tracker's step the most instructions, in the configuration that this is
- * compiled with (tools/firmware/nodes): `worst search SEED SKIES`, and `worst sky GENES` for one that was found before.
+ * worst: a guided search for the scans that cost a tracker's step the most instructions, in the
+ * configuration that this is compiled with (tools/firmware/nodes): `worst search SEED SKIES`, and
+ * `worst sky GENES` for one that was found before.
  *
- * A sky is written as genes: how many targets, how near each other, how clutter lies (spread, in heaps, on a line, on the
- * targets), whether it comes back, noise, measures, own times, sensors. Eight parents; a child has a parent's genes with some
- * drawn anew or moved, or of two parents, and replaces the cheapest one where it costs more. The same seed finds the same skies.
- * Prints for each better one, and at the end, the instructions of its worst step, that step's work and the genes.
+ * A sky is written as genes: how many targets, how near each other, how clutter lies (spread, in
+ * heaps, on a line, on the targets), whether it comes back, noise, measures, own times, sensors.
+ * Eight parents; a child has a parent's genes with some drawn anew or moved, or of two parents, and
+ * replaces the cheapest one where it costs more. The same seed finds the same skies. Prints for
+ * each better one, and at the end, the instructions of its worst step, that step's work and the
+ * genes.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +27,7 @@ static struct rho_report report;
 static struct rho_plot plots[RHO_MAX_PLOTS], before[RHO_MAX_PLOTS];
 static int failed;
 
-/* ---- genes ------------------------------------------------------------------------------------ */
+/* ---- genes ----------------------------------------------------------------------------------- */
 
 enum gene {
     TARGETS,       /* of the tracks that there is room for */
@@ -90,7 +93,7 @@ static unsigned count_of(const struct sky *sky, enum gene gene)
     return (unsigned)value_of(sky, gene);
 }
 
-/* ---- the scans of a sky ----------------------------------------------------------------------- */
+/* ---- the scans of a sky ---------------------------------------------------------------------- */
 
 enum { SPREAD, HEAPED, LINED, ON_TARGETS };
 #define SCANS 24
@@ -186,7 +189,10 @@ static struct place draw_clutter(const struct sky *sky, float t_s)
     return at;
 }
 
-/* Behind `first` plots. What stays is the plot of the scan before, moved as targets move or not at all. */
+/*
+ * Behind `first` plots. What stays is the plot of the scan before, moved as targets move or not at
+ * all.
+ */
 static unsigned see_clutter(const struct sky *sky, unsigned first, unsigned scan, float t_s,
                             float after_s)
 {
@@ -207,18 +213,13 @@ static unsigned see_clutter(const struct sky *sky, unsigned first, unsigned scan
     return count;
 }
 
-/* ---- what a sky costs ------------------------------------------------------------------------- */
+/* ---- what a sky costs ------------------------------------------------------------------------ */
 
 static int open_tracker(const struct sky *sky)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
-    rho_tracker_config_default(&config);
-    rho_initiator_config_default(&start);
-    config.v_min_mps = start.v_min_mps = NODE_V_MIN_MPS;
-    config.v_max_mps = start.v_max_mps = NODE_V_MAX_MPS;
-    config.accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
-    config.work_max = start.work_max = NODE_WORK_MAX;
+    node_settings(&config, &start);
     memset(before, 0, sizeof before);
     int is_open = rho_tracker_init(&tracker, sizeof tracker, &config) == RHO_OK &&
                   rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK;
@@ -281,7 +282,7 @@ static void say(const struct sky *sky)
     printf("\n");
 }
 
-/* ---- the search ------------------------------------------------------------------------------- */
+/* ---- the search ------------------------------------------------------------------------------ */
 
 #define PARENTS 8u
 #define FIRST_SKIES 40u

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_work: the worst scan of 5000 plots, however they lie, over the median scan of as many spread evenly; and how the
- * time grows from 1000 to 5000 of these.
+ * bench_work: the worst scan of 5000 plots, however they lie, over the median scan of as many
+ * spread evenly; and how the time grows from 1000 to 5000 of these.
  */
 #include <math.h>
 #include <stdlib.h>

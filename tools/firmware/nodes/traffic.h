@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * traffic: a 24 GHz radar above a road, 20 looks a second of 64 plots with range rates at most: vehicles of up to 90 m/s.
+ * traffic: a 24 GHz radar above a road, 20 looks a second of 64 plots with range rates at most:
+ * vehicles of up to 90 m/s.
  */
 #define RHO_WORK_MAX 40000
 #define RHO_MAX_SCANS 6

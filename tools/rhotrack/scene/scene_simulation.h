@@ -8,7 +8,10 @@
 #include "scene.h"
 #include "scene_watch.h"
 
-/* The defaults, and what scenario.ini would tell a tracker; of the sensor where there is one radar alone. */
+/*
+ * The defaults, and what scenario.ini would tell a tracker; of the sensor where there is one radar
+ * alone.
+ */
 struct parameters scene_parameters(const struct scene *scene);
 
 /*
