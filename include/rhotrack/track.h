@@ -11,7 +11,8 @@
  * density of its innovation, a miss adds ln(1 - pd), but only where the sensor looked. A tentative track is confirmed
  * when the score reaches the confirm threshold and dropped when it falls below Wald's lower one. A score that falls from its
  * highest says that the target has gone: by more than the odds of a target's life in a scan, and a confirmed track is in
- * doubt, tentative again; by coast_scans_max misses, or after that many misses in a row, and it is dropped. Until then plots
+ * doubt, tentative again; by coast_scans_max misses, or after that many misses in a row, and it is dropped (later where it may
+ * hide: tracker.h). Until then plots
  * that it goes on with confirm it again, with the same identity.
  *
  * Stack: 64 bytes at most where nothing else is said.
@@ -118,7 +119,7 @@ struct rho_track_limits {
     int32_t tentative_mnat; /* a track below that never was confirmed is dropped */
     int32_t doubt_mnat;     /* one so far below its highest score is tentative; 0: any is */
     int32_t fall_mnat; /* one that was confirmed, so far below its highest score, is dropped; > 0 */
-    uint8_t misses_in_row_max; /* any track ends at so many misses in a row */
+    uint8_t misses_in_row_max; /* the track ends at so many misses in a row */
 };
 
 /* Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value. Constant cost. */

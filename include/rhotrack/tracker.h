@@ -78,7 +78,8 @@ struct rho_tracker_config {
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
     float late_max_s;
 #endif
-    /* misses in a row that end a track: 1 .. 255; and scans, in the time that the sensors that saw it last take for them, for which a
+    /* misses in a row that end a track, 1 .. 255: one of 16 hits is only in doubt then, tentative, and ends after 2.4 times as many,
+     * as long as its gate is not full of clutter. And scans, in the time that the sensors that saw it last take for them, for which a
      * track coasts that no sensor can see */
     uint16_t coast_scans_max;
     uint8_t gate;   /* enum rho_tracker_gate */

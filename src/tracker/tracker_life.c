@@ -15,6 +15,13 @@
  * as if all sensors missed what one does. */
 #define LIFETIME_MNAT 5298
 
+/*
+ * A grown track whose target is not seen any more may hide: in doubt, unreported, for so many times coast_scans_max misses, as long
+ * as no more clutter plots than that are expected in its gate. The target may have flown behind something, and keeps its identity.
+ */
+#define HIDE_SHARE 2.4f
+#define HIDE_CLUTTER_MAX 3.0f
+
 /* Standard deviations of a speed that is surely below the slowest target's. */
 #define SLOW_SIGMAS 3.0f
 
@@ -78,11 +85,37 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
     return limits;
 }
 
+static int may_hide(const struct step *step, const struct rho_track *track)
+{
+    return rho_tracker_is_grown(track) &&
+           rho_tracker_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
+}
+
+/*
+ * The limits of one track. What may hide ends later, and its evidence falls no further than twice the doubt: a hidden target
+ * is missed for sure, and two plots that fit are to be enough when it is back.
+ */
+static struct rho_track_limits limits_of(const struct step *step, struct rho_track *track,
+                                         const struct rho_track_limits *limits)
+{
+    struct rho_track_limits own = *limits;
+    const int32_t most_mnat = 2 * limits->doubt_mnat;
+    const int is_low = track->score_max_mnat - track->score_mnat > most_mnat;
+    const int is_late = track->misses_in_row >= limits->misses_in_row_max;
+    if ((is_low || is_late) && may_hide(step, track)) {
+        const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
+        own.misses_in_row_max = misses < (float)UINT8_MAX ? (uint8_t)misses : UINT8_MAX;
+        own.fall_mnat = limits->fall_mnat > most_mnat ? limits->fall_mnat : most_mnat + 1;
+        track->score_mnat = is_low ? track->score_max_mnat - most_mnat : track->score_mnat;
+    }
+    own.doubt_mnat = is_late || rho_tracker_is_too_young(step, track) ? 0 : limits->doubt_mnat;
+    return own;
+}
+
 static void judge(struct step *step, struct rho_track *track, const struct rho_track_limits *limits)
 {
     const uint8_t was_believed = track->is_believed;
-    struct rho_track_limits own = *limits;
-    own.doubt_mnat = rho_tracker_is_too_young(step, track) ? 0 : limits->doubt_mnat;
+    const struct rho_track_limits own = limits_of(step, track, limits);
     rho_tracker_note_growth(step, track);
     if (rho_track_judge(track, &own) == RHO_TRACK_FREE) {
         rho_tracker_note_death(step, track);
@@ -168,6 +201,12 @@ void rho_tracker_age(struct step *step)
 
 /* ---- initiate --------------------------------------------------------------------------------- */
 
+/* What a tentative track gives way by: its score, or, where it was believed, how far that has fallen. */
+static int32_t weight_of(const struct rho_track *track)
+{
+    return track->is_believed ? track->score_mnat - track->score_max_mnat : track->score_mnat;
+}
+
 /* Room for one more track: at the end, or that of the lowest tentative track below the score. */
 static int make_room(struct step *step, int32_t score_mnat)
 {
@@ -179,8 +218,8 @@ static int make_room(struct step *step, int32_t score_mnat)
     unsigned lowest = RHO_MAX_TRACKS;
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->status == RHO_TRACK_TENTATIVE && track->score_mnat < score_mnat) {
-            score_mnat = track->score_mnat;
+        if (track->status == RHO_TRACK_TENTATIVE && weight_of(track) < score_mnat) {
+            score_mnat = weight_of(track);
             lowest = i;
         }
     }

@@ -246,6 +246,7 @@ int rho_tracker_is_nowhere(const struct step *step, const struct rho_track *trac
 
 /* tracker_young.c: what young tracks are asked for, found once a step; tracks that grow up, and that end */
 void rho_tracker_weigh_youth(struct step *step);
+int rho_tracker_is_grown(const struct rho_track *track);
 int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track);
 void rho_tracker_note_growth(struct step *step, const struct rho_track *track);
 void rho_tracker_note_death(struct step *step, const struct rho_track *track);

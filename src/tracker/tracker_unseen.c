@@ -236,7 +236,10 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
-    return is_overdue && (track->misses_in_row >= OVERDUE_MISSES ||
+    /* of the time in which it was not seen, that in which it was not looked for */
+    const float silent_s = unseen_s - (float)track->misses_in_row * wait.interval_s;
+    const int is_back = silent_s >= (coast + OVERDUE) * wait.interval_s;
+    return is_overdue && ((is_back && track->misses_in_row >= OVERDUE_MISSES) ||
                           unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
 }
 

@@ -103,6 +103,11 @@ void rho_tracker_weigh_youth(struct step *step)
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
 }
 
+int rho_tracker_is_grown(const struct rho_track *track)
+{
+    return track->hits >= GROWN_HITS;
+}
+
 int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track)
 {
     return step->asked_nat > 0.0f && track->hits < GROWN_HITS &&

@@ -444,6 +444,44 @@ static void a_target_missed_when_the_radar_is_back_keeps_its_track(void **state)
     }
 }
 
+/* Seen in so many scans, then missed in so many; the track's identity before. */
+static uint32_t hide(int seen, int missed, double *t_s)
+{
+    start(7, 30.0, 350.0, 20.0);
+    for (int k = 0; k < seen; k++, *t_s += 4.0) {
+        look_at_one(*t_s, 1, 6);
+    }
+    const uint32_t id = report.tracks[0].track_id;
+    for (int k = 1; k <= missed; k++, *t_s += 4.0) {
+        look_at_one(*t_s, 0, 6);
+        const struct rho_track_report *track = report_of(id);
+        assert_true(!track || k < 3 || track->status == RHO_TRACK_TENTATIVE);
+    }
+    return id;
+}
+
+/* Behind a hill for forty seconds; what is not back after twelve misses has gone. Of a young track five are enough. */
+static void a_grown_target_that_hides_keeps_its_identity(void **state)
+{
+    (void)state;
+    num_radars = 1;
+    radars[0] = usual_radar();
+    for (int missed = 9; missed <= 12; missed++) {
+        double t_s = 0.0;
+        const uint32_t id = hide(24, missed, &t_s);
+        assert_int_equal(report_of(id) != NULL, missed < 12);
+        for (int k = 0; k < 3; k++, t_s += 4.0) {
+            look_at_one(t_s, 1, 6);
+        }
+        assert_int_equal(report_of(id) != NULL, missed < 12);
+        assert_true(missed == 12 || report_of(id)->status == RHO_TRACK_CONFIRMED);
+    }
+    double t_s = 0.0;
+    assert_non_null(report_of(hide(12, 4, &t_s)));
+    t_s = 0.0;
+    assert_null(report_of(hide(12, 5, &t_s)));
+}
+
 /* Radars of which one is switched off for good, where the others see none of its targets, or some of them. */
 static void a_radar_that_is_switched_off_leaves_no_tracks(void **state)
 {
@@ -645,6 +683,7 @@ int main(void)
         cmocka_unit_test(a_short_radar_of_a_sector_keeps_none),
         cmocka_unit_test(a_minute_without_the_radar),
         cmocka_unit_test(a_target_missed_when_the_radar_is_back_keeps_its_track),
+        cmocka_unit_test(a_grown_target_that_hides_keeps_its_identity),
         cmocka_unit_test(a_radar_that_is_switched_off_leaves_no_tracks),
         cmocka_unit_test(after_a_long_silence_nothing_old_is_left),
         cmocka_unit_test(targets_pass_through_two_radars),

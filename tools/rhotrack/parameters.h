@@ -64,7 +64,7 @@
     X(WORK_MAX, "work_max", "-", RHO_WORK_MAX, 0, 1e8, 1, 1,                                       \
       "units of work, a scan (20 to 90 instructions each), tracks first; 0: no limit")             \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
-      "misses in a row that end a track")                                                          \
+      "misses in a row that end a track; one of 16 hits is in doubt for 2.4 times as many")        \
     X(LATE_MAX_S, "late_max_s", "s", 20, 0, 60, 0, 1,                                              \
       "older scans update tracks where they are no older than the newest by this")                 \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
