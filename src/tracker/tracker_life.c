@@ -16,7 +16,7 @@
 #define LIFETIME_MNAT 5298
 
 /*
- * A grown track whose target is not seen any more may hide: in doubt, unreported, for so many times coast_scans_max misses, as long
+ * A grown track that has moved, and is not seen any more, may hide: in doubt, unreported, for so many times coast_scans_max misses, as long
  * as no more clutter plots than that are expected in its gate. The target may have flown behind something, and keeps its identity.
  */
 #define HIDE_SHARE 2.4f
@@ -87,7 +87,7 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
 
 static int may_hide(const struct step *step, const struct rho_track *track)
 {
-    return rho_tracker_is_grown(track) &&
+    return rho_tracker_is_grown(track) && rho_tracker_has_moved(track) &&
            rho_tracker_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
 }
 

@@ -382,6 +382,11 @@ void rho_tracker_note_place(struct rho_track *track);
 /* How far echoes explained the candidate's plots. */
 void rho_tracker_note_start(struct step *step, const struct rho_candidate *candidate,
                             struct rho_track *track);
+/* It has moved as targets do, and not only from echo to echo. */
+static inline int rho_tracker_has_moved(const struct rho_track *track)
+{
+    return track->has_taken_back;
+}
 /* tracker_second_plots.c: plots near those that tracks have just claimed are expected, and learned from; a younger track that is
  * the elder's target again ends. Before tracks age */
 void rho_tracker_expect_second_plots(struct step *step);
@@ -404,6 +409,12 @@ static inline void rho_tracker_expect_earlier_second_plots(struct step *step,
                                                            const struct rho_candidate *candidate)
 {
     (void)step, (void)candidate;
+}
+
+static inline int rho_tracker_has_moved(const struct rho_track *track)
+{
+    (void)track;
+    return 1;
 }
 
 static inline void rho_tracker_look_at_clutter(struct step *step)
