@@ -190,10 +190,11 @@
 #endif
 
 /*
- * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2 input estimation, 4
- * hypotheses. What only the others need is left out of the program: a radar with the gate best needs 4 alone (10 KB less on a
- * Cortex-M4), one with the gate nearest 1 (frames that start tracks want it, too). What asks for another one is refused
- * (CONFIG). RAM stays: without 4, RHO_MAX_HYPOTHESES is best 1. Default: all. 1 .. 7.
+ * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2
+ * input estimation and, of the same method, the gate hough, 4 hypotheses. What only the others need
+ * is left out of the program: a radar with the gate best needs 4 alone (10 KB less on a Cortex-M4),
+ * one with the gate nearest 1 (frames that start tracks want it, too). What asks for another one is
+ * refused (CONFIG). RAM stays: without 4, RHO_MAX_HYPOTHESES is best 1. Default: all. 1 .. 7.
  */
 #ifndef RHO_FILTERS
 #define RHO_FILTERS 7
