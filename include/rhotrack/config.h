@@ -200,6 +200,16 @@
 #define RHO_FILTERS 7
 #endif
 
+/*
+ * Kinds of scans that come in, a bit each, 1 << enum rho_feed_kind: 1 plots, 2 polar plots, 4
+ * bearings. What only the others need is left out of the program (with 2 alone 3.5 KB less on a
+ * Cortex-M4): rho_feed takes none of their messages (TYPE), and without 1 there is no faster search
+ * for plots whose noise has one axis; they are searched as others are. Default: all. 1 .. 7.
+ */
+#ifndef RHO_SCAN_KINDS
+#define RHO_SCAN_KINDS 7
+#endif
+
 /* 1: two tracks of targets that the sensor sees as one plot share it; 0: left out of the program (1 KB less on a Cortex-M4). */
 #ifndef RHO_SHARES_PLOTS
 #define RHO_SHARES_PLOTS 1
@@ -339,6 +349,9 @@
 #endif
 #if (RHO_FILTERS) < 1 || (RHO_FILTERS) > 7
 #error "RHO_FILTERS must be 1 .. 7"
+#endif
+#if (RHO_SCAN_KINDS) < 1 || (RHO_SCAN_KINDS) > 7
+#error "RHO_SCAN_KINDS must be 1 .. 7"
 #endif
 #if RHO_MAX_GATE_PLOTS < 1 || RHO_MAX_GATE_PLOTS > 32
 #error "RHO_MAX_GATE_PLOTS must be 1 .. 32"

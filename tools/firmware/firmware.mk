@@ -17,7 +17,7 @@ m7_flags := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -DMPS2_ETHER
 firmware_flags := -std=c99 $(common_flags) $(warnings) -ffunction-sections -fdata-sections -I$(firmware_folder)
 firmware_link := -nostartfiles -Wl,--gc-sections -L$(board)/mps2
 radar_flags := $(firmware_flags) -DRHO_CONFIG_FILE='"nodes/full.h"'
-replay_flags := $(firmware_flags) -DNODE_BEARINGS=1
+replay_flags := $(firmware_flags)
 # What a compiler calls must not be made of calls to itself.
 memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 
