@@ -8,7 +8,7 @@ board := $(firmware_folder)/board
 ARM_CC ?= arm-none-eabi-gcc
 # For little flash: the whole program at once, no code moved out of loops, none rearranged, no paths taken apart,
 # parameters as they are written. For 4 KiB of stack: no large frames put into one another.
-FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
+FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-reorder-blocks -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
                 -fno-tree-dominator-opts -fno-ipa-sra \
                 --param=large-stack-frame=128 --param=large-stack-frame-growth=50
 
