@@ -38,7 +38,7 @@ struct search {
     float reach_chi2;            /* of the widest gate */
     /* one radar's noise: no plot's is above both; of the scan whose plots have the least, the largest. 0: not known */
     float sigma_near_m, sigma_per_m, sigma_least_m;
-    int is_isotropic; /* private: rho_initiator_is_isotropic */
+    int is_isotropic;                                     /* private: rho_initiator_is_isotropic */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
     float log_prior;                /* ln of the births' density over area and velocity */

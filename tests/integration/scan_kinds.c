@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scan_kinds: what a build with RHO_SCAN_KINDS takes, for scan_kinds.sh. Prints a line for each kind of message, what the feed
- * says of it and the bytes of what it gives; and what the initiator finds of two targets in clutter: with the noise of a
- * radar, and with noise of one axis.
+ * scan_kinds: what a build with RHO_SCAN_KINDS takes, for scan_kinds.sh. Prints a line for each
+ * kind of message, what the feed says of it and the bytes of what it gives; and what the initiator
+ * finds of two targets in clutter: with the noise of a radar, and with noise of one axis.
  */
 #include <stdio.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static float uniform(float low, float high)
     return low + (high - low) * (float)(random_state >> 8) / 16777216.0f;
 }
 
-/* ---- messages --------------------------------------------------------------------------------- */
+/* ---- messages -------------------------------------------------------------------------------- */
 
 static size_t encode(int kind, uint8_t *buffer, size_t capacity)
 {
@@ -86,7 +86,7 @@ static void print_feed(int kind)
     printf("kind %d: %s %u %08x\n", kind, rho_status_name(status), inputs, (unsigned)sum);
 }
 
-/* ---- a search --------------------------------------------------------------------------------- */
+/* ---- a search -------------------------------------------------------------------------------- */
 
 static enum rho_status push(int scan, float sigma_cross_m)
 {
