@@ -414,7 +414,7 @@ tidy:
 	@echo "  tidy     src tools/rhotrack tools/firmware"
 	@$(call tidy,$(library_sources),$(library_flags)) || failed=1; \
 	$(call tidy,$(program_sources),$(program_flags)) || failed=1; \
-	$(call tidy,$(firmware_portable),$(library_flags) -Itools/firmware -DNODE_BEARINGS=1) || failed=1; test -z "$$failed"
+	$(call tidy,$(firmware_portable),$(library_flags) -Itools/firmware) || failed=1; test -z "$$failed"
 
 cppcheck:
 	@echo "  cppcheck src tools/rhotrack tools/firmware"

@@ -190,13 +190,24 @@
 #endif
 
 /*
- * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2 input estimation, 4
- * hypotheses. What only the others need is left out of the program: a radar with the gate best needs 4 alone (10 KB less on a
- * Cortex-M4), one with the gate nearest 1 (frames that start tracks want it, too). What asks for another one is refused
- * (CONFIG). RAM stays: without 4, RHO_MAX_HYPOTHESES is best 1. Default: all. 1 .. 7.
+ * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2
+ * input estimation and, of the same method, the gate hough, 4 hypotheses. What only the others need
+ * is left out of the program: a radar with the gate best needs 4 alone (10 KB less on a Cortex-M4),
+ * one with the gate nearest 1 (frames that start tracks want it, too). What asks for another one is
+ * refused (CONFIG). RAM stays: without 4, RHO_MAX_HYPOTHESES is best 1. Default: all. 1 .. 7.
  */
 #ifndef RHO_FILTERS
 #define RHO_FILTERS 7
+#endif
+
+/*
+ * Kinds of scans that come in, a bit each, 1 << enum rho_feed_kind: 1 plots, 2 polar plots, 4
+ * bearings. What only the others need is left out of the program (with 2 alone 3.8 KB less on a
+ * Cortex-M4): rho_feed takes none of their messages (TYPE), and without 1 there is no faster search
+ * for plots whose noise has one axis; they are searched as others are. Default: all. 1 .. 7.
+ */
+#ifndef RHO_SCAN_KINDS
+#define RHO_SCAN_KINDS 7
 #endif
 
 /* 1: two tracks of targets that the sensor sees as one plot share it; 0: left out of the program (1 KB less on a Cortex-M4). */
@@ -338,6 +349,9 @@
 #endif
 #if (RHO_FILTERS) < 1 || (RHO_FILTERS) > 7
 #error "RHO_FILTERS must be 1 .. 7"
+#endif
+#if (RHO_SCAN_KINDS) < 1 || (RHO_SCAN_KINDS) > 7
+#error "RHO_SCAN_KINDS must be 1 .. 7"
 #endif
 #if RHO_MAX_GATE_PLOTS < 1 || RHO_MAX_GATE_PLOTS > 32
 #error "RHO_MAX_GATE_PLOTS must be 1 .. 32"

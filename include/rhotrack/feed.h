@@ -158,6 +158,13 @@ struct rho_feed_counters {
 
 enum rho_feed_kind { RHO_FEED_PLOTS = 0, RHO_FEED_POLAR, RHO_FEED_BEARINGS, RHO_NUM_FEED_KINDS };
 
+/* True of kinds that the library is built with. */
+#define RHO_FEED_HAS(kind) (((RHO_SCAN_KINDS) >> (kind)&1) != 0)
+
+/* True of that kind: known to the compiler where there is no such, or no other. */
+#define RHO_FEED_IS(kind, which)                                                                   \
+    ((RHO_SCAN_KINDS) == 1 << (which) || (RHO_FEED_HAS(which) && (kind) == (which)))
+
 /* Where a sensor's scans have come to. */
 struct rho_feed_place {
     int64_t time_us;
@@ -275,7 +282,7 @@ RHO_MUST_CHECK enum rho_status rho_feed_set_sensor(struct rho_feed *feed,
  * Takes one message; any bytes may be given. RHO_OK also where it was refused: a counter has moved.
  *   channel  ends with NUL
  *   now_us   reception clock
- * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel), CAPACITY (no room for another open scan: call
+ * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel, or of a kind that is none of RHO_SCAN_KINDS), CAPACITY (no room for another open scan: call
  * rho_feed_next once, step what it gives, if anything, and take the message again; two such calls make room); nothing
  * is changed but for that call.
  * Cost: the message's bytes, twice, RHO_MAX_SENSORS, and where parts come out of order the scan's plots moved.

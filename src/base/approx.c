@@ -184,16 +184,19 @@ float rho_exp(float v)
 
 float rho_log(float v)
 {
-    const int is_subnormal = v < FLT_MIN;
-    const uint32_t bits = rho_float_bits(is_subnormal ? v * 8388608.0f : v);
-    int32_t exponent = (int32_t)(bits >> EXPONENT_SHIFT) - (EXPONENT_BIAS - 1);
+    uint32_t bits = rho_float_bits(v);
+    int32_t exponent = -(EXPONENT_BIAS - 1);
     float f, k;
 
-    if (!(v > 0.0f && v <= FLT_MAX)) {
-        return v > 0.0f ? v : rho_float_of(v >= 0.0f ? BITS_INFINITY | 0x80000000u : BITS_NAN);
+    if (!(v >= FLT_MIN && v <= FLT_MAX)) {
+        if (!(v > 0.0f && v <= FLT_MAX)) {
+            return v > 0.0f ? v : rho_float_of(v >= 0.0f ? BITS_INFINITY | 0x80000000u : BITS_NAN);
+        }
+        bits = rho_float_bits(v * 8388608.0f); /* subnormal */
+        exponent -= EXPONENT_SHIFT;
     }
+    exponent += (int32_t)(bits >> EXPONENT_SHIFT);
     f = rho_float_of((bits & FRACTION_MASK) | rho_float_bits(0.5f));
-    exponent -= is_subnormal ? EXPONENT_SHIFT : 0;
     if (f < SQRT_HALF) {
         f += f;
         --exponent;

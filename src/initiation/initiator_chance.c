@@ -313,7 +313,7 @@ static struct place_class widened(const struct chance *chance, const struct plac
     }
     const float bend_m2 = chance->bend_m2[first];
     const float scans = (float)(chance->search->num_scans - first);
-    if (chance->search->is_isotropic) {
+    if (rho_initiator_is_isotropic(chance->search)) {
         wide.log_range =
             wider_by_shapes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
         wide.log_cross = wide.log_range;

@@ -133,7 +133,7 @@ static int are_radars(const struct search *search, struct radars *radars)
     struct rho_window *window = &search->initiator->window;
     int is_radar = 0;
     radars->count = 0;
-    for (unsigned m = 0; m < window->num_scans && !search->is_isotropic; m++) {
+    for (unsigned m = 0; m < window->num_scans && !rho_initiator_is_isotropic(search); m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         is_radar |= !scan->is_isotropic;
         if (!add_radar(radars, &scan->sensor)) {

@@ -134,7 +134,7 @@ static struct moments moments_of(const struct search *search, const struct plot_
 /* 0 where the plots do not determine a line. */
 static int fit_line(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {
-    if (!search->is_isotropic) {
+    if (!rho_initiator_is_isotropic(search)) {
         return rho_initiator_own_fit(search, set, fit);
     }
     struct moments sum = moments_of(search, set);
@@ -173,8 +173,9 @@ void rho_initiator_collect(struct search *search, const struct line_fit *fit, fl
 {
     set->mask = set->hits = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        int plot = search->is_isotropic ? nearest(search, fit, factor, m)
-                                        : rho_initiator_own_nearest(search, fit, factor, m);
+        int plot = rho_initiator_is_isotropic(search)
+                       ? nearest(search, fit, factor, m)
+                       : rho_initiator_own_nearest(search, fit, factor, m);
         set->plot[m] = (uint16_t)(plot < 0 ? 0 : plot);
         if (plot >= 0) {
             set->mask |= 1u << m;
@@ -391,7 +392,7 @@ static int log_likelihood(const struct search *search, const struct plot_set *se
                           struct set_score *score, float *nat)
 {
     struct evidence evidence;
-    if (!search->is_isotropic) {
+    if (!rho_initiator_is_isotropic(search)) {
         return rho_initiator_own_evidence(search, set, nat, &score->chi2, &score->dimensions);
     }
     if (!(search->fit_process_m2 > 0.0f)) {

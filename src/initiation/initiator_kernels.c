@@ -8,7 +8,7 @@
 /* The voter's plot nearest to where the kernel says, in the gate of all three plots' noise; -1: none. */
 static int vote(struct search *search, const struct span *span, unsigned m, struct kernel *kernel)
 {
-    if (!search->is_isotropic) {
+    if (!rho_initiator_is_isotropic(search)) {
         return rho_initiator_own_vote(search, span, m, kernel);
     }
     const struct voter *voter = &span->voters[span->b - m - 1u];
@@ -94,7 +94,7 @@ static float squared(float v)
 static int complete(struct search *search, const struct span *span, struct kernel *kernel)
 {
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
-    if (!search->is_isotropic) {
+    if (!rho_initiator_is_isotropic(search)) {
         rho_initiator_charge(search, search->has_more ? MORE_UNITS : OWN_UNITS);
         return rho_initiator_own_kernel(search, span, kernel);
     }
@@ -120,7 +120,7 @@ static int vote_aliases(struct search *search, const struct span *span,
     struct aliases aliases;
     int number = *next;
     *next = 0;
-    if (search->is_isotropic ||
+    if (rho_initiator_is_isotropic(search) ||
         !rho_initiator_open_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
         return vote_all(search, span, first, kernel, set);
     }

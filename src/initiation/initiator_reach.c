@@ -39,7 +39,8 @@ static void see_noise(struct search *search, const struct rho_window_scan *scan)
 void rho_initiator_prepare_reach(struct search *search)
 {
     search->sigma_least_m = 0.0f;
-    if (search->is_isotropic || search->fit_process_m2 > 0.0f || !has_one_sensor(search)) {
+    if (rho_initiator_is_isotropic(search) || search->fit_process_m2 > 0.0f ||
+        !has_one_sensor(search)) {
         return;
     }
     for (unsigned m = 0; m < search->num_scans; m++) {

@@ -38,7 +38,7 @@ struct search {
     float reach_chi2;            /* of the widest gate */
     /* one radar's noise: no plot's is above both; of the scan whose plots have the least, the largest. 0: not known */
     float sigma_near_m, sigma_per_m, sigma_least_m;
-    int is_isotropic; /* no scan has noise of two axes, heights or range rates */
+    int is_isotropic;                                     /* private: rho_initiator_is_isotropic */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
     float log_prior;                /* ln of the births' density over area and velocity */
@@ -54,6 +54,12 @@ struct search {
     struct rho_initiator_turn next; /* where the next search begins */
     int is_left_out; /* the set that is scored: its plots are not in the map, so none are taken out of it */
 };
+
+/* No scan has noise of two axes, heights or range rates: the fast path, where the build has one. */
+static inline int rho_initiator_is_isotropic(const struct search *search)
+{
+    return (RHO_SCAN_KINDS & 1) != 0 && search->is_isotropic;
+}
 
 /* Thresholds that clutter reaches as rarely as wanted. */
 struct rate {

@@ -71,7 +71,7 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
     span->is_ordered = (uint8_t)is_ordered(search, span);
     span->voters = voters;
     span->slack_m = 0.0f;
-    if (!search->is_isotropic) {
+    if (!rho_initiator_is_isotropic(search)) {
         span->slack_m =
             rho_sqrt(RHO_GATE_CHI2_2D * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
                                          span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
@@ -404,7 +404,7 @@ int rho_initiator_try_ending(struct search *search, const struct fan *fan, unsig
     float far_m = run_m(search, &ending, widest->b, widest->a);
     ending.rounding_m = ROUNDING_SHARE * (most(ending.plot->x_m, -ending.plot->x_m) +
                                           most(ending.plot->y_m, -ending.plot->y_m) + far_m);
-    if (!search->is_isotropic) {
+    if (!rho_initiator_is_isotropic(search)) {
         ending.noise = rho_window_noise(widest->scan_b, ending.plot);
     }
     rho_initiator_find_reach(search, far_m + widest->slack_m + widest->voters[0].reach_m, &ending);

@@ -63,17 +63,15 @@ static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct 
 }
 
 /*
- * At the plot's own time. What is expected of range rates is known at the hypotheses' time alone.
+ * At the plot's own time. What is expected of range rates is known at the hypotheses' time alone;
+ * NULL: not yet.
  */
-static inline int weigh_one(struct rho_hypotheses *pool, uint16_t slot, unsigned i,
+static inline int weigh_one(struct rho_hypotheses *pool, const struct rho_imm_rates *rates,
                             const struct rho_hypothesis *at, const struct offer *offer,
                             struct rho_imm_match *match)
 {
-    if (at->time_us == offer->time_us) {
-        if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
-            open_rates(pool, slot, offer->seen->sensor);
-        }
-        return rho_imm_weigh_with(&at->imm, &pool->opened.rates[i], offer->seen, match);
+    if (rates && at->time_us == offer->time_us) {
+        return rho_imm_weigh_with(&at->imm, rates, offer->seen, match);
     }
     const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, offer->time_us);
     return imm && rho_imm_weigh(imm, offer->seen, match);
@@ -85,9 +83,16 @@ static float weigh_each(struct rho_hypotheses *pool, uint16_t slot, const struct
     const uint16_t *nodes = pool->node_of[slot];
     struct rho_imm_match match;
     float best = -FLT_MAX;
+    const struct rho_imm_rates *rates = 0;
+    if (pool->nodes[nodes[0]].time_us == offer->time_us) { /* so are the others, most often */
+        rates = pool->opened.rates;
+        if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
+            open_rates(pool, slot, offer->seen->sensor);
+        }
+    }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
-        if (weigh_one(pool, slot, i, at, offer, &match)) {
+        if (weigh_one(pool, rates ? &rates[i] : 0, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
             const float worth = note_candidate(at, pd_over_clutter + match.log_likelihood,
                                                match.probability, offer->row);

@@ -14,6 +14,8 @@
 
 /* A model beyond the gate still counts beside one within it: its density may be the higher one, as it is narrower. */
 #define COUNTS_MAX (2.0f * RHO_IMM_GATE)
+/* Of one that does not count: farther than all that do. */
+#define BEYOND_ALL (2.0f * COUNTS_MAX)
 
 /* What one model says of a plot. Both models' positions and velocities have the same places. */
 struct view {
@@ -235,30 +237,6 @@ static inline float view_rate(const struct view *view, const struct rho_imm_plot
     return off * off / variance;
 }
 
-/* Places in the plane, and a range rate: S = L D L^T by hand. */
-static inline void view_plane(struct view *view, const struct rho_imm_plot *seen, int has_rate)
-{
-    const float *p = view->covariance, *r = seen->covariance, *rate = view->projected;
-    const float s00 = p[0] + r[0], s10 = p[1] + r[1], inverse0 = 1.0f / s00, l10 = s10 * inverse0;
-    const float s11 = p[2] + r[2] - l10 * s10, inverse1 = 1.0f / s11;
-    const float d0 = seen->position.place_m[0] - view->state[0];
-    const float d1 = seen->position.place_m[1] - view->state[1] - l10 * d0;
-    const float to0 = d0 * inverse0, to1 = d1 * inverse1;
-    float distance2 = d0 * to0 + d1 * to1, det = s00 * s11, rate_det = 1.0f;
-    if (has_rate) {
-        const float rate0 = rate[0], rate1 = rate[1] - l10 * rate0;
-        distance2 += view_rate(view, seen, rate0 * to0 + rate1 * to1,
-                               rate0 * rate0 * inverse0 + rate1 * rate1 * inverse1, &rate_det);
-        det *= rate_det;
-    }
-    view->distance2 = distance2;
-    view->counts = distance2 <= COUNTS_MAX && s11 > 0.0f && rate_det > 0.0f &&
-                   (!has_rate || expects_rate(view));
-    if (view->counts) {
-        view->root = rho_inverse_sqrt(det);
-    }
-}
-
 /* The same in space. */
 static void view_space(struct view *view, const struct rho_imm_plot *seen, int has_rate)
 {
@@ -352,26 +330,52 @@ static void look(struct view *view, const struct rho_imm *imm, const struct rho_
     }
 }
 
-static inline int is_in_gate(const struct view views[2])
+static int weigh_models(const float factor[2], const float distance2[2], int num_dimensions,
+                        struct rho_imm_match *match)
 {
-    return (views[0].counts && views[0].distance2 <= RHO_IMM_GATE) ||
-           (views[1].counts && views[1].distance2 <= RHO_IMM_GATE);
-}
-
-/* One that does not count is farther than all, and weighs nothing. */
-static inline int weigh_models(const struct view views[2], float probability, int num_dimensions,
-                               struct rho_imm_match *match)
-{
-    const float factor[2] = {views[0].counts ? believable(1.0f - probability) * views[0].root
-                                             : 0.0f,
-                             views[1].counts ? believable(probability) * views[1].root : 0.0f};
-    const float distance2[2] = {views[0].counts ? views[0].distance2 : 2.0f * COUNTS_MAX,
-                                views[1].counts ? views[1].distance2 : 2.0f * COUNTS_MAX};
-    if (!is_in_gate(views)) {
+    if (!(distance2[0] <= RHO_IMM_GATE || distance2[1] <= RHO_IMM_GATE)) {
         return 0;
     }
     combine(factor, distance2, num_dimensions, match);
     return is_likelihood(match->log_likelihood);
+}
+
+/* What a plot in the plane says to both models alike. */
+struct plane_plot {
+    float x_m, y_m, xx_m2, xy_m2, yy_m2;
+    int has_rate;
+};
+
+/*
+ * Places in the plane, and a range rate: S = L D L^T by hand. Returns the squared distance, and in
+ * *factor what the density is in proportion to, times share; of what does not count, and of no
+ * number, a distance beyond all that do and 0.
+ */
+static inline float view_plane(const struct view *view, const struct plane_plot *plot,
+                               const struct rho_imm_plot *seen, float share, float *factor)
+{
+    const float *p = view->covariance, *rate = view->projected;
+    const float s00 = p[0] + plot->xx_m2, s10 = p[1] + plot->xy_m2;
+    const float inverse0 = 1.0f / s00, l10 = s10 * inverse0;
+    const float s11 = p[2] + plot->yy_m2 - l10 * s10, inverse1 = 1.0f / s11;
+    const float d0 = plot->x_m - view->state[0];
+    const float d1 = plot->y_m - view->state[1] - l10 * d0;
+    const float to0 = d0 * inverse0, to1 = d1 * inverse1;
+    float distance2 = d0 * to0 + d1 * to1, det = s00 * s11, rate_det = 1.0f;
+    int counts = s11 > 0.0f;
+    if (plot->has_rate) {
+        const float rate0 = rate[0], rate1 = rate[1] - l10 * rate0;
+        distance2 += view_rate(view, seen, rate0 * to0 + rate1 * to1,
+                               rate0 * rate0 * inverse0 + rate1 * rate1 * inverse1, &rate_det);
+        det *= rate_det;
+        counts = counts && rate_det > 0.0f && expects_rate(view);
+    }
+    if (!(counts && distance2 <= COUNTS_MAX)) {
+        *factor = 0.0f;
+        return BEYOND_ALL;
+    }
+    *factor = believable(share) * rho_inverse_sqrt(det);
+    return distance2;
 }
 
 /* What one model expects; 0: it is in the sensor's own place. */
@@ -460,23 +464,33 @@ static inline void open_view(struct view *view, int model, const struct rho_imm 
     }
 }
 
-/* Apart, and written out: it runs for each plot in the gate of each hypothesis. */
+/* Apart: it runs for each plot in the gate of each hypothesis. */
 static int weigh_in_plane(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                           const struct rho_imm_plot *seen, struct rho_imm_match *match)
 {
-    const int has_rate = match->has_range_rate;
-    struct view views[2];
-    open_view(&views[0], 0, imm, rates, has_rate);
-    view_plane(&views[0], seen, has_rate);
-    open_view(&views[1], 1, imm, rates, has_rate);
-    view_plane(&views[1], seen, has_rate);
-    return weigh_models(views, imm->probability, 2 + has_rate, match);
+    const struct plane_plot plot = {
+        .x_m = seen->position.place_m[0],
+        .y_m = seen->position.place_m[1],
+        .xx_m2 = seen->covariance[RHO_AT(0, 0)],
+        .xy_m2 = seen->covariance[RHO_AT(1, 0)],
+        .yy_m2 = seen->covariance[RHO_AT(1, 1)],
+        .has_rate = match->has_range_rate,
+    };
+    const float share[2] = {1.0f - imm->probability, imm->probability};
+    float factor[2], distance2[2];
+    for (int i = 0; i < 2; i++) {
+        struct view view;
+        open_view(&view, i, imm, rates, plot.has_rate);
+        distance2[i] = view_plane(&view, &plot, seen, share[i], &factor[i]);
+    }
+    return weigh_models(factor, distance2, 2 + plot.has_rate, match);
 }
 
 int rho_imm_weigh_with(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                        const struct rho_imm_plot *seen, struct rho_imm_match *match)
 {
-    struct view views[2];
+    const float share[2] = {1.0f - imm->probability, imm->probability};
+    float factor[2], distance2[2];
     match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;
@@ -484,10 +498,13 @@ int rho_imm_weigh_with(const struct rho_imm *imm, const struct rho_imm_rates *ra
         return weigh_in_plane(imm, rates, seen, match);
     }
     for (int i = 0; i < 2; i++) {
-        open_view(&views[i], i, imm, rates, match->has_range_rate);
-        look(&views[i], imm, seen, match);
+        struct view view;
+        open_view(&view, i, imm, rates, match->has_range_rate);
+        look(&view, imm, seen, match);
+        distance2[i] = view.counts ? view.distance2 : BEYOND_ALL;
+        factor[i] = view.counts ? believable(share[i]) * view.root : 0.0f;
     }
-    return weigh_models(views, imm->probability,
+    return weigh_models(factor, distance2,
                         (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate,
                         match);
 }

@@ -205,7 +205,7 @@ static void note_velocity(struct rho_track *track, int is_first)
     if (is_first && track->num_velocities < UINT8_MAX) {
         track->num_velocities++;
     }
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < 3 && RHO_HAS_FILTER(RHO_TRACK_INPUT); axis++) {
         if (is_first) {
             track->before_mps[axis] = track->newest_mps[axis];
         }

@@ -292,6 +292,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
            RHO_HAS_FILTER(rho_tracker_filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
+           (config->gate != RHO_TRACKER_HOUGH || RHO_HAS_FILTER(RHO_TRACK_INPUT)) &&
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
            config->planes > 0 && config->planes <= ALL_PLANES &&
            rho_is_within(config->theta_cell_rad, 1e-3f, RHO_HALF_PI) &&

@@ -119,7 +119,8 @@ static int opens_hough(const struct step *step, const struct rho_track *track,
     if (!rho_kalman_is_open(&track->kalman, 2)) {
         planes = RHO_GATE_PLANE_XY;
     }
-    return config->gate == RHO_TRACKER_HOUGH && !RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
+    return RHO_HAS_FILTER(RHO_TRACK_INPUT) && config->gate == RHO_TRACKER_HOUGH &&
+           !RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
            track->num_velocities >= HOUGH_VELOCITIES_MIN &&
            rho_gate_hough_open(hough, planes, config->theta_cell_rad, track->before_mps,
                                track->newest_mps) == RHO_OK;

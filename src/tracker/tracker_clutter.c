@@ -80,8 +80,9 @@ struct rate_ratios {
 /* Density of a normal range rate, over that of clutter, which is spread over all rates. */
 static float over_all_rates(const struct step *step, float off_mps, float variance)
 {
-    return step->range_rates_mps * (rho_exp(-0.5f * off_mps * off_mps / variance) *
-                                    rho_inverse_sqrt(RHO_TWO_PI * variance));
+    const float share = rho_exp(-0.5f * off_mps * off_mps / variance);
+    return share > 0.0f ? step->range_rates_mps * (share * rho_inverse_sqrt(RHO_TWO_PI * variance))
+                        : 0.0f; /* most of them */
 }
 
 float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance)

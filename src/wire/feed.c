@@ -164,7 +164,7 @@ static int read_channel(const char *channel, enum rho_feed_kind *kind, int16_t *
         while (prefixes[i][length] != '\0' && channel[length] == prefixes[i][length]) {
             length++;
         }
-        if (prefixes[i][length] == '\0') {
+        if (prefixes[i][length] == '\0' && RHO_FEED_HAS(i)) {
             *kind = (enum rho_feed_kind)i;
             return read_number(channel + length, sensor_id);
         }

@@ -139,7 +139,7 @@ static const struct rho_feed_stray *find_stray(const struct rho_feed_config *con
 
 int rho_feed_is_in_time(const struct rho_feed *feed, enum rho_feed_kind kind, int64_t time_us)
 {
-    int64_t late_max_us = kind == RHO_FEED_BEARINGS ? 0 : feed->config.late_max_us;
+    int64_t late_max_us = RHO_FEED_IS(kind, RHO_FEED_BEARINGS) ? 0 : feed->config.late_max_us;
 
     return rho_elapsed_us(feed->out_us, time_us) <= (uint64_t)late_max_us;
 }

@@ -71,23 +71,23 @@ enum rho_status rho_feed_open_message(enum rho_feed_kind kind, const uint8_t *da
 {
     enum rho_status status;
 
-    if (kind == RHO_FEED_PLOTS) {
+    if (RHO_FEED_IS(kind, RHO_FEED_BEARINGS)) {
+        status = rho_message_bearing_scan_decode(data, size, &message->bearings);
+        if (status == RHO_OK) {
+            status = rho_message_bearing_scan_validate(&message->bearings, NULL);
+            *heading = bearings_heading(&message->bearings);
+        }
+    } else if (RHO_FEED_IS(kind, RHO_FEED_PLOTS)) {
         status = rho_message_plot_scan_decode(data, size, &message->plots);
         if (status == RHO_OK) {
             status = rho_message_plot_scan_validate(&message->plots, NULL);
             *heading = plots_heading(&message->plots);
         }
-    } else if (kind == RHO_FEED_POLAR) {
+    } else {
         status = rho_message_polar_scan_decode(data, size, &message->polar);
         if (status == RHO_OK) {
             status = rho_message_polar_scan_validate(&message->polar, NULL);
             *heading = polar_heading(&message->polar);
-        }
-    } else {
-        status = rho_message_bearing_scan_decode(data, size, &message->bearings);
-        if (status == RHO_OK) {
-            status = rho_message_bearing_scan_validate(&message->bearings, NULL);
-            *heading = bearings_heading(&message->bearings);
         }
     }
     return status;
@@ -208,7 +208,8 @@ void rho_feed_fill(struct rho_feed *feed, struct rho_feed_slot *slot,
                    const struct feed_heading *heading, const union feed_message *message)
 {
     const struct rho_feed_sensor *known = rho_feed_known(feed, heading->sensor_id);
-    unsigned room = heading->kind == RHO_FEED_BEARINGS ? RHO_MAX_BEARINGS : RHO_MAX_PLOTS;
+    unsigned room =
+        RHO_FEED_IS(heading->kind, RHO_FEED_BEARINGS) ? RHO_MAX_BEARINGS : RHO_MAX_PLOTS;
     unsigned at = inputs_before(slot, heading->part), count = heading->num_inputs;
     unsigned behind = slot->num_inputs - at, dropped = 0;
 
@@ -221,12 +222,12 @@ void rho_feed_fill(struct rho_feed *feed, struct rho_feed_slot *slot,
         dropped += at + count + behind - room;
         behind = room - at - count;
     }
-    if (heading->kind == RHO_FEED_BEARINGS) {
+    if (RHO_FEED_IS(heading->kind, RHO_FEED_BEARINGS)) {
         fill_bearings(slot->bearings + at, count, &message->bearings, known, heading->is_new);
         feed->counters.bearings_in = rho_count(feed->counters.bearings_in, heading->num_inputs);
     } else {
         memmove(slot->plots + at + count, slot->plots + at, behind * sizeof *slot->plots);
-        if (heading->kind == RHO_FEED_PLOTS) {
+        if (RHO_FEED_IS(heading->kind, RHO_FEED_PLOTS)) {
             fill_plots(slot->plots + at, count, &message->plots, &known->noise, heading->is_new);
         } else {
             fill_polar(slot->plots + at, count, &message->polar, heading->measures, &slot->sensor,

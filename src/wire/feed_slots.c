@@ -132,13 +132,13 @@ static void describe(const struct rho_feed *feed, struct rho_feed_slot *slot,
 
     slot->sensor = known->sensor;
     slot->sensor.sensor_id = heading->sensor_id;
-    if (has_place || heading->kind == RHO_FEED_BEARINGS) {
+    if (has_place || RHO_FEED_IS(heading->kind, RHO_FEED_BEARINGS)) {
         slot->sensor.x_m = heading->x_m;
         slot->sensor.y_m = heading->y_m;
         slot->sensor.z_m = heading->z_m;
     }
     slot->has_sensor = (uint8_t)(known != &feed->config.other || feed->config.is_told ||
-                                 (has_place && heading->kind != RHO_FEED_BEARINGS));
+                                 (has_place && !RHO_FEED_IS(heading->kind, RHO_FEED_BEARINGS)));
 }
 
 void rho_feed_open_slot(struct rho_feed *feed, struct rho_feed_slot *slot,
@@ -170,7 +170,7 @@ static int is_equal(float a, float b)
 /* The parts of a scan must say the same of it. */
 static int agrees(const struct rho_feed_slot *slot, const struct feed_heading *heading)
 {
-    int has_place = heading->kind == RHO_FEED_POLAR;
+    int has_place = RHO_FEED_IS(heading->kind, RHO_FEED_POLAR);
 
     return slot->place.time_us == heading->place.time_us && slot->num_parts == heading->num_parts &&
            slot->measures == heading->measures &&
@@ -404,7 +404,7 @@ void rho_feed_fill_item(const struct rho_feed_slot *slot, struct rho_feed_item *
         .has_sensor = slot->has_sensor,
         .parts_missing = (uint16_t)(slot->num_parts - slot->parts_here),
     };
-    if (slot->kind == RHO_FEED_BEARINGS) {
+    if (RHO_FEED_IS(slot->kind, RHO_FEED_BEARINGS)) {
         item->bearings = (struct rho_bearing_scan){.time_us = slot->place.time_us,
                                                    .sensor_id = slot->sensor.sensor_id,
                                                    .x_m = slot->sensor.x_m,

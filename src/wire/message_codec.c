@@ -104,9 +104,9 @@ static const uint8_t *get_members(const uint8_t *from, uint8_t *to, unsigned wid
 
 static uint8_t *put_struct(uint8_t *to, const uint8_t *from, const struct message_layout *layout)
 {
-    const struct message_run *run = rho_message_runs + layout->runs.first;
+    const struct message_run *run = layout->runs;
 
-    for (unsigned i = 0; i < layout->runs.count; i++, run++) {
+    for (unsigned i = 0; i < layout->num_runs; i++, run++) {
         to = put_members(to, from + run->offset, run->width, run->count);
     }
     return to;
@@ -115,9 +115,9 @@ static uint8_t *put_struct(uint8_t *to, const uint8_t *from, const struct messag
 static const uint8_t *get_struct(const uint8_t *from, uint8_t *to,
                                  const struct message_layout *layout)
 {
-    const struct message_run *run = rho_message_runs + layout->runs.first;
+    const struct message_run *run = layout->runs;
 
-    for (unsigned i = 0; i < layout->runs.count; i++, run++) {
+    for (unsigned i = 0; i < layout->num_runs; i++, run++) {
         from = get_members(from, to + run->offset, run->width, run->count);
     }
     return from;
@@ -126,13 +126,13 @@ static const uint8_t *get_struct(const uint8_t *from, uint8_t *to,
 /* The list's elements are one run each without gaps: the list is one long run. */
 static int is_flat(const struct message_format *format)
 {
-    return format->element.runs.count == 1 && format->element.wire_bytes == format->element_bytes;
+    return format->element.num_runs == 1 && format->element.wire_bytes == format->element_bytes;
 }
 
 static uint8_t *put_list(uint8_t *to, const uint8_t *list, const struct message_format *format,
                          size_t count)
 {
-    const struct message_run *run = rho_message_runs + format->element.runs.first;
+    const struct message_run *run = format->element.runs;
 
     if (is_flat(format)) {
         return put_members(to, list, run->width, count * run->count);
@@ -146,7 +146,7 @@ static uint8_t *put_list(uint8_t *to, const uint8_t *list, const struct message_
 static void get_list(const uint8_t *from, uint8_t *list, const struct message_format *format,
                      size_t count)
 {
-    const struct message_run *run = rho_message_runs + format->element.runs.first;
+    const struct message_run *run = format->element.runs;
 
     if (is_flat(format)) {
         (void)get_members(from, list, run->width, count * run->count);
@@ -397,17 +397,15 @@ static uint16_t first_bad_float(const uint8_t *bytes, const struct message_float
     return ALL_GOOD;
 }
 
-static uint16_t first_bad(const uint8_t *bytes, const struct message_layout *layout)
+static uint16_t first_bad(const uint8_t *bytes, const struct message_checks *checks)
 {
-    const struct message_int_rule *ints = rho_message_int_rules + layout->int_rules.first;
-    const struct message_float_rule *floats = rho_message_float_rules + layout->float_rules.first;
     uint16_t bad = ALL_GOOD;
 
-    for (unsigned i = 0; i < layout->int_rules.count && bad == ALL_GOOD; i++) {
-        bad = first_bad_int(bytes, &ints[i]);
+    for (unsigned i = 0; i < checks->num_ints && bad == ALL_GOOD; i++) {
+        bad = first_bad_int(bytes, &checks->ints[i]);
     }
-    for (unsigned i = 0; i < layout->float_rules.count && bad == ALL_GOOD; i++) {
-        bad = first_bad_float(bytes, &floats[i]);
+    for (unsigned i = 0; i < checks->num_floats && bad == ALL_GOOD; i++) {
+        bad = first_bad_float(bytes, &checks->floats[i]);
     }
     return bad;
 }
@@ -421,9 +419,10 @@ static enum rho_status refuse(enum rho_status status, struct rho_message_place *
     return status;
 }
 
-enum rho_status rho_message_validate(const struct message_format *format, const void *message,
+enum rho_status rho_message_validate(const struct message_rules *rules, const void *message,
                                      struct rho_message_place *place)
 {
+    const struct message_format *format = rules->format;
     const uint8_t *bytes = message;
     uint16_t bad;
     int count;
@@ -435,13 +434,13 @@ enum rho_status rho_message_validate(const struct message_format *format, const 
     if (count < 0 || count > format->max) {
         return refuse(RHO_ERROR_COUNT, place, format->count_offset, -1);
     }
-    bad = first_bad(bytes, &format->head);
+    bad = first_bad(bytes, &rules->head);
     if (bad != ALL_GOOD) {
         return refuse(RHO_ERROR_VALUE, place, bad, -1);
     }
     for (int i = 0; i < count; i++) {
         bad = first_bad(bytes + format->list_offset + (size_t)i * format->element_bytes,
-                        &format->element);
+                        &rules->element);
         if (bad != ALL_GOOD) {
             return refuse(RHO_ERROR_VALUE, place, bad, i);
         }

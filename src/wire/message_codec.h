@@ -46,15 +46,10 @@ struct message_int_rule {
     int32_t min, max;
 };
 
-/* Part of a table. */
-struct message_slice {
-    uint8_t first, count;
-};
-
-/* A struct, or what comes before a list: its runs and rules, and its bytes on the wire. */
+/* A struct, or what comes before a list: its runs, and its bytes on the wire. */
 struct message_layout {
-    struct message_slice runs, float_rules, int_rules;
-    uint16_t wire_bytes;
+    const struct message_run *runs;
+    uint16_t num_runs, wire_bytes;
 };
 
 /* A message. Without a list its max is 0, and what describes the list means nothing. */
@@ -65,17 +60,28 @@ struct message_format {
     uint16_t max;
 };
 
-/* Generated, in message.c. */
-extern const struct message_run rho_message_runs[];
-extern const struct message_float_rule rho_message_float_rules[];
-extern const struct message_int_rule rho_message_int_rules[];
+/* The rules of a struct, or of what comes before a list. */
+struct message_checks {
+    const struct message_int_rule *ints;
+    const struct message_float_rule *floats;
+    uint16_t num_ints, num_floats;
+};
+
+/*
+ * Those of a message. Apart from its format, so that firmware which only encodes it does not carry
+ * them; nor does it the tables of other messages, as each has its own.
+ */
+struct message_rules {
+    const struct message_format *format;
+    struct message_checks head, element;
+};
 
 /* What message.h promises of ..._encode, ..._decode, ..._validate, ..._begin, ..._add. */
 enum rho_status rho_message_encode(const struct message_format *format, const void *message,
                                    uint8_t *buffer, size_t capacity, size_t *size);
 enum rho_status rho_message_decode(const struct message_format *format, const uint8_t *data,
                                    size_t size, void *message);
-enum rho_status rho_message_validate(const struct message_format *format, const void *message,
+enum rho_status rho_message_validate(const struct message_rules *rules, const void *message,
                                      struct rho_message_place *place);
 enum rho_status rho_message_begin(const struct message_format *format,
                                   struct rho_message_writer *writer, uint8_t *buffer,

@@ -12,7 +12,7 @@ sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,node_bearings,replay}.c 
 build_replay() { # file, compiler, flags...
     local file=$1
     shift
-    "$@" -std=c99 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -DNODE_BEARINGS=1 -o "$file" "${sources[@]}"
+    "$@" -std=c99 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -o "$file" "${sources[@]}"
 }
 export -f build_replay
 for variant in gcc-O0 gcc-O1 gcc-O2 gcc-O3 clang-O0 clang-O1 clang-O2 clang-O3 \

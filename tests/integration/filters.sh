@@ -37,11 +37,11 @@ expect() { # name, filters, gates it has as a pattern, outcome of frames that st
 lines 7 >"$folder/all"
 expect 'all filters' 7 '. input .' ok
 expect 'hypotheses alone' 4 '0 input .' config
-expect 'a Kalman filter alone' 1 '[12] input 0' ok
+expect 'a Kalman filter alone' 1 '2 input 0' ok
 expect 'input estimation alone' 2 '[12] input 1' config
 expect 'a Kalman filter, and input estimation' 3 '[12] input .' ok
 expect 'input estimation and hypotheses' 6 '0 input .|[12] input 1' config
-expect 'hypotheses and a Kalman filter' 5 '0 input .|[12] input 0' ok
+expect 'hypotheses and a Kalman filter' 5 '0 input .|2 input 0' ok
 if ${CC:-gcc} -std=c11 -Iinclude -DRHO_FILTERS=8 -fsyntax-only src/tracker/tracker.c 2>"$folder/said" ||
     ! grep -q 'RHO_FILTERS must be 1 .. 7' "$folder/said"; then
     echo 'FAIL a filter that does not exist'

@@ -107,7 +107,7 @@ enum rho_status rho_message_{s}_decode(
 enum rho_status rho_message_{s}_validate(
     const struct rho_message_{s} *message, struct rho_message_place *place)
 {{
-    return rho_message_validate(&{s}_format, message, place);
+    return rho_message_validate(&{s}_rules, message, place);
 }}
 """
 
@@ -197,26 +197,42 @@ def header(known):
 # ---- Tables ----
 
 class Tables:
-    """Runs and rules of all structs one after the other; a slice of each belongs to a layout."""
+    """Runs and rules of a struct, or of what comes before its list."""
 
-    def __init__(self):
+    def __init__(self, name):
+        self.name = name
         self.runs, self.floats, self.ints = [], [], []
 
-    def layout(self, c_struct, fields, constants):
-        firsts = [len(table) for table in (self.runs, self.floats, self.ints)]
-        self.add_runs(c_struct, fields)
-        self.add_floats(c_struct, fields)
-        self.add_ints(c_struct, fields, constants)
-        ends = [len(table) for table in (self.runs, self.floats, self.ints)]
-        slices = ", ".join(f"{{{first}, {end - first}}}" for first, end in zip(firsts, ends))
-        return f"{{{slices}, {lcm_types.wire_size(fields)}}}"
+    @classmethod
+    def of_fields(cls, name, c_struct, fields, constants):
+        tables = cls(name)
+        tables.wire_bytes = lcm_types.wire_size(fields)
+        tables.add_runs(c_struct, fields)
+        tables.add_floats(c_struct, fields)
+        tables.add_ints(c_struct, fields, constants)
+        return tables
 
-    def single(self, primitive, minimum, maximum):
+    @classmethod
+    def of_number(cls, name, primitive, minimum, maximum):
         """A list of bare numbers: each element is one member at offset 0."""
-        firsts = (len(self.runs), len(self.floats))
-        self.runs.append(f"{{0, {PRIMITIVES[primitive]}, 1}}")
-        self.floats.append(f"{{0, 1, {minimum}, {maximum}}}")
-        return f"{{{{{firsts[0]}, 1}}, {{{firsts[1]}, 1}}, {{0, 0}}, {PRIMITIVES[primitive]}}}"
+        tables = cls(name)
+        tables.wire_bytes = PRIMITIVES[primitive]
+        tables.runs.append(f"{{0, {PRIMITIVES[primitive]}, 1}}")
+        tables.floats.append(f"{{0, 1, {minimum}, {maximum}}}")
+        return tables
+
+    def text(self):
+        return (table(f"{self.name}_runs", "message_run", self.runs) +
+                table(f"{self.name}_ints", "message_int_rule", self.ints) +
+                table(f"{self.name}_floats", "message_float_rule", self.floats))
+
+    def layout(self):
+        return f"{{{self.name}_runs, {len(self.runs)}, {self.wire_bytes}}}"
+
+    def checks(self):
+        ints, floats = (f"{self.name}_{kind}" if rows else "0"
+                        for kind, rows in (("ints", self.ints), ("floats", self.floats)))
+        return f"{{{ints}, {floats}, {len(self.ints)}, {len(self.floats)}}}"
 
     def add_runs(self, c_struct, fields):
         """Members of one width that follow each other have no gap between them."""
@@ -285,23 +301,24 @@ def int_rule(c_struct, field, constants):
 
 # ---- The source ----
 
-def format_of(struct, known, tables):
+def format_of(struct, tables):
+    """The tables of its own, its format, and its rules."""
     c_struct = f"struct rho_message_{struct.short}"
-    head = tables.layout(c_struct, struct.head, struct.constants)
-    prefix = f"RHO_MESSAGE_{struct.short.upper()}_"
-    if not struct.list:
-        return (f"static const struct message_format {struct.short}_format = {{\n    {prefix}FINGERPRINT, {head},\n"
-                f"    {{{{0, 0}}, {{0, 0}}, {{0, 0}}, 0}}, 0, 0, 0, 0}};\n")
-    return (f"static const struct message_format {struct.short}_format = {{\n    {prefix}FINGERPRINT, {head},\n"
-            f"    {element_of(struct, known, tables)},\n"
-            f"    offsetof({c_struct}, {struct.fields[-2].name}), offsetof({c_struct}, {struct.list.name}),\n"
-            f"    sizeof({type_of(struct.list)}), {max_name(struct)}}};\n")
-
-
-def element_of(struct, known, tables):
-    if struct.list.type in PRIMITIVES:
-        return tables.single(struct.list.type, *limits(struct.list))
-    return tables.known_layouts[struct.list.type]
+    head = tables[struct.name] = Tables.of_fields(struct.short, c_struct, struct.head, struct.constants)
+    own, layout, checks = head.text(), "{0, 0, 0}", "{0, 0, 0, 0}"
+    rest = "0, 0, 0, 0"
+    if struct.list:
+        element = tables.get(struct.list.type)
+        if struct.list.type in PRIMITIVES:
+            element = Tables.of_number(f"{struct.short}_element", struct.list.type, *limits(struct.list))
+            own += element.text()
+        layout, checks = element.layout(), element.checks()
+        rest = (f"offsetof({c_struct}, {struct.fields[-2].name}), offsetof({c_struct}, {struct.list.name}),\n"
+                f"    sizeof({type_of(struct.list)}), {max_name(struct)}")
+    return (f"{own}static const struct message_format {struct.short}_format = {{\n"
+            f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT, {head.layout()}, {layout},\n    {rest}}};\n"
+            f"static const struct message_rules {struct.short}_rules = {{\n"
+            f"    &{struct.short}_format, {head.checks()}, {checks}}};\n")
 
 
 def same_place(struct):
@@ -312,24 +329,16 @@ def same_place(struct):
 
 
 def table(name, kind, rows):
-    return f"const struct {kind} {name}[] = {{\n" + "".join(f"    {row},\n" for row in rows) + "};\n"
+    lines = "".join(f"    {row},\n" for row in rows)
+    return f"static const struct {kind} {name}[] = {{\n{lines}}};\n" if rows else ""
 
 
 def source(known):
-    tables = Tables()
-    tables.known_layouts = {}
-    formats = []
-    for struct in known.values():
-        text = format_of(struct, known, tables)
-        formats.append(text)
-        if not struct.list:
-            tables.known_layouts[struct.name] = text.split("FINGERPRINT, ")[1].split(",\n")[0]
+    tables = {}
+    formats = [format_of(struct, tables) for struct in known.values()]
     parts = ["/* SPDX-License-Identifier: MIT */\n"
              "/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */\n/* clang-format off */\n"
              "#include \"rhotrack/message.h\"\n\n#include <float.h>\n\n#include \"message_codec.h\"\n",
-             table("rho_message_runs", "message_run", tables.runs),
-             table("rho_message_float_rules", "message_float_rule", tables.floats),
-             table("rho_message_int_rules", "message_int_rule", tables.ints),
              *formats,
              "".join(same_place(struct) for struct in known.values() if struct.list),
              fingerprints(known)]

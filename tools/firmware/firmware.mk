@@ -8,7 +8,7 @@ board := $(firmware_folder)/board
 ARM_CC ?= arm-none-eabi-gcc
 # For little flash: the whole program at once, no code moved out of loops, none rearranged, no paths taken apart,
 # parameters as they are written. For 4 KiB of stack: no large frames put into one another.
-FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
+FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-reorder-blocks -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
                 -fno-tree-dominator-opts -fno-ipa-sra \
                 --param=large-stack-frame=128 --param=large-stack-frame-growth=50
 
@@ -17,7 +17,7 @@ m7_flags := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -DMPS2_ETHER
 firmware_flags := -std=c99 $(common_flags) $(warnings) -ffunction-sections -fdata-sections -I$(firmware_folder)
 firmware_link := -nostartfiles -Wl,--gc-sections -L$(board)/mps2
 radar_flags := $(firmware_flags) -DRHO_CONFIG_FILE='"nodes/full.h"'
-replay_flags := $(firmware_flags) -DNODE_BEARINGS=1
+replay_flags := $(firmware_flags)
 # What a compiler calls must not be made of calls to itself.
 memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 

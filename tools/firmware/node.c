@@ -63,8 +63,9 @@ static enum rho_status write_peaks(uint8_t *message, size_t capacity, size_t *si
                                    const void *searched)
 {
     const struct node_searched *of = searched;
-    return rho_publish_peaks(of->initiator, of->passive, report.time_us, node.step, message,
-                             capacity, size);
+    const struct rho_passive *passive = RHO_FEED_HAS(RHO_FEED_BEARINGS) ? of->passive : NULL;
+    return rho_publish_peaks(of->initiator, passive, report.time_us, node.step, message, capacity,
+                             size);
 }
 
 static enum rho_status write_status(uint8_t *message, size_t capacity, size_t *size,
@@ -216,7 +217,7 @@ static void take_item(const struct rho_feed_item *item)
         node_restart();
         node.is_started &= node_bearings_open_frames() == RHO_OK;
     }
-    if (item->kind == RHO_FEED_BEARINGS) {
+    if (RHO_FEED_IS(item->kind, RHO_FEED_BEARINGS)) {
         node_bearings_take(item);
         return;
     }

@@ -11,8 +11,8 @@
  *     }
  *
  * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and
- * RHO_WORK, once a second) and nothing of it stops the node. Built with NODE_BEARINGS=1 it takes
- * passive sensors, too (node_bearings.h).
+ * RHO_WORK, once a second) and nothing of it stops the node. It takes passive sensors, too,
+ * but for builds whose RHO_SCAN_KINDS has none (node_bearings.h).
  */
 #ifndef NODE_H
 #define NODE_H
@@ -24,10 +24,6 @@
 #include "rhotrack/initiator.h"
 #include "rhotrack/tracker.h"
 #include "rhotrack/udpm.h"
-
-#ifndef NODE_BEARINGS
-#define NODE_BEARINGS 0
-#endif
 
 struct node_config {
     struct rho_feed_config feed;

@@ -4,7 +4,7 @@
 #include "node_step.h"
 #include "rhotrack/passive.h"
 
-#if NODE_BEARINGS
+#if (RHO_SCAN_KINDS) & 4
 
 static struct rho_frames frames;
 static struct rho_passive passive;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_bearings: the node's passive sensors, whose scans become frames. Left out (NODE_BEARINGS 0), bearings are not
- * looked at, and a radar node carries none of their code and memory.
+ * node_bearings: the node's passive sensors, whose scans become frames. Where RHO_SCAN_KINDS has
+ * none, a radar node carries none of their code and memory.
  */
 #ifndef NODE_BEARINGS_H
 #define NODE_BEARINGS_H
@@ -9,7 +9,7 @@
 #include "node.h"
 #include "rhotrack/frames.h"
 
-#if NODE_BEARINGS
+#if (RHO_SCAN_KINDS) & 4
 
 /* Begins anew: the search, and the frames with their sensors. */
 enum rho_status node_bearings_open_search(void);

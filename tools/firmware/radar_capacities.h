@@ -4,6 +4,9 @@
  * what each costs). Library and node are compiled with it.
  */
 
+/* Plots and polar plots: passive sensors are none of this. */
+#define RHO_SCAN_KINDS 3
+
 /* Nobody else's scans come in between: one is put together at a time. */
 #define RHO_MAX_OPEN_SCANS 1
 

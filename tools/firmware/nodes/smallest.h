@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * smallest: one radar, eight tracks of 64 plots a turn, by the nearest plot.
+ * smallest: one radar, eight tracks of 64 polar plots a turn, by the nearest plot.
  */
+#define RHO_SCAN_KINDS 2
 #define RHO_WORK_MAX 20000
 #define RHO_MAX_SCANS 6
 #define RHO_MAX_PLOTS 64
