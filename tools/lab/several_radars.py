@@ -3,8 +3,8 @@
 # Debian's interpreter: numpy and scipy are its packages (tools/setup.sh lab).
 """Experiment several-radars: when all radars of a sky together confirm targets, beside each of them alone.
 
-Of each sky and seed: `rhotrack simulate`, then `rhotrack track` of all plots, and of each radar's alone. tools/lab/README.md says
-what the figures mean. Exit codes: 0, also where the bar is missed; 1: the program failed; 2: bad usage.
+Of each sky and seed: `rhotrack simulate`, then `rhotrack track` of all plots, and of each radar's alone. tools/lab/README.md
+says what the figures mean. Exit codes: 0, also where the bar is missed; 1: the program failed; 2: bad usage.
 """
 import argparse
 import json
@@ -81,8 +81,8 @@ def plots_of(path, sensor_id):
 
 
 def follow(truth, tracks, gate):
-    """Of each target seconds from its first visibility to its first track (infinite: never); of all (target, scan) how many have
-    a track, and how many tracks there are beside, near a target that has one."""
+    """Of each target seconds from its first visibility to its first track (infinite: never); of all (target, scan) how many
+    have a track, and how many tracks there are beside, near a target that has one."""
     delays_s = np.full(len(truth.ids), np.inf)
     first_us = truth.times_us[truth.visible.argmax(axis=0)]
     pairs = duplicates = 0
@@ -170,11 +170,12 @@ def main():
     names = options.sky or list(SKIES)
     if not options.json:
         print(f"{'':29} together  each alone      later, of the better  others  earliest  duplicates")
+    work = [(name, options.seed + i, common) for name in names for i in range(options.runs)]
     done = {name: [] for name in names}
     found = []
     try:
         with multiprocessing.get_context("fork").Pool(options.jobs) as pool:
-            for name, result in pool.imap(run, [(name, options.seed + i, common) for name in names for i in range(options.runs)]):
+            for name, result in pool.imap(run, work):
                 done[name].append(result)
                 if len(done[name]) == options.runs:
                     found.append(figures_of(name, done[name]))
@@ -184,7 +185,8 @@ def main():
         sys.stderr.write(f"{pathlib.Path(__file__).name}: {error}\n")
         sys.exit(1)
     if options.json:
-        print(json.dumps({"experiment": "several-radars", "runs": options.runs, "seed": options.seed, "skies": found}, indent=1))
+        print(json.dumps({"experiment": "several-radars", "runs": options.runs, "seed": options.seed, "skies": found},
+                         indent=1))
 
 
 if __name__ == "__main__":
