@@ -7,14 +7,17 @@
  * one that is off by as much as targets seen as one lie apart. So those that cross keep their velocities, and those in
  * formation stay together until they part.
  *
- * Two targets d apart are seen as one with probability e^-(d^2 / 8 sigma^2); d is as uncertain as both tracks' places are:
- *     merged = 4 sigma^2 / (4 sigma^2 + c) e^-(d^2 / 2 (4 sigma^2 + c)),        c: sum of their variances on an axis
+ * Two targets d apart along the line of sight are seen as one with probability e^-(d^2 / 8 sigma^2), and so across it, each
+ * with the sensor's sigma there; d is as uncertain as both tracks' places are, by a variance of c. The product of both axes'
+ *     root(4 sigma^2 / (4 sigma^2 + c)) e^-(d^2 / 2 (4 sigma^2 + c))
+ * is `merged`.
  * The plot is shared where that explains it better than a miss of the second target does:
  *     merged N(z; middle) > (1 - merged) (1 - pd) N(z; first)
  * and it takes from the second track's score what the middle explains it worse than the first target alone, but no more than
  * a miss. A pair that never parts again loses a little each time, until the second one is in doubt.
  */
 #include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
 #if RHO_SHARES_PLOTS
@@ -29,10 +32,9 @@
 struct pair {
     struct rho_track *first, *second; /* first: has the plot */
     int plot;
-    float gain_nat;    /* of the first */
-    float variance_m2; /* of the plot's noise on an axis */
-    float half_m[2];   /* from the middle to the second */
-    float distance2_m2;
+    float gain_nat;              /* of the first */
+    struct rho_measurement seen; /* the plot: its line of sight, and the noise along and across */
+    float half_m[2];             /* along and across: from the middle to the second */
 };
 
 static int is_old(const struct rho_track *track)
@@ -53,11 +55,23 @@ static float gain_of(const struct step *step, unsigned row, int column)
     return 0.0f;
 }
 
-/* Of the place on the ground, mean of both axes. */
-static float variance_m2(const struct rho_track *track)
+/* Along the line of sight, and across it. */
+static void turn(const struct rho_measurement *seen, const float at_m[2], float turned_m[2])
+{
+    turned_m[0] = seen->cos_azimuth * at_m[0] + seen->sin_azimuth * at_m[1];
+    turned_m[1] = seen->cos_azimuth * at_m[1] - seen->sin_azimuth * at_m[0];
+}
+
+/* Of the place on the ground. */
+static void turn_variance(const struct rho_measurement *seen, const struct rho_track *track,
+                          float turned_m2[2])
 {
     const float *covariance = track->kalman.covariance;
-    return 0.5f * (covariance[RHO_AT(0, 0)] + covariance[RHO_AT(1, 1)]);
+    const float c = seen->cos_azimuth, s = seen->sin_azimuth;
+    const float xx = covariance[RHO_AT(0, 0)], yy = covariance[RHO_AT(1, 1)];
+    const float twice_xy = 2.0f * covariance[RHO_AT(0, 1)];
+    turned_m2[0] = c * c * xx + s * s * yy + c * s * twice_xy;
+    turned_m2[1] = s * s * xx + c * c * yy - c * s * twice_xy;
 }
 
 /* Of a track without a plot: the likeliest one that another old track got. */
@@ -80,14 +94,10 @@ static int find_pair(const struct step *step, unsigned row, struct pair *pair)
     if (least == 0) {
         return 0;
     }
-    const float sigma_m = rho_plot_sigma_m(&step->scan->plots[pair->plot]);
-    pair->variance_m2 = sigma_m * sigma_m;
-    pair->distance2_m2 = 0.0f;
-    for (int axis = 0; axis < 2; axis++) {
-        const float way_m = pair->second->kalman.state[axis] - pair->first->kalman.state[axis];
-        pair->half_m[axis] = 0.5f * way_m;
-        pair->distance2_m2 += way_m * way_m;
-    }
+    rho_measurement_open(&step->scan->plots[pair->plot], 0, step->sensor, &pair->seen);
+    const float *from = pair->first->kalman.state, *to = pair->second->kalman.state;
+    const float half_m[2] = {0.5f * (to[0] - from[0]), 0.5f * (to[1] - from[1])};
+    turn(&pair->seen, half_m, pair->half_m);
     return 1;
 }
 
@@ -100,18 +110,26 @@ static float larger(float a, float b)
 static int is_merged(const struct step *step, const struct pair *pair, float *gain_nat)
 {
     const struct rho_plot *plot = &step->scan->plots[pair->plot];
-    const float first_m2 = variance_m2(pair->first);
-    const float near_m2 = 4.0f * pair->variance_m2;
-    const float spread_m2 = near_m2 + first_m2 + variance_m2(pair->second);
-    const float merged = near_m2 / spread_m2 * rho_exp(-0.5f * pair->distance2_m2 / spread_m2);
     /* at the plot's own time; the way from one to the other is taken to be the same then */
     const float after_s = (float)plot->offset_us * 1e-6f, *state = pair->first->kalman.state;
-    const float from_m[2] = {plot->x_m - state[0] - after_s * state[3],
-                             plot->y_m - state[1] - after_s * state[4]};
-    /* |z - first|^2 less |z - middle|^2 */
-    const float nearer_m2 = 2.0f * (from_m[0] * pair->half_m[0] + from_m[1] * pair->half_m[1]) -
-                            0.25f * pair->distance2_m2;
-    const float ratio_nat = 0.5f * nearer_m2 / (pair->variance_m2 + first_m2);
+    const float place_m[2] = {plot->x_m - state[0] - after_s * state[3],
+                              plot->y_m - state[1] - after_s * state[4]};
+    float from_m[2], first_m2[2], second_m2[2];
+    float share = 1.0f, distance2 = 0.0f, ratio_nat = 0.0f;
+    turn(&pair->seen, place_m, from_m);
+    turn_variance(&pair->seen, pair->first, first_m2);
+    turn_variance(&pair->seen, pair->second, second_m2);
+    for (int axis = 0; axis < 2; axis++) {
+        const float half_m = pair->half_m[axis];
+        const float near_m2 = 4.0f * pair->seen.variance_m2[axis];
+        const float spread_m2 = near_m2 + first_m2[axis] + second_m2[axis];
+        share *= near_m2 / spread_m2;
+        distance2 += 4.0f * half_m * half_m / spread_m2;
+        /* |z - first|^2 less |z - middle|^2 */
+        ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
+                     (pair->seen.variance_m2[axis] + first_m2[axis]);
+    }
+    const float merged = rho_sqrt(share) * rho_exp(-0.5f * distance2);
     *gain_nat = larger(step->log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
     return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(step->log_miss);
 }

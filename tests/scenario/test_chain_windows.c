@@ -144,6 +144,23 @@ static void turns_that_differ_much_part_them(void **state)
     }
 }
 
+/* Seven turns of 10 s, the first ones of which went into the window that both shared. */
+static void who_parts_takes_its_scans_along(void **state)
+{
+    (void)state;
+    open_chain(INITIATORS_PAIRS);
+    describe(1, 0.0f, 80e3f);
+    describe(2, 0.0f, 80e3f);
+    turn(4, 10);
+    struct rho_window *window = &of(2)->window;
+    assert_ptr_not_equal(of(2), of(1));
+    assert_int_equal(window->num_scans, 7);
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        assert_int_equal(rho_window_scan_at(window, m)->time_us, m * 10 * SECOND_US);
+        assert_int_equal(rho_window_scan_at(window, m)->sensor.sensor_id, 2);
+    }
+}
+
 static bool share_a_window(float first_s, float second_s)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -199,6 +216,7 @@ int main(void)
         cmocka_unit_test(live_a_sensor_that_the_config_does_not_name_pairs_with_nobody),
         cmocka_unit_test(sectors_have_their_radar_s_own),
         cmocka_unit_test(turns_that_differ_much_part_them),
+        cmocka_unit_test(who_parts_takes_its_scans_along),
         cmocka_unit_test(who_has_parted_pairs_again_well_below),
     };
     return cmocka_run_group_tests(tests, start_chain, end_chain);

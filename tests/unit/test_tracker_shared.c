@@ -312,6 +312,39 @@ static void one_that_is_far_shares_nothing(void **state)
     assert_int_equal(report.tracks[0].misses + report.tracks[1].misses, 2);
 }
 
+/*
+ * Two 300 m apart, 40 km from the sensor, whose plots are good to 30 m in range and to 170 m across. Three scans show one
+ * of them alone, or the middle: scans that were shared.
+ */
+static unsigned scans_shared_apart(double along_m, double across_m, int is_one)
+{
+    unsigned shared = 0;
+    draw(1);
+    config.accel_max_mps2 = 20.0f; /* each one's plots are in the other's gate */
+    begin();
+    for (int k = 0; k < 24; k++) {
+        const int is_missed = k >= 20 && k < 23;
+        const double share = is_missed && is_one ? 0.5 : 0.0;
+        for (int i = 0; i < 2 - is_missed; i++) {
+            struct rho_plot *plot = add(40000.0 - 4.0 * SPEED_MPS * k + (i + share) * along_m,
+                                        (i + share) * across_m, 30.0);
+            plot->sigma_cross_m = 170.0f;
+        }
+        step(4.0 * k);
+        shared += (unsigned)check_share();
+    }
+    assert_int_equal(report.num_tracks, 2);
+    return shared;
+}
+
+/* One behind the other are told apart by their ranges, however bad the azimuths are; abreast they are not. */
+static void those_whose_ranges_differ_share_nothing(void **state)
+{
+    (void)state;
+    assert_int_equal(scans_shared_apart(300.0, 0.0, 0), 0);
+    assert_int_equal(scans_shared_apart(0.0, 300.0, 1), 3);
+}
+
 /* Two abreast, seen as one from scan 20 on, half an interval after the scan's time: both keep to their plot's time. */
 static void a_shared_plot_has_its_own_time(void **state)
 {
@@ -364,6 +397,7 @@ int main(void)
         cmocka_unit_test(a_plot_has_two_tracks_at_most),
         cmocka_unit_test(what_is_seen_apart_is_not_shared),
         cmocka_unit_test(one_that_is_far_shares_nothing),
+        cmocka_unit_test(those_whose_ranges_differ_share_nothing),
         cmocka_unit_test(a_shared_plot_has_its_own_time),
         cmocka_unit_test(a_pair_that_was_missed_is_seen_again),
     };

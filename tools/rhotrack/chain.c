@@ -71,6 +71,46 @@ static struct chain_initiator *add_initiator(struct chain *chain, int32_t sensor
     return added;
 }
 
+/* The held scan goes into another window too, but for the plots that have started tracks. */
+static void push_held(struct rho_initiator *initiator, const struct rho_window_scan *held)
+{
+    struct rho_plot *plots = must_calloc(held->num_plots + 1u, sizeof *plots);
+    uint8_t *fates = must_calloc(held->num_plots + 1u, sizeof *fates);
+    uint32_t left_unused = 0;
+
+    for (unsigned i = 0; i < held->num_plots; i++) {
+        plots[i] = rho_window_plot_of(held, i);
+        fates[i] = held->marks[i] & RHO_WINDOW_INITIATED ? RHO_FATE_CLAIMED : RHO_FATE_HELD;
+    }
+    const struct rho_scan scan = {.time_us = held->time_us,
+                                  .sensor_id = held->sensor.sensor_id,
+                                  .measures = held->measures,
+                                  .sector_from_rad = held->sector_from_rad,
+                                  .sector_to_rad = held->sector_to_rad,
+                                  .num_plots = held->num_plots,
+                                  .plots = plots};
+    must_succeed(rho_initiator_push(initiator, &scan, rho_window_sensor(held), fates, &left_unused),
+                 "initiator");
+    free(plots);
+    free(fates);
+}
+
+/* A sensor that leaves the window that it shared takes its scans along: its targets start from these. */
+static void take_along(struct chain *chain, const struct chain_initiator *added)
+{
+    for (size_t i = 0; chain->initiators + i < added; i++) {
+        struct rho_window *shared = &chain->initiators[i].initiator->window;
+
+        for (unsigned m = 0; m < shared->num_scans; m++) {
+            const struct rho_window_scan *held = rho_window_scan_at(shared, m);
+
+            if (held->sensor.sensor_id == added->sensor_id) {
+                push_held(added->initiator, held);
+            }
+        }
+    }
+}
+
 /* The first one is there before its sensor is known. */
 struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id)
 {
@@ -86,7 +126,10 @@ struct rho_initiator *chain_initiator(struct chain *chain, int32_t sensor_id)
     for (size_t i = 0; i < chain->num_initiators && !of; i++) {
         of = chain->initiators[i].sensor_id == sensor_id ? &chain->initiators[i] : NULL;
     }
-    of = of ? of : add_initiator(chain, sensor_id);
+    if (!of) {
+        of = add_initiator(chain, sensor_id);
+        take_along(chain, of);
+    }
     chain->initiator = of->initiator;
     return chain->initiator;
 }
