@@ -57,9 +57,18 @@ class RealSkies(unittest.TestCase):
         self.assertEqual(scene["met"], {"completeness": True, "false_per_scan": True, "switches": True, "rms_m": False})
         self.assertEqual((report["bars_held"], report["bars_missed"]), (3, 0))
         self.assertEqual((self.folder / "out" / "small.png").read_bytes()[1:4], b"PNG")
+        # straight targets and, at P_D .95, some misses
+        for which in ("figures", "oracle"):
+            figures = {key: scene[which].get(key, {}).get("mean") for key in scene[which]}
+            self.assertTrue(0.05 < figures["nees_place"] < 2 and 0.8 < figures["inside_place"] <= 1, figures)
+            self.assertTrue(0 < figures["nees_velocity"] < 2 and 0.8 < figures["inside_velocity"] <= 1, figures)
+            self.assertTrue(figures["pairs_straight"] > 10 * figures["pairs_coasting"] > 0 == figures["pairs_turning"], figures)
+            self.assertNotIn("nees_place_turning", figures)
         page = (self.folder / "out" / "index.html").read_text()
         self.assertIn("three targets &amp; some clutter", page)
         self.assertIn('src="small.png"', page)
+        self.assertIn('<h2>Consistency</h2>', page)
+        self.assertEqual(page.count('<td class="w">coasting</td>'), 2)
         again = json.loads(self.run_it("--scene", "small", "--runs", "3", "--json", "--jobs", "1").stdout)
         self.assertEqual(again, report)
         other = json.loads(self.run_it("--scene", "small", "--runs", "3", "--json", "--seed", "9").stdout)
@@ -69,7 +78,7 @@ class RealSkies(unittest.TestCase):
         done = self.run_it("--scene", str(self.folder / "scenes" / "small.json"), "--runs", "1", "--lines", "--no-oracle",
                            "--set", "score_min_nat=1000")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertRegex(done.stdout, r"^small +completeness 0\.000 ")
+        self.assertRegex(done.stdout, r"^small +completeness 0\.000 .* nees place -  inside -  nees velocity -")
         self.assertEqual(len(done.stdout.splitlines()), 1)
 
     def test_false_tracks_an_hour(self):

@@ -40,6 +40,14 @@ COLUMNS = [
     ("delay_mean_scans", "delay", "{:.2f}", False, True),
     ("delay_median_scans", "median", "{:.1f}", False, True),
 ]
+# NEES over what it is where covariances are right (above 1: they are too small), and shares inside the ellipses of 95 %; the limits
+# within which a scene is consistent
+CONSISTENCY = [
+    ("nees_place", "nees place", "{:.2f}", (0.8, 1.25)),
+    ("inside_place", "inside", "{:.3f}", (0.92, 0.97)),
+    ("nees_velocity", "nees velocity", "{:.2f}", (0.8, 1.25)),
+    ("inside_velocity", "inside", "{:.3f}", (0.92, 0.97)),
+]
 GOAL_KEYS = {"delay_mean_scans": "delay_scans"}  # where the scene has another name for it
 CALIBRATION_RUNS = 2  # choose the oracle's process noise in a scene that names none
 STANDARD_ERRORS = 2  # a goal is met within so many
@@ -87,7 +95,7 @@ def run(job):
         settings, sensors, plots, truth = simulated(job, folder)
         inputs = [folder / name for name in ("plots.csv", "bearings.csv") if (folder / name).exists()]
         sets = [part for pair in job["set"] for part in ("--set", pair)]
-        run_program(job["program"], ["track", *inputs, "--config", folder / "scenario.ini", *sets,
+        run_program(job["program"], ["track", *inputs, "--covariance", "--config", folder / "scenario.ini", *sets,
                                      "-o", folder / "tracks.csv"])
         gate, forgiven = scoring.gate_m(sensors), job["forgiven"]
         tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
@@ -196,7 +204,8 @@ def line(name, runs):
     for which in ("today", "oracle"):
         if which in runs[0]:
             figures = statistics(runs, which)
-            parts.append("  ".join(f"{heading} {cell(figures, key, form)}" for key, heading, form, _, _ in COLUMNS))
+            parts.append("  ".join([f"{heading} {cell(figures, key, form)}" for key, heading, form, _, _ in COLUMNS] +
+                                   [f"{heading} {cell(figures, key, form, False)}" for key, heading, form, _ in CONSISTENCY]))
     return f"{name:22} " + "\n".join([parts[0]] + [f"{'  oracle':22} {part}" for part in parts[1:]])
 
 
@@ -223,6 +232,24 @@ def rows_of(result):
     return rows
 
 
+def consistency_rows(result):
+    """Rows of the table of consistency: label, motion and cells, a cell being (text, whether it is within its limits or None)."""
+    rows = []
+    for label, figures in (("today", result["figures"]), ("oracle", result["oracle"])):
+        for motion in ("", *scene_files.MOTIONS) if figures else ():
+            end = motion and "_" + motion
+            cells = [(cell(figures, key + end, form, False), None) for key, form in
+                     (("pairs", "{:.0f}"), ("rms_m", "{:.1f}"), ("rms_mps", "{:.2f}"))]
+            for key, _, form, (low, high) in CONSISTENCY:
+                known = figures.get(key + end)
+                cells.append((cell(figures, key + end, form, False), low <= known["mean"] <= high if known else None))
+            rows.append((label, motion or "all", cells))
+    return rows
+
+
+CONSISTENCY_HEADINGS = ["pairs", "rms m", "rms m/s", *(heading for _, heading, _, _ in CONSISTENCY)]
+
+
 def bars(results, alarms):
     """[(scene, key, held)] of the columns that are bars, and of the rates of false tracks."""
     is_bar = {key: bar for key, _, _, bar, _ in COLUMNS}
@@ -238,6 +265,18 @@ def print_table(results, options):
         for label, cells in rows_of(result):
             texts = "".join(f"{text + ('*' if met is False else ' '):>16}" for text, met in cells)
             print(f"{result['name'] if label == 'today' else '':22} {label:7}{texts}")
+
+
+def print_consistency(results):
+    low, high = CONSISTENCY[0][3]
+    least, most = CONSISTENCY[1][3]
+    print(f"Consistency: NEES over its ideal, and shares inside the ellipse of 95 %; * marks what is not within {low} to {high}, "
+          f"{least} to {most}")
+    print(f"{'scene':22} {'':7}{'motion':10}" + "".join(f"{heading:>15}" for heading in CONSISTENCY_HEADINGS))
+    for result in results:
+        for number, (label, motion, cells) in enumerate(consistency_rows(result)):
+            texts = "".join(f"{text + ('*' if held is False else ' '):>15}" for text, held in cells)
+            print(f"{'' if number else result['name']:22} {label:7}{motion:10}{texts}")
 
 
 def as_json(results, options, alarms):
@@ -321,7 +360,7 @@ def main():
         report = as_json(results, options, alarms)
         if not options.no_pages:
             import page
-            page.write(options.output / "index.html", results, alarms, options, COLUMNS, rows_of)
+            page.write(options.output / "index.html", results, alarms, options, COLUMNS, rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
     except (Failed, OSError, ValueError) as error:
         sys.stderr.write(f"{NAME}: {error}\n")
         sys.exit(1)
@@ -332,6 +371,7 @@ def main():
         print(endurance.table(alarms))
     elif not options.lines:
         print_table(results, options)
+        print_consistency(results)
     if not options.no_pages:
         print(f"{options.output / 'index.html'}")
     if not options.lines:
