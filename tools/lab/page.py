@@ -58,7 +58,7 @@ def alarm_table(alarms):
     return "\n".join(lines + ["</table>"])
 
 
-def write(path, results, alarms, options, columns, rows_of, consistency):
+def write(path, results, alarms, longs, options, columns, rows_of, consistency):
     body = ["<h1>Real skies</h1>"]
     if results:
         body += [INTRODUCTION.format(runs=options.runs, seed=options.seed), table(results, columns, rows_of)]
@@ -72,6 +72,9 @@ def write(path, results, alarms, options, columns, rows_of, consistency):
     if alarms:
         body += ["<h2>False tracks an hour</h2>",
                  "<p>Scenes without targets; confirmed tracks that began after ten minutes of learning.</p>", alarm_table(alarms)]
+    if longs:
+        import long
+        body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(long.table(longs))}</pre>"]
     text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>rhotrack: real skies</title>\n'
             f"<style>{STYLE}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n")
     part = path.with_suffix(".html.part")

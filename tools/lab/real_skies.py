@@ -250,11 +250,12 @@ def consistency_rows(result):
 CONSISTENCY_HEADINGS = ["pairs", "rms m", "rms m/s", *(heading for _, heading, _, _ in CONSISTENCY)]
 
 
-def bars(results, alarms):
-    """[(scene, key, held)] of the columns that are bars, and of the rates of false tracks."""
+def bars(results, alarms, longs):
+    """[(scene, key, held)] of the columns that are bars, of the rates of false tracks, and of what must not drift."""
     is_bar = {key: bar for key, _, _, bar, _ in COLUMNS}
     return [(result["name"], key, held) for result in results for key, held in result["met"].items() if is_bar[key]] + \
-        [(row["name"], "false_tracks_per_hour", row["held"]) for row in alarms]
+        [(row["name"], "false_tracks_per_hour", row["held"]) for row in alarms] + \
+        [(row["name"], what, held) for row in longs for what, held in row["held"].items()]
 
 
 def print_table(results, options):
@@ -279,10 +280,10 @@ def print_consistency(results):
             print(f"{'' if number else result['name']:22} {label:7}{motion:10}{texts}")
 
 
-def as_json(results, options, alarms):
-    judged = bars(results, alarms)
+def as_json(results, options, alarms, longs):
+    judged = bars(results, alarms, longs)
     return {"experiment": "real-skies", "runs": options.runs, "seed": options.seed, "settings": options.set,
-            "scenes": results, "endurance": alarms,
+            "scenes": results, "endurance": alarms, "long": longs,
             "bars": [{"what": f"{name}: {key}", "held": bool(held)} for name, key, held in judged],
             "bars_held": sum(held for _, _, held in judged), "bars_missed": sum(not held for _, _, held in judged)}
 
@@ -333,9 +334,15 @@ def parse_options():
     parser.add_argument("--no-pages", action="store_true", help="no pictures, no index.html")
     parser.add_argument("--endurance", action="store_true", help="instead of the scenes: false tracks an hour in uniform "
                         "clutter, rain and strobes")
-    parser.add_argument("--hours", type=float, default=20.0, metavar="H", help="of endurance, all runs of a scene together "
-                        "(default 20); --runs of them")
+    parser.add_argument("--long", action="store_true", help="instead of the scenes: births and deaths for hours; figures, time "
+                        "and memory of each hour, and what drifts")
+    parser.add_argument("--hours", type=float, metavar="H", help="of endurance, all runs of a scene together (default 20), --runs "
+                        "of them; of long, each run (default 4)")
     options = parser.parse_args()
+    if options.long and options.endurance:
+        parser.error("--long or --endurance")
+    if options.hours is None:
+        options.hours = 4.0 if options.long else 20.0
     if options.runs < 1 or options.jobs < 1 or options.hours <= 0:
         parser.error("--runs, --jobs and --hours are positive")
     if not os.access(options.program, os.X_OK):
@@ -351,16 +358,19 @@ def main():
     try:
         if not options.no_pages:
             options.output.mkdir(parents=True, exist_ok=True)
-        results, alarms = [], []
+        results, alarms, longs = [], [], []
         if options.endurance:
             import endurance
             alarms = endurance.measure(options, run_program)
+        elif options.long:
+            import long
+            longs = long.measure(options, run_program)
         else:
             results = measure(options, find_scenes(options))
-        report = as_json(results, options, alarms)
+        report = as_json(results, options, alarms, longs)
         if not options.no_pages:
             import page
-            page.write(options.output / "index.html", results, alarms, options, COLUMNS, rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
+            page.write(options.output / "index.html", results, alarms, longs, options, COLUMNS, rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
     except (Failed, OSError, ValueError) as error:
         sys.stderr.write(f"{NAME}: {error}\n")
         sys.exit(1)
@@ -369,6 +379,8 @@ def main():
         return
     if options.endurance:
         print(endurance.table(alarms))
+    elif options.long:
+        print(long.table(longs))
     elif not options.lines:
         print_table(results, options)
         print_consistency(results)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tracks against truth, scan by scan: which track is which target's, and what follows from it."""
+import dataclasses
+
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
@@ -82,6 +84,15 @@ def pairs_of(truth, tracks, paired):
     return places - truth.place_m[scan, target], more[:, :2] - velocity, more, motions
 
 
+@dataclasses.dataclass
+class Walk:
+    """What `follow` saw; tracks by their index in the scan."""
+    paired: list  # (scan, target, track)
+    false_rows: list  # (scan, track)
+    switch_scans: list
+    first_track: np.ndarray  # of each target, the scan; -1: it never had one
+
+
 def score(truth, tracks, gate, forgiven=FORGIVEN_TURNS):
     """Figures of one run, and the rows of false tracks as (scan, index in the scan).
 
@@ -93,6 +104,26 @@ def score(truth, tracks, gate, forgiven=FORGIVEN_TURNS):
     delays_scans   scans from a target's first visibility to its first track, of the targets that ever had one
     delay_mean_scans, never_tracked, false_tracks: their mean, the targets without one, and how many tracks were ever false
     """
+    walk = follow(truth, tracks, gate, forgiven)
+    visible, num_scans = truth.visible, len(truth.visible)
+    chances = int(visible.sum())
+    first_visible = np.where(visible.any(axis=0), visible.argmax(axis=0), -1)
+    delays = [int(first - seen) if first >= 0 else None for first, seen in zip(walk.first_track, first_visible) if seen >= 0]
+    found = [delay for delay in delays if delay is not None]
+    return {
+        "completeness": len(walk.paired) / chances if chances else float("nan"),
+        "false_per_scan": len(walk.false_rows) / num_scans if num_scans else float("nan"),
+        "switches": float(len(walk.switch_scans)),
+        **consistency(*pairs_of(truth, tracks, walk.paired)),
+        "delay_mean_scans": float(np.mean(found)) if found else float("nan"),
+        "delays_scans": found,
+        "never_tracked": float(len(delays) - len(found)),
+        "false_tracks": float(len({tracks.ids[k][col] for k, col in walk.false_rows})),
+    }, walk.false_rows
+
+
+def follow(truth, tracks, gate, forgiven):
+    """Scan by scan: whose track is which."""
     visible = truth.visible
     num_scans, num_targets = visible.shape
     last_track = [None] * num_targets  # of each target
@@ -101,9 +132,7 @@ def score(truth, tracks, gate, forgiven=FORGIVEN_TURNS):
     visit = np.zeros(num_targets, dtype=int)  # its present one began at this scan
     last_target = {}  # of each track
     first_track = np.full(num_targets, -1)
-    pairs = false = switches = 0
-    paired = []  # scan, target, index of the track in the scan
-    false_rows = []
+    paired, false_rows, switch_scans = [], [], []
     for k in range(num_scans):
         seen = np.nonzero(visible[k])[0]
         returned = seen[(last_visible[seen] >= 0) & (k - last_visible[seen] - 1 > forgiven)]
@@ -119,9 +148,9 @@ def score(truth, tracks, gate, forgiven=FORGIVEN_TURNS):
         taken = set(cols.tolist())
         for row, col in zip(rows.tolist(), cols.tolist()):
             j, track = int(seen[row]), ids[col]
-            pairs += 1
             paired.append((k, j, col))
-            switches += last_track[j] is not None and last_track[j] != track and last_paired[j] >= visit[j]
+            if last_track[j] is not None and last_track[j] != track and last_paired[j] >= visit[j]:
+                switch_scans.append(k)
             if first_track[j] < 0:
                 first_track[j] = k
             last_track[j], last_paired[j], last_target[track] = track, k, j
@@ -132,20 +161,5 @@ def score(truth, tracks, gate, forgiven=FORGIVEN_TURNS):
             with np.errstate(invalid="ignore"):
                 if (np.linalg.norm(truth.place_m[k, gone] - places[col], axis=1) <= gate).any():
                     continue
-            false += 1
             false_rows.append((k, col))
-    chances = int(visible.sum())
-    first_visible = np.where(visible.any(axis=0), visible.argmax(axis=0), -1)
-    delays = [int(first_track[j] - first_visible[j]) if first_track[j] >= 0 else None
-              for j in range(num_targets) if first_visible[j] >= 0]
-    found = [delay for delay in delays if delay is not None]
-    return {
-        "completeness": pairs / chances if chances else float("nan"),
-        "false_per_scan": false / num_scans if num_scans else float("nan"),
-        "switches": float(switches),
-        **consistency(*pairs_of(truth, tracks, paired)),
-        "delay_mean_scans": float(np.mean(found)) if found else float("nan"),
-        "delays_scans": found,
-        "never_tracked": float(len(delays) - len(found)),
-        "false_tracks": float(len({tracks.ids[k][col] for k, col in false_rows})),
-    }, false_rows
+    return Walk(paired, false_rows, switch_scans, first_track)
