@@ -132,6 +132,8 @@ class RealSkies(unittest.TestCase):
         self.assertEqual(self.run_it("--program", "/nowhere").returncode, 2)
         self.assertEqual(self.run_it("--runs", "0").returncode, 2)
         self.assertEqual(self.run_it("--long", "--endurance").returncode, 2)
+        done = self.run_it("--long", "--scene", "small", "--runs", "1", "--hours", "2")
+        self.assertEqual((done.returncode, "hour 2" in done.stderr), (1, True))
         self.assertEqual(self.run_it("--long", "--hours", "-1").returncode, 2)
         done = self.run_it("--long", "--scene", "coming", "--runs", "1", "--hours", "0.1", "--set", "nonsense=1")
         self.assertEqual((done.returncode, "nonsense" in done.stderr, len(done.stderr.splitlines())), (1, True, 1))

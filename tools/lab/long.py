@@ -71,7 +71,8 @@ def by_hour(path, count):
     with open(path, encoding="utf-8") as file:
         header, rows = next(file), list(file)
     hours = [[] for _ in range(count)]
-    for row, hour in zip(rows, hours_of(scene_files.microseconds([row.split(",", 1)[0] for row in rows]), count)):
+    times_us = np.maximum.accumulate(scene_files.microseconds([row.split(",", 1)[0] for row in rows]))  # the file's order stays
+    for row, hour in zip(rows, hours_of(times_us, count)):
         hours[hour].append(row)
     return header, hours
 
@@ -131,9 +132,12 @@ def run(job):
     paired = count([k for k, _, _ in walk.paired])
     false, switches = count([k for k, _ in walk.false_rows]), count(walk.switch_scans)
     chances = np.bincount(hour, weights=truth.visible.sum(axis=1), minlength=len(used))
+    if not chances.all():
+        raise ValueError(f"{job['name']}: no target is in sight in hour {np.argmin(chances > 0) + 1}; take a scene whose targets "
+                         f"are replaced")
     scans = np.bincount(hour, minlength=len(used))
     return job["name"], [{
-        "completeness": float(paired[h] / max(1, chances[h])), "false_per_scan": float(false[h] / max(1, scans[h])),
+        "completeness": float(paired[h] / chances[h]), "false_per_scan": float(false[h] / scans[h]),
         "switches": float(switches[h]), "identities": float(newest[h] - (newest[h - 1] if h else 0)),
         "cpu_s": used[h][0], "memory_mb": used[h][1]} for h in range(len(used))]
 
