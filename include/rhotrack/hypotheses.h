@@ -132,6 +132,10 @@ struct rho_hypotheses_estimate {
 RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
                                                    const struct rho_imm_model *model);
 
+/* From now on the model's calm_s, > 0, where it has calm targets. Cost: one rho_imm_step_open where
+ * it is another one. */
+void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s);
+
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all slots taken, or no
  * hypothesis that another track could give up). Cost: RHO_MAX_TRACKS. Stack: 150 bytes.

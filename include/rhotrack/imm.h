@@ -41,6 +41,9 @@
 #define RHO_IMM_GATE 30.0f
 
 /* What targets may do. rho_imm_model_default derives it from the largest acceleration. */
+/* Calm targets keep straight for minutes, if nothing more is known: airliners, ships. */
+#define RHO_IMM_CALM_S 300.0f
+
 struct rho_imm_model {
     float quiet_density; /* white acceleration of the steady model, m^2/s^3: >= 0 */
     float calm_density;  /* the same of a calm target: 0 .. quiet_density */

@@ -72,7 +72,8 @@ struct rho_tracker_config {
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /* best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they last, as long as these. What
-     * keeps straight becomes calm in a minute on average, and keeps straight for max(300 s, steady_s) then (imm.h) */
+     * keeps straight becomes calm in a minute on average, and keeps straight for max(C, steady_s) then (imm.h):
+     * C is 300 s, doubled up to 2400 s where hardly a grown track turns */
     float steady_s;
 #if RHO_SECTORS
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
@@ -192,6 +193,8 @@ struct rho_tracker {
     struct rho_sensor sensors[RHO_MAX_SENSORS];
     /* tracks that misses ended before they had 16 hits, and those that had; of the last half an hour */
     float died_young, grown;
+    float straight_s,
+        turning_s;         /* of those that had, likelier than not; of the last half an hour, too */
     float wanted_per_hour; /* false tracks, by the last initiator */
     int64_t youth_us;
     uint32_t num_paces;

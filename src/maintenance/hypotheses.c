@@ -87,6 +87,14 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
     return RHO_OK;
 }
 
+void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s)
+{
+    if (pool->model.calm_s > 0.0f && (calm_s < pool->model.calm_s || calm_s > pool->model.calm_s)) {
+        pool->model.calm_s = calm_s;
+        rho_imm_step_open(&pool->step, &pool->model, pool->step.dt_s);
+    }
+}
+
 /* ---- slots ------------------------------------------------------------------------------------ */
 
 static int find_slot(const struct rho_hypotheses *pool, uint16_t *slot)

@@ -33,8 +33,7 @@
 #define CALM_DENSITY 0.01f
 #define QUIET_SHARE 0.05f
 
-/* Calm targets keep straight for minutes: airliners, ships. An agile one that has kept straight for a minute is held for one. */
-#define CALM_S 300.0f
+/* An agile target that has kept straight for a minute is held for one. */
 #define SETTLE_S 60.0f
 
 /*
@@ -55,7 +54,7 @@ void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, fl
         .calm_density = quiet * quiet < CALM_DENSITY ? quiet * quiet : CALM_DENSITY,
         .memory_s = memory_s > MEMORY_MIN_S ? memory_s : MEMORY_MIN_S,
         .maneuver_s = sojourn_s > SOJOURN_MIN_S ? sojourn_s : SOJOURN_MIN_S,
-        .calm_s = CALM_S,
+        .calm_s = RHO_IMM_CALM_S,
         .settle_s = SETTLE_S,
         .speed_sigma_mps = v_max_mps,
         .accel_sigma_mps2 = accel_max_mps2,

@@ -148,6 +148,7 @@ static void begin(struct step *step)
         rho_tracker_begin_late(step);
         return;
     }
+    rho_tracker_forget_calm(tracker, step->time_us);
     tracker->time_us = step->time_us;
     tracker->has_time = 1;
 }

@@ -207,6 +207,8 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
            rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
            rho_is_within(tracker->died_young, 0.0f, 1e9f) &&
+           rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&
+           rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
            rho_is_within(tracker->grown, 0.0f, 1e9f) && rho_is_stored_time(tracker->youth_us) &&
            is_sound_extent(&tracker->extent) && has_sound_sensors(tracker) &&

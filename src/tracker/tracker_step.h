@@ -244,6 +244,13 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
 /* The track's place is not known to a part of what its sensor sees. */
 int rho_tracker_is_nowhere(const struct step *step, const struct rho_track *track);
 
+/* tracker_calm.c: what grown tracks did since the last step, and so how calm targets are */
+void rho_tracker_learn_calm(struct step *step, float dt_s);
+void rho_tracker_forget_calm(struct rho_tracker *tracker, int64_t time_us);
+
+/* A track of so many hits has grown up. */
+#define RHO_GROWN_HITS 16
+
 /* tracker_young.c: what young tracks are asked for, found once a step; tracks that grow up, and that end */
 void rho_tracker_weigh_youth(struct step *step);
 int rho_tracker_is_grown(const struct rho_track *track);

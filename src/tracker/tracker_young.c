@@ -23,9 +23,6 @@
 #include "rhotrack/approx.h"
 #include "tracker_step.h"
 
-/* A track of so many hits has grown up. */
-#define GROWN_HITS 16
-
 /* Things that are no targets are seen so many times as often as targets are. */
 #define SELDOM 0.3f
 #define HIT_NAT 1.2039728f /* ln(1 / SELDOM) */
@@ -58,7 +55,7 @@ static float miss_nat(const struct rho_tracker *tracker)
     float hits = PRIOR_HITS, misses = PRIOR_MISSES;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->hits >= GROWN_HITS && track->hits < UINT16_MAX) { /* counts end there */
+        if (track->hits >= RHO_GROWN_HITS && track->hits < UINT16_MAX) { /* counts end there */
             hits += (float)track->hits;
             misses += (float)track->misses;
         }
@@ -72,7 +69,7 @@ static float growing(const struct step *step)
     float count = 0.0f;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         const struct rho_track *track = &step->tracker->tracks[i];
-        count += track->hits < GROWN_HITS && evidence(step, track) >= GROWING_NAT ? 1.0f : 0.0f;
+        count += track->hits < RHO_GROWN_HITS && evidence(step, track) >= GROWING_NAT ? 1.0f : 0.0f;
     }
     return count;
 }
@@ -87,6 +84,9 @@ void rho_tracker_weigh_youth(struct step *step)
             rho_exp(-rho_seconds_between(tracker->youth_us, step->time_us) / MEMORY_S);
         tracker->died_young *= kept;
         tracker->grown *= kept;
+        tracker->straight_s *= kept;
+        tracker->turning_s *= kept;
+        rho_tracker_learn_calm(step, rho_seconds_between(tracker->youth_us, step->time_us));
         tracker->youth_us = step->time_us;
     }
     if (step->initiator) {
@@ -110,20 +110,20 @@ int rho_tracker_is_grown(const struct rho_track *track)
 
 int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track)
 {
-    return step->asked_nat > 0.0f && track->hits < GROWN_HITS &&
+    return step->asked_nat > 0.0f && track->hits < RHO_GROWN_HITS &&
            evidence(step, track) < step->asked_nat;
 }
 
 void rho_tracker_note_growth(struct step *step, const struct rho_track *track)
 {
-    if (track->hits == GROWN_HITS && track->plot >= 0) {
+    if (track->hits == RHO_GROWN_HITS && track->plot >= 0) {
         step->tracker->grown += 1.0f;
     }
 }
 
 void rho_tracker_note_death(struct step *step, const struct rho_track *track)
 {
-    if (track->hits < GROWN_HITS && evidence(step, track) < 0.0f &&
+    if (track->hits < RHO_GROWN_HITS && evidence(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {
         step->tracker->died_young += 1.0f;
     }

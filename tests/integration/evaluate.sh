@@ -51,6 +51,26 @@ check 'errors of place' json figures \
 check 'errors of velocity' json figures \
     'o["median_mps"] == 2 and abs(o["p95_mps"] - 4.7) < 1e-9 and abs(o["rmse_mps"] - (55 / 7) ** .5) < 1e-9'
 check 'NEES where there is a covariance' json figures 'abs(o["nees"] - 5) < 1e-9 and o["nees_inside"] == 1'
+check 'its ratio is over its two axes' json figures 'abs(o["place_ratio"] - 2.5) < 1e-9 and o["velocity_ratio"] is None'
+# a covariance of the velocity of 10 m2/s2 on both axes, at errors of 1 and 3 m/s: .1 and .9 over 2; an error of 2 coasts
+awk -F, -v OFS=, '{ print $0 (NR == 1 ? ",cov_vx_vx,cov_vy_vx,cov_vy_vy" : $2 == 8 && $1 < 40 ? ",10,0,10" : ",,,") }' \
+    tracks.csv >velocity.csv
+run evaluate truth.csv velocity.csv --json
+check 'velocities have one, too' json stdout 'abs(o["velocity_ratio"] - (.1 + .4 + .9) / 6) < 1e-9 and o["velocity_inside"] == 1 and o["nees"] == 5'
+check 'told apart: straight, coasting, none that turns' json stdout \
+    '[(m["pairs"], m["rmse_m"]) for m in (o["by_motion"][n] for n in ("straight", "turning", "coasting"))] == [(4, (203 / 4) ** .5), (0, None), (2, (41 / 2) ** .5)]'
+check 'told apart: the ratio of velocities' json stdout \
+    'abs(o["by_motion"]["straight"]["velocity_ratio"] - .45) < 1e-9 and abs(o["by_motion"]["coasting"]["velocity_ratio"] - .2) < 1e-9'
+sed 's/^30,2,5000,0,0,0/30,2,5000,0,0,.3/' truth.csv >turn.csv
+run evaluate turn.csv velocity.csv --json
+check 'a change of velocity by .3 m/s in 10 s is a turn' json stdout 'o["by_motion"]["turning"]["pairs"] == 2 and o["by_motion"]["straight"]["pairs"] == 2'
+run evaluate turn.csv velocity.csv --json --set turning_mps2=.05
+check '... above another limit none' json stdout 'o["by_motion"]["turning"]["pairs"] == 0 and o["by_motion"]["straight"]["pairs"] == 4'
+run evaluate truth.csv tracks.csv --set turning_mps2=-1
+check 'a limit below 0' says 2 "*turning_mps2*"
+sed '3s/,10,0,10$/,10,0,x/' velocity.csv >bad.csv
+run evaluate truth.csv bad.csv
+check 'a covariance of the velocity that is none' says 2 'rhotrack: bad.csv:3: *'
 check 'GOSPA' json figures 'abs(o["gospa_m"] ** 2 - (3 * 5e5 + 269) / 5) < 1e-6'
 check 'numbers and times' json figures '(o["targets"], o["targets_found"], o["tracks"], o["scans"], o["first_s"], o["last_s"]) == (2, 2, 4, 5, 0, 40)'
 
@@ -72,17 +92,17 @@ check 'of a target that is there twice at one time the last row counts' cmp stdo
 # ---- text, rows, picture ----
 
 run evaluate truth.csv tracks.csv
-check 'text: the figures alone' sh -c "test \$(wc -l <stdout) -eq 28 && grep -q '^median_m  *5$' stdout"
+check 'text: the figures alone' sh -c "test \$(wc -l <stdout) -eq 38 && grep -q '^median_m  *5$' stdout"
 run evaluate truth.csv tracks.csv --by-target
 check 'text: a table of targets behind them' sh -c "grep -Eq '^ +2 +10.0 +40.0 +10.0 +40.0 +1.000 +0 +0 +5.0 ' stdout"
 run evaluate truth.csv tracks.csv -o over.csv
 cat >expected <<CSV
-t_s,targets,tracks,pairs,gospa_m,gospa_localisation_m,gospa_missed,gospa_false,ospa_m,switches,fragments,rmse_m,rmse_mps,nees
-0.000000,1,0,0,707.106781,0,1,0,1000,0,0,,,
-10.000000,2,2,2,5.83095189,5.83095189,0,0,4.12310563,0,0,4.12310563,0.707106781,5
-20.000000,2,2,1,1000.0125,5,1,1,707.11562,0,0,5,2,5
-30.000000,2,2,2,6.40312424,6.40312424,0,0,4.52769257,0,1,4.52769257,4.12310563,5
-40.000000,2,2,2,13,13,0,0,9.19238816,1,0,9.19238816,2.82842712,5
+t_s,targets,tracks,pairs,gospa_m,gospa_localisation_m,gospa_missed,gospa_false,ospa_m,switches,fragments,rmse_m,rmse_mps,nees,velocity_ratio
+0.000000,1,0,0,707.106781,0,1,0,1000,0,0,,,,
+10.000000,2,2,2,5.83095189,5.83095189,0,0,4.12310563,0,0,4.12310563,0.707106781,5,
+20.000000,2,2,1,1000.0125,5,1,1,707.11562,0,0,5,2,5,
+30.000000,2,2,2,6.40312424,6.40312424,0,0,4.52769257,0,1,4.52769257,4.12310563,5,
+40.000000,2,2,2,13,13,0,0,9.19238816,1,0,9.19238816,2.82842712,5,
 CSV
 check 'rows over time' cmp over.csv expected
 check 'and the figures beside them' grep -q '^gospa_m' stdout

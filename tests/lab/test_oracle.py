@@ -30,7 +30,7 @@ def scene(folder, path, misses, scans=40, noise=0.0, seed=1, second=None, dead_f
     """A target on path(t_s) -> (x, y), unseen in the scans of `misses`, as files; `second`: plots that far off, too."""
     random = np.random.default_rng(seed)
     plots = ["t_s,sensor_id,range_m,azimuth_rad,target_id"]
-    truth = ["t_s,target_id,x_m,y_m,is_covered"]
+    truth = ["t_s,target_id,x_m,y_m,vx_mps,vy_mps,is_covered"]
     for k in range(scans):
         t = 4.0 * k
         plots.append(f"{t:.6f},1,,,-1")
@@ -38,7 +38,8 @@ def scene(folder, path, misses, scans=40, noise=0.0, seed=1, second=None, dead_f
         x, y = path(t)
         if dead_from is not None and k >= dead_from:
             continue
-        truth.append(f"{t:.6f},7,{x:.3f},{y:.3f},1")
+        later = path(t + 0.01)
+        truth.append(f"{t:.6f},7,{x:.3f},{y:.3f},{(later[0] - x) / 0.01:.4f},{(later[1] - y) / 0.01:.4f},1")
         if k not in misses:
             t += 2.0
             x, y = path(t)
@@ -114,6 +115,19 @@ class Oracle(unittest.TestCase):
         centre, spread = (n - 1) / 2, (n * n - 1) / 12
         expected = (30 ** 2 + across ** 2) / n * (1 + (n - 1.5 - centre) ** 2 / spread)
         self.assertLess(abs(np.mean(squares) / expected - 1), 0.5)  # 40 runs: .16 to a standard error
+
+    def test_it_says_how_far_it_may_be_off(self):
+        """Where targets do as the model says, errors are as its covariances state, of a Kalman filter and of an IMM of two equal ones."""
+        for candidate in ((1e-4,), (1e-4, 1e-4, 60.0)):
+            with self.subTest(candidate=candidate):
+                figures = [self.follow(straight, misses={20, 21, 30}, noise=1.0, seed=seed, candidates=[candidate])[2]
+                           for seed in range(60)]
+                mean = {key: np.mean([run[key] for run in figures]) for key in figures[0] if key.startswith(("nees", "inside"))}
+                for key in ("place", "velocity"):
+                    # 60 independent runs of two axes: .09 to a standard error; coasting has three scans a run of the 38
+                    self.assertTrue(0.75 < mean["nees_" + key] < 1.25, mean)
+                    self.assertTrue(0.9 < mean["inside_" + key] < 0.99, mean)
+                self.assertTrue(0.7 < mean["nees_place_coasting"] < 1.3, mean)
 
     def test_noise_that_suits_is_best(self):
         def turning(t):

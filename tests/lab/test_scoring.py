@@ -108,6 +108,65 @@ class Scoring(unittest.TestCase):
         self.assertEqual(figures["completeness"], 0.5)
 
 
+class Consistency(unittest.TestCase):
+    def pairs(self, off_m, off_mps, covariance_m2, covariance_m2ps2, motions):
+        more = np.full((len(off_m), len(scene_files.MORE)), NAN)
+        more[:, 2:5], more[:, 5:8] = covariance_m2, covariance_m2ps2
+        return scoring.consistency(np.array(off_m, dtype=float), np.array(off_mps, dtype=float), more, np.array(motions))
+
+    def test_the_ratio_is_that_of_the_inverse(self):
+        random = np.random.default_rng(1)
+        error, expected, rows = random.normal(size=(50, 2)), [], []
+        for off in error:
+            root = random.normal(size=(2, 2))
+            p = root @ root.T + 0.1 * np.eye(2)
+            rows.append((p[0, 0], p[1, 0], p[1, 1]))
+            expected.append(off @ np.linalg.solve(p, off) / 2)
+        np.testing.assert_allclose(scoring.ratio(error, np.array(rows)), expected, rtol=1e-9)
+
+    def test_errors_as_stated_have_a_ratio_of_1_and_95_percent_inside(self):
+        random = np.random.default_rng(2)
+        p, v = np.array([[400, 150], [150, 900]]), np.array([[4, -1], [-1, 2]])
+        off_m = random.multivariate_normal((0, 0), p, 20000)
+        off_mps = random.multivariate_normal((0, 0), v, 20000)
+        figures = self.pairs(off_m, off_mps, (400, 150, 900), (4, -1, 2), [0] * 10000 + [2] * 10000)
+        for name in ("", "_straight", "_coasting"):
+            for key in ("place", "velocity"):
+                self.assertAlmostEqual(figures[f"nees_{key}{name}"], 1, delta=0.04)
+                self.assertAlmostEqual(figures[f"inside_{key}{name}"], 0.95, delta=0.01)
+        self.assertAlmostEqual(figures["rms_m"], np.sqrt(1300), delta=0.5)
+        self.assertAlmostEqual(figures["rms_mps"], np.sqrt(6), delta=0.05)
+        # half the sigmas: four times the ratio
+        figures = self.pairs(off_m, off_mps, (100, 37.5, 225), (4, -1, 2), [0] * 20000)
+        self.assertAlmostEqual(figures["nees_place"], 4, delta=0.15)
+        self.assertLess(figures["inside_place"], 0.6)
+
+    def test_what_is_not_known_does_not_count(self):
+        figures = self.pairs([(3, 4), (1, 0), (0, 0)], [(NAN, NAN), (2, 0), (0, 0)],
+                             [(NAN, NAN, NAN), (1, 0, 1), (1, 1, 1)], [(1, 0, 1), (1, 0, 1), (-1, 0, -1)], [3, 0, 1])
+        self.assertEqual((figures["nees_place"], figures["nees_velocity"], figures["pairs"]), (0.5, 2, 3))
+        self.assertEqual((figures["pairs_turning"], figures["rms_m_turning"]), (1, 0))
+        self.assertTrue(np.isnan(figures["nees_place_turning"]) and np.isnan(figures["rms_m_coasting"]))
+
+    def test_motions_are_the_truths_but_for_coasting(self):
+        truth = truth_of([0] * 6)
+        truth.velocity_mps = np.array([[10, 0], [10, 0], [10, 0.1], [10, 0.2], [NAN, NAN], [10, 0.2]])[:, None, :]
+        self.assertEqual(truth.motions()[:, 0].tolist(), [3, 0, 1, 1, 3, 3])
+        more = [np.array([[10, 0, 4, 0, 4, 1, 0, 1, k == 3]], dtype=float) for k in range(6)]
+        tracks = scene_files.Tracks([np.array([1])] * 6, [np.array([[2.0 + k, 0.0]]) for k in range(6)], more)
+        figures, _ = scoring.score(truth, tracks, GATE)
+        self.assertEqual([figures["pairs_" + name] for name in scene_files.MOTIONS], [1, 1, 1])
+        self.assertEqual([figures["rms_m_" + name] for name in scene_files.MOTIONS], [3, 4, 5])
+        self.assertAlmostEqual(figures["nees_place_turning"], 16 / 4 / 2)
+        self.assertAlmostEqual(figures["nees_velocity_turning"], 0.1 ** 2 / 2)
+        self.assertEqual(figures["inside_place"], 0.5)  # 4, 9, 16 | 25, 36, 49 over 4: 5.99 lies between
+
+    def test_tracks_without_covariances_have_places_alone(self):
+        figures, _ = score(truth_of([0, 0]), [[(1, 3)], [(1, 4)]])
+        self.assertAlmostEqual(figures["rms_m"], np.sqrt(12.5))
+        self.assertTrue(np.isnan(figures["nees_place"]) and np.isnan(figures["rms_mps"]))
+
+
 class Files(unittest.TestCase):
     def test_coverage_is_range_and_sector(self):
         sensor = scene_files.Sensor(1000, 0, 100, 5000, 3.0, -3.0, 30, 0.003)  # 0.28 rad about -x

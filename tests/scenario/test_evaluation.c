@@ -189,6 +189,90 @@ static void nees_is_that_of_the_covariance(void **state)
     evaluation_free(e);
 }
 
+static struct evaluation_point with_velocity(struct evaluation_point point, double vx_mps,
+                                             double vy_mps)
+{
+    point.vx_mps = vx_mps;
+    point.vy_mps = vy_mps;
+    return point;
+}
+
+static struct evaluation_point with_velocity_covariance(struct evaluation_point point, double xx,
+                                                        double yx, double yy)
+{
+    point.cov_vxx_m2ps2 = xx;
+    point.cov_vyx_m2ps2 = yx;
+    point.cov_vyy_m2ps2 = yy;
+    return point;
+}
+
+/* The same matrix for velocities, over the 2 of its mean: 1 / 2, 8.5 / 2. Without a velocity, a covariance or a positive definite one there is
+ * none, whatever is known of the place. */
+static void velocities_have_a_ratio_of_their_own(void **state)
+{
+    (void)state;
+    struct evaluation *e = evaluation_start(CUTOFF_M);
+    struct evaluation_point targets[5], tracks[5];
+    for (int i = 0; i < 5; i++) {
+        targets[i] = with_velocity(at(i, 1000.0 * i, 0.0), 100.0, -50.0);
+        tracks[i] = with_velocity_covariance(
+            with_velocity(at(20 + i, 1000.0 * i, 0.0), 100.0, -50.0), 4.0, 2.0, 3.0);
+    }
+    tracks[0].vx_mps += 2.0, tracks[0].vy_mps += 1.0;
+    tracks[1].vx_mps += 4.0, tracks[1].vy_mps -= 1.0;
+    tracks[2] = with_velocity_covariance(at(22, 2000.0, 0.0), 4.0, 2.0, 3.0);
+    tracks[3] = with_covariance(with_velocity(at(23, 3000.0, 0.0), 90.0, 0.0), 1.0, 0.0, 1.0);
+    tracks[4] = with_velocity_covariance(tracks[4], 4.0, 4.0, 4.0);
+    evaluation_time(e, 0, targets, 5, tracks, 5);
+    struct evaluation_result r = evaluation_result(e);
+    assert_true(is_near(r.errors.velocity_ratio, 4.75 / 2.0) && r.errors.velocity_inside == 0.5);
+    assert_true(r.errors.nees == 0.0 && r.errors.nees_inside == 1.0); /* of the fourth */
+    size_t count;
+    assert_true(is_near(evaluation_over_time(e, &count)->velocity_ratio, 4.75 / 2.0));
+    evaluation_free(e);
+}
+
+/* What one target does and its track: two seconds of 10 m/s, a turn of 0.1 m/s^2, a missed scan in it, straight again, a
+ * velocity that is not given. Errors tell the times apart: the root mean square of a motion's. */
+static void motions_are_told_apart(void **state)
+{
+    (void)state;
+    static const double vx_mps[] = {10.0, 10.0, 10.2, 10.4, 10.4, NAN, 10.4, 10.43};
+    static const enum evaluation_motion expected[] = {
+        EVALUATION_NO_MOTION, EVALUATION_STRAIGHT,  EVALUATION_TURNING,   EVALUATION_COASTING,
+        EVALUATION_STRAIGHT,  EVALUATION_NO_MOTION, EVALUATION_NO_MOTION, EVALUATION_STRAIGHT};
+    struct evaluation *e = evaluation_start(CUTOFF_M);
+    double squares_m2[EVALUATION_MOTIONS + 1] = {0};
+    size_t pairs[EVALUATION_MOTIONS + 1] = {0};
+    for (int i = 0; i < 8; i++) {
+        double error_m = 1.0 + 3.0 * i;
+        struct evaluation_point target = with_velocity(at(1, 0.0, 0.0), vx_mps[i], 0.0);
+        struct evaluation_point track = at(2, error_m, 0.0);
+        track.is_coasting = i == 3;
+        evaluation_time(e, 2 * i * S, &target, 1, &track, 1);
+        squares_m2[expected[i]] += error_m * error_m;
+        pairs[expected[i]]++;
+    }
+    struct evaluation_result r = evaluation_result(e);
+    for (int i = 0; i < EVALUATION_MOTIONS; i++) {
+        assert_int_equal(r.by_motion[i].pairs, pairs[i]);
+        assert_true(is_near(r.by_motion[i].rmse_m, sqrt(squares_m2[i] / (double)pairs[i])));
+    }
+    assert_int_equal(r.errors.pairs, 8);
+    /* 0.04 m/s in a second is a turn, and below another limit none */
+    struct evaluation_point track = at(2, 0.0, 0.0);
+    struct evaluation_point target = with_velocity(at(1, 0.0, 0.0), 10.47, 0.0);
+    evaluation_time(e, 15 * S, &target, 1, &track, 1);
+    assert_int_equal(evaluation_result(e).by_motion[EVALUATION_TURNING].pairs, 2);
+    evaluation_set_turning(e, 0.05);
+    target.vx_mps += 0.04;
+    evaluation_time(e, 16 * S, &target, 1, &track, 1);
+    r = evaluation_result(e);
+    assert_true(r.by_motion[EVALUATION_TURNING].pairs == 2 &&
+                r.by_motion[EVALUATION_STRAIGHT].pairs == pairs[EVALUATION_STRAIGHT] + 1);
+    evaluation_free(e);
+}
+
 /* The ellipse ends at chi-square 5.9915. */
 static void the_ellipse_is_that_of_95_percent(void **state)
 {
@@ -310,6 +394,8 @@ int main(void)
         cmocka_unit_test(quantiles_interpolate),
         cmocka_unit_test(velocities_count_where_both_are_known),
         cmocka_unit_test(nees_is_that_of_the_covariance),
+        cmocka_unit_test(velocities_have_a_ratio_of_their_own),
+        cmocka_unit_test(motions_are_told_apart),
         cmocka_unit_test(the_ellipse_is_that_of_95_percent),
         cmocka_unit_test(false_tracks_are_alone_most_of_the_time),
         cmocka_unit_test(targets_are_listed_by_identity),

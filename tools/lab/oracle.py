@@ -8,7 +8,7 @@ Filters of several process noises run side by side, so that the one that suits a
 """
 import numpy as np
 
-from scene_files import sensor_of, tracks_by_scan
+from scene_files import MORE, sensor_of, tracks_by_scan
 
 START_HITS, LOOKS, DROP_MISSES = 3, 5, 5
 
@@ -125,16 +125,29 @@ class Filters:
             self.weight[:, :, targets] = np.maximum(weight / weight.sum(axis=1, keepdims=True), 1e-6)
         self.time_s[targets] = time_s
 
-    def places(self, targets, time_s):
-        """(candidates, targets, 2) at that time."""
-        dt = (time_s - self.time_s[targets])[:, None]
-        places = self.x[:, :, targets, :2] + dt * self.x[:, :, targets, 2:]
-        return (places * self.weight[:, :, targets][..., None]).sum(axis=1) / \
-            self.weight[:, :, targets].sum(axis=1)[..., None]
+    def estimates(self, targets, time_s):
+        """(candidates, targets, 4) and covariances at that time, of all models together."""
+        dt = time_s - self.time_s[targets]
+        transition, noise = step_matrices(dt)
+        x = np.einsum("nij,cmnj->cmni", transition, self.x[:, :, targets])
+        p = transition @ self.p[:, :, targets] @ transition.swapaxes(-1, -2) + \
+            (self.noise ** 2)[:, :, None, None, None] * np.where(dt[:, None, None] > 0, noise, 0)
+        weight = self.weight[:, :, targets][..., None]
+        weight = weight / weight.sum(axis=1, keepdims=True)
+        mean = (x * weight).sum(axis=1)
+        off = x - mean[:, None]
+        return mean, ((p + off[..., :, None] * off[..., None, :]) * weight[..., None]).sum(axis=1)
+
+
+def as_rows(mean, covariance, coasts):
+    """Places, and the columns of MORE."""
+    lower = [covariance[..., i, j] for i, j in ((0, 0), (1, 0), (1, 1), (2, 2), (3, 2), (3, 3))]
+    return np.concatenate([mean, np.stack([*lower, np.broadcast_to(coasts, mean.shape[:-1])], axis=-1)], axis=-1)
 
 
 def follow(plots, truth, sensors, candidates, v_max_mps):
-    """Rows of tracks: times in microseconds, track numbers, targets, and places for each candidate (candidates, rows, 2)."""
+    """Rows of tracks: times in microseconds, track numbers, targets, places for each candidate (candidates, rows, 2), and what
+    else is known of tracks (candidates, rows, len(MORE))."""
     groups = [[c for c in candidates if len(c) == 1], [c for c in candidates if len(c) > 1]]
     filters = [Filters(group, len(truth.ids), v_max_mps / 2) for group in groups if group]
     places_in = [candidates.index(c) for group in groups for c in group]
@@ -145,7 +158,7 @@ def follow(plots, truth, sensors, candidates, v_max_mps):
     misses = np.zeros(n, dtype=int)
     track = np.full(n, -1)
     next_track = 0
-    times, tracks, owners, places = [], [], [], []
+    times, tracks, owners, rows_of = [], [], [], []
     scan_of_truth = truth.scan_of(plots.scan_times_us)
     for s in np.argsort(plots.scan_times_us, kind="stable").tolist():
         place, k = truth.place_m[scan_of_truth[s]], scan_of_truth[s]
@@ -176,18 +189,19 @@ def follow(plots, truth, sensors, candidates, v_max_mps):
             times.append(np.full(len(active), plots.scan_times_us[s]))
             tracks.append(track[active].copy())
             owners.append(active)
-            places.append(np.concatenate([bank.places(active, plots.scan_times_us[s] / 1e6) for bank in filters]))
+            rows_of.append(np.concatenate([as_rows(*bank.estimates(active, plots.scan_times_us[s] / 1e6), ~is_hit[active])
+                                           for bank in filters]))
     if not times:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0, dtype=int), \
-            np.empty((len(candidates), 0, 2))
-    ordered = np.empty((len(candidates), sum(map(len, times)), 2))
-    ordered[places_in] = np.concatenate(places, axis=1)
-    return np.concatenate(times), np.concatenate(tracks), np.concatenate(owners), ordered
+            np.empty((len(candidates), 0, 2)), np.empty((len(candidates), 0, len(MORE)))
+    ordered = np.empty((len(candidates), sum(map(len, times)), 2 + len(MORE)))
+    ordered[places_in] = np.concatenate(rows_of, axis=1)
+    return np.concatenate(times), np.concatenate(tracks), np.concatenate(owners), ordered[..., :2], ordered[..., 2:]
 
 
 def square_errors(truth, followed):
     """(candidates, [sum of squares, count]) of places against the truth, where the target is visible."""
-    times, _, owners, places = followed
+    times, _, owners, places, _ = followed
     scan = truth.scan_of(times)
     counts = truth.visible[scan, owners]
     off = places[:, counts] - truth.place_m[scan[counts], owners[counts]]
@@ -195,5 +209,5 @@ def square_errors(truth, followed):
 
 
 def as_tracks(truth, followed, candidate=0):
-    times, ids, _, places = followed
-    return tracks_by_scan(truth, times, ids, places[candidate])
+    times, ids, _, places, more = followed
+    return tracks_by_scan(truth, times, ids, places[candidate], more[candidate])

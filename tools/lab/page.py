@@ -15,6 +15,9 @@ INTRODUCTION = """<p>Each scene is simulated with {runs} seeds from {seed}, trac
 Goals of completeness, false tracks and switches are bars: green ones are met within two standard errors, red ones are not.
 Delays are in scans from a target's first visibility to its first track.</p>"""
 
+CONSISTENCY = """<p>NEES (normalised estimation error squared) of place and velocity over what it is where covariances are right: above 1
+they are too small; and shares inside the ellipse of 95 %. A track that coasts counts as that alone; else its target turns, or not.</p>"""
+
 CAPTION = "Seed {seed}: plots grey, truth green, tracks blue, tracks without a target red."
 
 
@@ -32,6 +35,18 @@ def table(results, columns, rows_of):
     return "\n".join(lines + ["</table>"])
 
 
+def consistency_table(results, headings, consistency_rows):
+    heads = "".join(f"<th>{html.escape(heading)}</th>" for heading in headings)
+    lines = [f"<table><tr><th>scene</th><th></th><th>motion</th>{heads}</tr>"]
+    for result in results:
+        for number, (label, motion, cells) in enumerate(consistency_rows(result)):
+            classes = {None: "", True: "met", False: "missed"}
+            texts = "".join(f'<td class="{classes[None if held is None else bool(held)]}">{text}</td>' for text, held in cells)
+            lines.append(f'<tr class="{label if number else "first"}"><td class="n">{"" if number else html.escape(result["name"])}'
+                         f'</td><td class="w">{label}</td><td class="w">{motion}</td>{texts}</tr>')
+    return "\n".join(lines + ["</table>"])
+
+
 def alarm_table(alarms):
     lines = ["<table><tr><th>clutter</th><th>hours</th><th>wanted an hour</th><th>tracks</th><th>an hour</th>"
              "<th>of the wanted</th><th>95 %</th></tr>"]
@@ -43,7 +58,7 @@ def alarm_table(alarms):
     return "\n".join(lines + ["</table>"])
 
 
-def write(path, results, alarms, options, columns, rows_of):
+def write(path, results, alarms, longs, options, columns, rows_of, consistency):
     body = ["<h1>Real skies</h1>"]
     if results:
         body += [INTRODUCTION.format(runs=options.runs, seed=options.seed), table(results, columns, rows_of)]
@@ -53,9 +68,13 @@ def write(path, results, alarms, options, columns, rows_of):
                 body.append(f"<p>{html.escape(result['about'])}</p>")
             body.append(f'<figure><img src="{result["name"]}.png" alt="Plan view of {html.escape(result["name"])}">'
                         f"<figcaption>{CAPTION.format(seed=options.seed)}</figcaption></figure>")
+        body += ["<h2>Consistency</h2>", CONSISTENCY, consistency_table(results, *consistency)]
     if alarms:
         body += ["<h2>False tracks an hour</h2>",
                  "<p>Scenes without targets; confirmed tracks that began after ten minutes of learning.</p>", alarm_table(alarms)]
+    if longs:
+        import long
+        body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(long.table(longs))}</pre>"]
     text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>rhotrack: real skies</title>\n'
             f"<style>{STYLE}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n")
     part = path.with_suffix(".html.part")

@@ -40,6 +40,14 @@ COLUMNS = [
     ("delay_mean_scans", "delay", "{:.2f}", False, True),
     ("delay_median_scans", "median", "{:.1f}", False, True),
 ]
+# NEES over what it is where covariances are right (above 1: they are too small), and shares inside the ellipses of 95 %; the limits
+# within which a scene is consistent
+CONSISTENCY = [
+    ("nees_place", "nees place", "{:.2f}", (0.8, 1.25)),
+    ("inside_place", "inside", "{:.3f}", (0.92, 0.97)),
+    ("nees_velocity", "nees velocity", "{:.2f}", (0.8, 1.25)),
+    ("inside_velocity", "inside", "{:.3f}", (0.92, 0.97)),
+]
 GOAL_KEYS = {"delay_mean_scans": "delay_scans"}  # where the scene has another name for it
 CALIBRATION_RUNS = 2  # choose the oracle's process noise in a scene that names none
 STANDARD_ERRORS = 2  # a goal is met within so many
@@ -87,7 +95,7 @@ def run(job):
         settings, sensors, plots, truth = simulated(job, folder)
         inputs = [folder / name for name in ("plots.csv", "bearings.csv") if (folder / name).exists()]
         sets = [part for pair in job["set"] for part in ("--set", pair)]
-        run_program(job["program"], ["track", *inputs, "--config", folder / "scenario.ini", *sets,
+        run_program(job["program"], ["track", *inputs, "--covariance", "--config", folder / "scenario.ini", *sets,
                                      "-o", folder / "tracks.csv"])
         gate, forgiven = scoring.gate_m(sensors), job["forgiven"]
         tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
@@ -196,7 +204,8 @@ def line(name, runs):
     for which in ("today", "oracle"):
         if which in runs[0]:
             figures = statistics(runs, which)
-            parts.append("  ".join(f"{heading} {cell(figures, key, form)}" for key, heading, form, _, _ in COLUMNS))
+            parts.append("  ".join([f"{heading} {cell(figures, key, form)}" for key, heading, form, _, _ in COLUMNS] +
+                                   [f"{heading} {cell(figures, key, form, False)}" for key, heading, form, _ in CONSISTENCY]))
     return f"{name:22} " + "\n".join([parts[0]] + [f"{'  oracle':22} {part}" for part in parts[1:]])
 
 
@@ -223,11 +232,30 @@ def rows_of(result):
     return rows
 
 
-def bars(results, alarms):
-    """[(scene, key, held)] of the columns that are bars, and of the rates of false tracks."""
+def consistency_rows(result):
+    """Rows of the table of consistency: label, motion and cells, a cell being (text, whether it is within its limits or None)."""
+    rows = []
+    for label, figures in (("today", result["figures"]), ("oracle", result["oracle"])):
+        for motion in ("", *scene_files.MOTIONS) if figures else ():
+            end = motion and "_" + motion
+            cells = [(cell(figures, key + end, form, False), None) for key, form in
+                     (("pairs", "{:.0f}"), ("rms_m", "{:.1f}"), ("rms_mps", "{:.2f}"))]
+            for key, _, form, (low, high) in CONSISTENCY:
+                known = figures.get(key + end)
+                cells.append((cell(figures, key + end, form, False), low <= known["mean"] <= high if known else None))
+            rows.append((label, motion or "all", cells))
+    return rows
+
+
+CONSISTENCY_HEADINGS = ["pairs", "rms m", "rms m/s", *(heading for _, heading, _, _ in CONSISTENCY)]
+
+
+def bars(results, alarms, longs):
+    """[(scene, key, held)] of the columns that are bars, of the rates of false tracks, and of what must not drift."""
     is_bar = {key: bar for key, _, _, bar, _ in COLUMNS}
     return [(result["name"], key, held) for result in results for key, held in result["met"].items() if is_bar[key]] + \
-        [(row["name"], "false_tracks_per_hour", row["held"]) for row in alarms]
+        [(row["name"], "false_tracks_per_hour", row["held"]) for row in alarms] + \
+        [(row["name"], what, held) for row in longs for what, held in row["held"].items()]
 
 
 def print_table(results, options):
@@ -240,10 +268,22 @@ def print_table(results, options):
             print(f"{result['name'] if label == 'today' else '':22} {label:7}{texts}")
 
 
-def as_json(results, options, alarms):
-    judged = bars(results, alarms)
+def print_consistency(results):
+    low, high = CONSISTENCY[0][3]
+    least, most = CONSISTENCY[1][3]
+    print(f"Consistency: NEES over its ideal, and shares inside the ellipse of 95 %; * marks what is not within {low} to {high}, "
+          f"{least} to {most}")
+    print(f"{'scene':22} {'':7}{'motion':10}" + "".join(f"{heading:>15}" for heading in CONSISTENCY_HEADINGS))
+    for result in results:
+        for number, (label, motion, cells) in enumerate(consistency_rows(result)):
+            texts = "".join(f"{text + ('*' if held is False else ' '):>15}" for text, held in cells)
+            print(f"{'' if number else result['name']:22} {label:7}{motion:10}{texts}")
+
+
+def as_json(results, options, alarms, longs):
+    judged = bars(results, alarms, longs)
     return {"experiment": "real-skies", "runs": options.runs, "seed": options.seed, "settings": options.set,
-            "scenes": results, "endurance": alarms,
+            "scenes": results, "endurance": alarms, "long": longs,
             "bars": [{"what": f"{name}: {key}", "held": bool(held)} for name, key, held in judged],
             "bars_held": sum(held for _, _, held in judged), "bars_missed": sum(not held for _, _, held in judged)}
 
@@ -294,9 +334,15 @@ def parse_options():
     parser.add_argument("--no-pages", action="store_true", help="no pictures, no index.html")
     parser.add_argument("--endurance", action="store_true", help="instead of the scenes: false tracks an hour in uniform "
                         "clutter, rain and strobes")
-    parser.add_argument("--hours", type=float, default=20.0, metavar="H", help="of endurance, all runs of a scene together "
-                        "(default 20); --runs of them")
+    parser.add_argument("--long", action="store_true", help="instead of the scenes: births and deaths for hours; figures, time "
+                        "and memory of each hour, and what drifts")
+    parser.add_argument("--hours", type=float, metavar="H", help="of endurance, all runs of a scene together (default 20), --runs "
+                        "of them; of long, each run (default 4)")
     options = parser.parse_args()
+    if options.long and options.endurance:
+        parser.error("--long or --endurance")
+    if options.hours is None:
+        options.hours = 4.0 if options.long else 20.0
     if options.runs < 1 or options.jobs < 1 or options.hours <= 0:
         parser.error("--runs, --jobs and --hours are positive")
     if not os.access(options.program, os.X_OK):
@@ -312,16 +358,19 @@ def main():
     try:
         if not options.no_pages:
             options.output.mkdir(parents=True, exist_ok=True)
-        results, alarms = [], []
+        results, alarms, longs = [], [], []
         if options.endurance:
             import endurance
             alarms = endurance.measure(options, run_program)
+        elif options.long:
+            import long
+            longs = long.measure(options, run_program)
         else:
             results = measure(options, find_scenes(options))
-        report = as_json(results, options, alarms)
+        report = as_json(results, options, alarms, longs)
         if not options.no_pages:
             import page
-            page.write(options.output / "index.html", results, alarms, options, COLUMNS, rows_of)
+            page.write(options.output / "index.html", results, alarms, longs, options, COLUMNS, rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
     except (Failed, OSError, ValueError) as error:
         sys.stderr.write(f"{NAME}: {error}\n")
         sys.exit(1)
@@ -330,8 +379,11 @@ def main():
         return
     if options.endurance:
         print(endurance.table(alarms))
+    elif options.long:
+        print(long.table(longs))
     elif not options.lines:
         print_table(results, options)
+        print_consistency(results)
     if not options.no_pages:
         print(f"{options.output / 'index.html'}")
     if not options.lines:

@@ -9,6 +9,11 @@ import numpy as np
 
 RANGE_MAX_M = 100000.0  # of a sensor that states none: the program's default
 TIME_TOLERANCE_US = 1000  # tracks stand at the truth's times, as `evaluate` has it
+TURNING_MPS2 = 0.02  # a target whose velocity changes by more a second turns, as `evaluate` has it (turning_mps2)
+MOTIONS = ("straight", "turning", "coasting")
+STRAIGHT, TURNING, COASTING, NO_MOTION = range(4)
+# what a track may have beside its place; the columns of a tracks file, and whether the track coasts
+MORE = ("vx_mps", "vy_mps", "cov_x_x", "cov_y_x", "cov_y_y", "cov_vx_vx", "cov_vy_vx", "cov_vy_vy", "is_coasting")
 
 
 @dataclasses.dataclass
@@ -89,6 +94,7 @@ class Truth:
     ids: np.ndarray
     place_m: np.ndarray  # (scans, targets, 2)
     visible: np.ndarray  # (scans, targets): alive, and a sensor covers it
+    velocity_mps: np.ndarray = None  # as place_m; None: not known
 
     def scan_of(self, times_us):
         """The scans with these times; -1 where there is none."""
@@ -101,10 +107,21 @@ class Truth:
         return np.where(np.abs(self.times_us[nearest] - times_us) <= TIME_TOLERANCE_US, nearest, -1)
 
 
+    def motions(self):
+        """(scans, targets): index into MOTIONS of what a target has done since its scan before, NO_MOTION where that is not known:
+        as `evaluate` has it. COASTING is a track's, and none of these."""
+        found = np.full(self.visible.shape, NO_MOTION)
+        if self.velocity_mps is not None and len(self.times_us) > 1:
+            passed_s = np.diff(self.times_us)[:, None] / 1e6
+            accel_mps2 = np.linalg.norm(np.diff(self.velocity_mps, axis=0), axis=2) / passed_s
+            found[1:] = np.where(np.isnan(accel_mps2), NO_MOTION, np.where(accel_mps2 > TURNING_MPS2, TURNING, STRAIGHT))
+        return found
+
+
 def read_truth(folder, scan_times_us=()):
     """paths.csv of a folder that `simulate` wrote; scans at which nothing is alive have no rows in it, so that the scans' own
     times are added."""
-    table = columns(folder / "paths.csv", ("t_s", "target_id", "x_m", "y_m", "is_covered"))
+    table = columns(folder / "paths.csv", ("t_s", "target_id", "x_m", "y_m", "is_covered"), ("vx_mps", "vy_mps"))
     rows_us = microseconds(table["t_s"])
     row_ids = np.array(table["target_id"], dtype=np.int64)
     ids = np.unique(row_ids)
@@ -113,12 +130,16 @@ def read_truth(folder, scan_times_us=()):
     without = Truth(times_us, ids, np.empty(0), np.empty(0)).scan_of(scan_times_us) < 0
     times_us = np.union1d(times_us, scan_times_us[without])
     place = np.full((len(times_us), len(ids), 2), np.nan)
+    velocity = np.full((len(times_us), len(ids), 2), np.nan)
     visible = np.zeros((len(times_us), len(ids)), dtype=bool)
     scan, target = np.searchsorted(times_us, rows_us), np.searchsorted(ids, row_ids)
     place[scan, target, 0] = np.array(table["x_m"], dtype=float)
     place[scan, target, 1] = np.array(table["y_m"], dtype=float)
+    for axis, name in enumerate(("vx_mps", "vy_mps")):
+        if table[name]:
+            velocity[scan, target, axis] = np.array(table[name], dtype=float)
     visible[scan, target] = np.array(table["is_covered"]) == "1"
-    return Truth(times_us, ids, place, visible)
+    return Truth(times_us, ids, place, visible, velocity)
 
 
 @dataclasses.dataclass
@@ -126,13 +147,15 @@ class Tracks:
     """Tracks scan by scan: numbers and places, of those that are confirmed or coasting."""
     ids: list  # of arrays, one a scan
     place_m: list
+    more: list = None  # of arrays (tracks, len(MORE)), NaN where not known; None: nothing of it is
 
 
-def tracks_by_scan(truth, times_us, ids, place_m):
+def tracks_by_scan(truth, times_us, ids, place_m, more=None):
     """Rows as Tracks. The last row of a track and scan counts: more than one sensor may look at one time."""
     scan = truth.scan_of(times_us)
     by_scan_ids = [np.empty(0, dtype=np.int64)] * len(truth.times_us)
     by_scan_place = [np.empty((0, 2))] * len(truth.times_us)
+    by_scan_more = [np.empty((0, len(MORE)))] * len(truth.times_us)
     order = np.argsort(scan, kind="stable")
     bounds = np.searchsorted(scan[order], np.arange(len(truth.times_us) + 1))
     for k in range(len(truth.times_us)):
@@ -141,15 +164,20 @@ def tracks_by_scan(truth, times_us, ids, place_m):
             last = {track: row for track, row in zip(ids[rows].tolist(), rows.tolist())}
             chosen = list(last.values())
             by_scan_ids[k], by_scan_place[k] = ids[chosen], place_m[chosen]
-    return Tracks(by_scan_ids, by_scan_place)
+            if more is not None:
+                by_scan_more[k] = more[chosen]
+    return Tracks(by_scan_ids, by_scan_place, by_scan_more if more is not None else None)
 
 
 def read_tracks(path, truth):
-    table = columns(path, ("t_s", "track_id", "status", "x_m", "y_m"))
+    table = columns(path, ("t_s", "track_id", "status", "x_m", "y_m"), MORE[:-1])
     counts = np.array([status in ("confirmed", "coasting") for status in table["status"]], dtype=bool)
     place = np.column_stack([np.array(table["x_m"], dtype=float), np.array(table["y_m"], dtype=float)])
     ids = np.array(table["track_id"], dtype=np.int64)
-    return tracks_by_scan(truth, microseconds(table["t_s"])[counts], ids[counts], place[counts])
+    more = np.column_stack([np.full(len(ids), np.nan) if table[name] is None else
+                            np.array([cell or "nan" for cell in table[name]], dtype=float) for name in MORE[:-1]] +
+                           [np.array([status == "coasting" for status in table["status"]], dtype=float)])
+    return tracks_by_scan(truth, microseconds(table["t_s"])[counts], ids[counts], place[counts], more[counts])
 
 
 def first_confirmed(path):

@@ -16,7 +16,10 @@ static size_t target_number(struct evaluation *e, int32_t id, int64_t time_us)
     size_t number = identities_number(&e->target_ids, id);
     if (number == known) {
         e->targets = must_grow(e->targets, known, &e->targets_capacity, sizeof *e->targets);
-        e->targets[number] = (struct target_life){.first_us = time_us, .track = NO_TRACK};
+        e->targets[number] = (struct target_life){.first_us = time_us,
+                                                  .last_us = time_us,
+                                                  .track = NO_TRACK,
+                                                  .velocity_mps = {NAN, NAN, NAN}};
     }
     return number;
 }
@@ -39,28 +42,48 @@ static double norm(double x, double y, double z)
     return sqrt(x * x + y * y + z * z);
 }
 
-/* e^T P^-1 e of x and y; NAN where P is not given or not positive definite. */
-static double nees_of(const struct evaluation_point *track, double ex_m, double ey_m)
+/* e^T P^-1 e of P = [xx yx; yx yy]; NAN where that is not given or not positive definite. */
+static double nees_of(double xx, double yx, double yy, double ex, double ey)
 {
-    double xx = track->cov_xx_m2, yx = track->cov_yx_m2, yy = track->cov_yy_m2;
     double det = xx * yy - yx * yx;
     if (!(xx > 0.0 && det > 0.0)) {
         return NAN;
     }
-    return (ex_m * ex_m * yy - 2.0 * ex_m * ey_m * yx + ey_m * ey_m * xx) / det;
+    return (ex * ex * yy - 2.0 * ex * ey * yx + ey * ey * xx) / det;
 }
 
-static struct pair_error error_of(size_t number, const struct evaluation_point *target,
+static struct pair_error error_of(size_t number, enum evaluation_motion motion,
+                                  const struct evaluation_point *target,
                                   const struct evaluation_point *track)
 {
     double ex_m = track->x_m - target->x_m, ey_m = track->y_m - target->y_m;
+    double ex_mps = track->vx_mps - target->vx_mps, ey_mps = track->vy_mps - target->vy_mps;
     return (struct pair_error){
         .target = number,
+        .motion = track->is_coasting ? EVALUATION_COASTING : motion,
         .error_m = norm(ex_m, ey_m, track->z_m - target->z_m),
-        .error_mps = norm(track->vx_mps - target->vx_mps, track->vy_mps - target->vy_mps,
-                          track->vz_mps - target->vz_mps),
-        .nees = nees_of(track, ex_m, ey_m),
+        .error_mps = norm(ex_mps, ey_mps, track->vz_mps - target->vz_mps),
+        .nees = nees_of(track->cov_xx_m2, track->cov_yx_m2, track->cov_yy_m2, ex_m, ey_m),
+        .velocity_ratio = nees_of(track->cov_vxx_m2ps2, track->cov_vyx_m2ps2, track->cov_vyy_m2ps2,
+                                  ex_mps, ey_mps) /
+                          EVALUATION_AXES,
     };
+}
+
+/* What it has done since its time before; that is now. */
+static void move_target(const struct evaluation *e, struct target_life *life,
+                        const struct evaluation_point *target, int64_t time_us)
+{
+    double *last = life->velocity_mps, passed_s = (double)(time_us - life->last_us) * 1e-6;
+    double change_mps =
+        norm(target->vx_mps - last[0], target->vy_mps - last[1], target->vz_mps - last[2]);
+    life->motion = !isfinite(change_mps)                     ? EVALUATION_NO_MOTION
+                   : change_mps > e->turning_mps2 * passed_s ? EVALUATION_TURNING
+                                                             : EVALUATION_STRAIGHT;
+    life->last_us = time_us;
+    last[0] = target->vx_mps;
+    last[1] = target->vy_mps;
+    last[2] = target->vz_mps;
 }
 
 /* The target has this track now: what that means for its life. */
@@ -85,8 +108,8 @@ static void follow_target(struct target_life *life, size_t track, struct evaluat
 
 /* Sums of the time's pairs, and numbers of those that have what is summed. */
 struct time_sums {
-    double error2_m2ps2, nees;
-    size_t velocities, covariances;
+    double error2_m2ps2, nees, velocity_ratio;
+    size_t velocities, covariances, velocity_covariances;
 };
 
 static void add_pair(struct evaluation *e, const struct pair_error *error, struct time_sums *sums)
@@ -100,6 +123,10 @@ static void add_pair(struct evaluation *e, const struct pair_error *error, struc
     if (isfinite(error->nees)) {
         sums->nees += error->nees;
         sums->covariances++;
+    }
+    if (isfinite(error->velocity_ratio)) {
+        sums->velocity_ratio += error->velocity_ratio;
+        sums->velocity_covariances++;
     }
 }
 
@@ -134,10 +161,10 @@ static void follow_targets(struct evaluation *e, const struct evaluation_point *
         size_t number = target_number(e, targets[i].id, scan->time_us);
         struct target_life *life = &e->targets[number];
         life->scans++;
-        life->last_us = scan->time_us;
+        move_target(e, life, &targets[i], scan->time_us);
         if (track_of[i] >= 0) {
             const struct evaluation_point *track = &tracks[track_of[i]];
-            struct pair_error error = error_of(number, &targets[i], track);
+            struct pair_error error = error_of(number, life->motion, &targets[i], track);
             size_t partner = track_number(e, track->id);
             follow_target(life, partner, scan);
             e->tracks[partner].paired++;
@@ -147,6 +174,7 @@ static void follow_targets(struct evaluation *e, const struct evaluation_point *
     }
     scan->rmse_mps = sqrt(evaluation_mean(sums.error2_m2ps2, sums.velocities));
     scan->nees = evaluation_mean(sums.nees, sums.covariances);
+    scan->velocity_ratio = evaluation_mean(sums.velocity_ratio, sums.velocity_covariances);
 }
 
 void evaluation_time(struct evaluation *e, int64_t time_us, const struct evaluation_point *targets,
@@ -183,7 +211,13 @@ struct evaluation *evaluation_start(double cutoff_m)
 {
     struct evaluation *e = must_calloc(1, sizeof *e);
     e->cutoff_m = cutoff_m;
+    e->turning_mps2 = EVALUATION_TURNING_MPS2;
     return e;
+}
+
+void evaluation_set_turning(struct evaluation *e, double turning_mps2)
+{
+    e->turning_mps2 = turning_mps2;
 }
 
 const struct evaluation_scan *evaluation_over_time(const struct evaluation *e, size_t *count)

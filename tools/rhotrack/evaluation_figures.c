@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "evaluation_parts.h"
+
 static void add(struct evaluation_figures *figures, const char *name, double value)
 {
     figures->list[figures->count].name = name;
@@ -30,6 +32,9 @@ static void add_errors(struct evaluation_figures *figures, const struct evaluati
     add(figures, "p95_mps", errors->p95_mps);
     add(figures, "nees", errors->nees);
     add(figures, "nees_inside", errors->nees_inside);
+    add(figures, "place_ratio", errors->nees / EVALUATION_AXES);
+    add(figures, "velocity_ratio", errors->velocity_ratio);
+    add(figures, "velocity_inside", errors->velocity_inside);
 }
 
 struct evaluation_figures evaluation_figures_all(const struct evaluation_result *result)
@@ -77,6 +82,14 @@ struct evaluation_figures evaluation_figures_target(const struct evaluation_targ
     return figures;
 }
 
+struct evaluation_figures evaluation_figures_motion(const struct evaluation_errors *errors)
+{
+    struct evaluation_figures figures = {0};
+    add_count(&figures, "pairs", errors->pairs);
+    add_errors(&figures, errors);
+    return figures;
+}
+
 struct evaluation_figures evaluation_figures_scan(const struct evaluation_scan *scan)
 {
     struct evaluation_figures figures = {0};
@@ -94,5 +107,6 @@ struct evaluation_figures evaluation_figures_scan(const struct evaluation_scan *
     add(&figures, "rmse_m", scan->rmse_m);
     add(&figures, "rmse_mps", scan->rmse_mps);
     add(&figures, "nees", scan->nees);
+    add(&figures, "velocity_ratio", scan->velocity_ratio);
     return figures;
 }

@@ -17,6 +17,7 @@ struct evaluation_figures {
 
 struct evaluation_figures evaluation_figures_all(const struct evaluation_result *result);
 struct evaluation_figures evaluation_figures_target(const struct evaluation_target *target);
+struct evaluation_figures evaluation_figures_motion(const struct evaluation_errors *errors);
 struct evaluation_figures evaluation_figures_scan(const struct evaluation_scan *scan);
 
 #endif

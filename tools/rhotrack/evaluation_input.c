@@ -28,7 +28,8 @@ struct points {
 
 /* Where a table has what. */
 struct columns {
-    int time, id, status, x, y, z, vx, vy, vz, cov_xx, cov_yx, cov_yy;
+    int time, id, status, x, y, z, vx, vy, vz;
+    int covariance[6]; /* of place and velocity, each xx, yx, yy */
     const char *id_name;
     struct geodetic *geodetic; /* of the truth; NULL of tracks */
 };
@@ -48,9 +49,9 @@ static struct columns find_columns(const struct table *table, const char *id_nam
         .vx = table_find(table, "vx_mps"),
         .vy = table_find(table, "vy_mps"),
         .vz = table_find(table, "vz_mps"),
-        .cov_xx = table_find(table, "cov_x_x"),
-        .cov_yx = table_find(table, "cov_y_x"),
-        .cov_yy = table_find(table, "cov_y_y"),
+        .covariance = {table_find(table, "cov_x_x"), table_find(table, "cov_y_x"),
+                       table_find(table, "cov_y_y"), table_find(table, "cov_vx_vx"),
+                       table_find(table, "cov_vy_vx"), table_find(table, "cov_vy_vy")},
         .id_name = id_name,
         .geodetic = geodetic,
     };
@@ -77,6 +78,16 @@ static void read_place(const struct table *table, size_t row, const struct colum
     point->z_m = place_m[2];
 }
 
+static void read_covariance(const struct table *table, size_t row, const struct columns *at,
+                            struct evaluation_point *point)
+{
+    double *const to[] = {&point->cov_xx_m2,     &point->cov_yx_m2,     &point->cov_yy_m2,
+                          &point->cov_vxx_m2ps2, &point->cov_vyx_m2ps2, &point->cov_vyy_m2ps2};
+    for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
+        *to[i] = table_number_or(table, row, at->covariance[i], NAN);
+    }
+}
+
 static struct timed_point read_point(const struct table *table, size_t row,
                                      const struct columns *at)
 {
@@ -94,9 +105,9 @@ static struct timed_point read_point(const struct table *table, size_t row,
     timed.point.vx_mps = table_number_or(table, row, at->vx, NAN);
     timed.point.vy_mps = table_number_or(table, row, at->vy, NAN);
     timed.point.vz_mps = table_number_or(table, row, at->vz, 0.0);
-    timed.point.cov_xx_m2 = table_number_or(table, row, at->cov_xx, NAN);
-    timed.point.cov_yx_m2 = table_number_or(table, row, at->cov_yx, NAN);
-    timed.point.cov_yy_m2 = table_number_or(table, row, at->cov_yy, NAN);
+    read_covariance(table, row, at, &timed.point);
+    timed.point.is_coasting =
+        at->status >= 0 && strcmp(table_cell(table, row, at->status), "coasting") == 0;
     return timed;
 }
 
@@ -283,6 +294,7 @@ struct evaluation *evaluation_read(const struct table *truth_table,
                                    const struct parameters *parameters, double cutoff_m)
 {
     struct evaluation *e = evaluation_start(cutoff_m);
+    evaluation_set_turning(e, parameters->value[PARAMETER_TURNING_MPS2]);
     struct points truth = read_points(truth_table, "target_id", parameters);
     struct points tracks = read_points(tracks_table, "track_id", NULL);
     level(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);

@@ -9,6 +9,7 @@
 #include "identities.h"
 
 #define NO_TRACK SIZE_MAX
+#define EVALUATION_AXES 2.0 /* of covariances: the mean of e^T P^-1 e where they are right */
 
 /* A target through its life. */
 struct target_life {
@@ -16,6 +17,8 @@ struct target_life {
     size_t scans, paired, delay_scans, switches, fragments;
     size_t track;    /* number of the track that it had last, or NO_TRACK */
     bool is_tracked; /* at its last time */
+    enum evaluation_motion motion;
+    double velocity_mps[3]; /* at its last time */
 };
 
 struct track_life {
@@ -23,12 +26,13 @@ struct track_life {
 };
 
 struct pair_error {
-    size_t target;                   /* its number */
-    double error_m, error_mps, nees; /* NAN where not known */
+    size_t target; /* its number */
+    enum evaluation_motion motion;
+    double error_m, error_mps, nees, velocity_ratio; /* NAN where not known */
 };
 
 struct evaluation {
-    double cutoff_m;
+    double cutoff_m, turning_mps2;
     struct identities target_ids, track_ids;
     struct target_life *targets; /* by number, as are tracks */
     struct track_life *tracks;

@@ -39,6 +39,36 @@ static void print_targets(const struct evaluation *e, FILE *file)
     free(targets);
 }
 
+static const char *const motion_names[EVALUATION_MOTIONS] = {
+    [EVALUATION_STRAIGHT] = "straight",
+    [EVALUATION_TURNING] = "turning",
+    [EVALUATION_COASTING] = "coasting",
+};
+
+static void print_motion(struct grid *grid, const char *name, const struct evaluation_errors *of)
+{
+    char texts[6][GRID_NUMBER];
+    grid_row(grid, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
+             grid_number(texts[0], 1, of->rmse_m), grid_number(texts[1], 2, of->rmse_mps),
+             grid_number(texts[2], 2, of->nees / 2.0), grid_number(texts[3], 3, of->nees_inside),
+             grid_number(texts[4], 2, of->velocity_ratio),
+             grid_number(texts[5], 3, of->velocity_inside));
+}
+
+/* Ratios are 1 and shares inside the ellipse 0.95 where covariances are right. */
+static void print_motions(const struct evaluation_result *result, FILE *file)
+{
+    struct grid grid =
+        grid_start(1, "pairs|number|rmse m|rmse m/s|place ratio|inside|velocity ratio|inside");
+    for (int i = 0; i < EVALUATION_MOTIONS; i++) {
+        print_motion(&grid, motion_names[i], &result->by_motion[i]);
+    }
+    print_motion(&grid, "all", &result->errors);
+    fputc('\n', file);
+    grid_print(&grid, file);
+    grid_free(&grid);
+}
+
 void evaluation_print(const struct evaluation *e, bool by_target)
 {
     struct evaluation_result result = evaluation_result(e);
@@ -53,6 +83,7 @@ void evaluation_print(const struct evaluation *e, bool by_target)
             fprintf(output.file, "%-22s %12s\n", figures.list[i].name, "-");
         }
     }
+    print_motions(&result, output.file);
     if (by_target) {
         print_targets(e, output.file);
     }
@@ -66,6 +97,16 @@ static cJSON *object_of(const struct evaluation_figures *figures)
     cJSON *object = cJSON_CreateObject();
     for (size_t i = 0; i < figures->count; i++) {
         json_add_number(object, figures->list[i].name, figures->list[i].value);
+    }
+    return object;
+}
+
+static cJSON *by_motion(const struct evaluation_result *result)
+{
+    cJSON *object = cJSON_CreateObject();
+    for (int i = 0; i < EVALUATION_MOTIONS; i++) {
+        struct evaluation_figures figures = evaluation_figures_motion(&result->by_motion[i]);
+        cJSON_AddItemToObject(object, motion_names[i], object_of(&figures));
     }
     return object;
 }
@@ -100,6 +141,7 @@ void evaluation_print_json(const struct evaluation *e)
     struct evaluation_result result = evaluation_result(e);
     struct evaluation_figures figures = evaluation_figures_all(&result);
     cJSON *object = object_of(&figures);
+    cJSON_AddItemToObject(object, "by_motion", by_motion(&result));
     cJSON_AddItemToObject(object, "by_target", list_targets(e));
     cJSON_AddItemToObject(object, "over_time", list_scans(e));
     json_print(object);

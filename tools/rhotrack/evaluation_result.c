@@ -44,20 +44,32 @@ static double root_mean_square(const double *values, size_t count)
     return sqrt(evaluation_mean(sum, count));
 }
 
+struct nees_sum {
+    double sum;
+    size_t known, inside;
+};
+
+static void add_nees(struct nees_sum *to, double nees)
+{
+    if (isfinite(nees)) {
+        to->sum += nees;
+        to->known++;
+        to->inside += nees <= NEES_95;
+    }
+}
+
 static void fill_nees(struct evaluation_errors *errors, const struct pair_error *pairs,
                       size_t count)
 {
-    double sum = 0.0;
-    size_t known = 0, inside = 0;
+    struct nees_sum place = {0}, velocity = {0};
     for (size_t i = 0; i < count; i++) {
-        if (isfinite(pairs[i].nees)) {
-            sum += pairs[i].nees;
-            known++;
-            inside += pairs[i].nees <= NEES_95;
-        }
+        add_nees(&place, pairs[i].nees);
+        add_nees(&velocity, pairs[i].velocity_ratio * EVALUATION_AXES);
     }
-    errors->nees = evaluation_mean(sum, known);
-    errors->nees_inside = evaluation_mean((double)inside, known);
+    errors->nees = evaluation_mean(place.sum, place.known);
+    errors->nees_inside = evaluation_mean((double)place.inside, place.known);
+    errors->velocity_ratio = evaluation_mean(velocity.sum, velocity.known) / EVALUATION_AXES;
+    errors->velocity_inside = evaluation_mean((double)velocity.inside, velocity.known);
 }
 
 static struct evaluation_errors errors_of(const struct pair_error *pairs, size_t count)
@@ -139,6 +151,21 @@ static void sum_scans(const struct evaluation *e, struct evaluation_result *resu
     result->ospa_m = evaluation_mean(ospa_m, e->num_scans);
 }
 
+static void fill_motions(const struct evaluation *e, struct evaluation_result *result)
+{
+    struct pair_error *pairs = must_calloc(e->num_pairs, sizeof *pairs);
+    for (int motion = 0; motion < EVALUATION_MOTIONS; motion++) {
+        size_t count = 0;
+        for (size_t i = 0; i < e->num_pairs; i++) {
+            if (e->pairs[i].motion == (enum evaluation_motion)motion) {
+                pairs[count++] = e->pairs[i];
+            }
+        }
+        result->by_motion[motion] = errors_of(pairs, count);
+    }
+    free(pairs);
+}
+
 struct evaluation_result evaluation_result(const struct evaluation *e)
 {
     struct evaluation_result result = {0};
@@ -146,6 +173,7 @@ struct evaluation_result evaluation_result(const struct evaluation *e)
     sum_targets(e, &result);
     sum_tracks(e, &result);
     result.errors = errors_of(e->pairs, e->num_pairs);
+    fill_motions(e, &result);
     return result;
 }
 

@@ -26,6 +26,9 @@ static cJSON *figures_json(const struct air_figures *of)
     json_add_number(object, "delay_scans", of->delay_scans);
     json_add_number(object, "rmse_m", of->rmse_m);
     json_add_number(object, "nees", of->nees);
+    json_add_number(object, "nees_inside", of->nees_inside);
+    json_add_number(object, "velocity_ratio", of->velocity_ratio);
+    json_add_number(object, "velocity_inside", of->velocity_inside);
     return object;
 }
 

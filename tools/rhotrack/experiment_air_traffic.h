@@ -43,7 +43,8 @@ size_t air_num_cases(void);
 /* Means over the scans of a run, and over runs. */
 struct air_figures {
     double gospa_m, localisation_m, missed, false_a_scan;
-    double completeness, switches, fragments, delay_scans, rmse_m, nees;
+    double completeness, switches, fragments, delay_scans, rmse_m;
+    double nees, nees_inside, velocity_ratio, velocity_inside; /* as of evaluation.h */
 };
 
 /* One case of one run, or all of them: counts are sums then, figures means. */

@@ -64,7 +64,11 @@ static struct evaluation_point track_point(const struct rho_track_report *track,
                                      .vy_mps = track->state[4],
                                      .cov_xx_m2 = track->covariance[0],
                                      .cov_yx_m2 = track->covariance[1],
-                                     .cov_yy_m2 = track->covariance[2]};
+                                     .cov_yy_m2 = track->covariance[2],
+                                     .cov_vxx_m2ps2 = track->covariance[9],
+                                     .cov_vyx_m2ps2 = track->covariance[13],
+                                     .cov_vyy_m2ps2 = track->covariance[14],
+                                     .is_coasting = track->status == RHO_TRACK_COASTING};
 }
 
 void air_points_add(struct air_points *points, const struct rho_report *report, int32_t first_id)
@@ -129,7 +133,10 @@ struct air_figures air_figures_of(const struct evaluation *evaluation)
                                 .fragments = (double)of.fragments,
                                 .delay_scans = of.delay_scans,
                                 .rmse_m = of.errors.rmse_m,
-                                .nees = of.errors.nees};
+                                .nees = of.errors.nees,
+                                .nees_inside = of.errors.nees_inside,
+                                .velocity_ratio = of.errors.velocity_ratio,
+                                .velocity_inside = of.errors.velocity_inside};
 }
 
 void air_figures_add(struct air_figures *sum, const struct air_figures *of)
@@ -144,6 +151,9 @@ void air_figures_add(struct air_figures *sum, const struct air_figures *of)
     sum->delay_scans += of->delay_scans;
     sum->rmse_m += of->rmse_m * of->rmse_m;
     sum->nees += of->nees;
+    sum->nees_inside += of->nees_inside;
+    sum->velocity_ratio += of->velocity_ratio;
+    sum->velocity_inside += of->velocity_inside;
 }
 
 void air_figures_divide(struct air_figures *sum, double runs)
@@ -158,6 +168,9 @@ void air_figures_divide(struct air_figures *sum, double runs)
     sum->delay_scans /= runs;
     sum->rmse_m = sqrt(sum->rmse_m / runs);
     sum->nees /= runs;
+    sum->nees_inside /= runs;
+    sum->velocity_ratio /= runs;
+    sum->velocity_inside /= runs;
 }
 
 static void count_found(const struct evaluation *evaluation, struct air_result *result)

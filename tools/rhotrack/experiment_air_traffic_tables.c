@@ -46,7 +46,7 @@ static struct grid parts_grid(const struct air_report *report)
 {
     struct grid grid =
         grid_start(1, "case|aircraft|clutter|missed|limit|false|limit|localisation m|limit|rmse m|"
-                      "limit|nees|limit|delay|limit");
+                      "limit|nees|limit|inside|velocity ratio|limit|inside|delay|limit");
 
     for (size_t i = 0; i < air_num_cases(); i++) {
         const struct air_case *of = &air_cases[i];
@@ -55,11 +55,14 @@ static struct grid parts_grid(const struct air_report *report)
         if (of->group != AIR_GRID) {
             continue;
         }
-        grid_row(&grid, "%s|%g|%g|%.3f|%.3f|%.3f|%.3f|%.0f|%.0f|%.1f|%.1f|%.2f|%.2f|%.2f|%.2f",
+        grid_row(&grid,
+                 "%s|%g|%g|%.3f|%.3f|%.3f|%.3f|%.0f|%.0f|%.1f|%.1f|%.2f|%.2f|%.3f|%.2f|%.2f|%.3f|%."
+                 "2f|%.2f",
                  of->name, of->targets, of->clutter, tracks->missed, limit->missed,
                  tracks->false_a_scan, limit->false_a_scan, tracks->localisation_m,
                  limit->localisation_m, tracks->rmse_m, limit->rmse_m, tracks->nees, limit->nees,
-                 tracks->delay_scans, limit->delay_scans);
+                 tracks->nees_inside, tracks->velocity_ratio, limit->velocity_ratio,
+                 tracks->velocity_inside, tracks->delay_scans, limit->delay_scans);
     }
     return grid;
 }
