@@ -118,6 +118,7 @@ struct rho_window_noise {
 struct rho_window_place {
     float x_m, y_m, z_m;
     float vx_mps, vy_mps, vz_mps;
+    float ax_mps2, ay_mps2;                 /* to the plot's own time; reach_m allows for it */
     struct rho_window_noise noise;          /* of the place */
     struct rho_window_noise velocity_noise; /* of the velocity, (m/s)^2 */
 #if RHO_AMBIGUOUS_RANGE_RATES
