@@ -186,14 +186,14 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
  * each in the N - M + 1 scans before, a look-up each; where plots lie within their noise of one another all pairs with all
  * plots. Beyond work_max the newest plots with the fewest others near come first, and what is left out moves the counters of
  * `budget`. Kernels of turns come last, only where nothing was left out, and take twice the work of the others at most; what that
- * leaves out is not counted. Stack: 3.2 KB (embedded profile).
+ * leaves out is not counted. Stack: 3.3 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);
 
 /*
  * The same with so much work instead of the config's work_max: what a step has left for it.
- * Stack: 3.2 KB (embedded profile).
+ * Stack: 3.3 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search_within(struct rho_initiator *initiator,
                                                            enum rho_search kind, uint32_t work_max);

@@ -257,8 +257,11 @@ static float turn_variance(const struct regression *of)
 static int solve(struct regression *of)
 {
     rho_initiator_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
-    float normal[RHO_TRIANGLE(UNKNOWNS_MAX)] = {0.0f}, right[UNKNOWNS_MAX] = {0.0f};
+    float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* the factor takes its place */
     const int unknowns = of->unknowns;
+    for (int i = 0; i < RHO_TRIANGLE(UNKNOWNS_MAX); i++) {
+        normal[i] = 0.0f;
+    }
     for (int i = 2 * of->axes; i < unknowns; i++) {
         normal[RHO_AT(i, i)] = 1.0f / turn_variance(of);
     }
@@ -272,7 +275,7 @@ static int solve(struct regression *of)
             add_equation(&equations[i], unknowns, normal, right);
         }
     }
-    if (rho_linalg_cholesky(unknowns, normal, of->factor) != RHO_OK) {
+    if (rho_linalg_cholesky(unknowns, normal, normal) != RHO_OK) {
         return 0;
     }
     rho_linalg_forward(unknowns, of->factor, right);
