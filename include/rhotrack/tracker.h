@@ -297,7 +297,7 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
  * VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.
  * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of the newest scan.
- * Stack: 3.7 KB (embedded profile).
+ * Stack: 3.8 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
                                                 struct rho_initiator *initiator,

@@ -118,6 +118,7 @@ struct rho_window_noise {
 struct rho_window_place {
     float x_m, y_m, z_m;
     float vx_mps, vy_mps, vz_mps;
+    float ax_mps2, ay_mps2;                 /* to the plot's own time; reach_m allows for it */
     struct rho_window_noise noise;          /* of the place */
     struct rho_window_noise velocity_noise; /* of the velocity, (m/s)^2 */
 #if RHO_AMBIGUOUS_RANGE_RATES
@@ -195,7 +196,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 /*
  * The same for a place with its own covariance: the plot with the least squared Mahalanobis distance, position plus
  * height plus range rate, within the gate of as many dimensions. Correlations of height and range rate with the
- * position are neglected. Cost: as above, 60 instructions a plot. Stack: 264 bytes.
+ * position are neglected. Cost: as above, 60 instructions a plot. Stack: 272 bytes.
  */
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work);

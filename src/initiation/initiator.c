@@ -27,6 +27,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config)
         .v_max_mps = 700.0f,
         .pd = 0.9f,
         .false_tracks_per_hour = 1.0f,
+        .turn_mps2 = 6.0f,
         .work_max = RHO_WORK_MAX,
     };
 }
@@ -43,7 +44,7 @@ int rho_initiator_is_usable(const struct rho_initiator_config *config)
             rho_is_within(config->false_tracks_per_hour, 1e-6f, 1e6f)) &&
            rho_is_within(config->score_min_nat, -1000.0f, 1000.0f) &&
            rho_is_within(config->process_noise_mps2, 0.0f, 1000.0f) &&
-           config->work_max <= RHO_LIMIT_WORK;
+           rho_is_within(config->turn_mps2, 0.0f, 1000.0f) && config->work_max <= RHO_LIMIT_WORK;
 }
 
 enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
@@ -222,6 +223,23 @@ static void set_thresholds(struct search *search)
     search->initiator->min_scans = (uint16_t)search->min_scans;
 }
 
+/* What all kernels of plots as straight targets have them leave of the work is for those that turn. */
+static void try_turns(struct search *search)
+{
+    const unsigned min_scans = search->min_scans;
+    if (search->kind != RHO_SEARCH_NEWEST || !(search->initiator->config.turn_mps2 > 0.0f) ||
+        search->is_partial) {
+        return;
+    }
+    search->min_scans++; /* clutter makes them more easily */
+    if (search->min_scans <= search->num_scans) {
+        rho_initiator_let_turn(search, 1);
+        search->sigma_least_m = 0.0f; /* gates are wider than noise */
+        rho_initiator_try_turning_kernels(search);
+    }
+    search->min_scans = min_scans;
+}
+
 static void run(struct search *search)
 {
     set_thresholds(search);
@@ -229,7 +247,9 @@ static void run(struct search *search)
         return;
     }
     rho_initiator_try_kernels(search);
+    try_turns(search);
     rho_initiator_select(search);
+    rho_initiator_let_turn(search, 0);
     if (search->keeps_rate) {
         rho_initiator_judge(search);
     }
@@ -266,7 +286,8 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     search.wanted_mask = kind == RHO_SEARCH_NEWEST ? 1u << (search.num_scans - 1u) : 0u;
     search.has_more = has_more(&search);
     search.reach_chi2 = search.has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
-    search.is_isotropic = is_isotropic(&search);
+    search.has_one_noise = is_isotropic(&search);
+    search.is_isotropic = search.has_one_noise;
 #if RHO_SECTORS
     use_turn(&search);
 #endif

@@ -16,6 +16,9 @@
 #define KEPT_SHARE 2u
 #define FREE_PARTS 4u
 
+/* What kernels of turns may take, of what those of straight targets took. */
+#define TURN_WORK 2u
+
 #define CLASSES RHO_INITIATOR_CLASSES
 
 /* ---- what is spent ---------------------------------------------------------------------------- */
@@ -172,6 +175,28 @@ void rho_initiator_try_kernels(struct search *search)
         try_scan(search, b, units, is_batch ? &cheapest : &initiator->budget.turn);
     }
     search->limit_units = work_max > 0 ? end_units : UINT32_MAX;
+}
+
+/*
+ * The same for turns, from what is left, and no more than TURN_WORK times what the straight ones took. That counts as no part left
+ * out: half of it is kept for all plots alike.
+ */
+void rho_initiator_try_turning_kernels(struct search *search)
+{
+    static const struct rho_initiator_turn cheapest = {0, 0};
+    struct rho_initiator_budget *budget = &search->initiator->budget;
+    const struct rho_initiator_turn next = search->next;
+    const uint32_t plots_not_tried = budget->plots_not_tried, work_max = search->work_max;
+    const uint32_t spent = rho_initiator_spent(search), end_units = search->limit_units;
+    uint32_t units = work_max - work_max / CHOICE_SHARE;
+    units = work_max == 0 ? UINT32_MAX : units > spent ? units - spent : 0u;
+    units = units / TURN_WORK < spent ? units : spent * TURN_WORK;
+    search->limit_units = rho_count(spent, units);
+    try_scan(search, search->num_scans - 1u, units, &cheapest);
+    search->limit_units = end_units;
+    search->next = next;
+    search->is_partial = 0;
+    budget->plots_not_tried = plots_not_tried;
 }
 
 /* What the search has done is told, and where the next one begins. */

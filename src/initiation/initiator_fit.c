@@ -10,6 +10,8 @@
  * evenly spread hits. Fewer hits reach farther; their plots are gated a little too tightly, and the votes were cast
  * before. */
 #define FIT_GATE_FACTOR 1.5f
+/* The same of one with an acceleration, which is known less well at its ends. */
+#define TURN_GATE_FACTOR 3.0f
 
 #define FIT_ROUNDS 2
 
@@ -132,7 +134,7 @@ static struct moments moments_of(const struct search *search, const struct plot_
 }
 
 /* 0 where the plots do not determine a line. */
-static int fit_line(const struct search *search, const struct plot_set *set, struct line_fit *fit)
+int rho_initiator_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {
     if (!rho_initiator_is_isotropic(search)) {
         return rho_initiator_own_fit(search, set, fit);
@@ -218,20 +220,21 @@ static int is_fast_enough(const struct search *search, const struct line_fit *fi
  */
 int rho_initiator_settle(struct search *search, struct plot_set *set, struct line_fit *fit)
 {
+    const float factor = search->turn_mps2 > 0.0f ? TURN_GATE_FACTOR : FIT_GATE_FACTOR;
     search->initiator->work.fits = rho_count(search->initiator->work.fits, 1);
-    if (!fit_line(search, set, fit)) {
+    if (!rho_initiator_fit(search, set, fit)) {
         return 0;
     }
     for (int round = 0; round < FIT_ROUNDS; round++) {
         struct plot_set before = *set;
-        rho_initiator_collect(search, fit, FIT_GATE_FACTOR, set);
+        rho_initiator_collect(search, fit, factor, set);
         if (!is_wanted(search, set)) {
             return 0;
         }
         if (is_same_set(search, &before, set)) {
             break;
         }
-        if (!fit_line(search, set, fit)) {
+        if (!rho_initiator_fit(search, set, fit)) {
             return 0;
         }
     }
@@ -362,8 +365,9 @@ static int looked(const struct search *search, const struct line_fit *fit, unsig
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float t_s = search->time_s[m];
     return rho_measurement_looks_at(rho_window_sensor(scan), scan->sector_from_rad,
-                                    scan->sector_to_rad, fit->x_m + fit->vx_mps * t_s,
-                                    fit->y_m + fit->vy_mps * t_s);
+                                    scan->sector_to_rad,
+                                    fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
+                                    fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s);
 }
 
 /*
@@ -415,6 +419,7 @@ int rho_initiator_score(const struct search *search, const struct plot_set *set,
     if (!log_likelihood(search, set, score, &nat)) {
         return 0;
     }
-    score->mnat = rho_initiator_mnat(search->log_prior + log_pattern(search, set, fit) + nat);
+    score->mnat = rho_initiator_mnat(search->log_prior + search->log_turn +
+                                     log_pattern(search, set, fit) + nat);
     return 1;
 }

@@ -9,7 +9,7 @@
 #include "rhotrack/linalg.h"
 
 #define ROWS_MAX 4     /* along, cross, up, range rate */
-#define UNKNOWNS_MAX 6 /* place and velocity */
+#define UNKNOWNS_MAX 8 /* place and velocity, acceleration in the plane */
 
 static int all_measure(const struct span *span, uint32_t what)
 {
@@ -32,9 +32,11 @@ static struct rho_window_place place_of(const struct search *search, const struc
         .skip_flags = search->skip_flags,
     };
     if (search->has_more) {
+        float turned_mps = 0.5f * search->turn_mps2 * kernel->duration_s;
+        float turned = turned_mps * turned_mps;
         place.velocity_noise = (struct rho_window_noise){
-            (a->xx_m2 + b->xx_m2) * per_s2, (a->xy_m2 + b->xy_m2) * per_s2,
-            (a->yy_m2 + b->yy_m2) * per_s2, (a->zz_m2 + b->zz_m2) * per_s2};
+            (a->xx_m2 + b->xx_m2) * per_s2 + turned, (a->xy_m2 + b->xy_m2) * per_s2,
+            (a->yy_m2 + b->yy_m2) * per_s2 + turned, (a->zz_m2 + b->zz_m2) * per_s2};
     }
     if (place.has_z) {
         place.vz_mps = (kernel->to->z_m - kernel->from->z_m) * per_s;
@@ -102,11 +104,13 @@ int rho_initiator_own_nearest(struct search *search, const struct line_fit *fit,
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float t_s = search->time_s[m], bend_m2 = factor * search->fit_process_m2;
     struct rho_window_place place = {
-        .x_m = fit->x_m + fit->vx_mps * t_s,
-        .y_m = fit->y_m + fit->vy_mps * t_s,
+        .x_m = fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
+        .y_m = fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s,
         .z_m = fit->z_m + fit->vz_mps * t_s,
-        .vx_mps = fit->vx_mps,
-        .vy_mps = fit->vy_mps,
+        .vx_mps = fit->vx_mps + fit->ax_mps2 * t_s,
+        .vy_mps = fit->vy_mps + fit->ay_mps2 * t_s,
+        .ax_mps2 = fit->ax_mps2,
+        .ay_mps2 = fit->ay_mps2,
         .vz_mps = fit->vz_mps,
         .noise = {bend_m2, 0.0f, bend_m2, bend_m2},
         .factor = factor,
@@ -129,10 +133,12 @@ struct regression {
     const struct search *search;
     const struct plot_set *set;
     int axes; /* 2, or 3 where heights count */
+    int unknowns;
     float middle_s, unit_s;
     float origin_m[3];
     int has_point; /* the unknowns below were found: range rates can be linearised there */
-    float unknown[UNKNOWNS_MAX];              /* place, then velocity times unit_s, `axes` each */
+    /* place, then velocity times unit_s, `axes` each; of what turns acceleration times unit_s^2, 2 */
+    float unknown[UNKNOWNS_MAX];
     float factor[RHO_TRIANGLE(UNKNOWNS_MAX)]; /* Cholesky factor of the normal equations */
 };
 
@@ -162,6 +168,9 @@ static void add_axis(const struct regression *of, const float axis[3], float tim
         equation->row[of->axes + i] = time * axis[i];
         equation->value += axis[i] * (place_m[i] - of->origin_m[i]);
     }
+    for (int i = 2 * of->axes; i < of->unknowns; i++) {
+        equation->row[i] = 0.5f * time * time * axis[i - 2 * of->axes];
+    }
 }
 
 static int place_equations(const struct regression *of, unsigned m, struct equation *equations)
@@ -190,8 +199,9 @@ static int range_rate_equation(const struct regression *of, unsigned m, struct e
     }
     for (int i = 0; i < of->axes; i++) {
         const float *v = &of->unknown[of->axes];
-        state[i] = of->origin_m[i] + of->unknown[i] + time * v[i];
-        state[i + 3] = v[i] / of->unit_s;
+        float a = i < of->unknowns - 2 * of->axes ? v[of->axes + i] : 0.0f;
+        state[i] = of->origin_m[i] + of->unknown[i] + time * (v[i] + 0.5f * time * a);
+        state[i + 3] = (v[i] + time * a) / of->unit_s;
     }
     if (!rho_measurement_range_rate(state, &scan->sensor, of->axes == 3, derivative, &rate_mps)) {
         return 0;
@@ -201,8 +211,14 @@ static int range_rate_equation(const struct regression *of, unsigned m, struct e
     for (int i = 0; i < of->axes; i++) {
         equation->row[i] = derivative[i];
         equation->row[of->axes + i] = time * derivative[i] + derivative[i + 3] / of->unit_s;
-        equation->value += equation->row[i] * of->unknown[i] +
-                           equation->row[of->axes + i] * of->unknown[of->axes + i];
+    }
+    for (int i = 2 * of->axes; i < of->unknowns; i++) {
+        int axis = i - 2 * of->axes;
+        equation->row[i] =
+            time * (0.5f * time * derivative[axis] + derivative[axis + 3] / of->unit_s);
+    }
+    for (int i = 0; i < of->unknowns; i++) {
+        equation->value += equation->row[i] * of->unknown[i];
     }
     float sigma_mps = rho_window_sigma(plot->sigma_range_rate);
     equation->variance = sigma_mps * sigma_mps;
@@ -227,6 +243,13 @@ static void add_equation(const struct equation *equation, int unknowns, float *n
     }
 }
 
+/* Variance of an acceleration before any plot is seen, as the unknowns have it. */
+static float turn_variance(const struct regression *of)
+{
+    float turn_m = of->search->turn_mps2 * of->unit_s * of->unit_s;
+    return turn_m * turn_m;
+}
+
 /* Of a regression, for each of its plots: what a fit in the noise of all does not cost. */
 #define SOLVE_UNITS 50u
 
@@ -234,8 +257,14 @@ static void add_equation(const struct equation *equation, int unknowns, float *n
 static int solve(struct regression *of)
 {
     rho_initiator_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
-    float normal[RHO_TRIANGLE(UNKNOWNS_MAX)] = {0.0f}, right[UNKNOWNS_MAX] = {0.0f};
-    int unknowns = 2 * of->axes;
+    float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* the factor takes its place */
+    const int unknowns = of->unknowns;
+    for (int i = 0; i < RHO_TRIANGLE(UNKNOWNS_MAX); i++) {
+        normal[i] = 0.0f;
+    }
+    for (int i = 2 * of->axes; i < unknowns; i++) {
+        normal[RHO_AT(i, i)] = 1.0f / turn_variance(of);
+    }
     for (unsigned m = 0; m < of->search->num_scans; m++) {
         struct equation equations[ROWS_MAX];
         if (!(of->set->mask >> m & 1u)) {
@@ -246,7 +275,7 @@ static int solve(struct regression *of)
             add_equation(&equations[i], unknowns, normal, right);
         }
     }
-    if (rho_linalg_cholesky(unknowns, normal, of->factor) != RHO_OK) {
+    if (rho_linalg_cholesky(unknowns, normal, normal) != RHO_OK) {
         return 0;
     }
     rho_linalg_forward(unknowns, of->factor, right);
@@ -280,6 +309,7 @@ static int lay_out(struct regression *of)
         }
     }
     of->axes = heights >= 2u ? 3 : 2;
+    of->unknowns = 2 * of->axes + (search->turn_mps2 > 0.0f ? 2 : 0);
     of->middle_s = 0.5f * (first_s + last_s);
     of->unit_s = 0.5f * (last_s - first_s);
     return of->unit_s > 0.0f ? range_rates > 0 ? 2 : 1 : 0;
@@ -288,10 +318,20 @@ static int lay_out(struct regression *of)
 static float residual2(const struct regression *of, const struct equation *equation)
 {
     float residual = equation->value;
-    for (int i = 0; i < 2 * of->axes; i++) {
+    for (int i = 0; i < of->unknowns; i++) {
         residual -= equation->row[i] * of->unknown[i];
     }
     return residual * residual / equation->variance;
+}
+
+/* Of the acceleration, against what it was expected to be. */
+static float turn_chi2(const struct regression *of)
+{
+    float sum = 0.0f;
+    for (int i = 2 * of->axes; i < of->unknowns; i++) {
+        sum += of->unknown[i] * of->unknown[i] / turn_variance(of);
+    }
+    return sum;
 }
 
 /* ---- ambiguous range rates -------------------------------------------------------------------- */
@@ -329,7 +369,7 @@ struct first_rate {
 static int see_first(const struct regression *of, unsigned m, struct first_rate *first)
 {
     struct equation equation = {.variance = 0.0f};
-    const int unknowns = 2 * of->axes;
+    const int unknowns = of->unknowns;
     if (!range_rate_equation(of, m, &equation)) {
         return 0;
     }
@@ -353,7 +393,7 @@ static int see_first(const struct regression *of, unsigned m, struct first_rate 
 static float chi2_of(const struct regression *of)
 {
     struct equation equations[ROWS_MAX];
-    float chi2 = 0.0f;
+    float chi2 = turn_chi2(of);
     for (unsigned m = 0; m < of->search->num_scans; m++) {
         int count = of->set->mask >> m & 1u ? equations_of(of, m, equations) : 0;
         for (int i = 0; i < count; i++) {
@@ -396,7 +436,7 @@ static int solve_aliases(struct regression *of, unsigned widest)
             continue;
         }
         alias.has_point = 1;
-        for (int k = 0; k < 2 * of->axes; k++) {
+        for (int k = 0; k < of->unknowns; k++) {
             alias.unknown[k] += first.gain[k] * (error_mps / first.variance);
         }
         if (solve(&alias) && is_slow_enough(&alias)) {
@@ -434,19 +474,27 @@ int rho_initiator_own_fit(const struct search *search, const struct plot_set *se
                           struct line_fit *fit)
 {
     struct regression of = {.search = search, .set = set};
-    float place_m[3] = {0.0f}, velocity_mps[3] = {0.0f};
+    float place_m[3] = {0.0f}, velocity_mps[3] = {0.0f}, accel_mps2[2] = {0.0f};
     if (!regress(&of)) {
         return 0;
     }
+    for (int i = 2 * of.axes; i < of.unknowns; i++) {
+        accel_mps2[i - 2 * of.axes] = of.unknown[i] / (of.unit_s * of.unit_s);
+    }
     for (int i = 0; i < of.axes; i++) {
+        float a = i < 2 ? accel_mps2[i] : 0.0f, back_s = -of.middle_s;
         velocity_mps[i] = of.unknown[of.axes + i] / of.unit_s;
-        place_m[i] = of.origin_m[i] + of.unknown[i] - velocity_mps[i] * of.middle_s;
+        place_m[i] =
+            of.origin_m[i] + of.unknown[i] + (velocity_mps[i] + 0.5f * a * back_s) * back_s;
+        velocity_mps[i] += a * back_s;
     }
     *fit = (struct line_fit){
         .x_m = place_m[0],
         .y_m = place_m[1],
         .vx_mps = velocity_mps[0],
         .vy_mps = velocity_mps[1],
+        .ax_mps2 = accel_mps2[0],
+        .ay_mps2 = accel_mps2[1],
         .has_z = of.axes == 3,
         .z_m = place_m[2],
         .vz_mps = velocity_mps[2],
@@ -469,7 +517,10 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
     if (!regress(&of)) {
         return 0;
     }
-    *chi2 = 0.0f;
+    *chi2 = turn_chi2(&of);
+    for (int i = 2 * of.axes; i < of.unknowns; i++) {
+        log_noise += rho_log(turn_variance(&of));
+    }
     for (unsigned m = 0; m < search->num_scans; m++) {
         struct equation equations[ROWS_MAX];
         if (!(set->mask >> m & 1u)) {
@@ -492,7 +543,7 @@ int rho_initiator_own_evidence(const struct search *search, const struct plot_se
     }
     unsigned unknowns = 2u * (unsigned)of.axes;
     float log_fisher =
-        rho_linalg_log_determinant((int)unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
+        rho_linalg_log_determinant(of.unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     *dimensions = rows - unknowns;
     *log_likelihood = -0.5f * ((float)*dimensions * LOG_TWO_PI + log_noise + log_fisher + *chi2) +
                       rho_initiator_log_room(search, of.axes == 3, heights, range_rates) -

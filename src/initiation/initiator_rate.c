@@ -26,6 +26,9 @@
 #define CLIMBS 48
 #define CLIMB_SWEEPS 4
 
+/* Targets that turn, of all; and what chance tracks of such they may add to those wanted. */
+#define TURNING 0.1f
+
 /* ---- tentative tracks ------------------------------------------------------------------------- */
 
 struct climbs {
@@ -193,4 +196,31 @@ void rho_initiator_use_rate(struct search *search, const struct rate *rate)
     search->score_min_nat = rate->start_nat;
     initiator->start_mnat = rho_initiator_mnat(rate->start_nat);
     initiator->confirm_mnat = rho_initiator_mnat(rate->confirm_nat);
+}
+
+/* ---- turns ------------------------------------------------------------------------------------ */
+
+/*
+ * How likely a target turns, ln. Sets of clutter that reach s are at most S TURNING / 2 e^-s, S the scans that they may begin in:
+ * a score is a likelihood ratio. Thresholds that let more through than TURNING of what is wanted are too low for turns.
+ */
+static float log_turn(const struct search *search)
+{
+    const struct rho_initiator *initiator = search->initiator;
+    float wanted = initiator->config.false_tracks_per_hour * search->interval_s / 3600.0f;
+    if (!search->keeps_rate || !(wanted > 0.0f)) {
+        return rho_log(TURNING);
+    }
+    float log_sets = rho_log(0.5f * (float)search->num_scans);
+    float start_nat = log_sets - rho_log(STARTS_A_SEARCH) - 0.001f * (float)initiator->start_mnat;
+    float confirm_nat = log_sets - rho_log(wanted) - 0.001f * (float)initiator->confirm_mnat;
+    float more_nat = start_nat > confirm_nat ? start_nat : confirm_nat;
+    return rho_log(TURNING) - (more_nat > 0.0f ? more_nat : 0.0f);
+}
+
+void rho_initiator_let_turn(struct search *search, int turns)
+{
+    search->turn_mps2 = turns ? search->initiator->config.turn_mps2 : 0.0f;
+    search->log_turn = turns ? log_turn(search) : 0.0f;
+    search->is_isotropic = search->has_one_noise && !turns;
 }

@@ -38,13 +38,16 @@ struct search {
     float reach_chi2;            /* of the widest gate */
     /* one radar's noise: no plot's is above both; of the scan whose plots have the least, the largest. 0: not known */
     float sigma_near_m, sigma_per_m, sigma_least_m;
-    int is_isotropic;                                     /* private: rho_initiator_is_isotropic */
+    int has_one_noise; /* no scan has noise of two axes, heights or range rates */
+    int is_isotropic;  /* the same, and sets are straight; private: rho_initiator_is_isotropic */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
     float log_prior;                /* ln of the births' density over area and velocity */
     /* displacement covariance by process noise */
     float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2];
     float fit_process_m2; /* its largest residual variance about a fitted line */
+    float turn_mps2;      /* sets are scored as a target's that turns: of what sd; 0: straight */
+    float log_turn;       /* ln of how likely that is beforehand */
     uint16_t skip_flags;  /* plots that look-ups pass over */
     float score_min_nat;  /* sets below are no candidates */
     int keeps_rate;       /* thresholds follow from false_tracks_per_hour, fits must be good */
@@ -67,10 +70,11 @@ struct rate {
     unsigned min_scans;
 };
 
-/* A straight track at speed: position at the newest scan's time. */
+/* A track: position and speed at the newest scan's time. */
 struct line_fit {
     float x_m, y_m, vx_mps, vy_mps;
-    int has_z; /* z_m and vz_mps are known; never in the isotropic path */
+    float ax_mps2, ay_mps2; /* 0: straight */
+    int has_z;              /* z_m and vz_mps are known; never in the isotropic path */
     float z_m, vz_mps;
 };
 
@@ -133,6 +137,9 @@ static inline float rho_initiator_remembered(const struct rho_initiator *initiat
 void rho_initiator_find_rate(struct search *search, struct rate *rate);
 void rho_initiator_use_rate(struct search *search, const struct rate *rate);
 
+/* initiator_rate.c: sets are a turning target's from here on, or a straight one's */
+void rho_initiator_let_turn(struct search *search, int turns);
+
 /* initiator_chance.c */
 float rho_initiator_chi2_max(unsigned dimensions);
 float rho_initiator_log_factorial(unsigned n);
@@ -141,6 +148,8 @@ float rho_initiator_log_factorial(unsigned n);
 void rho_initiator_prepare_process(struct search *search);
 float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2);
 float rho_initiator_process_gap_m2(const struct search *search, unsigned a, unsigned m, unsigned b);
+int rho_initiator_fit(const struct search *search, const struct plot_set *set,
+                      struct line_fit *fit);
 int rho_initiator_settle(struct search *search, struct plot_set *set, struct line_fit *fit);
 void rho_initiator_collect(struct search *search, const struct line_fit *fit, float factor,
                            struct plot_set *set);
@@ -250,6 +259,7 @@ uint32_t rho_initiator_spent(const struct search *search);
 int rho_initiator_is_spent(const struct search *search);
 void rho_initiator_charge(const struct search *search, uint32_t units);
 void rho_initiator_try_kernels(struct search *search);
+void rho_initiator_try_turning_kernels(struct search *search);
 void rho_initiator_close_budget(struct search *search);
 
 /* initiator_own.c: the same with each plot's own covariance, height and range rate */

@@ -24,10 +24,10 @@
 
 static int is_known(struct search *search, const struct rho_candidate *candidate)
 {
-    const struct rho_initiator *initiator = search->initiator;
+    struct rho_initiator *initiator = search->initiator;
     rho_initiator_charge(search, initiator->num_candidates / COMPARED_IN_UNIT);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
-        const struct rho_candidate *other = &initiator->candidates[i];
+        struct rho_candidate *other = &initiator->candidates[i];
         unsigned m = 0;
         if (other->mask != candidate->mask) {
             continue;
@@ -36,6 +36,9 @@ static int is_known(struct search *search, const struct rho_candidate *candidate
             m++;
         }
         if (m == RHO_MAX_SCANS) {
+            if (candidate->is_turning && other->score_mnat < candidate->score_mnat) {
+                *other = *candidate;
+            }
             return 1;
         }
     }
@@ -69,6 +72,7 @@ static int make_candidate(struct search *search, struct plot_set *set,
         .z_m = fit.z_m,
         .vz_mps = fit.vz_mps,
         .has_z = fit.has_z != 0,
+        .is_turning = search->turn_mps2 > 0.0f,
     };
     for (unsigned m = 0; m < search->num_scans; m++) {
         candidate->plot[m] = set->plot[m];
@@ -151,23 +155,35 @@ static void clear_taken(struct search *search)
     }
 }
 
-static struct line_fit fit_of(const struct rho_candidate *candidate)
+/* The candidate's plots and its track; searched and scored is from here on as it was: straight or turning. 0 where its plots
+ * determine none. */
+static int open_candidate(struct search *search, const struct rho_candidate *candidate,
+                          struct plot_set *set, struct line_fit *fit)
 {
-    return (struct line_fit){.x_m = candidate->x_m,
+    *set = (struct plot_set){.mask = candidate->mask, .hits = candidate->hits};
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        set->plot[m] = candidate->plot[m];
+    }
+    *fit = (struct line_fit){.x_m = candidate->x_m,
                              .y_m = candidate->y_m,
                              .vx_mps = candidate->vx_mps,
                              .vy_mps = candidate->vy_mps,
                              .has_z = candidate->has_z,
                              .z_m = candidate->z_m,
                              .vz_mps = candidate->vz_mps};
+    rho_initiator_let_turn(search, candidate->is_turning);
+    return !candidate->is_turning || rho_initiator_fit(search, set, fit);
 }
 
 /* What is left for a candidate along its own track once better ones have their plots. 0: nothing that counts. */
 static int associate_again(struct search *search, struct rho_candidate *candidate)
 {
-    struct line_fit fit = fit_of(candidate);
+    struct line_fit fit;
     struct plot_set set;
     uint16_t skip = search->skip_flags;
+    if (!open_candidate(search, candidate, &set, &fit)) {
+        return 0;
+    }
     search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);
     rho_initiator_collect(search, &fit, SECOND_GATE_FACTOR, &set);
     int found = set.hits >= search->min_scans && make_candidate(search, &set, candidate);
@@ -267,14 +283,12 @@ static float mark_likely(struct search *search)
 
 static int judge_one(struct search *search, struct rho_candidate *candidate)
 {
-    struct plot_set set = {.mask = candidate->mask, .hits = candidate->hits};
-    struct line_fit fit = fit_of(candidate);
+    struct plot_set set;
+    struct line_fit fit;
     struct set_score score;
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        set.plot[m] = candidate->plot[m];
-    }
     search->is_left_out = candidate->score_mnat >= LIKELY_MNAT;
-    if (set.hits < search->min_scans || !rho_initiator_score(search, &set, &fit, &score)) {
+    if (!open_candidate(search, candidate, &set, &fit) || set.hits < search->min_scans ||
+        !rho_initiator_score(search, &set, &fit, &score)) {
         return 0;
     }
     candidate->score_mnat = score.mnat;

@@ -42,6 +42,9 @@ static struct voter voter_of(const struct search *search, const struct span *spa
     if (search->fit_process_m2 > 0.0f) {
         voter.process_m2 = rho_initiator_process_gap_m2(search, span->a, m, span->b);
     }
+    float bend_m = 0.5f * search->turn_mps2 * (search->time_s[m] - search->time_s[span->a]) *
+                   (search->time_s[span->b] - search->time_s[m]);
+    voter.process_m2 += bend_m * bend_m;
     voter.reach_m = rho_sqrt(search->reach_chi2 * (sigma_m * sigma_m + voter.process_m2 +
                                                    (low_m2 > high_m2 ? low_m2 : high_m2)));
     return voter;

@@ -153,7 +153,12 @@ static int see_range_rate(const struct rho_window_scan *scan, const struct rho_w
     /* where the scan has no heights, the place's own tells how steeply the sensor looks up */
     float z_m =
         scan->measures & RHO_MEASURES_Z ? plot->z_m : place->z_m + place->vz_mps * plot->offset_s;
-    float state[6] = {plot->x_m, plot->y_m, z_m, place->vx_mps, place->vy_mps, place->vz_mps};
+    float state[6] = {plot->x_m,
+                      plot->y_m,
+                      z_m,
+                      place->vx_mps + place->ax_mps2 * plot->offset_s,
+                      place->vy_mps + place->ay_mps2 * plot->offset_s,
+                      place->vz_mps};
     const struct rho_window_noise *noise = &place->velocity_noise;
     float row[6], rate_mps;
 #if RHO_AMBIGUOUS_RANGE_RATES
@@ -203,8 +208,9 @@ float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
 static float distance2_to(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
                           const struct rho_window_place *place, float limit)
 {
-    float dx_m = plot->x_m - place->x_m - place->vx_mps * plot->offset_s;
-    float dy_m = plot->y_m - place->y_m - place->vy_mps * plot->offset_s;
+    float t_s = plot->offset_s;
+    float dx_m = plot->x_m - place->x_m - (place->vx_mps + 0.5f * place->ax_mps2 * t_s) * t_s;
+    float dy_m = plot->y_m - place->y_m - (place->vy_mps + 0.5f * place->ay_mps2 * t_s) * t_s;
     if (dx_m * dx_m + dy_m * dy_m > place->reach_m * place->reach_m) {
         return limit;
     }

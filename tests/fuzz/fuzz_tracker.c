@@ -684,17 +684,18 @@ static int configure_initiator(struct script *script, struct rho_initiator *init
                                  &config.false_tracks_per_hour,
                                  &config.score_min_nat,
                                  &config.process_noise_mps2,
+                                 &config.turn_mps2,
                                  &config.area.x_min_m,
                                  &config.area.x_max_m,
                                  &config.area.y_min_m,
                                  &config.area.y_max_m};
-        const unsigned field = byte(script) % 16;
+        const unsigned field = byte(script) % 17;
 
-        if (field < 10) {
+        if (field < 11) {
             *floats[field] = odd_number(script);
-        } else if (field < 12) {
+        } else if (field < 13) {
             config.scans = (uint16_t)(byte(script) % (RHO_MAX_SCANS + 2));
-        } else if (field < 14) {
+        } else if (field < 15) {
             config.min_scans = (uint16_t)(byte(script) % (RHO_MAX_SCANS + 2));
         } else {
             const float half_m = 1e3f * (float)(1 + byte(script));

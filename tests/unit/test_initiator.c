@@ -150,6 +150,7 @@ static void init_refuses_every_bad_parameter(void **state)
     REFUSE_WITH(pd, NAN);
     REFUSE_WITH(score_min_nat, NAN);
     REFUSE_WITH(process_noise_mps2, -1.0f);
+    REFUSE_WITH(turn_mps2, -1.0f);
     REFUSE_WITH(area.x_max_m, -2500.0f);
     REFUSE_WITH(area.y_min_m, NAN);
 }

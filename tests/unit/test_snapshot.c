@@ -712,6 +712,7 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     NONSENSE(1, rho_initiator, density[0].scans, float, 0.0f);
     NONSENSE(1, rho_initiator, density[0].mean, float, -1.0f);
     NONSENSE(1, rho_initiator, config.work_max, uint32_t, UINT32_MAX);
+    NONSENSE(1, rho_initiator, config.turn_mps2, float, -1.0f);
     NONSENSE(1, rho_initiator, budget.turn.cost_class, uint16_t, RHO_INITIATOR_CLASSES);
     NONSENSE(1, rho_initiator, budget.turn.plot, uint16_t, RHO_MAX_PLOTS);
     NONSENSE(1, rho_initiator, window.magic, uint32_t, 0);

@@ -6,6 +6,9 @@
 #include "parameters.h"
 #include "rhotrack/measurement.h"
 
+/* Of the largest acceleration, the standard deviation of those that targets have for a whole window. */
+#define TURN_SHARE 0.2f
+
 void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config)
 {
@@ -19,6 +22,9 @@ void parameters_to_initiator(const struct parameters *parameters,
     config->v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     config->pd = (float)value[PARAMETER_PD];
     config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
+    config->turn_mps2 = parameters_is_set(parameters, PARAMETER_TURN_MPS2)
+                            ? (float)value[PARAMETER_TURN_MPS2]
+                            : TURN_SHARE * (float)value[PARAMETER_ACCEL_MAX_MPS2];
     config->work_max = (uint32_t)value[PARAMETER_WORK_MAX];
     config->false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
     if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT)) {
