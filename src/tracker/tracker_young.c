@@ -105,7 +105,7 @@ void rho_tracker_weigh_youth(struct step *step)
 
 int rho_tracker_is_grown(const struct rho_track *track)
 {
-    return track->hits >= GROWN_HITS;
+    return track->hits >= RHO_GROWN_HITS;
 }
 
 int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track)
