@@ -3,8 +3,9 @@
  * tracker_calm: how long this sky's targets keep straight.
  *
  * The chance that a calm target begins to turn (imm.h) is held against every plot of every straight track: where nobody turns for
- * hours it makes covariances too large and places worse than they need be. Over all grown tracks of the last half an hour, with X
- * the seconds that they kept straight and Y those in which a manoeuvre was likelier than not, the mean time between manoeuvres is
+ * hours it makes covariances too large and places worse than they need be. Over all grown tracks of the last half an hour, while
+ * they were seen, with X the seconds that they kept straight and Y those in which a manoeuvre was likelier than not, the mean time
+ * between manoeuvres is
  *
  *      (4 300 s + X) / (4 + Y / maneuver_s)
  *
@@ -37,7 +38,7 @@ void rho_tracker_learn_calm(struct step *step, float dt_s)
     }
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->hits >= RHO_GROWN_HITS) {
+        if (rho_tracker_is_grown(track) && track->status == RHO_TRACK_CONFIRMED) {
             *(track->maneuver_probability > 0.5f ? &tracker->turning_s : &tracker->straight_s) +=
                 dt_s;
         }
