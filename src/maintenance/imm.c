@@ -30,7 +30,7 @@
 
 /* Steady targets are not quite, in 1 s by a share of what they can pull; those that hardly manoeuvre are steadier still. */
 #define QUIET_DENSITY 1.0f
-#define CALM_DENSITY 0.01f
+#define CALM_DENSITY 0.003f
 #define QUIET_SHARE 0.05f
 
 /* An agile target that has kept straight for a minute is held for one. */

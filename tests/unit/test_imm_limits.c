@@ -162,7 +162,7 @@ static void the_default_follows_what_targets_may_do(void **state)
         assert_float_equal(0.5 * model.drive_density * model.memory_s, pow(0.8 * a, 2),
                            1e-5 * a * a);
         assert_float_equal(model.quiet_density, fmin(1.0, 0.0025 * a * a), 1e-6);
-        assert_float_equal(model.calm_density, fmin(0.01, 0.0025 * a * a), 1e-8);
+        assert_float_equal(model.calm_density, fmin(0.003, 0.0025 * a * a), 1e-8);
         assert_true(model.calm_s == 300.0f && model.settle_s == 60.0f);
         assert_true(model.speed_sigma_mps == (float)v && model.accel_sigma_mps2 == (float)a);
     }
