@@ -15,6 +15,7 @@
  * a miss. A pair that never parts again loses a little each time, until the second one is in doubt.
  */
 #include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
 #if RHO_SHARES_PLOTS
@@ -47,7 +48,8 @@ static float gain_of(const struct step *step, unsigned row, int column)
     const struct rho_assignment *assignment = &step->tracker->assignment;
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         if (assignment->pairs[row][i].column == column) {
-            return step->log_miss - 0.001f * (float)assignment->pairs[row][i].cost;
+            return rho_tracker_odds(step, &step->tracker->tracks[row]).log_miss -
+                   0.001f * (float)assignment->pairs[row][i].cost;
         }
     }
     return 0.0f;
@@ -80,7 +82,8 @@ static int find_pair(const struct step *step, unsigned row, struct pair *pair)
     if (least == 0) {
         return 0;
     }
-    const float sigma_m = rho_plot_sigma_m(&step->scan->plots[pair->plot]);
+    const float sigma_m = rho_measurement_widest_factor(step->sensor) *
+                          rho_plot_sigma_m(&step->scan->plots[pair->plot]);
     pair->variance_m2 = sigma_m * sigma_m;
     pair->distance2_m2 = 0.0f;
     for (int axis = 0; axis < 2; axis++) {
@@ -112,8 +115,9 @@ static int is_merged(const struct step *step, const struct pair *pair, float *ga
     const float nearer_m2 = 2.0f * (from_m[0] * pair->half_m[0] + from_m[1] * pair->half_m[1]) -
                             0.25f * pair->distance2_m2;
     const float ratio_nat = 0.5f * nearer_m2 / (pair->variance_m2 + first_m2);
-    *gain_nat = larger(step->log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
-    return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(step->log_miss);
+    const float log_miss = rho_tracker_odds(step, pair->second).log_miss;
+    *gain_nat = larger(log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
+    return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(log_miss);
 }
 
 static int take(struct step *step, struct rho_track *track, int plot, float gain_nat)

@@ -222,9 +222,10 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
     }
     const struct wait wait = wait_for(step, track);
     const float coast = (float)step->tracker->config.coast_scans_max;
+    const float misses_max = (float)rho_tracker_misses_max(step, track);
     const float unseen_s = rho_seconds_between(track->seen_us, step->time_us);
     const int is_overdue =
-        wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
+        wait.interval_s > 0.0f && unseen_s >= (misses_max + OVERDUE) * wait.interval_s;
     if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
         (track->plot < 0 ? is_missed : rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
         doubt(track, limits);
@@ -237,7 +238,7 @@ int rho_tracker_is_long_unseen(const struct step *step, struct rho_track *track,
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
     return is_overdue && (track->misses_in_row >= OVERDUE_MISSES ||
-                          unseen_s >= (UNLOOKED * coast + OVERDUE) * wait.interval_s);
+                          unseen_s >= (UNLOOKED * misses_max + OVERDUE) * wait.interval_s);
 }
 
 /* ---- places ------------------------------------------------------------------------------------- */

@@ -66,6 +66,9 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
     config->steady_s = (float)value[PARAMETER_STEADY_S];
     config->late_max_s = (float)value[PARAMETER_LATE_MAX_S];
+    config->learn_noise_min = (float)value[PARAMETER_LEARN_NOISE_MIN];
+    config->learn_noise_max = (float)value[PARAMETER_LEARN_NOISE_MAX];
+    config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
     config->work_max = (uint32_t)value[PARAMETER_WORK_MAX];
     config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
     config->gate = (uint8_t)value[PARAMETER_GATE];
