@@ -178,7 +178,8 @@ struct rho_tracker_look {
  * sigmas by more than an eighth, within the bounds of the config; pd only where it is less.
  */
 struct rho_tracker_learned {
-    float log_noise[2]; /* ln of what the variances are of those stated, along the line of sight, across */
+    float log_noise
+        [2]; /* ln of what the variances are of those stated, along the line of sight, across */
     uint16_t innovations; /* that they come from; ends at 1000 */
     /* by ring of range: looks at tracks that had been seen at the look before, and those that saw them; both are halved at 1000 */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];

@@ -78,8 +78,8 @@ static int is_span(const struct rho_sensor *sensor)
 
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return is_span(sensor) && rho_is_coordinate(sensor->x_m) &&
-           rho_is_coordinate(sensor->y_m) && rho_is_coordinate(sensor->z_m) &&
+    return is_span(sensor) && rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
+           rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
            rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
@@ -217,8 +217,7 @@ static float larger(float a, float b)
 }
 
 /* No line of sight: one variance for all axes. */
-static void open_without_sight(const struct rho_plot *plot,
-                               const struct rho_sigma_factors *factors,
+static void open_without_sight(const struct rho_plot *plot, const struct rho_sigma_factors *factors,
                                struct rho_measurement *out)
 {
     float sigma_m = rho_plot_sigma_m(plot);
@@ -307,9 +306,8 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     out->variance_m2[0] = squared_share(plot->sigma_range_m, factors.range);
     out->variance_m2[1] = squared_share(plot->sigma_cross_m, factors.cross);
     out->variance_m2[2] = out->has_z ? squared_share(plot->sigma_up_m, up_factor(&factors)) : 0.0f;
-    out->is_isotropic =
-        are_equal(out->variance_m2[0], out->variance_m2[1]) &&
-        (!out->has_z || are_equal(out->variance_m2[0], out->variance_m2[2]));
+    out->is_isotropic = are_equal(out->variance_m2[0], out->variance_m2[1]) &&
+                        (!out->has_z || are_equal(out->variance_m2[0], out->variance_m2[2]));
 }
 
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6])

@@ -273,8 +273,8 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
 #if RHO_SECTORS
         .late_max_s = 20.0f,
 #endif
-        .learn_noise_min = 0.7f, .learn_noise_max = 4.0f, .learn_pd_min = 0.5f, .coast_scans_max = 5,
-        .work_max = RHO_WORK_MAX,
+        .learn_noise_min = 0.7f, .learn_noise_max = 4.0f, .learn_pd_min = 0.5f,
+        .coast_scans_max = 5, .work_max = RHO_WORK_MAX,
         .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
         .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
         .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),

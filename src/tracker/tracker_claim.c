@@ -312,8 +312,8 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
         struct rho_hypotheses_clutter clutter = usual;
         clutter.log_per_m2 += rho_tracker_repeats_nat(step, i);
         if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
-                                 step->time_us + plot->offset_us, (int16_t)i, log_pd,
-                                 &clutter, &gain_nat) &&
+                                 step->time_us + plot->offset_us, (int16_t)i, log_pd, &clutter,
+                                 &gain_nat) &&
             !claims && gain_nat > log_miss) {
             rho_tracker_offer(step, row, i, gain_nat - log_miss);
         }

@@ -1,52 +1,58 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker_learn: sensors that are not as stated. Tracks that are surely targets' show what a sensor's noise is, and how
- * often it sees them.
+ * tracker_learn: sensors that are not as stated. Tracks that are surely targets' show what a
+ * sensor's noise is, and how often it sees them.
  *
- * Noise: of a plot that the assignment gives to a steady track the innovation v on an axis, along the line of sight or
- * across it, has the variance p + f r: p of the steady filter's prediction, r of the plot's noise as stated, f what is
- * learned. With e = v^2 / (p + f r), cut at c^2 (plots of others are among them), and b the mean of that where f is right,
+ * Noise: of a plot that the assignment gives to a steady track the innovation v on an axis, along
+ * the line of sight or across it, has the variance p + f r: p of the steady filter's prediction, r
+ * of the plot's noise as stated, f what is learned. Of white innovations u = v / sqrt(p + f r) half
+ * of the squared difference of one and the one before is 1 on average; where the target turns, or
+ * the prediction is off otherwise, they lie on one side for some scans, and that is left out so.
+ * With e = (u - u_before)^2 / 2, cut at c^2 (plots of others are among them), and b the mean of it,
  *
- *      ln f += g (min(e, c^2) / b - 1),        g = 2 / (n + 60) of the n-th innovation
+ *      ln f += g (min(e, c^2) / b - 1),        g = 3 / (n + 40) of the n-th innovation
  *
- * of those that are on the other side than the one before: errors of the prediction, a target that turns, leave plots on
- * one side for some scans; of noise sides are by chance.
+ * Tracks that two sensors have seen say nothing here: one that is off would look noisy to the
+ * other. Where noise is more than some 2.5 times what is stated, tracks seem to manoeuvre all the
+ * time, and show little: `rhotrack calibrate` finds it.
  *
- * Tracks that two sensors have seen say nothing here: one that is off would look noisy to the other.
- *
- * P_D: of the looks that follow one that saw the track, how many see it; one that does not counts when the track is seen
- * again, so that targets that are gone have no misses. Tracks that end early for being seen seldom are counted for as long
- * as they are there. Of a target that fades the first miss counts alone: the pd that is learned is rather too high, and it
- * is never above the one stated.
+ * P_D: of the looks that follow one that saw the track, how many see it; one that does not counts
+ * when the track is seen again, so that targets that are gone have no misses. Tracks that end early
+ * for being seen seldom are counted for as long as they are there. Of a target that fades the first
+ * miss counts alone: the pd that is learned is rather too high, and is never above the one stated.
  */
 #include "rhotrack/approx.h"
 #include "rhotrack/linalg.h"
 #include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
-/* A track of so many hits is a target's; one that began to manoeuvre is none that innovations are learned from. */
+/* A track of so many hits is a target's; one that rather turns says nothing of noise. */
 #define HITS_MIN 16
-#define MANEUVER_MAX 0.1f
-#define HAS_SIGNS 4u
-#define IS_MISSED 8u
+#define MANEUVER_MAX 0.2f
+#define HAS_INNOVATION 1u
+#define IS_MISSED 2u
+#define SHOWN_PER_SIGMA 16.0f
+#define SIGMAS_MAX 7.9f
 
 /* Squared innovations count so far; their mean then, of a normal distribution. */
 #define CUT2 2.25f
 #define MEAN_CUT 0.7785f
-#define GAIN 2.0f
-#define INNOVATIONS_PRIOR 60.0f
+#define GAIN 3.0f
+#define INNOVATIONS_PRIOR 40.0f
+#define LOG_NOISE_MAX 4.6f /* 10 times the sigma */
+#define INNOVATIONS_MIN 100
 #define INNOVATIONS_MAX 1000
 /* Where the prediction is worse known than this its own errors would count as noise. */
 #define NOISE_SHARE_MIN 0.4f
-/* ln of variances: what differs by less is as stated; and what chance makes of the n-th. */
+/* ln of variances: as stated is what differs by less; and by less over the root of innovations. */
 #define AS_STATED 0.25f
-#define CHANCE 2.5f
+#define CHANCE 4.0f
 
 /* Looks that count beside those at all rings, as stated; beside a ring's, as at all rings. */
-#define PRIOR_OF_ALL 50.0f
+#define PRIOR_OF_ALL 30.0f
 #define PRIOR_OF_RING 20.0f
 #define LOOKS_MAX 1000
-/* Standard deviations: what differs by less is as stated; and above what was seen, to be rather too high. */
+/* Standard deviations: what differs by less is as stated; above what was seen, to be cautious. */
 #define SURELY 2.5f
 #define CAUTION 1.0f
 
@@ -64,18 +70,20 @@ static int learns_noise(const struct rho_tracker_config *config)
            (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
-/* ---- use of noise ------------------------------------------------------------------------------- */
+/* ---- use of noise -------------------------------------------------------------------------- */
 
 static float factor_of(const struct rho_tracker *tracker, const struct rho_tracker_learned *learned,
                        int axis)
 {
     const float log_noise = learned->log_noise[axis];
     const float most = AS_STATED + CHANCE / rho_sqrt(1.0f + (float)learned->innovations);
-    if (!learns_noise(&tracker->config) || (log_noise <= most && log_noise >= -most)) {
+    if (!learns_noise(&tracker->config) || learned->innovations < INNOVATIONS_MIN ||
+        (log_noise <= most && log_noise >= -most)) {
         return 1.0f;
     }
     const float factor = rho_exp(0.5f * log_noise);
-    const float least = factor > tracker->config.learn_noise_min ? factor : tracker->config.learn_noise_min;
+    const float least =
+        factor > tracker->config.learn_noise_min ? factor : tracker->config.learn_noise_min;
     return least < tracker->config.learn_noise_max ? least : tracker->config.learn_noise_max;
 }
 
@@ -89,12 +97,14 @@ void rho_tracker_set_noise(struct step *step)
     const float doubt = rho_tracker_weigh_sensor(step);
     if (step->learned) {
         struct rho_sensor *sensor = &step->tracker->sensors[place_of(step)];
-        sensor->sigma_range_percent = percent_of(doubt * factor_of(step->tracker, step->learned, 0));
-        sensor->sigma_cross_percent = percent_of(doubt * factor_of(step->tracker, step->learned, 1));
+        sensor->sigma_range_percent =
+            percent_of(doubt * factor_of(step->tracker, step->learned, 0));
+        sensor->sigma_cross_percent =
+            percent_of(doubt * factor_of(step->tracker, step->learned, 1));
     }
 }
 
-/* ---- noise learned ------------------------------------------------------------------------------ */
+/* ---- noise learned ------------------------------------------------------------------------- */
 
 static const struct rho_kalman *steady_of(const struct step *step, const struct rho_track *track)
 {
@@ -110,11 +120,10 @@ static const struct rho_kalman *steady_of(const struct step *step, const struct 
     return 0;
 }
 
-/* An innovation along a direction, where the filter leads by then: its square over what is expected of it, cut; below 0
- * where the noise is too small a part of that. */
+/* Along a direction, where the filter leads by then: over its sigma, and whether noise shows. */
 struct innovation {
-    float excess;
-    int is_negative;
+    float sigmas;
+    int is_clear;
 };
 
 static struct innovation innovation_along(const struct rho_kalman *steady,
@@ -127,31 +136,32 @@ static struct innovation innovation_along(const struct rho_kalman *steady,
     const float variance_m2 = rho_linalg_project6(steady->covariance, row, projected) + noise_m2;
     const float off_m = x * (plot->x_m - state[0] - after_s * state[3]) +
                         y * (plot->y_m - state[1] - after_s * state[4]);
-    const float square = off_m * off_m / variance_m2;
-    const int is_clear = noise_m2 >= NOISE_SHARE_MIN * variance_m2;
-    return (struct innovation){!is_clear ? -1.0f : square < CUT2 ? square : CUT2, off_m < 0.0f};
+    const float sigmas = off_m / rho_sqrt(variance_m2);
+    return (struct innovation){sigmas > SIGMAS_MAX    ? SIGMAS_MAX
+                               : sigmas > -SIGMAS_MAX ? sigmas
+                                                      : -SIGMAS_MAX,
+                               noise_m2 >= NOISE_SHARE_MIN * variance_m2};
+}
+
+/* From the axis' innovation before, squared and cut; below 0 where that tells nothing. */
+static float note_excess(struct rho_track *track, int axis, const struct innovation *now)
+{
+    const float off = now->sigmas - (float)track->shown[axis] * (1.0f / SHOWN_PER_SIGMA);
+    const float square = 0.5f * off * off;
+    track->shown[axis] = (int8_t)(now->sigmas * SHOWN_PER_SIGMA);
+    return !(track->has_shown & HAS_INNOVATION) || !now->is_clear ? -1.0f
+           : square < CUT2                                        ? square
+                                                                  : CUT2;
 }
 
 static int add(float *log_noise, float excess, float gain)
 {
-    const float most = 2.0f * rho_log(10.0f);
     if (excess < 0.0f) {
         return 0;
     }
     const float sum = *log_noise + gain * (excess / MEAN_CUT - 1.0f);
-    *log_noise = sum > most ? most : sum < -most ? -most : sum;
+    *log_noise = sum > LOG_NOISE_MAX ? LOG_NOISE_MAX : sum < -LOG_NOISE_MAX ? -LOG_NOISE_MAX : sum;
     return 1;
-}
-
-/* Which of the axes changed sides; the sides are kept. */
-static unsigned note_signs(struct rho_track *track, const struct innovation *along,
-                           const struct innovation *across)
-{
-    const unsigned signs =
-        (along->is_negative ? 1u : 0u) | (across->is_negative ? 2u : 0u) | HAS_SIGNS;
-    const unsigned before = track->shown;
-    track->shown = (uint8_t)((before & IS_MISSED) | signs);
-    return before & HAS_SIGNS ? (before ^ signs) & 3u : 0u;
 }
 
 static void learn_noise(struct step *step, struct rho_track *track, const struct rho_plot *plot)
@@ -161,7 +171,7 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
     const float dx_m = plot->x_m - step->sensor->x_m, dy_m = plot->y_m - step->sensor->y_m;
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     if (!steady || !(range_m > 1.0f)) {
-        track->shown &= IS_MISSED;
+        track->has_shown &= IS_MISSED;
         return;
     }
     const float x = dx_m / range_m, y = dy_m / range_m;
@@ -171,22 +181,24 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
         innovation_along(steady, plot, x, y, along_m2 * rho_exp(learned->log_noise[0]));
     const struct innovation across =
         innovation_along(steady, plot, -y, x, across_m2 * rho_exp(learned->log_noise[1]));
-    const unsigned changed = note_signs(track, &along, &across);
+    const float along_excess = note_excess(track, 0, &along);
+    const float across_excess = note_excess(track, 1, &across);
     const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
     const int is_round = along_m2 <= across_m2 && along_m2 >= across_m2;
-    int is_used = changed & 1u ? add(&learned->log_noise[0], along.excess, gain) : 0;
+    int is_used = add(&learned->log_noise[0], along_excess, gain);
     if (is_round) {
         /* such plots have one noise: what is learned of them has, too */
-        is_used |= changed & 2u ? add(&learned->log_noise[0], across.excess, gain) : 0;
+        is_used |= add(&learned->log_noise[0], across_excess, gain);
         learned->log_noise[1] = learned->log_noise[0];
     } else {
-        is_used |= changed & 2u ? add(&learned->log_noise[1], across.excess, gain) : 0;
+        is_used |= add(&learned->log_noise[1], across_excess, gain);
     }
+    track->has_shown |= HAS_INNOVATION;
     learned->innovations =
         (uint16_t)(learned->innovations + (is_used && learned->innovations < INNOVATIONS_MAX));
 }
 
-/* ---- pd ----------------------------------------------------------------------------------------- */
+/* ---- pd ------------------------------------------------------------------------------------ */
 
 static unsigned ring_of(const struct rho_sensor *sensor, const struct rho_track *track)
 {
@@ -229,8 +241,8 @@ static float pd_at(const struct rho_tracker *tracker, unsigned place, unsigned r
     const struct rho_tracker_learned *learned = &tracker->learned[place];
     const float stated = tracker->sensors[place].pd;
     const struct seen all = seen_at_all(learned, stated);
-    const struct seen seen = seen_of((float)learned->hits[ring], (float)learned->looks[ring],
-                                     PRIOR_OF_RING, all.pd);
+    const struct seen seen =
+        seen_of((float)learned->hits[ring], (float)learned->looks[ring], PRIOR_OF_RING, all.pd);
     return usable_pd(tracker, &seen, stated);
 }
 
@@ -294,10 +306,10 @@ static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == step->scan->sensor_id;
     if (is_seen && is_own) {
-        note_look(step, track, track->shown & IS_MISSED ? 0u : 1u);
+        note_look(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
     }
-    track->shown &= (uint8_t)~IS_MISSED;
-    track->shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
+    track->has_shown &= (uint8_t)~IS_MISSED;
+    track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
 }
 
 static void find_lowered(struct step *step)
@@ -310,7 +322,7 @@ static void find_lowered(struct step *step)
     step->learned->is_lowered = (uint16_t)lowered;
 }
 
-/* ---- a scan ------------------------------------------------------------------------------------- */
+/* ---- a scan -------------------------------------------------------------------------------- */
 
 static int is_telling(const struct step *step, unsigned row)
 {
@@ -367,6 +379,20 @@ void rho_tracker_learn(struct step *step)
     }
 }
 
+/* ---- what is known ------------------------------------------------------------------------- */
+
+int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
+{
+    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        if (learned->hits[ring] > learned->looks[ring] || learned->looks[ring] > LOOKS_MAX) {
+            return 0;
+        }
+    }
+    return rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
+           rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
+           learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS;
+}
+
 enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t sensor_id,
                                      struct rho_tracker_known *known)
 {
@@ -386,7 +412,8 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         .innovations = learned->innovations,
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        known->pd[ring] = learned->is_lowered >> ring & 1u ? pd_at(tracker, place, ring) : sensor->pd;
+        known->pd[ring] =
+            learned->is_lowered >> ring & 1u ? pd_at(tracker, place, ring) : sensor->pd;
         known->looks += learned->looks[ring];
     }
     return RHO_OK;

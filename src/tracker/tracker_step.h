@@ -123,6 +123,7 @@ void rho_tracker_learn(struct step *step);
 struct odds rho_tracker_odds(const struct step *step, const struct rho_track *track);
 /* Misses in a row that end the track: as many as say what coast_scans_max say at the stated pd. */
 unsigned rho_tracker_misses_max(const struct step *step, const struct rho_track *track);
+int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
 /* Of the sensor that looks, for its initiator: over all ranges. */
 float rho_tracker_mean_pd(const struct step *step);
 
