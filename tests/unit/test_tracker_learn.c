@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Sensors that are not as stated: noise and pd are learned from what tracks show, within their bounds, and used; where all
- * is as stated, or targets turn, nothing is.
+ * Sensors that are not as stated: noise and pd are learned from what tracks show, within their
+ * bounds, and used; where all is as stated, or targets turn, nothing is.
  */
 #include "tracker_setup.h"
 
@@ -240,7 +240,8 @@ static void tracks_that_are_seen_seldom_live_on(void **state)
     assert_true(2 * ended < as_ever);
 }
 
-/* Targets that are gone are no misses of those that are there; more than was stated is not believed. */
+/* Targets that are gone are no misses of those that are there; more than was stated is not
+ * believed. */
 static void pd_is_not_lowered_by_what_is_gone_nor_raised(void **state)
 {
     struct radar radar = as_stated;
