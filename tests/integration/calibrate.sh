@@ -39,6 +39,19 @@ radar coarse 12 200 0.005 0.8 250 '[100, 300]' 30 '"sigma_range_m": 15, "sigma_a
 check 'the INI file has what is known, with sigmas' bash -c \
     'grep -q "^sigma_range_m = " as_stated.ini && grep -q "^pd = 0" as_stated.ini && [ "$(grep -c "^# sigma" as_stated.ini)" -eq 5 ]'
 
+# ---- the tracker, of a radar of which nothing was said ----
+grep -v "sigma\|pd" fine/scenario.ini >bare.ini
+run track fine/plots.csv --config bare.ini --json
+check 'a radar is learned from the defaults' json stdout "(lambda l: .25 < l['sigma_range_factor'] < .45
+and .25 < l['sigma_cross_factor'] < .45 and l['pd_stated'] > .89 and min(l['pd']) < .85)(o['learned'][0])"
+run track fine/plots.csv --config bare.ini --set sigma_range_m=15 --set sigma_azimuth_rad=0.003 --json
+check 'less where they were said' json stdout "o['learned'][0]['sigma_range_factor'] > .69"
+run track fine/plots.csv --config bare.ini --set learn_noise_min=1 --set learn_pd_min=1 --json
+check 'and nothing where that is off' json stdout \
+    "o['learned'][0]['sigma_range_factor'] == 1 and len(set(o['learned'][0]['pd'])) == 1"
+run track half_stated/plots.csv --config half_stated/scenario.ini
+check 'the summary says what is not as stated' grep -q "sensor 1's noise is .* times as stated, across .* pd is down to 0" stderr
+
 # ---- outputs ----
 run calibrate as_stated/plots.csv --config as_stated/scenario.ini
 cp stdout table

@@ -15,6 +15,7 @@
 #include "common.h"
 #include "frame_reader.h"
 #include "inputs.h"
+#include "learned.h"
 #include "method.h"
 #include "scan_reader.h"
 #include "tracks_output.h"
@@ -40,7 +41,8 @@ static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
     must_succeed(status, "sensor");
 }
 
-/* A radar alone of which nothing was said: what it is like can be learned all the same. Of several nobody knows where each stands. */
+/* A radar alone of which nothing was said: what it is like can be learned all the same. Of several
+ * nobody knows where each stands. */
 static void describe_unknown(struct tracking *tracking, int32_t sensor_id)
 {
     const struct rho_tracker *tracker = tracking->chain.tracker;
@@ -162,7 +164,8 @@ static bool follow_scans(struct tracking *tracking, struct inputs *inputs,
     return has_any;
 }
 
-/* Until a signal, a pipe's end, or the end of such a file. Returns why ("has become shorter"), or NULL. */
+/* Until a signal, a pipe's end, or the end of such a file. Returns why ("has become shorter"), or
+ * NULL. */
 static const char *follow_until_over(struct tracking *tracking, struct inputs *inputs,
                                      struct tracks_output *tracks, int64_t quiet_us)
 {
@@ -240,29 +243,6 @@ static const char *advice_on_late(const struct parameters *parameters, uint32_t 
                : "";
 }
 
-/* Sensors that are not as stated. */
-static void print_learned(const struct rho_tracker *tracker)
-{
-    for (uint32_t i = 0; i < tracker->num_sensors; i++) {
-        const struct rho_sensor *sensor = &tracker->sensors[i];
-        struct rho_tracker_known known;
-        float least = sensor->pd;
-
-        must_succeed(rho_tracker_known_of(tracker, sensor->sensor_id, &known), "sensor");
-        for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-            least = known.pd[ring] < least ? known.pd[ring] : least;
-        }
-        if (fabsf(known.range_factor - 1) + fabsf(known.cross_factor - 1) > 0) {
-            fprintf(stderr, ", sensor %" PRId32 "'s noise is %.2f times as stated, across %.2f",
-                    sensor->sensor_id, (double)known.range_factor, (double)known.cross_factor);
-        }
-        if (least < sensor->pd) {
-            fprintf(stderr, ", sensor %" PRId32 "'s pd is down to %.2f", sensor->sensor_id,
-                    (double)least);
-        }
-    }
-}
-
 static void print_summary(const struct tracking *tracking, const struct inputs_counts *counts,
                           const struct parameters *parameters)
 {
@@ -293,7 +273,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
                     tracking->chain.tracker->looks[i].sensor_id);
         }
     }
-    print_learned(tracking->chain.tracker);
+    learned_print(tracking->chain.tracker, stderr);
     if (work->partial_steps > 0) {
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
@@ -349,32 +329,6 @@ static cJSON *sensors_json(const struct rho_tracker *tracker)
         cJSON_AddNumberToObject(object, "seen_share", (double)look->seen_share);
         cJSON_AddNumberToObject(object, "distance2", (double)look->distance2);
         cJSON_AddBoolToObject(object, "is_doubted", look->is_doubted);
-        cJSON_AddItemToArray(list, object);
-    }
-    return list;
-}
-
-/* Of the sensors that were described: what is learned of them, and used. */
-static cJSON *learned_json(const struct rho_tracker *tracker)
-{
-    cJSON *list = cJSON_CreateArray();
-
-    for (uint32_t i = 0; i < tracker->num_sensors; i++) {
-        const struct rho_sensor *sensor = &tracker->sensors[i];
-        cJSON *object = cJSON_CreateObject(), *rings = cJSON_CreateArray();
-        struct rho_tracker_known known;
-
-        must_succeed(rho_tracker_known_of(tracker, sensor->sensor_id, &known), "sensor");
-        cJSON_AddNumberToObject(object, "sensor_id", sensor->sensor_id);
-        cJSON_AddNumberToObject(object, "sigma_range_factor", (double)known.range_factor);
-        cJSON_AddNumberToObject(object, "sigma_cross_factor", (double)known.cross_factor);
-        cJSON_AddNumberToObject(object, "innovations", known.innovations);
-        cJSON_AddNumberToObject(object, "pd_stated", (double)sensor->pd);
-        for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-            cJSON_AddItemToArray(rings, cJSON_CreateNumber((double)known.pd[ring]));
-        }
-        cJSON_AddItemToObject(object, "pd", rings);
-        cJSON_AddNumberToObject(object, "looks", known.looks);
         cJSON_AddItemToArray(list, object);
     }
     return list;
