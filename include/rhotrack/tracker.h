@@ -280,7 +280,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 380 bytes.
+ * bytes cleared. Stack: 384 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
@@ -306,7 +306,8 @@ struct rho_tracker_known {
     uint32_t innovations, looks;      /* that was learned from */
 };
 
-/* Errors: NULL, STATE (not initialised, or nothing was said of the sensor). Constant cost. */
+/* Errors: NULL, STATE (not initialised, or nothing was said of the sensor). Constant cost.
+ * Stack: 112 bytes. */
 RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker,
                                                     int32_t sensor_id,
                                                     struct rho_tracker_known *known);

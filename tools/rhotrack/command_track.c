@@ -24,7 +24,6 @@ struct tracking {
     struct chain chain;
     struct clutter_file clutter;
     int64_t sum_us, max_us;
-    const struct parameters *parameters;
 };
 
 /* ---- Steps ---- */
@@ -39,20 +38,6 @@ static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
              RHO_MAX_SENSORS);
     }
     must_succeed(status, "sensor");
-}
-
-/* A radar alone of which nothing was said: what it is like can be learned all the same. Of several
- * nobody knows where each stands. */
-static void describe_unknown(struct tracking *tracking, int32_t sensor_id)
-{
-    const struct rho_tracker *tracker = tracking->chain.tracker;
-    struct rho_sensor sensor;
-
-    if (tracker->num_sensors == 0 ||
-        (tracker->num_sensors == 1 && tracker->sensors[0].sensor_id == sensor_id)) {
-        parameters_to_any_sensor(tracking->parameters, sensor_id, &sensor);
-        describe(tracking, &sensor);
-    }
 }
 
 /* Passive sensors stand still and are known from the start. */
@@ -86,8 +71,6 @@ static void step(struct tracking *tracking, const struct input *input)
 
     if (input->sensor) {
         describe(tracking, input->sensor);
-    } else if (input->scan) {
-        describe_unknown(tracking, input->scan->sensor_id);
     }
     start_us = clock_us();
     if (input->scan) {
@@ -456,7 +439,7 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 
 int command_track(struct command_line *line)
 {
-    struct tracking tracking = {.chain = chain_start(), .parameters = &line->parameters};
+    struct tracking tracking = {.chain = chain_start()};
     struct inputs *inputs;
     struct tracks_output *tracks;
     const char *why = NULL;
