@@ -102,6 +102,7 @@ struct rho_hypotheses_reach {
     float z_min_m, z_max_m; /* of tracks with a height */
     /* of all hypotheses, with their uncertainty; below 0 until a plot with a time of its own asks for them */
     float speed_max_mps, accel_max_mps2;
+    float sigma_factor; /* of the plots' sigmas, by what is known of their sensor */
 };
 
 /* A scan that a track commits itself to. */

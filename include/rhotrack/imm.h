@@ -22,7 +22,7 @@
  * on Aerospace and Electronic Systems 6, 1970; H. A. P. Blom, Y. Bar-Shalom, The interacting multiple model algorithm for
  * systems with Markovian switching coefficients, IEEE Transactions on Automatic Control 33, 1988.
  *
- * Stack: 100 bytes at most where nothing else is said.
+ * Stack: 112 bytes at most where nothing else is said.
  */
 #ifndef RHOTRACK_IMM_H
 #define RHOTRACK_IMM_H

@@ -172,7 +172,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiato
 /* True where a scan of this time can be pushed: the initiator is initialised, and holds no newer scan. Constant cost. */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
-/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 260 bytes. */
+/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 264 bytes. */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,
                                                   const struct rho_sensor *sensor, uint8_t *fates,

@@ -69,10 +69,22 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures);
 /* True where a bearing is within +-pi and its sigma within the limits of types.h. Constant cost. */
 int rho_measurement_is_bearing(const struct rho_bearing *bearing);
 
+/* How many times the sigmas of a sensor's plots count, along the line of sight and across it. */
+struct rho_sigma_factors {
+    float range, cross;
+};
+
+/* As the sensor's percents say; NULL, or where they are 0: once. Constant cost. */
+struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor);
+
+/* The largest of both, and of 1. Constant cost. */
+float rho_measurement_widest_factor(const struct rho_sensor *sensor);
+
 /*
  * Opens up a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from the origin). A plot in the
  * sensor's own place has no line of sight: its noise is taken as isotropic, the largest of its sigmas.
- * Cost: two square roots, two divisions. Stack: 64 bytes.
+ * The sensor's factors count; on heights the one that is nearer to 1, where both are on one side of it.
+ * Cost: two square roots, two divisions. Stack: 80 bytes.
  */
 void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out);

@@ -89,6 +89,10 @@ struct rho_track {
     uint8_t num_velocities;
     uint8_t is_believed; /* has been confirmed */
     uint8_t fast_in_row; /* updates in a row with a speed beyond the fastest target's; saturates */
+    /* what its sensor is learned from: the last innovation, along the line of sight and across, in sixteenths of its sigma;
+     * and bit 0: there is one; bit 1: sensor_id has missed it since it saw it */
+    int8_t shown[2];
+    uint8_t has_shown;
 #if RHO_SECTORS
     uint8_t is_shared; /* two sensors have seen it */
     /* of the two sensors that saw it last, the newer first: the tracker's count of their scans then */

@@ -79,6 +79,12 @@ struct rho_tracker_config {
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
     float late_max_s;
 #endif
+    /*
+     * bounds of what is learned of a sensor (struct rho_tracker_learned): of the factors on its
+     * plots' sigmas, 0.1 .. 1 and 1 .. 10; and of the share of its stated pd, 0.1 .. 1. With 1
+     * nothing is learned on that side
+     */
+    float learn_noise_min, learn_noise_max, learn_pd_min;
     /* misses in a row that end a track, 1 .. 255: one of 16 hits is only in doubt then, tentative, and ends after 2.4 times as many,
      * as long as its gate is not full of clutter. And scans, in the time that the sensors that saw it last take for them, for which a
      * track coasts that no sensor can see */
@@ -165,6 +171,23 @@ struct rho_tracker_look {
 };
 #endif
 
+/* Rings of range of equal widths, out to a sensor's range_max_m, that its pd is learned by. */
+#define RHO_LEARN_RINGS 6
+
+/*
+ * What tracks have shown of a sensor that was described: how large its plots' noise is, and how
+ * often it sees targets. Both begin at what was stated, and are used where they surely differ:
+ * sigmas by more than an eighth, within the bounds of the config; pd only where it is less.
+ */
+struct rho_tracker_learned {
+    float log_noise
+        [2]; /* ln of what the variances are of those stated, along the line of sight, across */
+    uint16_t innovations; /* that they come from; ends at 1000 */
+    /* by ring of range: looks at tracks that had been seen at the look before, and those that saw them; both are halved at 1000 */
+    uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
+    uint16_t is_lowered; /* bit i: in ring i pd is used as learned */
+};
+
 /* How often a sensor looks at a place. */
 struct rho_tracker_pace {
     int32_t sensor_id;
@@ -191,6 +214,7 @@ struct rho_tracker {
     struct rho_tracker_counters counters;
     struct rho_tracker_work work;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
+    struct rho_tracker_learned learned[RHO_MAX_SENSORS]; /* of the same */
     /* tracks that misses ended before they had 16 hits, and those that had; of the last half an hour */
     float died_young, grown;
     float straight_s,
@@ -250,7 +274,8 @@ struct rho_report {
 };
 
 /*
- * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, late_max 20 s, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
+ * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, late_max 20 s, learn_noise_min 0.7,
+ * learn_noise_max 4, learn_pd_min 0.5, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
  * hough and nearest without input estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);
@@ -259,7 +284,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 380 bytes.
+ * bytes cleared. Stack: 384 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
@@ -277,6 +302,19 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker,
                                                          int32_t sensor_id);
+
+/* What a sensor is taken to be, as learned. */
+struct rho_tracker_known {
+    float range_factor, cross_factor; /* that its plots' sigmas count */
+    float pd[RHO_LEARN_RINGS];        /* by ring of range */
+    uint32_t innovations, looks;      /* that was learned from */
+};
+
+/* Errors: NULL, STATE (not initialised, or nothing was said of the sensor). Constant cost.
+ * Stack: 112 bytes. */
+RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker,
+                                                    int32_t sensor_id,
+                                                    struct rho_tracker_known *known);
 
 #if RHO_SECTORS
 /* What is known of a sensor that has sent scans; NULL: it has sent none, or RHO_MAX_SENSORS others since. Cost: RHO_MAX_SENSORS. */

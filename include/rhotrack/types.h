@@ -126,13 +126,12 @@ struct rho_sensor {
     /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said. Feeds take
      * it off the scan's time, so that scans are in the right order; who makes scans without a feed should do so too */
     float range_bias_m, azimuth_bias_rad, time_bias_s;
-#if RHO_SECTORS
     /*
-     * how many times the variances of its plots' places count, 0 .. 1e9; 0: once. The tracker sets
-     * it of a sensor that it doubts
+     * how many hundredths of the sigmas of its plots' places count, along the line of sight and
+     * across it; 0: all, as 100. The tracker sets both, whatever the caller does: by the noise that
+     * it has learned, and of a sensor that it doubts
      */
-    float variance_factor;
-#endif
+    uint16_t sigma_range_percent, sigma_cross_percent;
 #if RHO_AMBIGUOUS_RANGE_RATES
     /* range rates are known up to multiples of this, within +-span/2 or anywhere; 0: they are not ambiguous */
     float range_rate_span_mps;

@@ -176,7 +176,7 @@ RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *wi
  *   left_unused  counts the plots that leave the window without having started a track
  * Errors: NULL, VALUE (RHO_SECTORS: a sector that is none), STATE (not initialised, or the scan is older than the newest). Plots outside the area are kept in its
  * border bins. Cost: RHO_MAX_PLOTS copies, RHO_MAX_BINS additions; where the area is not given, three looks at all
- * plots held. Stack: 220 bytes.
+ * plots held. Stack: 224 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
                                                const struct rho_scan *scan,

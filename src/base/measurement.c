@@ -13,7 +13,6 @@
 #define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 #define RANGE_MAX_M RHO_LIMIT_POSITION_M
-#define VARIANCE_FACTOR_MAX 1.0e9f
 
 /* ---- what can be believed --------------------------------------------------------------------- */
 
@@ -77,23 +76,10 @@ static int is_span(const struct rho_sensor *sensor)
 }
 #endif
 
-#if RHO_SECTORS
-static int is_factor(const struct rho_sensor *sensor)
-{
-    return rho_is_within(sensor->variance_factor, 0.0f, VARIANCE_FACTOR_MAX);
-}
-#else
-static int is_factor(const struct rho_sensor *sensor)
-{
-    (void)sensor;
-    return 1;
-}
-#endif
-
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return is_span(sensor) && is_factor(sensor) && rho_is_coordinate(sensor->x_m) &&
-           rho_is_coordinate(sensor->y_m) && rho_is_coordinate(sensor->z_m) &&
+    return is_span(sensor) && rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
+           rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
            rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
@@ -231,12 +217,14 @@ static float larger(float a, float b)
 }
 
 /* No line of sight: one variance for all axes. */
-static void open_without_sight(const struct rho_plot *plot, struct rho_measurement *out)
+static void open_without_sight(const struct rho_plot *plot, const struct rho_sigma_factors *factors,
+                               struct rho_measurement *out)
 {
     float sigma_m = rho_plot_sigma_m(plot);
     if (out->has_z) {
         sigma_m = larger(sigma_m, plot->sigma_up_m);
     }
+    sigma_m *= factors->range > factors->cross ? factors->range : factors->cross;
     out->cos_azimuth = out->cos_elevation = 1.0f;
     out->sin_azimuth = out->sin_elevation = 0.0f;
     out->variance_m2[0] = out->variance_m2[1] = out->variance_m2[2] = sigma_m * sigma_m;
@@ -250,11 +238,40 @@ static void open_elevation(float ground_m, float dz_m, struct rho_measurement *o
     out->sin_elevation = out->has_z ? dz_m / range_m : 0.0f;
 }
 
-static int are_equal(const struct rho_plot *plot, int has_z)
+static int are_equal(float a, float b)
 {
-    float spread_m = plot->sigma_range_m - plot->sigma_cross_m;
-    float spread_up_m = has_z ? plot->sigma_range_m - plot->sigma_up_m : 0.0f;
-    return !(spread_m < 0.0f || spread_m > 0.0f || spread_up_m < 0.0f || spread_up_m > 0.0f);
+    return a <= b && a >= b;
+}
+
+static float squared_share(float sigma_m, float factor)
+{
+    return sigma_m * sigma_m * (factor * factor);
+}
+
+/* Nothing is learned of heights: what range and azimuth agree on holds for them, too. */
+static float up_factor(const struct rho_sigma_factors *factors)
+{
+    const float least = factors->range < factors->cross ? factors->range : factors->cross;
+    const float most = larger(factors->range, factors->cross);
+    return least > 1.0f ? least : most < 1.0f ? most : 1.0f;
+}
+
+struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor)
+{
+    struct rho_sigma_factors factors = {1.0f, 1.0f};
+    if (sensor && sensor->sigma_range_percent > 0) {
+        factors.range = 0.01f * (float)sensor->sigma_range_percent;
+    }
+    if (sensor && sensor->sigma_cross_percent > 0) {
+        factors.cross = 0.01f * (float)sensor->sigma_cross_percent;
+    }
+    return factors;
+}
+
+float rho_measurement_widest_factor(const struct rho_sensor *sensor)
+{
+    const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
+    return larger(larger(factors.range, factors.cross), 1.0f);
 }
 
 int rho_measurement_is_bearing(const struct rho_bearing *bearing)
@@ -270,13 +287,14 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     float dy_m = plot->y_m - (sensor ? sensor->y_m : 0.0f);
     float dz_m = plot->z_m - (sensor ? sensor->z_m : 0.0f);
     float ground_m = root_sum(dx_m, dy_m);
+    const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     out->has_z = (measures & RHO_MEASURES_Z) != 0;
     out->place_m[0] = plot->x_m;
     out->place_m[1] = plot->y_m;
     out->place_m[2] = out->has_z ? plot->z_m : 0.0f;
     if (!(ground_m >= RANGE_LEAST_M)) {
         if (!out->has_z || !(root_sum(ground_m, dz_m) >= RANGE_LEAST_M)) {
-            open_without_sight(plot, out);
+            open_without_sight(plot, &factors, out);
             return;
         }
         ground_m = dx_m = LEVEL_LEAST_M; /* overhead: any azimuth will do */
@@ -285,17 +303,11 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     out->cos_azimuth = dx_m / ground_m;
     out->sin_azimuth = dy_m / ground_m;
     open_elevation(ground_m, dz_m, out);
-    out->variance_m2[0] = plot->sigma_range_m * plot->sigma_range_m;
-    out->variance_m2[1] = plot->sigma_cross_m * plot->sigma_cross_m;
-    out->variance_m2[2] = out->has_z ? plot->sigma_up_m * plot->sigma_up_m : 0.0f;
-    out->is_isotropic = are_equal(plot, out->has_z);
-#if RHO_SECTORS
-    if (sensor && sensor->variance_factor > 1.0f) {
-        for (int axis = 0; axis < 3; axis++) {
-            out->variance_m2[axis] *= sensor->variance_factor;
-        }
-    }
-#endif
+    out->variance_m2[0] = squared_share(plot->sigma_range_m, factors.range);
+    out->variance_m2[1] = squared_share(plot->sigma_cross_m, factors.cross);
+    out->variance_m2[2] = out->has_z ? squared_share(plot->sigma_up_m, up_factor(&factors)) : 0.0f;
+    out->is_isotropic = are_equal(out->variance_m2[0], out->variance_m2[1]) &&
+                        (!out->has_z || are_equal(out->variance_m2[0], out->variance_m2[2]));
 }
 
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6])

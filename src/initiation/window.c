@@ -127,10 +127,17 @@ struct entry {
     struct rho_window_scan *slot;
     const struct rho_scan *scan;
     const uint8_t *fates;
+    struct rho_sigma_factors factors; /* of what plots say of their noise */
 #if RHO_SECTORS
     float after_s;
 #endif
 };
+
+static float within_limits(float sigma)
+{
+    const float least = sigma > RHO_LIMIT_SIGMA_MIN ? sigma : RHO_LIMIT_SIGMA_MIN;
+    return least < RHO_LIMIT_SIGMA_MAX ? least : RHO_LIMIT_SIGMA_MAX;
+}
 
 static struct rho_window_plot window_plot(const struct entry *entry, uint32_t row)
 {
@@ -144,8 +151,8 @@ static struct rho_window_plot window_plot(const struct entry *entry, uint32_t ro
 #else
         .offset_s = seconds(plot->offset_us),
 #endif
-        .sigma_range = sigma_code(plot->sigma_range_m),
-        .sigma_cross = sigma_code(plot->sigma_cross_m),
+        .sigma_range = sigma_code(within_limits(entry->factors.range * plot->sigma_range_m)),
+        .sigma_cross = sigma_code(within_limits(entry->factors.cross * plot->sigma_cross_m)),
     };
     if (scan->measures & RHO_MEASURES_Z) {
         held.z_m = plot->z_m;
@@ -369,7 +376,7 @@ static void add_sector(struct rho_window *window, const struct rho_scan *scan,
                        const struct rho_sensor *sensor, uint8_t *fates)
 {
     struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
-    const struct entry entry = {slot, scan, fates,
+    const struct entry entry = {slot, scan, fates, rho_measurement_sigma_factors(sensor),
                                 rho_seconds_between(slot->time_us, scan->time_us)};
     const unsigned held = admit(scan, slot->num_plots, fates);
     if (slot->num_plots == 0) {
@@ -459,7 +466,10 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
                      const struct rho_sensor *sensor, uint8_t *fates, uint32_t *left_unused)
 {
     struct rho_window_scan *slot = next_slot(window, left_unused);
-    const struct entry entry = {.slot = slot, .scan = scan, .fates = fates};
+    const struct entry entry = {.slot = slot,
+                                .scan = scan,
+                                .fates = fates,
+                                .factors = rho_measurement_sigma_factors(sensor)};
     unsigned held = admit(scan, 0, fates);
     slot->time_us = scan->time_us;
     slot->measures = scan->measures;
@@ -467,6 +477,7 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
     slot->sector_to_rad = scan->sector_to_rad;
     slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
     slot->sensor.pd = sensor ? sensor->pd : 0.0f;
+    slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0; /* plots have it */
     slot->num_plots = 0;
     slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
     slot->is_isotropic = 1;

@@ -81,6 +81,7 @@ static void fill_reach(const struct rho_hypotheses *pool, uint16_t slot,
         .z_max_m = z.max + z_m,
         .speed_max_mps = -1.0f,
         .accel_max_mps2 = -1.0f,
+        .sigma_factor = 1.0f,
     };
 }
 
@@ -131,7 +132,7 @@ int rho_hypotheses_reaches(const struct rho_hypotheses *pool, uint16_t slot,
         sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
     }
     const float slack_m =
-        rho_hypotheses_slack_m(pool, slot, reach, sigma_m,
+        rho_hypotheses_slack_m(pool, slot, reach, sigma_m * reach->sigma_factor,
                                (float)plot->offset_us * (plot->offset_us < 0 ? -1e-6f : 1e-6f));
     return plot->x_m >= reach->x_min_m - slack_m && plot->x_m <= reach->x_max_m + slack_m &&
            plot->y_m >= reach->y_min_m - slack_m && plot->y_m <= reach->y_max_m + slack_m &&

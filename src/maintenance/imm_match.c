@@ -30,11 +30,15 @@ struct view {
 
 /* Isotropic noise has no frame: nothing to find it for. */
 static int open_isotropic(struct rho_measurement *out, float covariance[6],
-                          const struct rho_plot *plot, uint32_t measures)
+                          const struct rho_plot *plot, uint32_t measures,
+                          const struct rho_sensor *sensor)
 {
+    const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     const int has_z = (measures & RHO_MEASURES_Z) != 0;
-    const float sigma_m = plot->sigma_range_m, variance = sigma_m * sigma_m;
+    const float sigma_m = plot->sigma_range_m;
+    const float variance = sigma_m * sigma_m * (factors.range * factors.range);
     if (plot->sigma_cross_m < sigma_m || plot->sigma_cross_m > sigma_m ||
+        factors.range < factors.cross || factors.range > factors.cross ||
         (has_z && (plot->sigma_up_m < sigma_m || plot->sigma_up_m > sigma_m))) {
         return 0;
     }
@@ -57,12 +61,7 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
     seen->measures = measures;
     seen->plot = plot;
     seen->sensor = sensor;
-#if RHO_SECTORS
-    const int is_doubted = sensor && sensor->variance_factor > 1.0f;
-#else
-    const int is_doubted = 0;
-#endif
-    if (!is_doubted && open_isotropic(&seen->position, seen->covariance, plot, measures)) {
+    if (open_isotropic(&seen->position, seen->covariance, plot, measures, sensor)) {
         return;
     }
     rho_measurement_open(plot, measures, sensor, &seen->position);

@@ -88,6 +88,8 @@ static const uint32_t facts[] = {
     sizeof(struct rho_tracker_config),
     sizeof(struct rho_tracker_counters),
     sizeof(struct rho_sensor),
+    sizeof(struct rho_tracker_learned),
+    RHO_LEARN_RINGS,
     sizeof(struct rho_tracker_pace),
     sizeof(struct rho_track),
     sizeof(struct rho_assignment),

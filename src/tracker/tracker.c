@@ -81,10 +81,11 @@ static float larger(float a, float b)
 static void note_widest(struct step *step, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
-    step->sigma_max_m = larger(step->sigma_max_m, rho_plot_sigma_m(plot));
+    const float factor = rho_measurement_widest_factor(step->sensor);
+    step->sigma_max_m = larger(step->sigma_max_m, factor * rho_plot_sigma_m(plot));
     step->offset_max_s = larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
     if (step->scan->measures & RHO_MEASURES_Z) {
-        step->sigma_max_m = larger(step->sigma_max_m, plot->sigma_up_m);
+        step->sigma_max_m = larger(step->sigma_max_m, factor * plot->sigma_up_m);
     }
 }
 
@@ -273,6 +274,7 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
 #if RHO_SECTORS
         .late_max_s = 20.0f,
 #endif
+        .learn_noise_min = 0.7f, .learn_noise_max = 4.0f, .learn_pd_min = 0.5f,
         .coast_scans_max = 5, .work_max = RHO_WORK_MAX,
         .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
         .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
@@ -289,7 +291,10 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
            rho_is_within(config->steady_s, 0.0f, 1e5f) &&
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
-           rho_tracker_is_late_usable(config) && config->coast_scans_max >= 1 &&
+           rho_tracker_is_late_usable(config) &&
+           rho_is_within(config->learn_noise_min, 0.1f, 1.0f) &&
+           rho_is_within(config->learn_noise_max, 1.0f, 10.0f) &&
+           rho_is_within(config->learn_pd_min, 0.1f, 1.0f) && config->coast_scans_max >= 1 &&
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
            RHO_HAS_FILTER(rho_tracker_filter_of(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
@@ -355,6 +360,9 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
         return RHO_ERROR_CAPACITY;
     }
     tracker->sensors[place] = *sensor;
+    if (place == tracker->num_sensors) {
+        memset(&tracker->learned[place], 0, sizeof tracker->learned[place]);
+    }
     tracker->num_sensors =
         (uint16_t)(place < tracker->num_sensors ? tracker->num_sensors : place + 1u);
     return RHO_OK;
@@ -375,6 +383,8 @@ enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t s
     tracker->num_sensors--;
     tracker->sensors[place] = tracker->sensors[tracker->num_sensors];
     memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
+    tracker->learned[place] = tracker->learned[tracker->num_sensors];
+    memset(&tracker->learned[tracker->num_sensors], 0, sizeof tracker->learned[0]);
     rho_tracker_forget_look(tracker, sensor_id);
     rho_tracker_forget_pace(tracker, sensor_id);
     rho_tracker_forget_second_plots(tracker, sensor_id);
@@ -424,12 +434,17 @@ static void claim(struct step *step)
     rho_tracker_look_at_clutter(step);
     rho_tracker_claim(step);
     rho_tracker_watch(step);
+    rho_tracker_learn(step);
     rho_tracker_update(step);
 }
 
 static void take_in(struct step *step)
 {
-    step->sensor = rho_tracker_find_sensor(step->tracker, step->scan->sensor_id);
+    const unsigned place = place_of_sensor(step->tracker, step->scan->sensor_id);
+    if (place < step->tracker->num_sensors) {
+        step->sensor = &step->tracker->sensors[place];
+        step->learned = &step->tracker->learned[place];
+    }
     rho_tracker_set_pd(step);
     rho_tracker_note_look(step);
     if (!step->is_late) {
@@ -437,7 +452,7 @@ static void take_in(struct step *step)
         rho_tracker_note_pace(step->tracker, step->sensor ? step->sensor : &nowhere, step->time_us,
                               step->scan->sector_from_rad, step->scan->sector_to_rad);
     }
-    rho_tracker_weigh_sensor(step);
+    rho_tracker_set_noise(step);
 #if RHO_AMBIGUOUS_RANGE_RATES
     step->log_range_rates -=
         rho_measurement_log_aliases(step->sensor, step->tracker->config.v_max_mps);

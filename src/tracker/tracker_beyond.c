@@ -98,6 +98,7 @@ void rho_tracker_claim_parts(struct step *step)
         begin_part(step, &part, before.scan, first, end);
         rho_tracker_claim(step);
         rho_tracker_watch(step);
+        rho_tracker_learn(step);
         rho_tracker_update(step);
         end_part(step, &part);
         if (first == 0) {

@@ -4,6 +4,7 @@
  */
 #include "rhotrack/angle.h"
 #include "rhotrack/approx.h"
+#include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
 /* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the paper. */
@@ -186,6 +187,7 @@ static void gate_plots(struct step *step, unsigned row)
     struct rho_gate_hough hough;
     struct rho_gate_result result;
     float half_m[2];
+    const struct odds odds = rho_tracker_odds(step, track);
     float log_density =
         rho_log(clutter_density(step, track->kalman.state[0], track->kalman.state[1]));
     int by_hough = opens_hough(step, track, &hough);
@@ -211,9 +213,9 @@ static void gate_plots(struct step *step, unsigned row)
                 step, row, i,
                 by_hough
                     ? hough_gain(step, track, &hough, plot)
-                    : step->log_pd +
+                    : odds.log_pd +
                           log_ratio(step, &result, log_density + rho_tracker_repeats_nat(step, i)) -
-                          step->log_miss);
+                          odds.log_miss);
         }
     }
 }
@@ -235,7 +237,7 @@ static struct rho_hypotheses_clutter clutter_at(const struct step *step,
 /* A miss says nothing of a target where the sensor did not look. */
 static float log_miss_of(const struct step *step, const struct rho_track *track)
 {
-    return rho_tracker_scan_looked_at(step, track) ? step->log_miss : 0.0f;
+    return rho_tracker_scan_looked_at(step, track) ? rho_tracker_odds(step, track).log_miss : 0.0f;
 }
 
 /* By the noise and the own time of the plots that have most of them. */
@@ -297,7 +299,9 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
     struct offer offer = {.row = row, .claims = claims};
     struct rho_imm_plot seen;
     float gain_nat;
+    const float log_pd = rho_tracker_odds(step, track).log_pd;
     rho_hypotheses_look(&tracker->hypotheses, track->slot, &offer.reach);
+    offer.reach.sigma_factor = rho_measurement_widest_factor(step->sensor);
     offer.near = plots_in_reach(step, track, &offer.reach);
     struct plot_choice choice = choose(step, &offer);
     for (uint32_t i; rho_tracker_next_plot(step, &offer.near, &i);) {
@@ -309,8 +313,8 @@ static void weigh_plots(struct step *step, unsigned row, const int16_t *claims)
         struct rho_hypotheses_clutter clutter = usual;
         clutter.log_per_m2 += rho_tracker_repeats_nat(step, i);
         if (rho_hypotheses_weigh(&tracker->hypotheses, track->slot, &seen,
-                                 step->time_us + plot->offset_us, (int16_t)i, step->log_pd,
-                                 &clutter, &gain_nat) &&
+                                 step->time_us + plot->offset_us, (int16_t)i, log_pd, &clutter,
+                                 &gain_nat) &&
             !claims && gain_nat > log_miss) {
             rho_tracker_offer(step, row, i, gain_nat - log_miss);
         }
@@ -348,7 +352,7 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
     }
     float density = clutter_density(step, track->kalman.state[0], track->kalman.state[1]);
     return rho_tracker_mnat(
-        step->log_pd +
+        rho_tracker_odds(step, track).log_pd +
         log_ratio(step, &result, rho_log(density) + rho_tracker_repeats_nat(step, plot)));
 }
 

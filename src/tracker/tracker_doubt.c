@@ -26,7 +26,7 @@
 #define RIGHTER 0.7f
 /* Of one's sigma: beyond that the other one's distances in sigmas are too small to compare. */
 #define COARSER 1.9f
-#define FACTOR_MAX 400.0f
+#define FACTOR_MAX 20.0f
 
 static void average(float *mean, float value, uint16_t *count)
 {
@@ -43,7 +43,7 @@ static float distance2_of(const struct step *step, const struct rho_track *track
     if (gate.sensor) {
         /* as the plot itself says, not as it counts while its sensor is doubted */
         sensor = *gate.sensor;
-        sensor.variance_factor = 0.0f;
+        sensor.sigma_range_percent = sensor.sigma_cross_percent = 0;
         gate.sensor = &sensor;
     }
     if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
@@ -189,21 +189,16 @@ void rho_tracker_watch(struct step *step)
     }
 }
 
-void rho_tracker_weigh_sensor(struct step *step)
+float rho_tracker_weigh_sensor(struct step *step)
 {
     struct rho_tracker_look *look = rho_tracker_own_look(step);
     if (look) {
         judge(step, look); /* whoever was its witness may have gone */
     }
     step->is_doubted = look && look->is_doubted;
-    for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
-        struct rho_sensor *sensor = &step->tracker->sensors[i];
-        if (sensor->sensor_id == step->scan->sensor_id) {
-            /* a bias is no noise: that its plots pull a track off takes more than the variance that they show */
-            const float shown = step->is_doubted ? look->distance2 * look->distance2 : 0.0f;
-            sensor->variance_factor = shown < FACTOR_MAX ? shown : FACTOR_MAX;
-        }
-    }
+    /* a bias is no noise: that its plots pull a track off takes more than the variance that they show */
+    const float shown = step->is_doubted ? look->distance2 : 1.0f;
+    return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;
 }
 
 #else

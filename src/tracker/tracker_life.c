@@ -178,7 +178,7 @@ void rho_tracker_age(struct step *step)
             /* what a miss says of a track of hypotheses is in its score already */
             rho_track_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                                       ? 0
-                                      : rho_tracker_mnat(-step->log_miss));
+                                      : rho_tracker_mnat(-rho_tracker_odds(step, track).log_miss));
         }
         rho_tracker_note_sight(step, track);
         const int is_unseen = rho_tracker_is_long_unseen(step, track, is_missed, &limits) ||
@@ -347,6 +347,18 @@ static void search_newest(struct step *step)
     step->is_partial |= initiator->budget.partial_steps != before.partial_steps;
 }
 
+/* Pointers were checked before the step began. Targets are looked for by what is known of their sensor now. */
+static void push(struct step *step, const struct rho_scan *held)
+{
+    struct rho_sensor sensor;
+    if (step->sensor) {
+        sensor = *step->sensor;
+        sensor.pd = rho_tracker_mean_pd(step);
+    }
+    (void)!rho_initiator_push(step->initiator, held, step->sensor ? &sensor : 0,
+                              step->report->fates, &step->tracker->counters.plots_clutter);
+}
+
 void rho_tracker_initiate(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -355,11 +367,10 @@ void rho_tracker_initiate(struct step *step)
         rho_tracker_refuse_unclaimed(step);
         return;
     }
-    /* only the plots with a fate of their own are offered; pointers were checked before the step began */
+    /* only the plots with a fate of their own are offered */
     struct rho_scan held = *step->scan;
     held.num_plots = step->num_gated;
-    (void)!rho_initiator_push(initiator, &held, step->sensor, step->report->fates,
-                              &tracker->counters.plots_clutter);
+    push(step, &held);
     rho_tracker_keep_repeats(step);
     search_newest(step);
     tracker->counters.candidates_dropped =

@@ -186,7 +186,8 @@ static int gain_of(const struct step *step, unsigned row, int column, float *gai
     const struct rho_assignment *assignment = &step->tracker->assignment;
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         if (assignment->pairs[row][i].column == column) {
-            *gain_nat = step->log_miss - 0.001f * (float)assignment->pairs[row][i].cost;
+            *gain_nat = rho_tracker_odds(step, &step->tracker->tracks[row]).log_miss -
+                        0.001f * (float)assignment->pairs[row][i].cost;
             return 1;
         }
     }
@@ -250,7 +251,7 @@ static float one_nat(const struct step *step, const struct rho_second_plots *tab
     if (!is_in_gate) {
         return MISS_NAT;
     }
-    return nat - step->log_miss - (is_in_elders ? LOG_TWO : 0.0f);
+    return nat - rho_tracker_odds(step, track).log_miss - (is_in_elders ? LOG_TWO : 0.0f);
 }
 
 static void add_nat(struct rho_track *track, float nat)

@@ -49,7 +49,8 @@ static float gain_of(const struct step *step, unsigned row, int column)
     const struct rho_assignment *assignment = &step->tracker->assignment;
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         if (assignment->pairs[row][i].column == column) {
-            return step->log_miss - 0.001f * (float)assignment->pairs[row][i].cost;
+            return rho_tracker_odds(step, &step->tracker->tracks[row]).log_miss -
+                   0.001f * (float)assignment->pairs[row][i].cost;
         }
     }
     return 0.0f;
@@ -130,8 +131,9 @@ static int is_merged(const struct step *step, const struct pair *pair, float *ga
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
     }
     const float merged = rho_sqrt(share) * rho_exp(-0.5f * distance2);
-    *gain_nat = larger(step->log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
-    return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(step->log_miss);
+    const float log_miss = rho_tracker_odds(step, pair->second).log_miss;
+    *gain_nat = larger(log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
+    return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(log_miss);
 }
 
 static int take(struct step *step, struct rho_track *track, int plot, float gain_nat)

@@ -114,7 +114,8 @@ static int has_sound_sensors(const struct rho_tracker *tracker)
         return 0;
     }
     for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        if (!rho_tracker_is_usable_sensor(&tracker->sensors[i])) {
+        if (!rho_tracker_is_usable_sensor(&tracker->sensors[i]) ||
+            !rho_tracker_is_sound_learned(&tracker->learned[i])) {
             return 0;
         }
     }

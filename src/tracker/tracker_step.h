@@ -36,6 +36,7 @@ struct step {
     struct rho_passive *passive;
     struct rho_report *report;
     const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
+    struct rho_tracker_learned *learned; /* of it; NULL: likewise, or of a frame */
 #if RHO_SECTORS
     int is_doubted; /* the sensor contradicts the others */
     uint16_t look;  /* count of the sensor's scans; 0: not known */
@@ -110,6 +111,20 @@ void rho_tracker_smooth(float *mean, float newest);
 int rho_tracker_open(struct step *step);
 void rho_tracker_close(struct step *step);
 
+/*
+ * tracker_learn.c: noise and pd as tracks show them. Before plots are gated the sensor's noise is set;
+ * between assignment and update it is learned; ln of what a hit and a miss of a track are likely
+ */
+struct odds {
+    float log_pd, log_miss;
+};
+void rho_tracker_set_noise(struct step *step);
+void rho_tracker_learn(struct step *step);
+struct odds rho_tracker_odds(const struct step *step, const struct rho_track *track);
+int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
+/* Of the sensor that looks, for its initiator: over all ranges. */
+float rho_tracker_mean_pd(const struct step *step);
+
 /* tracker_sector.c: what sectors of a turn are to each other */
 #if RHO_SECTORS
 /* Who has said nothing for so long has no say any more. */
@@ -122,8 +137,8 @@ void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
 /* The track has a plot of this scan, or has not. */
 void rho_tracker_note_sight(const struct step *step, struct rho_track *track);
 
-/* tracker_doubt.c: before its plots are gated; and between assignment and update: whether the sensor agrees with others */
-void rho_tracker_weigh_sensor(struct step *step);
+/* tracker_doubt.c: before its plots are gated, how many times its sigmas count; and between assignment and update: whether the sensor agrees with others */
+float rho_tracker_weigh_sensor(struct step *step);
 void rho_tracker_watch(struct step *step);
 /* The track is known from the sensor's word alone, which is doubted. */
 static inline int rho_tracker_is_hearsay(const struct step *step, const struct rho_track *track)
@@ -160,9 +175,10 @@ static inline void rho_tracker_note_thresholds(struct step *step)
     (void)step;
 }
 
-static inline void rho_tracker_weigh_sensor(struct step *step)
+static inline float rho_tracker_weigh_sensor(struct step *step)
 {
     (void)step;
+    return 1.0f;
 }
 
 static inline void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id)

@@ -1234,9 +1234,6 @@ static void describe_sensor(struct script *script)
             &sensor.range_bias_m,
             &sensor.azimuth_bias_rad,
             &sensor.time_bias_s,
-#if RHO_SECTORS
-            &sensor.variance_factor,
-#endif
 #if RHO_AMBIGUOUS_RANGE_RATES
             &sensor.range_rate_span_mps,
 #endif

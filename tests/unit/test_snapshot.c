@@ -668,6 +668,14 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     NONSENSE(0, rho_tracker, assignment.magic, uint32_t, 0);
     NONSENSE(0, rho_tracker, extent.x_max_m, float, nan);
     NONSENSE(0, rho_tracker, sensors[0].pd, float, 2.0f);
+    NONSENSE(0, rho_tracker, learned[0].log_noise[1], float, nan);
+    NONSENSE(0, rho_tracker, learned[0].innovations, uint16_t, 1001);
+    NONSENSE(0, rho_tracker, learned[0].looks[5], uint16_t, 1001);
+    NONSENSE(0, rho_tracker, learned[0].hits[0], uint16_t, UINT16_MAX);
+    NONSENSE(0, rho_tracker, learned[0].is_lowered, uint16_t, 64);
+    NONSENSE(0, rho_tracker, config.learn_noise_min, float, 0.0f);
+    NONSENSE(0, rho_tracker, config.learn_noise_max, float, nan);
+    NONSENSE(0, rho_tracker, config.learn_pd_min, float, 1.5f);
     NONSENSE(0, rho_tracker, tracks[1].slot, uint16_t, RHO_HYPOTHESES_SLOTS);
     NONSENSE(0, rho_tracker, tracks[1].slot, uint16_t, chain.tracker.tracks[0].slot);
     NONSENSE(0, rho_tracker, tracks[0].filter, uint8_t, RHO_TRACK_INPUT);

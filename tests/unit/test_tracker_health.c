@@ -315,7 +315,7 @@ static void one_that_agrees_again_is_believed(void **state)
         assert_in_range(scene.last_doubted, 59, 75);
         assert_in_range(scene.lost, 0, LOST_MAX);
         assert_int_equal(scene.tracks_most, TARGETS);
-        assert_true(!(tracker.sensors[0].variance_factor > 1.0f));
+        assert_true(tracker.sensors[0].sigma_range_percent <= 150);
     }
 }
 

@@ -332,6 +332,19 @@ void refuse_own_input(const struct command_line *line)
     }
 }
 
+void refuse_other_than_ini(const struct command_line *line, const char *command)
+{
+    static const char *const endings[] = {".csv",     ".lcm",  ".ast", ".asterix",
+                                          ".geojson", ".json", ".svg"};
+
+    for (size_t i = 0; line->output && i < sizeof endings / sizeof *endings; i++) {
+        if (path_ends_with(line->output, endings[i])) {
+            fail(EXIT_USAGE, "%s: %s writes an INI file, and %s is the ending of another",
+                 line->output, command, endings[i]);
+        }
+    }
+}
+
 void command_line_locate(struct command_line *line)
 {
     suggest_origin(line);

@@ -277,9 +277,11 @@ static void print_summary(const struct node *node)
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " messages in, %" PRIu64 " out; %" PRIu64 " steps, %" PRIu32
-            " plots, %" PRIu32 " tracks confirmed; %.0f us a step, %.0f at most\n",
+            " plots, %" PRIu32 " tracks confirmed; %.0f us a step, %.0f at most",
             node->taken, network.sent, node_core_counters(node->core)->steps, tracker->plots_in,
             tracker->tracks_confirmed, node_core_mean_us(node->core), node_core_max_us(node->core));
+    node_core_print_learned(node->core, stderr);
+    fprintf(stderr, "\n");
     node_tally(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].count) {

@@ -24,20 +24,6 @@ static void refuse_twins(const struct command_line *line)
     }
 }
 
-/* A name that promises something else than biases. */
-static void refuse_other_format(const char *path)
-{
-    static const char *const endings[] = {".csv",     ".lcm",  ".ast", ".asterix",
-                                          ".geojson", ".json", ".svg"};
-
-    for (size_t i = 0; path && i < sizeof endings / sizeof *endings; i++) {
-        if (path_ends_with(path, endings[i])) {
-            fail(EXIT_USAGE, "%s: register writes an INI file, and %s is the ending of another",
-                 path, endings[i]);
-        }
-    }
-}
-
 /* Then standard output has the INI file and nothing else. */
 static bool is_ini_on_output(const struct command_line *line)
 {
@@ -133,7 +119,7 @@ int command_register(struct command_line *line)
 
     refuse_own_input(line);
     refuse_twins(line);
-    refuse_other_format(line->output);
+    refuse_other_than_ini(line, "register");
     if (line->json && is_ini_on_output(line)) {
         fail(EXIT_USAGE, "register: --json and -o - both write on standard output");
     }

@@ -15,6 +15,7 @@
 #include "common.h"
 #include "frame_reader.h"
 #include "inputs.h"
+#include "learned.h"
 #include "method.h"
 #include "scan_reader.h"
 #include "tracks_output.h"
@@ -146,7 +147,8 @@ static bool follow_scans(struct tracking *tracking, struct inputs *inputs,
     return has_any;
 }
 
-/* Until a signal, a pipe's end, or the end of such a file. Returns why ("has become shorter"), or NULL. */
+/* Until a signal, a pipe's end, or the end of such a file. Returns why ("has become shorter"), or
+ * NULL. */
 static const char *follow_until_over(struct tracking *tracking, struct inputs *inputs,
                                      struct tracks_output *tracks, int64_t quiet_us)
 {
@@ -254,6 +256,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
                     tracking->chain.tracker->looks[i].sensor_id);
         }
     }
+    learned_print(tracking->chain.tracker, stderr);
     if (work->partial_steps > 0) {
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
@@ -371,6 +374,7 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "echoes_known",
                             echoes_known(&tracking->chain.tracker->clutter_map));
     cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->chain.tracker));
+    cJSON_AddItemToObject(object, "learned", learned_json(tracking->chain.tracker));
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
     json_print(object);
 }

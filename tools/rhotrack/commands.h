@@ -51,6 +51,7 @@ void command_convert_refuse(const struct command_line *line);
 int command_node(struct command_line *line);
 int command_publish(struct command_line *line);
 int command_register(struct command_line *line);
+int command_calibrate(struct command_line *line);
 int command_config(struct command_line *line);
 
 #endif

@@ -159,6 +159,15 @@ static const struct command commands[] = {
      "Prints each parameter's unit, default, range, and its value now with where it came from; "
      "with\n"
      "--method, that method's customary values.\n"},
+    {"calibrate", command_calibrate, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjksC",
+     "noise, pd, clutter, turn time and speeds of a recording",
+     "Reads plots, tracks each radar alone, and tells what it is like: noise along the line of\n"
+     "sight and across it (of places: on each axis), pd, clutter, turn time, and the speeds of "
+     "what\n"
+     "moved, each with its sigma. What the plots do not tell is said to be not known. -o writes "
+     "an\n"
+     "INI file for --config; with -o - it is on standard output, and the table on standard "
+     "error.\n"},
     {"register", command_register, "INPUT... [-o FILE.ini]", 1, INT_MAX, "ogjksC",
      "biases of radars from common targets",
      "Reads polar plots of two or more radars, tracks each radar alone, finds the targets that "

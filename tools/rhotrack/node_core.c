@@ -9,6 +9,7 @@
 #include "clutter_file.h"
 #include "common.h"
 #include "feed_room.h"
+#include "learned.h"
 #include "node_passive.h"
 #include "rhotrack/message.h"
 #include "rhotrack/publish.h"
@@ -587,4 +588,9 @@ void node_core_close(struct node_core *core)
     }
     chain_free(&core->chain);
     free(core);
+}
+
+void node_core_print_learned(const struct node_core *core, FILE *to)
+{
+    learned_print(core->chain.tracker, to);
 }

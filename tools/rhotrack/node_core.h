@@ -15,6 +15,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "chain_snapshot.h"
 #include "feed_order.h"
@@ -112,5 +113,8 @@ double node_core_mean_us(const struct node_core *core);
 double node_core_max_us(const struct node_core *core);
 
 void node_core_close(struct node_core *core);
+
+/* What was learned of sensors that are not as stated (learned.h). */
+void node_core_print_learned(const struct node_core *core, FILE *to);
 
 #endif

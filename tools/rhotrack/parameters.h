@@ -69,6 +69,12 @@
       "misses in a row that end a track; one of 16 hits is in doubt for 2.4 times as many")        \
     X(LATE_MAX_S, "late_max_s", "s", 20, 0, 60, 0, 1,                                              \
       "older scans update tracks where they are no older than the newest by this")                 \
+    X(LEARN_NOISE_MIN, "learn_noise_min", "-", 0.7, 0.1, 1, 0, 0,                                  \
+      "plots' sigmas as learned: least share of those stated that is used; 1: never less")         \
+    X(LEARN_NOISE_MAX, "learn_noise_max", "-", 4, 1, 10, 0, 0,                                     \
+      "the same: the most; 1: never more")                                                         \
+    X(LEARN_PD_MIN, "learn_pd_min", "-", 0.5, 0.1, 1, 0, 0,                                        \
+      "pd as learned by range: least share of that stated; 1: as stated")                          \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
       "rows of a sensor within it are one scan; 0: rows of equal t_s")                             \
     X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0,                                       \

@@ -9,6 +9,10 @@
 /* Of the largest acceleration, the standard deviation of those that targets have for a whole window. */
 #define TURN_SHARE 0.2f
 
+/* Bounds of the factor on sigmas where nobody has said how large they are. */
+#define UNSTATED_MIN 0.1f
+#define UNSTATED_MAX 10.0f
+
 void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config)
 {
@@ -60,6 +64,43 @@ static void parameters_to_input(const struct parameters *parameters,
     config->velocity_variance = (float)(value[PARAMETER_V_MAX_MPS] * value[PARAMETER_V_MAX_MPS]);
 }
 
+static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)
+{
+    return parameters->source[id] > SOURCE_DEFAULT;
+}
+
+/* Somebody has said what the noise of places is, of all sensors or of one. */
+static bool says_noise(const struct parameters *parameters)
+{
+    bool says = is_asked_for(parameters, PARAMETER_SIGMA_M) ||
+                is_asked_for(parameters, PARAMETER_SIGMA_RANGE_M) ||
+                is_asked_for(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
+
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        const int32_t id = parameters->sensors[i].sensor_id;
+
+        says |= !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_M, NAN)) ||
+                !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_RANGE_M, NAN)) ||
+                !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD, NAN));
+    }
+    return says;
+}
+
+/* What nobody has said is a default that knows nothing of the radar: it may be far off. */
+static void set_bounds(const struct parameters *parameters, struct rho_tracker_config *config)
+{
+    const double *value = parameters->value;
+    const bool says = says_noise(parameters);
+
+    config->learn_noise_min = says || is_asked_for(parameters, PARAMETER_LEARN_NOISE_MIN)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MIN]
+                                  : UNSTATED_MIN;
+    config->learn_noise_max = says || is_asked_for(parameters, PARAMETER_LEARN_NOISE_MAX)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MAX]
+                                  : UNSTATED_MAX;
+    config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
+}
+
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config)
 {
     const double *value = parameters->value;
@@ -72,17 +113,13 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
     config->steady_s = (float)value[PARAMETER_STEADY_S];
     config->late_max_s = (float)value[PARAMETER_LATE_MAX_S];
+    set_bounds(parameters, config);
     config->work_max = (uint32_t)value[PARAMETER_WORK_MAX];
     config->coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
     config->gate = (uint8_t)value[PARAMETER_GATE];
     config->planes = (uint8_t)value[PARAMETER_PLANES];
     config->theta_cell_rad = (float)(value[PARAMETER_GATE_THETA_DEG] * (3.141592653589793 / 180.0));
     parameters_to_input(parameters, &config->input);
-}
-
-static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)
-{
-    return parameters->source[id] > SOURCE_DEFAULT;
 }
 
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id)

@@ -72,15 +72,11 @@ static struct radar_plot plot_of(const struct rho_plot *plot, int64_t scan_us,
                                .plot = *plot};
 }
 
-const char *register_add(struct register_data *data, const struct rho_scan *scan,
-                         const struct rho_sensor *sensor)
+void register_take(struct register_data *data, const struct rho_scan *scan,
+                   const struct rho_sensor *sensor)
 {
     struct radar_data *radar = radar_of(data, sensor);
-    const char *wrong = what_is_wrong(scan, radar, sensor);
 
-    if (wrong) {
-        return wrong;
-    }
     if (data->num_radars == 1 && radar->num_scans == 0) {
         data->start_us = scan->time_us;
     }
@@ -97,7 +93,17 @@ const char *register_add(struct register_data *data, const struct rho_scan *scan
             must_grow(radar->plots, radar->num_plots, &radar->plots_room, sizeof *radar->plots);
         radar->plots[radar->num_plots++] = plot_of(&scan->plots[i], scan->time_us, sensor);
     }
-    return NULL;
+}
+
+const char *register_add(struct register_data *data, const struct rho_scan *scan,
+                         const struct rho_sensor *sensor)
+{
+    const char *wrong = what_is_wrong(scan, radar_of(data, sensor), sensor);
+
+    if (!wrong) {
+        register_take(data, scan, sensor);
+    }
+    return wrong;
 }
 
 size_t register_num_radars(const struct register_data *data)

@@ -25,7 +25,8 @@ struct radar_track {
     size_t radar;
     size_t count, capacity;
     size_t *plots;
-    size_t target; /* the tracks of one target have the same */
+    size_t earlier; /* plots that it was started with, before the first of these */
+    size_t target;  /* the tracks of one target have the same */
 };
 
 struct radar_data {
@@ -45,6 +46,10 @@ struct register_data {
     struct radar_track *tracks;
 };
 
+/* As register_add, of any plots. */
+void register_take(struct register_data *data, const struct rho_scan *scan,
+                   const struct rho_sensor *sensor);
+
 /* Where and when a plot was, with the biases as estimated so far. */
 struct corrected {
     double t_s, x_m, y_m;
@@ -55,6 +60,10 @@ struct corrected register_correct(const struct register_data *data, const struct
 
 /* Scans by time, sectors put together to turns; then every radar's tracks. register_tracks.c */
 void register_track_all(struct register_data *data, struct chain *chain);
+void register_track_one(struct register_data *data, size_t number, struct chain *chain);
+
+/* One past the last scan of the turn that begins with `first`. register_tracks.c */
+size_t register_turn_end(const struct radar_data *radar, size_t first);
 
 /* Which tracks are one target, by the biases as estimated so far: their number `target`. gate_m: rms distance of two tracks.
  * misfit: they are to be together by their noise, too, which is so much of what their sigmas say; 0: they need not be. True

@@ -52,7 +52,7 @@ static struct rho_scan turn_of(const struct radar_data *radar, size_t first, siz
 
 /* One past the last scan of the turn that begins with `first`: all round, or until the first sector comes again, or for as
  * long as a plot's time may be off its scan's. */
-static size_t turn_end(const struct radar_data *radar, size_t first)
+size_t register_turn_end(const struct radar_data *radar, size_t first)
 {
     const struct radar_scan *scans = radar->scans;
     double turned_rad = width_rad(&scans[first]);
@@ -99,12 +99,14 @@ static void follow(struct following *all, const struct rho_report *report, const
         const struct rho_track_report *from = &report->tracks[i];
         struct followed *followed = followed_of(all, from->track_id);
         struct radar_track *track = &followed->track;
+        const bool is_first = track->count == 0;
 
         followed->is_confirmed |= from->status != RHO_TRACK_TENTATIVE;
         if (from->plot >= 0) {
             track->plots =
                 must_grow(track->plots, track->count, &track->capacity, sizeof *track->plots);
             track->plots[track->count++] = rows[from->plot];
+            track->earlier = is_first ? from->hits - 1u : track->earlier;
         }
     }
 }
@@ -136,7 +138,7 @@ static int by_time(const void *a, const void *b)
     return (one->first > other->first) - (one->first < other->first);
 }
 
-static void track_radar(struct register_data *data, size_t number, struct chain *chain)
+void register_track_one(struct register_data *data, size_t number, struct chain *chain)
 {
     struct radar_data *radar = &data->radars[number];
     struct following all = {.data = data, .radar = number};
@@ -148,7 +150,7 @@ static void track_radar(struct register_data *data, size_t number, struct chain 
     chain_open(chain, data->parameters);
     must_succeed(rho_tracker_set_sensor(chain->tracker, &radar->sensor), "sensor");
     for (size_t first = 0; first < radar->num_scans;) {
-        size_t end = turn_end(radar, first);
+        size_t end = register_turn_end(radar, first);
         struct rho_scan turn = turn_of(radar, first, end, rows, chain->plots);
 
         chain_step(chain, &turn);
@@ -162,6 +164,6 @@ static void track_radar(struct register_data *data, size_t number, struct chain 
 void register_track_all(struct register_data *data, struct chain *chain)
 {
     for (size_t i = 0; i < data->num_radars; i++) {
-        track_radar(data, i, chain);
+        register_track_one(data, i, chain);
     }
 }

@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Sensors that are not as stated: noise and pd are learned from what tracks show, within their
+ * bounds, and used; where all is as stated, or targets turn, nothing is.
+ */
+#include "tracker_setup.h"
+
+#define TARGETS 12
+#define SENSOR 3
+#define RANGE_MAX_M 60e3f
+#define TURN_US 4000000
+
+struct radar {
+    double sigma_range_m, sigma_azimuth_rad; /* true ones */
+    double claim;                            /* what its plots claim of these */
+    double claim_across;                     /* times that, of the second; 0: 1 */
+    double pd, pd_far, pd_stated;            /* to half its range, and beyond */
+    double weave_mps2;                       /* accelerations of its targets, across, in turns */
+    int is_round;                            /* plots have sigma_range_m on both axes */
+    int gone_at; /* targets are there for so many scans, then others; 0: always */
+};
+
+static const struct radar as_stated = {.sigma_range_m = 30.0,
+                                       .sigma_azimuth_rad = 0.003,
+                                       .claim = 1.0,
+                                       .pd = 0.9,
+                                       .pd_far = 0.9,
+                                       .pd_stated = 0.9};
+
+static void describe(const struct radar *radar)
+{
+    const struct rho_sensor sensor = {
+        .sensor_id = SENSOR, .pd = (float)radar->pd_stated, .range_max_m = RANGE_MAX_M};
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+}
+
+/* Half of them near, half far, on straight lines, or weaving about them. */
+static void place_of(const struct radar *radar, int target, int k, double place_m[2])
+{
+    const int life = radar->gone_at ? k / radar->gone_at : 0;
+    const double t_s = 4.0 * k, heading = 1.1 * target + 2.3 * life;
+    const double azimuth = 6.2832 * target / TARGETS + 0.3 * life;
+    const double range_m = target % 2 ? 18e3 : 48e3;
+    const double along_m = 20.0 * (t_s - 300.0);
+    const double off_m = radar->weave_mps2 / (0.15 * 0.15) * sin(0.15 * t_s);
+
+    place_m[0] = range_m * cos(azimuth) + along_m * cos(heading) - off_m * sin(heading);
+    place_m[1] = range_m * sin(azimuth) + along_m * sin(heading) + off_m * cos(heading);
+}
+
+static unsigned doubts; /* reports of grown tracks that are in doubt */
+
+static void look(const struct radar *radar, int k)
+{
+    struct rho_scan scan = {.time_us = (int64_t)TURN_US * k, .sensor_id = SENSOR, .plots = plots};
+
+    num_plots = 0;
+    for (int i = 0; i < TARGETS; i++) {
+        double place_m[2], range_noise = normal(), azimuth_noise = normal();
+        place_of(radar, i, k, place_m);
+        const double range_m = hypot(place_m[0], place_m[1]);
+        const double across_m =
+            radar->is_round ? radar->sigma_range_m : range_m * radar->sigma_azimuth_rad;
+        const double x = place_m[0] / range_m, y = place_m[1] / range_m;
+        const double along_m = radar->sigma_range_m * range_noise,
+                     side_m = across_m * azimuth_noise;
+        const double pd = range_m < 0.5 * (double)RANGE_MAX_M ? radar->pd : radar->pd_far;
+
+        if (uniform(0.0, 1.0) < pd) {
+            struct rho_plot *plot = add(place_m[0] + along_m * x - side_m * y,
+                                        place_m[1] + along_m * y + side_m * x, 1.0);
+            plot->sigma_range_m = (float)(radar->claim * radar->sigma_range_m);
+            plot->sigma_cross_m = (float)(radar->claim * across_m *
+                                          (radar->claim_across > 0.0 ? radar->claim_across : 1.0));
+        }
+    }
+    scan.num_plots = num_plots;
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        doubts += report.tracks[i].hits > 16 && report.tracks[i].status == RHO_TRACK_TENTATIVE;
+    }
+}
+
+static struct rho_tracker_known known_after(const struct radar *radar, int scans)
+{
+    struct rho_tracker_known known;
+
+    describe(radar);
+    for (int k = 0; k < scans; k++) {
+        describe(radar); /* as the program does before each scan: what is learned stays */
+        look(radar, k);
+    }
+    assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
+    assert_true(rho_tracker_is_sound(&tracker));
+    return known;
+}
+
+static void prepare(uint64_t seed)
+{
+    draw(seed);
+    config.accel_max_mps2 = 20.0f;
+    begin();
+}
+
+static void assert_between(double value, double least, double most)
+{
+    if (!(value >= least && value <= most)) {
+        fail_msg("%g is not within %g .. %g", value, least, most);
+    }
+}
+
+static void what_is_as_stated_stays(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        struct radar radar = as_stated;
+        radar.is_round = seed % 2 == 0;
+        prepare(seed);
+        const struct rho_tracker_known known = known_after(&radar, 150);
+        assert_float_equal(known.range_factor, 1.0f, 0.0f);
+        assert_float_equal(known.cross_factor, 1.0f, 0.0f);
+        for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+            assert_float_equal(known.pd[ring], 0.9f, 0.03f);
+        }
+        assert_true(known.innovations >= 300 && known.looks >= 1000);
+        assert_int_equal(tracker.sensors[0].sigma_range_percent, 100);
+    }
+}
+
+static void noise_is_found_on_each_axis(void **state)
+{
+    static const double claims[] = {0.45, 0.6, 2.5, 0.5};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct radar radar = as_stated;
+        radar.claim = claims[i];
+        radar.is_round = i == 3;
+        prepare(10u + (uint64_t)i);
+        config.learn_noise_min = 0.2f;
+        begin();
+        const struct rho_tracker_known known = known_after(&radar, 150);
+        assert_between((double)known.range_factor * claims[i], 0.82, 1.18);
+        assert_between((double)known.cross_factor * claims[i], 0.82, 1.18);
+        assert_between(tracker.sensors[0].sigma_cross_percent * 0.01 * claims[i], 0.82, 1.18);
+    }
+}
+
+/* Of one that claims too little noise along the line of sight alone. */
+static void axes_are_told_apart(void **state)
+{
+    struct radar radar = as_stated;
+
+    (void)state;
+    radar.claim_across = 2.0;
+    radar.claim = 0.5;
+    prepare(20);
+    const struct rho_tracker_known known = known_after(&radar, 150);
+    assert_between((double)known.range_factor, 1.64, 2.36);
+    assert_float_equal(known.cross_factor, 1.0f, 0.0f);
+}
+
+static void bounds_hold_and_one_is_off(void **state)
+{
+    struct radar radar = as_stated;
+    struct rho_tracker_known known;
+
+    (void)state;
+    radar.claim = 0.5;
+    radar.pd = radar.pd_far = 0.7;
+    radar.pd_stated = 0.95;
+    prepare(30);
+    config.learn_noise_max = 1.5f;
+    config.learn_pd_min = 0.8f;
+    begin();
+    known = known_after(&radar, 120);
+    assert_float_equal(known.range_factor, 1.5f, 0.0f);
+    assert_float_equal(known.pd[1], 0.76f, 1e-6f);
+    prepare(30);
+    config.learn_noise_min = config.learn_noise_max = config.learn_pd_min = 1.0f;
+    begin();
+    known = known_after(&radar, 120);
+    assert_float_equal(known.range_factor, 1.0f, 0.0f);
+    assert_float_equal(known.pd[1], 0.95f, 0.0f);
+    radar.claim = 3.0;
+    radar.pd = radar.pd_far = 0.9;
+    prepare(31);
+    known = known_after(&radar, 120);
+    assert_float_equal(known.range_factor, 0.7f, 0.0f);
+}
+
+/* Targets that turn leave plots beside their predictions, too: that is no noise. */
+static void manoeuvres_are_no_noise(void **state)
+{
+    static const double accels_mps2[] = {3.0, 10.0, 30.0};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        struct radar radar = as_stated;
+        radar.weave_mps2 = accels_mps2[i];
+        prepare(40u + (uint64_t)i);
+        const struct rho_tracker_known known = known_after(&radar, 150);
+        assert_between((double)known.range_factor, 0.99, 1.01);
+        assert_between((double)known.cross_factor, 0.99, 1.01);
+    }
+}
+
+static void pd_is_learned_by_range(void **state)
+{
+    struct radar radar = as_stated;
+
+    (void)state;
+    radar.pd_stated = 0.95;
+    radar.pd = 0.95;
+    radar.pd_far = 0.6;
+    prepare(50);
+    const struct rho_tracker_known known = known_after(&radar, 150);
+    assert_float_equal(known.pd[1], 0.95f, 0.03f);
+    assert_between((double)known.pd[4], 0.57, 0.7);
+}
+
+/* Times that grown tracks are in doubt of targets that are seen in half of the scans, in five runs. */
+static unsigned doubts_with(float learn_pd_min)
+{
+    doubts = 0;
+    for (uint64_t seed = 51; seed <= 55; seed++) {
+        struct radar radar = as_stated;
+        radar.pd_stated = 0.95;
+        radar.pd_far = 0.5;
+        prepare(seed);
+        config.learn_pd_min = learn_pd_min;
+        begin();
+        (void)known_after(&radar, 150);
+    }
+    return doubts;
+}
+
+/* Two misses in a row are a doubt where pd is as stated; where it is known to be less, more. */
+static void tracks_that_are_seen_seldom_are_believed(void **state)
+{
+    (void)state;
+    const unsigned learned = doubts_with(0.5f), as_ever = doubts_with(1.0f);
+    print_message("%u doubts, %u where pd is as stated\n", learned, as_ever);
+    assert_true(as_ever >= 200);
+    assert_true(2 * learned < as_ever);
+}
+
+/* Targets that are gone are no misses of those that are there; more than was stated is not
+ * believed. */
+static void pd_is_not_lowered_by_what_is_gone_nor_raised(void **state)
+{
+    struct radar radar = as_stated;
+
+    (void)state;
+    radar.gone_at = 30;
+    prepare(60);
+    assert_float_equal(known_after(&radar, 150).pd[4], 0.9f, 0.03f);
+    radar.gone_at = 0;
+    radar.pd = radar.pd_far = 0.99;
+    radar.pd_stated = 0.6;
+    prepare(61);
+    assert_float_equal(known_after(&radar, 100).pd[1], 0.6f, 0.0f);
+}
+
+static void sensors_are_told_apart_and_forgotten(void **state)
+{
+    struct radar radar = as_stated;
+    struct rho_tracker_known known;
+    const struct rho_sensor other = {.sensor_id = 9, .pd = 0.5f, .range_max_m = 1e4f};
+
+    (void)state;
+    radar.claim = 0.5;
+    prepare(70);
+    assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_ERROR_STATE);
+    assert_int_equal(rho_tracker_known_of(NULL, SENSOR, &known), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &other), RHO_OK);
+    assert_true(known_after(&radar, 120).range_factor > 1.6f);
+    assert_int_equal(rho_tracker_known_of(&tracker, 9, &known), RHO_OK);
+    assert_float_equal(known.range_factor, 1.0f, 0.0f);
+    assert_int_equal(known.looks, 0);
+    assert_int_equal(rho_tracker_forget_sensor(&tracker, 9), RHO_OK);
+    assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
+    assert_true(known.range_factor > 1.6f);
+    assert_int_equal(rho_tracker_forget_sensor(&tracker, SENSOR), RHO_OK);
+    describe(&radar);
+    assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
+    assert_int_equal(known.innovations, 0);
+}
+
+static void bounds_are_checked(void **state)
+{
+    static const float bad[][3] = {{0.09f, 4.0f, 0.5f}, {1.01f, 4.0f, 0.5f}, {0.7f, 0.99f, 0.5f},
+                                   {0.7f, 10.1f, 0.5f}, {0.7f, 4.0f, 0.09f}, {0.7f, 4.0f, NAN}};
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        draw(80);
+        config.learn_noise_min = bad[i][0];
+        config.learn_noise_max = bad[i][1];
+        config.learn_pd_min = bad[i][2];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_as_stated_stays),
+        cmocka_unit_test(noise_is_found_on_each_axis),
+        cmocka_unit_test(axes_are_told_apart),
+        cmocka_unit_test(bounds_hold_and_one_is_off),
+        cmocka_unit_test(manoeuvres_are_no_noise),
+        cmocka_unit_test(pd_is_learned_by_range),
+        cmocka_unit_test(tracks_that_are_seen_seldom_are_believed),
+        cmocka_unit_test(pd_is_not_lowered_by_what_is_gone_nor_raised),
+        cmocka_unit_test(sensors_are_told_apart_and_forgotten),
+        cmocka_unit_test(bounds_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

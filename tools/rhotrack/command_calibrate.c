@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/* calibrate: what radars are like, from a recording: noise, pd, clutter, turn time, speeds. */
+#include <string.h>
+
+#include "calibrate.h"
+#include "calibrate_output.h"
+#include "command_line.h"
+#include "commands.h"
+#include "common.h"
+#include "inputs.h"
+#include "register_data.h"
+
+static uint64_t read_all(const struct command_line *line, struct register_data *data)
+{
+    struct inputs *inputs =
+        inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct progress progress = progress_start("scans", 0);
+    uint64_t done = 0, skipped;
+
+    if (inputs_have_bearings(inputs)) {
+        fail(EXIT_USAGE, "calibrate takes plots, and no bearings");
+    }
+    for (struct input input = inputs_next(inputs); input.scan; input = inputs_next(inputs)) {
+        struct rho_sensor sensor;
+
+        if (input.sensor) {
+            sensor = *input.sensor;
+        } else {
+            parameters_to_any_sensor(&line->parameters, input.scan->sensor_id, &sensor);
+        }
+        register_take(data, input.scan, &sensor);
+        progress_show_bytes(&progress, ++done, inputs_position(inputs), inputs_size(inputs));
+    }
+    progress_end(&progress);
+    skipped = inputs_counts(inputs).rows_skipped;
+    inputs_close(inputs);
+    return skipped;
+}
+
+/* Then standard output has the INI file and nothing else. */
+static bool is_ini_on_output(const struct command_line *line)
+{
+    return line->output && strcmp(line->output, "-") == 0;
+}
+
+static void print(const struct command_line *line, const struct calibrate_result *result,
+                  uint64_t rows_skipped)
+{
+    struct output output;
+
+    if (line->json) {
+        calibrate_print_json(result, rows_skipped);
+    } else if (is_ini_on_output(line)) {
+        calibrate_print(result, stderr);
+    } else {
+        output = output_open(NULL);
+        calibrate_print(result, output.file);
+        output_close(&output);
+    }
+    say_rows_skipped(rows_skipped);
+}
+
+int command_calibrate(struct command_line *line)
+{
+    struct register_data *data = register_start(&line->parameters);
+    struct chain chain = chain_start();
+    struct calibrate_result result;
+    uint64_t rows_skipped;
+
+    refuse_own_input(line);
+    refuse_other_than_ini(line, "calibrate");
+    if (line->json && is_ini_on_output(line)) {
+        fail(EXIT_USAGE, "calibrate: --json and -o - both write on standard output");
+    }
+    chain_set_gate(&line->parameters, line->gate);
+    rows_skipped = read_all(line, data);
+    if (register_num_radars(data) == 0) {
+        fail(EXIT_USAGE, "calibrate: the input has no plots");
+    }
+    result = calibrate(data, &chain);
+    print(line, &result, rows_skipped);
+    if (!calibrate_knows_any(&result)) {
+        fail(EXIT_RUNTIME, "calibrate: too little was tracked to tell noise or pd of any radar");
+    }
+    if (line->output) {
+        calibrate_write_ini(&result, line->output);
+    }
+    calibrate_free(&result);
+    register_free(data);
+    chain_free(&chain);
+    return 0;
+}
