@@ -86,9 +86,9 @@ static void check_case(size_t number, double clutter)
 {
     struct sums sums = run_case(number, clutter);
     all_targets_are_found_and_tracked(&sums);
-    /* 1.00 +- 0.03 */
+    /* 0.87 with range rates to 1.00: the reference takes no target for a calm one */
     assert_true(sums.sum_m2 <= 1.1 * 1.1 * sums.reference_m2);
-    assert_true(sums.sum_m2 >= 0.9 * 0.9 * sums.reference_m2);
+    assert_true(sums.sum_m2 >= 0.8 * 0.8 * sums.reference_m2);
     /* the plots' own error is 120 m at 40 km, nearly all of it across */
     assert_true(sums.sum_m2 <= 100.0 * 100.0 * (double)sums.count);
     assert_true(sums.along_m2 <= 15.0 * 15.0 * (double)sums.count);
