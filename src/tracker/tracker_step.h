@@ -35,7 +35,7 @@ struct step {
     const struct rho_frame *frame;
     struct rho_passive *passive;
     struct rho_report *report;
-    const struct rho_sensor *sensor; /* that looks; NULL: not in the table */
+    const struct rho_sensor *sensor;     /* that looks; NULL: not in the table */
     struct rho_tracker_learned *learned; /* of it; NULL: likewise, or of a frame */
 #if RHO_SECTORS
     int is_doubted; /* the sensor contradicts the others */

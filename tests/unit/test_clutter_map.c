@@ -662,8 +662,8 @@ static void reflectors_in_a_room_hold_no_tracks(void **state)
         walks += num_in_room(30.0 + walked_m(t_s), 25.0) == 1;
     }
     assert_true(early > REFLECTORS * 10); /* nothing tells them from targets that stand */
-    assert_true(late <= 2); /* 1 of 2040 */
-    assert_true(walks > 380); /* of 400 */
+    assert_true(late <= 2);               /* 1 of 2040 */
+    assert_true(walks > 380);             /* of 400 */
     assert_true(map_of()->exact_plots > 0.9f * map_of()->rate_plots);
 }
 

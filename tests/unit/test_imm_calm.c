@@ -348,8 +348,8 @@ static double car_error_mps(float accel_max_mps2)
             assert_true(rho_imm_weigh(&imm, &seen, &match));
             assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
             rho_imm_estimate(&imm, &estimate, NULL);
-            sum += scan > 200 ? pow(estimate.state[3] - 10.0, 2.0) + pow(estimate.state[4], 2.0)
-                              : 0.0;
+            sum +=
+                scan > 200 ? pow(estimate.state[3] - 10.0, 2.0) + pow(estimate.state[4], 2.0) : 0.0;
         }
     }
     return sqrt(sum / (200.0 * RUNS));

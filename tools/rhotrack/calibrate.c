@@ -215,8 +215,8 @@ static struct calibrate_pieces find_noise(struct register_data *data, size_t num
         const struct calibrate_figure before[2] = {noise[0], noise[1]};
 
         noise[0] = noise_of(&pieces, 0, out->is_round);
-        noise[1] = out->is_round ? (struct calibrate_figure){.is_known = false}
-                                 : noise_of(&pieces, 1, false);
+        noise[1] = noise_of(&pieces, 1, false);
+        noise[1].is_known = noise[1].is_known && !out->is_round;
         if (has_settled(&before[0], &noise[0]) &&
             (out->is_round || has_settled(&before[1], &noise[1]))) {
             break;
