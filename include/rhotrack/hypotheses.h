@@ -134,7 +134,7 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, 
                                                    const struct rho_imm_model *model);
 
 /* From now on the model's calm_s, > 0, where it has calm targets. Cost: one rho_imm_step_open where
- * it is another one. */
+ * it is another one. Stack: 160 bytes. */
 void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s);
 
 /*

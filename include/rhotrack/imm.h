@@ -40,10 +40,10 @@
 /* A plot may be the target's where its squared Mahalanobis distance from either model's prediction is at most this. */
 #define RHO_IMM_GATE 30.0f
 
-/* What targets may do. rho_imm_model_default derives it from the largest acceleration. */
 /* Calm targets keep straight for minutes, if nothing more is known: airliners, ships. */
 #define RHO_IMM_CALM_S 300.0f
 
+/* What targets may do. rho_imm_model_default derives it from the largest acceleration. */
 struct rho_imm_model {
     float quiet_density; /* white acceleration of the steady model, m^2/s^3: >= 0 */
     float calm_density;  /* the same of a calm target: 0 .. quiet_density */
@@ -158,7 +158,7 @@ void rho_imm_open_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
                         const struct rho_sensor *sensor);
 
 /* rho_imm_weigh with the rates of the estimate and of the plot's sensor; they count where the plot has a range rate: else they may
- * be anything. Stack: 610 bytes. */
+ * be anything. Stack: 620 bytes. */
 int rho_imm_weigh_with(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                        const struct rho_imm_plot *seen, struct rho_imm_match *match);
 

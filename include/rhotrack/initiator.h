@@ -185,7 +185,7 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
  * candidates. What all would take grows with density, not with area: the newest plots times the plots within v_max x time of
  * each in the N - M + 1 scans before, a look-up each; where plots lie within their noise of one another all pairs with all
  * plots. Beyond work_max the newest plots with the fewest others near come first, and what is left out moves the counters of
- * `budget`. Kernels of turns come last, only where nothing was left out, and take twice the work of the others at most; what that
+ * `budget`. Kernels of turns come last, only where nothing was left out, and take no more work than the others; what that
  * leaves out is not counted. Stack: 3.3 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,

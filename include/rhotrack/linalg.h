@@ -4,7 +4,7 @@
  *
  * A symmetric n x n matrix is its lower triangle row by row: element (i, j <= i) at i (i + 1) / 2 + j, n (n + 1) / 2
  * floats. n <= RHO_LINALG_MAX. Every routine checks positive definiteness where it divides (a comparison that NaN
- * fails), and refuses without touching its operands.
+ * fails), and refuses without touching its operands, but for rho_linalg_cholesky.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -19,9 +19,8 @@
 
 /*
  * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a itself).
- * RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is untouched. Also NULL,
- * CAPACITY (n). Cost: n^3 / 6 multiplications, n square
- * roots. Stack: 440 bytes.
+ * RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is of no more use. Also NULL,
+ * CAPACITY (n). Cost: n^3 / 6 multiplications, n square roots. Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
 

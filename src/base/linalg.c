@@ -105,7 +105,6 @@ static inline void lower_variances(float p[21], const float row[6], const float 
 
 enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
 {
-    float factor[RHO_TRIANGLE(RHO_LINALG_MAX)];
     int i;
 
     if (a == NULL || l == NULL) {
@@ -115,11 +114,10 @@ enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
         return RHO_ERROR_CAPACITY;
     }
     for (i = 0; i < n; ++i) {
-        if (!factor_row(i, a, factor)) {
+        if (!factor_row(i, a, l)) {
             return RHO_ERROR_SINGULAR;
         }
     }
-    memcpy(l, factor, (size_t)RHO_TRIANGLE(n) * sizeof *l);
     return RHO_OK;
 }
 

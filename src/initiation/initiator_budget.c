@@ -16,8 +16,12 @@
 #define KEPT_SHARE 2u
 #define FREE_PARTS 4u
 
-/* What kernels of turns may take, of what those of straight targets took. */
-#define TURN_WORK 2u
+/*
+ * Kernels of turns may take as much as those of straight targets took; an eighth where plots have places alone, which show hardly
+ * more turns so; and so many units in any case.
+ */
+#define TURN_SHARE_OF_PLACES 8u
+#define TURN_UNITS_MIN 4000u
 
 #define CLASSES RHO_INITIATOR_CLASSES
 
@@ -178,7 +182,7 @@ void rho_initiator_try_kernels(struct search *search)
 }
 
 /*
- * The same for turns, from what is left, and no more than TURN_WORK times what the straight ones took. That counts as no part left
+ * The same for turns, from what is left, and no more than a share of what the straight ones took. That counts as no part left
  * out: half of it is kept for all plots alike.
  */
 void rho_initiator_try_turning_kernels(struct search *search)
@@ -190,7 +194,9 @@ void rho_initiator_try_turning_kernels(struct search *search)
     const uint32_t spent = rho_initiator_spent(search), end_units = search->limit_units;
     uint32_t units = work_max - work_max / CHOICE_SHARE;
     units = work_max == 0 ? UINT32_MAX : units > spent ? units - spent : 0u;
-    units = units / TURN_WORK < spent ? units : spent * TURN_WORK;
+    const uint32_t share = search->has_more ? spent : spent / TURN_SHARE_OF_PLACES;
+    const uint32_t most = share > TURN_UNITS_MIN ? share : TURN_UNITS_MIN;
+    units = units < most ? units : most;
     search->limit_units = rho_count(spent, units);
     try_scan(search, search->num_scans - 1u, units, &cheapest);
     search->limit_units = end_units;

@@ -3,6 +3,7 @@
  * initiator_own: kernels, votes and fits where each plot has its own covariance, and heights and range rates count.
  */
 #include <float.h>
+#include <string.h>
 
 #include "initiator_search.h"
 #include "rhotrack/approx.h"
@@ -411,15 +412,25 @@ static int is_slow_enough(const struct regression *of)
     return v[0] * v[0] + v[1] * v[1] <= v_max_mps * v_max_mps;
 }
 
+/* From the places, with the first rate off by so much from what they say. */
+static int solve_near(struct regression *of, const float *places, const struct first_rate *first,
+                      float error_mps)
+{
+    for (int k = 0; k < of->unknowns; k++) {
+        of->unknown[k] = places[k] + first->gain[k] * (error_mps / first->variance);
+    }
+    return solve(of);
+}
+
 /*
  * The places leave a choice of speeds along the line of sight: with one range rate in each of its meanings the others' follow.
  * The fit of the best one is kept; each is a target's as likely as any before it was seen.
  */
 static int solve_aliases(struct regression *of, unsigned widest)
 {
-    const struct regression places = *of;
+    float places[UNKNOWNS_MAX];
     struct first_rate first;
-    float least = FLT_MAX;
+    float least = FLT_MAX, best_mps = 0.0f;
     of->has_point = 1;
     if (!see_first(of, widest, &first)) {
         return solve(of);
@@ -429,25 +440,22 @@ static int solve_aliases(struct regression *of, unsigned widest)
         of->has_point = 0;
         return 1;
     }
+    memcpy(places, of->unknown, sizeof places);
     for (int i = -ALIASES_MAX; i <= ALIASES_MAX; i++) {
         float error_mps = first.error_mps + (float)i * first.span_mps;
-        struct regression alias = places;
         if (i != 0 && !(error_mps <= reach_mps && error_mps >= -reach_mps)) {
             continue;
         }
-        alias.has_point = 1;
-        for (int k = 0; k < of->unknowns; k++) {
-            alias.unknown[k] += first.gain[k] * (error_mps / first.variance);
-        }
-        if (solve(&alias) && is_slow_enough(&alias)) {
-            float chi2 = chi2_of(&alias);
+        if (solve_near(of, places, &first, error_mps) && is_slow_enough(of)) {
+            float chi2 = chi2_of(of);
             if (chi2 < least) {
                 least = chi2;
-                *of = alias;
+                best_mps = error_mps;
             }
         }
     }
-    return least < FLT_MAX;
+    /* once more: to keep each one's fit would take half of the stack */
+    return least < FLT_MAX && solve_near(of, places, &first, best_mps);
 }
 #endif
 

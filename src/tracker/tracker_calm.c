@@ -27,6 +27,7 @@ void rho_tracker_forget_calm(struct rho_tracker *tracker, int64_t time_us)
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) &&
         rho_seconds_between(tracker->time_us, time_us) > LOOKED_S) {
         rho_hypotheses_set_calm(&tracker->hypotheses, RHO_IMM_CALM_S);
+        tracker->straight_s = tracker->turning_s = 0.0f;
     }
 }
 

@@ -41,9 +41,10 @@ static float distance2_of(const struct step *step, const struct rho_track *track
     struct rho_sensor sensor;
     rho_tracker_open_gate(step, track, &gate);
     if (gate.sensor) {
-        /* as the plot itself says, not as it counts while its sensor is doubted */
+        /* as the plot itself says, or is known of its sensor; not as it counts while that is doubted */
         sensor = *gate.sensor;
         sensor.sigma_range_percent = sensor.sigma_cross_percent = 0;
+        rho_tracker_use_noise(step, 1.0f, &sensor);
         gate.sensor = &sensor;
     }
     if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {

@@ -26,8 +26,7 @@
 #include "rhotrack/measurement.h"
 #include "tracker_step.h"
 
-/* A track of so many hits is a target's; one that rather turns says nothing of noise. */
-#define HITS_MIN 16
+/* A track that rather turns says nothing of noise. */
 #define MANEUVER_MAX 0.2f
 #define HAS_INNOVATION 1u
 #define IS_MISSED 2u
@@ -63,7 +62,7 @@ static unsigned place_of(const struct step *step)
 
 static int learns_noise(const struct rho_tracker_config *config)
 {
-    return config->gate == RHO_TRACKER_BEST &&
+    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST &&
            (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
@@ -89,15 +88,21 @@ static uint16_t percent_of(float factor)
     return (uint16_t)(100.0f * factor + 0.5f);
 }
 
-void rho_tracker_set_noise(struct step *step)
+void rho_tracker_use_noise(const struct step *step, float doubt, struct rho_sensor *sensor)
 {
-    const float doubt = rho_tracker_weigh_sensor(step);
     if (step->learned) {
-        struct rho_sensor *sensor = &step->tracker->sensors[place_of(step)];
         sensor->sigma_range_percent =
             percent_of(doubt * factor_of(step->tracker, step->learned, 0));
         sensor->sigma_cross_percent =
             percent_of(doubt * factor_of(step->tracker, step->learned, 1));
+    }
+}
+
+void rho_tracker_set_noise(struct step *step)
+{
+    const float doubt = rho_tracker_weigh_sensor(step);
+    if (step->learned) {
+        rho_tracker_use_noise(step, doubt, &step->tracker->sensors[place_of(step)]);
     }
 }
 
@@ -123,14 +128,16 @@ struct innovation {
     int is_clear;
 };
 
+/* up_m2: what the height's noise does to it, which is not learned. */
 static struct innovation innovation_along(const struct rho_kalman *steady,
                                           const struct rho_plot *plot, float x, float y,
-                                          float noise_m2)
+                                          float noise_m2, float up_m2)
 {
     const float after_s = (float)plot->offset_us * 1e-6f, *state = steady->state;
     const float row[RHO_KALMAN_STATES] = {x, y, 0.0f, x * after_s, y * after_s, 0.0f};
     float projected[RHO_KALMAN_STATES];
-    const float variance_m2 = rho_linalg_project6(steady->covariance, row, projected) + noise_m2;
+    const float variance_m2 =
+        rho_linalg_project6(steady->covariance, row, projected) + noise_m2 + up_m2;
     const float off_m = x * (plot->x_m - state[0] - after_s * state[3]) +
                         y * (plot->y_m - state[1] - after_s * state[4]);
     const float sigmas = off_m / rho_sqrt(variance_m2);
@@ -172,12 +179,17 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
         return;
     }
     const float x = dx_m / range_m, y = dy_m / range_m;
+    /* of a line of sight that rises: of its noise the part in the plane, and what the height's adds there */
+    const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
+    const float dz_m = has_z ? plot->z_m - step->sensor->z_m : 0.0f;
+    const float rise2 = dz_m * dz_m / (dz_m * dz_m + range_m * range_m);
+    const float up_m2 = has_z ? rise2 * plot->sigma_up_m * plot->sigma_up_m : 0.0f;
     const float along_m2 = plot->sigma_range_m * plot->sigma_range_m;
     const float across_m2 = plot->sigma_cross_m * plot->sigma_cross_m;
-    const struct innovation along =
-        innovation_along(steady, plot, x, y, along_m2 * rho_exp(learned->log_noise[0]));
+    const struct innovation along = innovation_along(
+        steady, plot, x, y, (1.0f - rise2) * along_m2 * rho_exp(learned->log_noise[0]), up_m2);
     const struct innovation across =
-        innovation_along(steady, plot, -y, x, across_m2 * rho_exp(learned->log_noise[1]));
+        innovation_along(steady, plot, -y, x, across_m2 * rho_exp(learned->log_noise[1]), 0.0f);
     const float along_excess = note_excess(track, 0, &along);
     const float across_excess = note_excess(track, 1, &across);
     const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
@@ -305,7 +317,7 @@ static void find_lowered(struct step *step)
 static int is_telling(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
-    return track->status != RHO_TRACK_FREE && track->is_believed && track->hits >= HITS_MIN &&
+    return track->status != RHO_TRACK_FREE && track->is_believed && track->hits >= RHO_GROWN_HITS &&
            rho_tracker_is_reached(step, row);
 }
 

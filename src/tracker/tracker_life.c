@@ -201,10 +201,11 @@ void rho_tracker_age(struct step *step)
 
 /* ---- initiate --------------------------------------------------------------------------------- */
 
-/* What a tentative track gives way by: its score, or, where it was believed, how far that has fallen. */
-static int32_t weight_of(const struct rho_track *track)
+/* What a tentative track gives way by: its score; of one that hides how far that has fallen. */
+static int32_t weight_of(const struct step *step, const struct rho_track *track)
 {
-    return track->is_believed ? track->score_mnat - track->score_max_mnat : track->score_mnat;
+    const int hides = track->misses_in_row >= step->tracker->config.coast_scans_max;
+    return hides ? track->score_mnat - track->score_max_mnat : track->score_mnat;
 }
 
 /* Room for one more track: at the end, or that of the lowest tentative track below the score. */
@@ -218,8 +219,8 @@ static int make_room(struct step *step, int32_t score_mnat)
     unsigned lowest = RHO_MAX_TRACKS;
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->status == RHO_TRACK_TENTATIVE && weight_of(track) < score_mnat) {
-            score_mnat = weight_of(track);
+        if (track->status == RHO_TRACK_TENTATIVE && weight_of(step, track) < score_mnat) {
+            score_mnat = weight_of(step, track);
             lowest = i;
         }
     }

@@ -119,6 +119,8 @@ struct odds {
     float log_pd, log_miss;
 };
 void rho_tracker_set_noise(struct step *step);
+/* What is learned of the sensor's noise, times so much, as the sensor's own. */
+void rho_tracker_use_noise(const struct step *step, float doubt, struct rho_sensor *sensor);
 void rho_tracker_learn(struct step *step);
 struct odds rho_tracker_odds(const struct step *step, const struct rho_track *track);
 int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);

@@ -84,6 +84,8 @@ run calibrate passive/bearings.csv
 check 'bearings' says 2 'rhotrack: calibrate takes plots, and no bearings'
 run calibrate as_stated/plots.csv -o x.csv
 check 'another ending' says 2 'rhotrack: x.csv: calibrate writes an INI file, and .csv is the ending of another'
+run calibrate as_stated/plots.csv as_stated/plots.csv
+check 'an input twice' says 2 'rhotrack: calibrate: as_stated/plots.csv is given twice, and its plots would count twice'
 head -n 1 as_stated/plots.csv >none.csv
 run calibrate none.csv
 check 'no plots' exits 2

@@ -10,7 +10,7 @@ ARM_CC ?= arm-none-eabi-gcc
 # parameters as they are written. For 4 KiB of stack: no large frames put into one another.
 FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-reorder-blocks -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
                 -fno-tree-dominator-opts -fno-ipa-sra \
-                --param=large-stack-frame=128 --param=large-stack-frame-growth=50
+                --param=large-stack-frame=64 --param=large-stack-frame-growth=50
 
 m4_flags := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0x40200000u
 m7_flags := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0xA0000000u

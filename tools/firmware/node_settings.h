@@ -47,6 +47,7 @@ static inline void node_settings(struct rho_tracker_config *tracker,
     tracker->v_min_mps = initiator->v_min_mps = NODE_V_MIN_MPS;
     tracker->v_max_mps = initiator->v_max_mps = NODE_V_MAX_MPS;
     tracker->accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
+    initiator->turn_mps2 = 0.2f * NODE_ACCEL_MAX_MPS2;
     tracker->work_max = initiator->work_max = NODE_WORK_MAX;
 }
 

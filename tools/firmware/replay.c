@@ -161,6 +161,7 @@ static int set(struct node_config *config, const char *argument)
         config->tracker.v_max_mps = config->initiator.v_max_mps;
     } else if (length == 10 && strncmp(argument, "accel_mps2", length) == 0) {
         config->tracker.accel_max_mps2 = whole_number(value + 1);
+        config->initiator.turn_mps2 = 0.2f * config->tracker.accel_max_mps2;
     } else if (length == 6 && strncmp(argument, "radars", length) == 0) {
         config->sensors = radars;
         config->num_sensors = value[1] == '1' ? sizeof radars / sizeof *radars : 0;

@@ -265,6 +265,7 @@ static struct calibrate_figure turn_time(const struct turns *turns)
             gaps_s[i] = turns->end_s[i + 1] - turns->end_s[i];
         }
         figure.value = median(gaps_s, count);
+        figure.is_known = figure.value > 0.0;
         for (size_t i = 0; i < count; i++) {
             gaps_s[i] = fabs(gaps_s[i] - figure.value);
         }

@@ -68,6 +68,7 @@ int command_calibrate(struct command_line *line)
     uint64_t rows_skipped;
 
     refuse_own_input(line);
+    refuse_twins(line, "calibrate");
     refuse_other_than_ini(line, "calibrate");
     if (line->json && is_ini_on_output(line)) {
         fail(EXIT_USAGE, "calibrate: --json and -o - both write on standard output");

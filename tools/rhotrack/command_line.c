@@ -332,6 +332,18 @@ void refuse_own_input(const struct command_line *line)
     }
 }
 
+void refuse_twins(const struct command_line *line, const char *command)
+{
+    for (int i = 0; i < line->num_arguments; i++) {
+        for (int other = 0; other < i; other++) {
+            if (is_same_file(line->arguments[other], line->arguments[i])) {
+                fail(EXIT_USAGE, "%s: %s is given twice, and its plots would count twice", command,
+                     line->arguments[i]);
+            }
+        }
+    }
+}
+
 void refuse_other_than_ini(const struct command_line *line, const char *command)
 {
     static const char *const endings[] = {".csv",     ".lcm",  ".ast", ".asterix",

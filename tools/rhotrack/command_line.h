@@ -34,6 +34,9 @@ void command_line_help(const struct command *command, FILE *file);
 /* Exit 2 where --output names one of the arguments: of commands that nobody wants to put their output in an input's place. */
 void refuse_own_input(const struct command_line *line);
 
+/* The same input twice: its plots would count twice. */
+void refuse_twins(const struct command_line *line, const char *command);
+
 /* An output whose name promises something else than an INI file: exit 2. */
 void refuse_other_than_ini(const struct command_line *line, const char *command);
 

@@ -11,19 +11,6 @@
 #include "register.h"
 #include "register_output.h"
 
-/* Its plots would count twice. */
-static void refuse_twins(const struct command_line *line)
-{
-    for (int i = 0; i < line->num_arguments; i++) {
-        for (int other = 0; other < i; other++) {
-            if (is_same_file(line->arguments[other], line->arguments[i])) {
-                fail(EXIT_USAGE, "register: %s is given twice, and its plots would count twice",
-                     line->arguments[i]);
-            }
-        }
-    }
-}
-
 /* Then standard output has the INI file and nothing else. */
 static bool is_ini_on_output(const struct command_line *line)
 {
@@ -118,7 +105,7 @@ int command_register(struct command_line *line)
     uint64_t rows_skipped;
 
     refuse_own_input(line);
-    refuse_twins(line);
+    refuse_twins(line, "register");
     refuse_other_than_ini(line, "register");
     if (line->json && is_ini_on_output(line)) {
         fail(EXIT_USAGE, "register: --json and -o - both write on standard output");
