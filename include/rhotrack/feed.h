@@ -282,10 +282,13 @@ RHO_MUST_CHECK enum rho_status rho_feed_set_sensor(struct rho_feed *feed,
  * Takes one message; any bytes may be given. RHO_OK also where it was refused: a counter has moved.
  *   channel  ends with NUL
  *   now_us   reception clock
- * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel, or of a kind that is none of RHO_SCAN_KINDS), CAPACITY (no room for another open scan: call
- * rho_feed_next once, step what it gives, if anything, and take the message again; two such calls make room); nothing
+ * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel, or of a kind that is none of
+ * RHO_SCAN_KINDS), CAPACITY (no room for another open scan: call
+ * rho_feed_next once, step what it gives, if anything, and take the message again; two such calls
+ * make room); nothing
  * is changed but for that call.
- * Cost: the message's bytes, twice, RHO_MAX_SENSORS, and where parts come out of order the scan's plots moved.
+ * Cost: the message's bytes, twice, RHO_MAX_SENSORS, and where parts come out of order the scan's
+ * plots moved.
  * Stack: 2 KB: the message as a struct.
  */
 RHO_MUST_CHECK enum rho_status rho_feed_take(struct rho_feed *feed, const char *channel,

@@ -99,10 +99,11 @@ struct rho_imm_match {
 };
 
 /*
- * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.8 accel_max that is
- * remembered for 0.35 v_max / accel_max, 3 s at least; 0.47 v_max / accel_max in either model, 4 s at least; calm targets after
- * 60 s, which stay so for 300 s; quiet acceleration of (accel_max / 20)^2 m^2/s^3, 1 at most, calm 0.003 at most of that; at the
- * start, speed sd v_max and acceleration sd accel_max. Stack: 110 bytes.
+ * Models for targets that fly v_max > 0 and pull accel_max >= 0: a standing acceleration of 0.8
+ * accel_max that is remembered for 0.35 v_max / accel_max, 3 s at least; 0.47 v_max / accel_max in
+ * either model, 4 s at least; calm targets after 60 s, which stay so for 300 s; quiet acceleration
+ * of (accel_max / 20)^2 m^2/s^3, 1 at most, calm 0.003 at most of that; at the start, speed sd
+ * v_max and acceleration sd accel_max. Stack: 110 bytes.
  */
 void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps);
 

@@ -47,8 +47,11 @@ struct rho_initiator_config {
     /* acceleration, constant within a scan interval, that gates and scores allow for in places; 0: none. Range rates are
      * gated and scored as if there were none */
     float process_noise_mps2;
-    /* standard deviation of accelerations in the plane that stay the same for the window: after every scan, plots that a target
-     * may have had which turns or changes its speed are looked for, too; 0: straight ones alone */
+    /*
+     * standard deviation of accelerations in the plane that stay the same for the window: after
+     * every scan, plots that a target may have had which turns or changes its speed are looked for,
+     * too; 0: straight ones alone
+     */
     float turn_mps2;
     /* work that one search may do, up to 1e8 units, in a batch for each scan that tracks may end in; 0: no limit, for who has time */
     uint32_t work_max;
@@ -60,7 +63,10 @@ struct rho_initiator_config {
 struct rho_candidate {
     uint16_t mask; /* bit m: the scan of age order m voted */
     uint16_t hits; /* number of votes */
-    /* by age order: index into that scan's plots where the bit is set, else 0; an odd number, so that nothing is padded */
+    /*
+     * by age order: index into that scan's plots where the bit is set, else 0; an odd number, so
+     * that nothing is padded
+     */
     uint16_t plot[RHO_MAX_SCANS / 2 * 2 + 1];
     uint8_t has_z;      /* two plots or more have heights */
     uint8_t is_turning; /* x .. vy are of a fit that has an acceleration */
@@ -157,7 +163,8 @@ struct rho_initiator {
 
 /*
  * scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no
- * process noise, turns of 6 m/s^2, RHO_WORK_MAX, area from the plots; scans is cut to RHO_MAX_SCANS. Constant cost.
+ * process noise, turns of 6 m/s^2, RHO_WORK_MAX, area from the plots; scans is cut to
+ * RHO_MAX_SCANS. Constant cost.
  */
 void rho_initiator_config_default(struct rho_initiator_config *config);
 
@@ -172,21 +179,26 @@ RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiato
 /* True where a scan of this time can be pushed: the initiator is initialised, and holds no newer scan. Constant cost. */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
-/* rho_window_push on the initiator's window; what an earlier search found is forgotten. Stack: 264 bytes. */
+/*
+ * rho_window_push on the initiator's window; what an earlier search found is forgotten.
+ * Stack: 264 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,
                                                   const struct rho_sensor *sensor, uint8_t *fates,
                                                   uint32_t *left_unused);
 
 /*
- * Searches the window. Results: initiator->candidates[0 .. num_candidates - 1], best first, deterministic.
- * Errors: NULL, STATE (not initialised). Fewer than min_scans scans held: RHO_OK and no candidate.
- * Cost: work_max, and thresholds for false_tracks_per_hour: 0.3 to 0.9 million instructions, twice where there are likely
- * candidates. What all would take grows with density, not with area: the newest plots times the plots within v_max x time of
- * each in the N - M + 1 scans before, a look-up each; where plots lie within their noise of one another all pairs with all
- * plots. Beyond work_max the newest plots with the fewest others near come first, and what is left out moves the counters of
- * `budget`. Kernels of turns come last, only where nothing was left out, and take no more work than the others; what that
- * leaves out is not counted. Stack: 3.3 KB (embedded profile).
+ * Searches the window. Results: initiator->candidates[0 .. num_candidates - 1], best first,
+ * deterministic. Errors: NULL, STATE (not initialised). Fewer than min_scans scans held: RHO_OK and
+ * no candidate. Cost: work_max, and thresholds for false_tracks_per_hour: 0.3 to 0.9 million
+ * instructions, twice where there are likely candidates. What all would take grows with density,
+ * not with area: the newest plots times the plots within v_max x time of each in the N - M + 1
+ * scans before, a look-up each; where plots lie within their noise of one another all pairs with
+ * all plots. Beyond work_max the newest plots with the fewest others near come first, and what is
+ * left out moves the counters of `budget`. Kernels of turns come last, only where nothing was left
+ * out, and take no more work than the others; what that leaves out is not counted. Stack: 3.3 KB
+ * (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);

@@ -81,10 +81,10 @@ struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *
 float rho_measurement_widest_factor(const struct rho_sensor *sensor);
 
 /*
- * Opens up a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from the origin). A plot in the
- * sensor's own place has no line of sight: its noise is taken as isotropic, the largest of its sigmas.
- * The sensor's factors count; on heights the one that is nearer to 1, where both are on one side of it.
- * Cost: two square roots, two divisions. Stack: 80 bytes.
+ * Opens up a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from the
+ * origin). A plot in the sensor's own place has no line of sight: its noise is taken as isotropic,
+ * the largest of its sigmas. The sensor's factors count; on heights the one that is nearer to 1,
+ * where both are on one side of it. Cost: two square roots, two divisions. Stack: 80 bytes.
  */
 void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out);

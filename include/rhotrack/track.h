@@ -7,13 +7,14 @@
  *        ^                  | drop    doubt       | drop      update    | drop, or doubt
  *        +------------------+---------------------+---------------------+
  *
- * The evidence is a sequential log-likelihood ratio, target against clutter: a plot adds ln(pd / density) plus the log
- * density of its innovation, a miss adds ln(1 - pd), but only where the sensor looked. A tentative track is confirmed
- * when the score reaches the confirm threshold and dropped when it falls below Wald's lower one. A score that falls from its
- * highest says that the target has gone: by more than the odds of a target's life in a scan, and a confirmed track is in
- * doubt, tentative again; by coast_scans_max misses, or after that many misses in a row, and it is dropped (later where it may
- * hide: tracker.h). Until then plots
- * that it goes on with confirm it again, with the same identity.
+ * The evidence is a sequential log-likelihood ratio, target against clutter: a plot adds ln(pd /
+ * density) plus the log density of its innovation, a miss adds ln(1 - pd), but only where the
+ * sensor looked. A tentative track is confirmed when the score reaches the confirm threshold and
+ * dropped when it falls below Wald's lower one. A score that falls from its highest says that the
+ * target has gone: by more than the odds of a target's life in a scan, and a confirmed track is in
+ * doubt, tentative again; by coast_scans_max misses, or after that many misses in a row, and it is
+ * dropped (later where it may hide: tracker.h). Until then plots that it goes on with confirm it
+ * again, with the same identity.
  *
  * Stack: 64 bytes at most where nothing else is said.
  */
@@ -89,8 +90,11 @@ struct rho_track {
     uint8_t num_velocities;
     uint8_t is_believed; /* has been confirmed */
     uint8_t fast_in_row; /* updates in a row with a speed beyond the fastest target's; saturates */
-    /* what its sensor is learned from: the last innovation, along the line of sight and across, in sixteenths of its sigma;
-     * and bit 0: there is one; bit 1: sensor_id has missed it since it saw it */
+    /*
+     * what its sensor is learned from: the last innovation, along the line of sight and across, in
+     * sixteenths of its sigma; and bit 0: there is one; bit 1: sensor_id has missed it since it saw
+     * it
+     */
     int8_t shown[2];
     uint8_t has_shown;
 #if RHO_SECTORS

@@ -71,9 +71,12 @@ struct rho_tracker_config {
      * faster by a tenth, and by two standard deviations */
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
-    /* best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they last, as long as these. What
-     * keeps straight becomes calm in a minute on average, and keeps straight for max(C, steady_s) then (imm.h):
-     * C is 300 s, doubled up to 2400 s where hardly a grown track turns */
+    /*
+     * best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they
+     * last, as long as these. What keeps straight becomes calm in a minute on average, and keeps
+     * straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where hardly a
+     * grown track turns
+     */
     float steady_s;
 #if RHO_SECTORS
     /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
@@ -85,9 +88,12 @@ struct rho_tracker_config {
      * nothing is learned on that side
      */
     float learn_noise_min, learn_noise_max, learn_pd_min;
-    /* misses in a row that end a track, 1 .. 255: one of 16 hits is only in doubt then, tentative, and ends after 2.4 times as many,
-     * as long as its gate is not full of clutter. And scans, in the time that the sensors that saw it last take for them, for which a
-     * track coasts that no sensor can see */
+    /*
+     * misses in a row that end a track, 1 .. 255: one of 16 hits is only in doubt then, tentative,
+     * and ends after 2.4 times as many, as long as its gate is not full of clutter. And scans, in
+     * the time that the sensors that saw it last take for them, for which a track coasts that no
+     * sensor can see
+     */
     uint16_t coast_scans_max;
     uint8_t gate;   /* enum rho_tracker_gate */
     uint8_t planes; /* hough: RHO_GATE_PLANE_... */
@@ -177,13 +183,18 @@ struct rho_tracker_look {
 /*
  * What tracks have shown of a sensor that was described: how large its plots' noise is, and how
  * often it sees targets. Both begin at what was stated, and are used where they surely differ:
- * sigmas by more than an eighth, within the bounds of the config; pd only where it is less.
+ * sigmas by more than an eighth, within the bounds of the config; pd only where it is less. Noise is
+ * learned of tracks that this sensor alone has seen, and where the gate is best; pd at looks of the
+ * sensor that saw the track last, and not where RHO_FILTERS has no hypotheses.
  */
 struct rho_tracker_learned {
     float log_noise
         [2]; /* ln of what the variances are of those stated, along the line of sight, across */
     uint16_t innovations; /* that they come from; ends at 1000 */
-    /* by ring of range: looks at tracks that had been seen at the look before, and those that saw them; both are halved at 1000 */
+    /*
+     * by ring of range: looks at tracks that had been seen at the look before, and those that saw
+     * them; both are halved at 1000
+     */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
     uint16_t is_lowered; /* bit i: in ring i pd is used as learned */
 };
@@ -274,9 +285,10 @@ struct rho_report {
 };
 
 /*
- * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, late_max 20 s, learn_noise_min 0.7,
- * learn_noise_max 4, learn_pd_min 0.5, coast_scans_max 5, gate best (nearest where RHO_FILTERS has no hypotheses);
- * hough and nearest without input estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
+ * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, late_max 20 s, learn_noise_min
+ * 0.7, learn_noise_max 4, learn_pd_min 0.5, coast_scans_max 5, gate best (nearest where RHO_FILTERS
+ * has no hypotheses); hough and nearest without input estimation, planes xy, xz and yz, cells of 5
+ * degrees. Constant cost. Stack: 80 bytes.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);
 
@@ -290,7 +302,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, siz
                                                 const struct rho_tracker_config *config);
 
 /*
- * Describes a sensor, or replaces the description of the same sensor_id.
+ * Describes a sensor, or replaces the description of the same sensor_id; what was learned of it
+ * stays, over what is stated now.
  * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost: RHO_MAX_SENSORS.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker,

@@ -223,7 +223,9 @@ static void set_thresholds(struct search *search)
     search->initiator->min_scans = (uint16_t)search->min_scans;
 }
 
-/* What all kernels of plots as straight targets have them leave of the work is for those that turn. */
+/*
+ * What all kernels of plots as straight targets have them leave of the work is for those that turn.
+ */
 static void try_turns(struct search *search)
 {
     const unsigned min_scans = search->min_scans;

@@ -17,8 +17,8 @@
 #define FREE_PARTS 4u
 
 /*
- * Kernels of turns may take as much as those of straight targets took; an eighth where plots have places alone, which show hardly
- * more turns so; and so many units in any case.
+ * Kernels of turns may take as much as those of straight targets took; an eighth where plots have
+ * places alone, which show hardly more turns so; and so many units in any case.
  */
 #define TURN_SHARE_OF_PLACES 8u
 #define TURN_UNITS_MIN 4000u
@@ -182,8 +182,8 @@ void rho_initiator_try_kernels(struct search *search)
 }
 
 /*
- * The same for turns, from what is left, and no more than a share of what the straight ones took. That counts as no part left
- * out: half of it is kept for all plots alike.
+ * The same for turns, from what is left, and no more than a share of what the straight ones took.
+ * That counts as no part left out: half of it is kept for all plots alike.
  */
 void rho_initiator_try_turning_kernels(struct search *search)
 {

@@ -138,7 +138,9 @@ struct regression {
     float middle_s, unit_s;
     float origin_m[3];
     int has_point; /* the unknowns below were found: range rates can be linearised there */
-    /* place, then velocity times unit_s, `axes` each; of what turns acceleration times unit_s^2, 2 */
+    /*
+     * place, then velocity times unit_s, `axes` each; of what turns acceleration times unit_s^2, 2
+     */
     float unknown[UNKNOWNS_MAX];
     float factor[RHO_TRIANGLE(UNKNOWNS_MAX)]; /* Cholesky factor of the normal equations */
 };

@@ -198,11 +198,12 @@ void rho_initiator_use_rate(struct search *search, const struct rate *rate)
     initiator->confirm_mnat = rho_initiator_mnat(rate->confirm_nat);
 }
 
-/* ---- turns ------------------------------------------------------------------------------------ */
+/* ---- turns ----------------------------------------------------------------------------------- */
 
 /*
- * How likely a target turns, ln. Sets of clutter that reach s are at most S TURNING / 2 e^-s, S the scans that they may begin in:
- * a score is a likelihood ratio. Thresholds that let more through than TURNING of what is wanted are too low for turns.
+ * How likely a target turns, ln. Sets of clutter that reach s are at most S TURNING / 2 e^-s, S the
+ * scans that they may begin in: a score is a likelihood ratio. Thresholds that let more through
+ * than TURNING of what is wanted are too low for turns.
  */
 static float log_turn(const struct search *search)
 {

@@ -155,8 +155,10 @@ static void clear_taken(struct search *search)
     }
 }
 
-/* The candidate's plots and its track; searched and scored is from here on as it was: straight or turning. 0 where its plots
- * determine none. */
+/*
+ * The candidate's plots and its track; searched and scored is from here on as it was: straight or
+ * turning. 0 where its plots determine none.
+ */
 static int open_candidate(struct search *search, const struct rho_candidate *candidate,
                           struct plot_set *set, struct line_fit *fit)
 {

@@ -28,7 +28,10 @@
 #define SOJOURN_MIN_S 4.0f
 #define TURN_MAX_S 1000.0f
 
-/* Steady targets are not quite, in 1 s by a share of what they can pull; those that hardly manoeuvre are steadier still. */
+/*
+ * Steady targets are not quite, in 1 s by a share of what they can pull; those that hardly
+ * manoeuvre are steadier still.
+ */
 #define QUIET_DENSITY 1.0f
 #define CALM_DENSITY 0.003f
 #define QUIET_SHARE 0.05f

@@ -2,17 +2,19 @@
 /*
  * tracker_calm: how long this sky's targets keep straight.
  *
- * The chance that a calm target begins to turn (imm.h) is held against every plot of every straight track: where nobody turns for
- * hours it makes covariances too large and places worse than they need be. Over all grown tracks of the last half an hour, while
- * they were seen, with X the seconds that they kept straight and Y those in which a manoeuvre was likelier than not, the mean time
+ * The chance that a calm target begins to turn (imm.h) is held against every plot of every straight
+ * track: where nobody turns for hours it makes covariances too large and places worse than they
+ * need be. Over all grown tracks of the last half an hour, while they were seen, with X the seconds
+ * that they kept straight and Y those in which a manoeuvre was likelier than not, the mean time
  * between manoeuvres is
  *
  *      (4 300 s + X) / (4 + Y / maneuver_s)
  *
- * as if four had been seen at the 300 s that are believed at first. calm_s is doubled where it is twice as long, up to 2400 s: a
- * sky in which nobody turned must still see the first one that does. It is halved again where it is less than three quarters. In so
- * few steps a few tracks change nothing of others. After a silence it is 300 s: what calm targets do when nobody looks was
- * not learned.
+ * as if four had been seen at the 300 s that are believed at first. calm_s is doubled where it is
+ * twice as long, up to 2400 s: a sky in which nobody turned must still see the first one that does.
+ * It is halved again where it is less than three quarters. In so few steps a few tracks change
+ * nothing of others. After a silence it is 300 s: what calm targets do when nobody looks was not
+ * learned.
  */
 #include "tracker_step.h"
 

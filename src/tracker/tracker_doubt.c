@@ -41,7 +41,10 @@ static float distance2_of(const struct step *step, const struct rho_track *track
     struct rho_sensor sensor;
     rho_tracker_open_gate(step, track, &gate);
     if (gate.sensor) {
-        /* as the plot itself says, or is known of its sensor; not as it counts while that is doubted */
+        /*
+         * as the plot itself says, or is known of its sensor; not as it counts while that is
+         * doubted
+         */
         sensor = *gate.sensor;
         sensor.sigma_range_percent = sensor.sigma_cross_percent = 0;
         rho_tracker_use_noise(step, 1.0f, &sensor);
@@ -197,7 +200,10 @@ float rho_tracker_weigh_sensor(struct step *step)
         judge(step, look); /* whoever was its witness may have gone */
     }
     step->is_doubted = look && look->is_doubted;
-    /* a bias is no noise: that its plots pull a track off takes more than the variance that they show */
+    /*
+     * a bias is no noise: that its plots pull a track off takes more than the variance that they
+     * show
+     */
     const float shown = step->is_doubted ? look->distance2 : 1.0f;
     return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;
 }

@@ -179,7 +179,10 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
         return;
     }
     const float x = dx_m / range_m, y = dy_m / range_m;
-    /* of a line of sight that rises: of its noise the part in the plane, and what the height's adds there */
+    /*
+     * of a line of sight that rises: of its noise the part in the plane, and what the height's adds
+     * there
+     */
     const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
     const float dz_m = has_z ? plot->z_m - step->sensor->z_m : 0.0f;
     const float rise2 = dz_m * dz_m / (dz_m * dz_m + range_m * range_m);

@@ -16,8 +16,9 @@
 #define LIFETIME_MNAT 5298
 
 /*
- * A grown track that has moved, and is not seen any more, may hide: in doubt, unreported, for so many times coast_scans_max misses, as long
- * as no more clutter plots than that are expected in its gate. The target may have flown behind something, and keeps its identity.
+ * A grown track that has moved, and is not seen any more, may hide: in doubt, unreported, for so
+ * many times coast_scans_max misses, as long as no more clutter plots than that are expected in its
+ * gate. The target may have flown behind something, and keeps its identity.
  */
 #define HIDE_SHARE 2.4f
 #define HIDE_CLUTTER_MAX 3.0f
@@ -92,8 +93,9 @@ static int may_hide(const struct step *step, const struct rho_track *track)
 }
 
 /*
- * The limits of one track. What may hide ends later, and its evidence falls no further than twice the doubt: a hidden target
- * is missed for sure, and two plots that fit are to be enough when it is back.
+ * The limits of one track. What may hide ends later, and its evidence falls no further than twice
+ * the doubt: a hidden target is missed for sure, and two plots that fit are to be enough when it is
+ * back.
  */
 static struct rho_track_limits limits_of(const struct step *step, struct rho_track *track,
                                          const struct rho_track_limits *limits)
@@ -348,7 +350,10 @@ static void search_newest(struct step *step)
     step->is_partial |= initiator->budget.partial_steps != before.partial_steps;
 }
 
-/* Pointers were checked before the step began. Targets are looked for by what is known of their sensor now. */
+/*
+ * Pointers were checked before the step began. Targets are looked for by what is known of their
+ * sensor now.
+ */
 static void push(struct step *step, const struct rho_scan *held)
 {
     struct rho_sensor sensor;

@@ -2,18 +2,22 @@
 /*
  * tracker_shared: two targets so near each other that the sensor makes one plot of both.
  *
- * The assignment gives that plot to one of the two tracks; the other would starve, though nothing says that its target has
- * gone. Where both have been seen apart for long, and are expected within a few sigmas of each other, both take the plot, as
- * one that is off by as much as targets seen as one lie apart. So those that cross keep their velocities, and those in
- * formation stay together until they part.
+ * The assignment gives that plot to one of the two tracks; the other would starve, though nothing
+ * says that its target has gone. Where both have been seen apart for long, and are expected within
+ * a few sigmas of each other, both take the plot, as one that is off by as much as targets seen as
+ * one lie apart. So those that cross keep their velocities, and those in formation stay together
+ * until they part.
  *
- * Two targets d apart along the line of sight are seen as one with probability e^-(d^2 / 8 sigma^2), and so across it, each
- * with the sensor's sigma there; d is as uncertain as both tracks' places are, by a variance of c. The product of both axes'
+ * Two targets d apart along the line of sight are seen as one with probability e^-(d^2 / 8
+ * sigma^2), and so across it, each
+ * with the sensor's sigma there; d is as uncertain as both tracks' places are, by a variance of c.
+ * The product of both axes'
  *     root(4 sigma^2 / (4 sigma^2 + c)) e^-(d^2 / 2 (4 sigma^2 + c))
  * is `merged`.
  * The plot is shared where that explains it better than a miss of the second target does:
  *     merged N(z; middle) > (1 - merged) (1 - pd) N(z; first)
- * and it takes from the second track's score what the middle explains it worse than the first target alone, but no more than
+ * and it takes from the second track's score what the middle explains it worse than the first
+ * target alone, but no more than
  * a miss. A pair that never parts again loses a little each time, until the second one is in doubt.
  */
 #include "rhotrack/approx.h"
@@ -57,15 +61,16 @@ static float gain_of(const struct step *step, unsigned row, int column)
 }
 
 /* Along the line of sight, and across it. */
-static void turn(const struct rho_measurement *seen, const float at_m[2], float turned_m[2])
+static void along_and_across(const struct rho_measurement *seen, const float at_m[2],
+                             float turned_m[2])
 {
     turned_m[0] = seen->cos_azimuth * at_m[0] + seen->sin_azimuth * at_m[1];
     turned_m[1] = seen->cos_azimuth * at_m[1] - seen->sin_azimuth * at_m[0];
 }
 
 /* Of the place on the ground. */
-static void turn_variance(const struct rho_measurement *seen, const struct rho_track *track,
-                          float turned_m2[2])
+static void variances_along(const struct rho_measurement *seen, const struct rho_track *track,
+                            float turned_m2[2])
 {
     const float *covariance = track->kalman.covariance;
     const float c = seen->cos_azimuth, s = seen->sin_azimuth;
@@ -98,7 +103,7 @@ static int find_pair(const struct step *step, unsigned row, struct pair *pair)
     rho_measurement_open(&step->scan->plots[pair->plot], 0, step->sensor, &pair->seen);
     const float *from = pair->first->kalman.state, *to = pair->second->kalman.state;
     const float half_m[2] = {0.5f * (to[0] - from[0]), 0.5f * (to[1] - from[1])};
-    turn(&pair->seen, half_m, pair->half_m);
+    along_and_across(&pair->seen, half_m, pair->half_m);
     return 1;
 }
 
@@ -117,9 +122,9 @@ static int is_merged(const struct step *step, const struct pair *pair, float *ga
                               plot->y_m - state[1] - after_s * state[4]};
     float from_m[2], first_m2[2], second_m2[2];
     float share = 1.0f, distance2 = 0.0f, ratio_nat = 0.0f;
-    turn(&pair->seen, place_m, from_m);
-    turn_variance(&pair->seen, pair->first, first_m2);
-    turn_variance(&pair->seen, pair->second, second_m2);
+    along_and_across(&pair->seen, place_m, from_m);
+    variances_along(&pair->seen, pair->first, first_m2);
+    variances_along(&pair->seen, pair->second, second_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float half_m = pair->half_m[axis];
         const float near_m2 = 4.0f * pair->seen.variance_m2[axis];

@@ -112,8 +112,9 @@ int rho_tracker_open(struct step *step);
 void rho_tracker_close(struct step *step);
 
 /*
- * tracker_learn.c: noise and pd as tracks show them. Before plots are gated the sensor's noise is set;
- * between assignment and update it is learned; ln of what a hit and a miss of a track are likely
+ * tracker_learn.c: noise and pd as tracks show them. Before plots are gated the sensor's noise is
+ * set; between assignment and update it is learned; ln of what a hit and a miss of a track are
+ * likely
  */
 struct odds {
     float log_pd, log_miss;
@@ -139,7 +140,10 @@ void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
 /* The track has a plot of this scan, or has not. */
 void rho_tracker_note_sight(const struct step *step, struct rho_track *track);
 
-/* tracker_doubt.c: before its plots are gated, how many times its sigmas count; and between assignment and update: whether the sensor agrees with others */
+/*
+ * tracker_doubt.c: before its plots are gated, how many times its sigmas count; and between
+ * assignment and update: whether the sensor agrees with others
+ */
 float rho_tracker_weigh_sensor(struct step *step);
 void rho_tracker_watch(struct step *step);
 /* The track is known from the sensor's word alone, which is doubted. */

@@ -206,8 +206,10 @@ static struct evaluation_point with_velocity_covariance(struct evaluation_point 
     return point;
 }
 
-/* The same matrix for velocities, over the 2 of its mean: 1 / 2, 8.5 / 2. Without a velocity, a covariance or a positive definite one there is
- * none, whatever is known of the place. */
+/*
+ * The same matrix for velocities, over the 2 of its mean: 1 / 2, 8.5 / 2. Without a velocity, a
+ * covariance or a positive definite one there is none, whatever is known of the place.
+ */
 static void velocities_have_a_ratio_of_their_own(void **state)
 {
     (void)state;
@@ -232,8 +234,11 @@ static void velocities_have_a_ratio_of_their_own(void **state)
     evaluation_free(e);
 }
 
-/* What one target does and its track: two seconds of 10 m/s, a turn of 0.1 m/s^2, a missed scan in it, straight again, a
- * velocity that is not given. Errors tell the times apart: the root mean square of a motion's. */
+/*
+ * What one target does and its track: two seconds of 10 m/s, a turn of 0.1 m/s^2, a missed scan in
+ * it, straight again, a velocity that is not given. Errors tell the times apart: the root mean
+ * square of a motion's.
+ */
 static void motions_are_told_apart(void **state)
 {
     (void)state;

@@ -323,7 +323,10 @@ static void straight_targets_are_known_nearly_as_by_a_filter_that_is_told(void *
     assert_true(with < 0.6 * without); /* 2.15 */
 }
 
-/* Of the velocity, m/s, of a car that keeps straight, seen 20 times a second with 1 m, from 10 s to 20 s. */
+/*
+ * Of the velocity, m/s, of a car that keeps straight, seen 20 times a second with 1 m, from 10 s to
+ * 20 s.
+ */
 static double car_error_mps(float accel_max_mps2)
 {
     double sum = 0.0;
@@ -355,7 +358,10 @@ static double car_error_mps(float accel_max_mps2)
     return sqrt(sum / (200.0 * RUNS));
 }
 
-/* Who says that targets accelerate less knows straight ones better: .59 at 6 m/s^2 and .10 at 30 was the other way round. */
+/*
+ * Who says that targets accelerate less knows straight ones better: .59 at 6 m/s^2 and .10 at 30
+ * was the other way round.
+ */
 static void straight_cars_are_known_the_better_the_less_they_may_accelerate(void **state)
 {
     static const float accels_mps2[] = {30.0f, 20.0f, 10.0f, 6.0f, 4.0f, 2.0f, 1.0f};

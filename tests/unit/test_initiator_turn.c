@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Targets that turn while they are found: their plots are one track's where sets may have an acceleration, with range rates and
- * without, whichever way they fly and turn, at the plots' own times; straight ones are found as before.
+ * Targets that turn while they are found: their plots are one track's where sets may have an
+ * acceleration, with range rates and without, whichever way they fly and turn, at the plots' own
+ * times; straight ones are found as before.
  */
 #include "initiator_setup.h"
 
@@ -124,7 +125,10 @@ static void turning_targets_are_found(void **state)
     assert_true(by_places >= all * 90 / 100 && by_places > by_straight_places);
 }
 
-/* The fit's velocity at the newest scan is the target's: along the line of sight as sure as the range rates make it. */
+/*
+ * The fit's velocity at the newest scan is the target's: along the line of sight as sure as the
+ * range rates make it.
+ */
 static void a_turn_is_fitted_at_the_plots_own_times(void **state)
 {
     (void)state;

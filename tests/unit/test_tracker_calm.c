@@ -9,7 +9,9 @@
 #define GROWN_HITS 16
 #define TARGETS 6
 
-/* Targets that fly round and round far apart, each on a square of straight sides, or on a circle. */
+/*
+ * Targets that fly round and round far apart, each on a square of straight sides, or on a circle.
+ */
 static int turn;
 
 static void begin_turns(void)
@@ -29,7 +31,10 @@ static void see(double x_m, double y_m)
     (void)add(x_m + dx_m, y_m + dy_m, SIGMA_M);
 }
 
-/* Straight ones keep straight; others turn by 180 degrees at 15 m/s^2 once a minute, all to and fro. */
+/*
+ * Straight ones keep straight; others turn by 180 degrees at 15 m/s^2 once a minute, all to and
+ * fro.
+ */
 static void fly(int turns, int num_targets, int has_turns)
 {
     const double radius_m = SPEED_MPS * SPEED_MPS / 15.0, half_s = 60.0;
@@ -83,7 +88,10 @@ static unsigned grown_that_turn(const struct rho_report *before, int turns)
     return count;
 }
 
-/* Six targets keep straight: as the rule has it in double, in doublings, until eight times the first figure. */
+/*
+ * Six targets keep straight: as the rule has it in double, in doublings, until eight times the
+ * first figure.
+ */
 static void straight_targets_are_calmer(void **state)
 {
     (void)state;
@@ -151,7 +159,10 @@ static void turns_take_it_back(void **state)
     assert_true(tracker.turning_s > 100.0f);
 }
 
-/* A minute in which nobody looked teaches nothing, nor do young tracks; and then calm targets are what they were at first. */
+/*
+ * A minute in which nobody looked teaches nothing, nor do young tracks; and then calm targets are
+ * what they were at first.
+ */
 static void silence_teaches_nothing(void **state)
 {
     (void)state;

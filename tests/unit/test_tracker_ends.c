@@ -460,7 +460,10 @@ static uint32_t hide(int seen, int missed, double *t_s)
     return id;
 }
 
-/* Behind a hill for forty seconds; what is not back after twelve misses has gone. Of a young track five are enough. */
+/*
+ * Behind a hill for forty seconds; what is not back after twelve misses has gone. Of a young track
+ * five are enough.
+ */
 static void a_grown_target_that_hides_keeps_its_identity(void **state)
 {
     (void)state;

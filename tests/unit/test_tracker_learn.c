@@ -217,7 +217,9 @@ static void pd_is_learned_by_range(void **state)
     assert_between((double)known.pd[4], 0.57, 0.7);
 }
 
-/* Times that grown tracks are in doubt of targets that are seen in half of the scans, in five runs. */
+/*
+ * Times that grown tracks are in doubt of targets that are seen in half of the scans, in five runs.
+ */
 static unsigned doubts_with(float learn_pd_min)
 {
     doubts = 0;

@@ -313,8 +313,8 @@ static void one_that_is_far_shares_nothing(void **state)
 }
 
 /*
- * Two 300 m apart, 40 km from the sensor, whose plots are good to 30 m in range and to 170 m across. Three scans show one
- * of them alone, or the middle: scans that were shared.
+ * Two 300 m apart, 40 km from the sensor, whose plots are good to 30 m in range and to 170 m
+ * across. Three scans show one of them alone, or the middle: scans that were shared.
  */
 static unsigned scans_shared_apart(double along_m, double across_m, int is_one)
 {
@@ -337,7 +337,10 @@ static unsigned scans_shared_apart(double along_m, double across_m, int is_one)
     return shared;
 }
 
-/* One behind the other are told apart by their ranges, however bad the azimuths are; abreast they are not. */
+/*
+ * One behind the other are told apart by their ranges, however bad the azimuths are; abreast they
+ * are not.
+ */
 static void those_whose_ranges_differ_share_nothing(void **state)
 {
     (void)state;

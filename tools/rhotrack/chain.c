@@ -95,7 +95,10 @@ static void push_held(struct rho_initiator *initiator, const struct rho_window_s
     free(fates);
 }
 
-/* A sensor that leaves the window that it shared takes its scans along: its targets start from these. */
+/*
+ * A sensor that leaves the window that it shared takes its scans along: its targets start from
+ * these.
+ */
 static void take_along(struct chain *chain, const struct chain_initiator *added)
 {
     for (size_t i = 0; chain->initiators + i < added; i++) {

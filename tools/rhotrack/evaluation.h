@@ -2,9 +2,10 @@
 /*
  * evaluation: tracks against truth, time by time; knows no files.
  *
- * At every time the tracks are paired with the targets anew, best in all (gospa.h). All figures come from these pairs.
- * What is not known (no pair, no velocity, no covariance) is NAN. Quantiles interpolate between neighbours; they are exact, as
- * all errors are kept. Memory: some 150 bytes an identity, 130 a time, 48 a pair, and up to as much again.
+ * At every time the tracks are paired with the targets anew, best in all (gospa.h). All figures
+ * come from these pairs. What is not known (no pair, no velocity, no covariance) is NAN. Quantiles
+ * interpolate between neighbours; they are exact, as all errors are kept. Memory: some 150 bytes an
+ * identity, 130 a time, 48 a pair, and up to as much again.
  */
 #ifndef RHOTRACK_TOOL_EVALUATION_H
 #define RHOTRACK_TOOL_EVALUATION_H
@@ -24,9 +25,11 @@ struct evaluation_point {
     bool is_coasting; /* a track that the last scan missed */
 };
 
-/* What a pair's target and track do: a filter can be right about one and wrong about another. A track that coasts counts as
- * that alone; else the target turns (or speeds up) where its velocity changed since the time before by more than the limit a
- * second, and is straight where it did not. */
+/*
+ * What a pair's target and track do: a filter can be right about one and wrong about another. A
+ * track that coasts counts as that alone; else the target turns (or speeds up) where its velocity
+ * changed since the time before by more than the limit a second, and is straight where it did not.
+ */
 enum evaluation_motion {
     EVALUATION_STRAIGHT,
     EVALUATION_TURNING,
@@ -42,8 +45,11 @@ struct evaluation_errors {
     size_t pairs;
     double rmse_m, median_m, p95_m;       /* distances; p95: 95 % are less */
     double rmse_mps, median_mps, p95_mps; /* of the pairs with both velocities */
-    /* Of the pairs with a covariance, in x and y: mean of e^T P^-1 e, 2 where it is right; share of targets inside the
-     * 95 % ellipse, 0.95 where it is right. The same of the velocity, but over those 2: above 1 the covariance is too small. */
+    /*
+     * Of the pairs with a covariance, in x and y: mean of e^T P^-1 e, 2 where it is right; share of
+     * targets inside the 95 % ellipse, 0.95 where it is right. The same of the velocity, but over
+     * those 2: above 1 the covariance is too small.
+     */
     double nees, nees_inside;
     double velocity_ratio, velocity_inside;
 };

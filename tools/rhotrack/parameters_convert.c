@@ -6,7 +6,10 @@
 #include "parameters.h"
 #include "rhotrack/measurement.h"
 
-/* Of the largest acceleration, the standard deviation of those that targets have for a whole window. */
+/*
+ * Of the largest acceleration, the standard deviation of those that targets have for a whole
+ * window.
+ */
 #define TURN_SHARE 0.2f
 
 /* Bounds of the factor on sigmas where nobody has said how large they are. */
