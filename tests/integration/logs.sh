@@ -105,6 +105,8 @@ same_figures() {
     python3 -c 'import json
 a, b = json.load(open("figures")), json.load(open("again"))
 def differ(x, y):
+    if isinstance(x, dict):
+        return x.keys() != y.keys() or any(differ(x[k], y[k]) for k in x)
     if isinstance(x, list):
         return [len(i) for i in x] != [len(i) for i in y]
     return x != y and abs(x - y) > 1e-4 * abs(x)
