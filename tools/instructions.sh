@@ -90,7 +90,7 @@ row 'hough, input estimation: places and velocities, 4' 8 - tracker hough cartes
 row 'best: places and velocities, the target alone' 8 - tracker best cartesian 1 1
 row 'best: the same, 4 in the gate' 8 - tracker best cartesian 4 1
 row 'best: polar plots with range rate, the target alone' 8 16000 tracker best polar 1 1
-row 'best: the same, 4 in the gate' 8 75500 tracker best polar 4 1
+row 'best: the same, 4 in the gate' 8 77000 tracker best polar 4 1
 
 head_of 'a radar with 8 tracks and 32 plots a turn, gate best, a step'
 row 'the turn at once' 1 - tracker best polar 4 1

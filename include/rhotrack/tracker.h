@@ -196,7 +196,8 @@ struct rho_tracker_learned {
      * them; both are halved at 1000
      */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
-    uint16_t is_lowered; /* bit i: in ring i pd is used as learned */
+    uint8_t is_lowered; /* bit i: in ring i pd is used as learned */
+    uint8_t ring;       /* that is judged next, one a scan */
 };
 
 /* How often a sensor looks at a place. */

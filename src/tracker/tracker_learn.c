@@ -134,10 +134,13 @@ static struct innovation innovation_along(const struct rho_kalman *steady,
                                           float noise_m2, float up_m2)
 {
     const float after_s = (float)plot->offset_us * 1e-6f, *state = steady->state;
-    const float row[RHO_KALMAN_STATES] = {x, y, 0.0f, x * after_s, y * after_s, 0.0f};
-    float projected[RHO_KALMAN_STATES];
-    const float variance_m2 =
-        rho_linalg_project6(steady->covariance, row, projected) + noise_m2 + up_m2;
+    const float *p = steady->covariance, vx = x * after_s, vy = y * after_s;
+    const float predicted_m2 =
+        x * (x * p[RHO_AT(0, 0)] +
+             2.0f * (y * p[RHO_AT(1, 0)] + vx * p[RHO_AT(3, 0)] + vy * p[RHO_AT(4, 0)])) +
+        y * (y * p[RHO_AT(1, 1)] + 2.0f * (vx * p[RHO_AT(3, 1)] + vy * p[RHO_AT(4, 1)])) +
+        vx * (vx * p[RHO_AT(3, 3)] + 2.0f * vy * p[RHO_AT(4, 3)]) + vy * vy * p[RHO_AT(4, 4)];
+    const float variance_m2 = predicted_m2 + noise_m2 + up_m2;
     const float off_m = x * (plot->x_m - state[0] - after_s * state[3]) +
                         y * (plot->y_m - state[1] - after_s * state[4]);
     const float sigmas = off_m / rho_sqrt(variance_m2);
@@ -168,7 +171,9 @@ static int add(float *log_noise, float excess, float gain)
     return 1;
 }
 
-static void learn_noise(struct step *step, struct rho_track *track, const struct rho_plot *plot)
+/* factors: what is learned so far of the variances. */
+static void learn_noise(struct step *step, struct rho_track *track, const struct rho_plot *plot,
+                        const float factors[2])
 {
     struct rho_tracker_learned *learned = step->learned;
     const struct rho_kalman *steady = steady_of(step, track);
@@ -189,10 +194,10 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
     const float up_m2 = has_z ? rise2 * plot->sigma_up_m * plot->sigma_up_m : 0.0f;
     const float along_m2 = plot->sigma_range_m * plot->sigma_range_m;
     const float across_m2 = plot->sigma_cross_m * plot->sigma_cross_m;
-    const struct innovation along = innovation_along(
-        steady, plot, x, y, (1.0f - rise2) * along_m2 * rho_exp(learned->log_noise[0]), up_m2);
+    const struct innovation along =
+        innovation_along(steady, plot, x, y, (1.0f - rise2) * along_m2 * factors[0], up_m2);
     const struct innovation across =
-        innovation_along(steady, plot, -y, x, across_m2 * rho_exp(learned->log_noise[1]), 0.0f);
+        innovation_along(steady, plot, -y, x, across_m2 * factors[1], 0.0f);
     const float along_excess = note_excess(track, 0, &along);
     const float across_excess = note_excess(track, 1, &across);
     const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
@@ -305,14 +310,14 @@ static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
     track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
 }
 
+/* One ring a scan: little changes from one to the next. */
 static void find_lowered(struct step *step)
 {
-    unsigned lowered = 0;
-    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        const float pd = pd_at(step->tracker, place_of(step), ring);
-        lowered |= pd < step->sensor->pd ? 1u << ring : 0u;
-    }
-    step->learned->is_lowered = (uint16_t)lowered;
+    struct rho_tracker_learned *learned = step->learned;
+    const float pd = pd_at(step->tracker, place_of(step), learned->ring);
+    const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
+    learned->is_lowered = (uint8_t)(others | (pd < step->sensor->pd ? bit : 0u));
+    learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
 }
 
 /* ---- a scan -------------------------------------------------------------------------------- */
@@ -353,6 +358,8 @@ void rho_tracker_learn(struct step *step)
     if (!can_learn(step)) {
         return;
     }
+    const float factors[2] = {rho_exp(step->learned->log_noise[0]),
+                              rho_exp(step->learned->log_noise[1])};
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (!is_telling(step, row)) {
@@ -360,7 +367,7 @@ void rho_tracker_learn(struct step *step)
         }
         const int plot = rho_assignment_column(&tracker->assignment, row);
         if (has_noise && plot != RHO_ASSIGNMENT_NONE && is_steady(track)) {
-            learn_noise(step, track, &step->scan->plots[plot]);
+            learn_noise(step, track, &step->scan->plots[plot], factors);
         }
         if (plot != RHO_ASSIGNMENT_NONE ||
             (!step->has_more_parts && rho_tracker_scan_looked_at(step, track))) {
@@ -383,7 +390,8 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
     }
     return rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
-           learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS;
+           learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
+           learned->ring < RHO_LEARN_RINGS;
 }
 
 enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t sensor_id,

@@ -672,7 +672,8 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     NONSENSE(0, rho_tracker, learned[0].innovations, uint16_t, 1001);
     NONSENSE(0, rho_tracker, learned[0].looks[5], uint16_t, 1001);
     NONSENSE(0, rho_tracker, learned[0].hits[0], uint16_t, UINT16_MAX);
-    NONSENSE(0, rho_tracker, learned[0].is_lowered, uint16_t, 64);
+    NONSENSE(0, rho_tracker, learned[0].is_lowered, uint8_t, 64);
+    NONSENSE(0, rho_tracker, learned[0].ring, uint8_t, RHO_LEARN_RINGS);
     NONSENSE(0, rho_tracker, config.learn_noise_min, float, 0.0f);
     NONSENSE(0, rho_tracker, config.learn_noise_max, float, nan);
     NONSENSE(0, rho_tracker, config.learn_pd_min, float, 1.5f);
