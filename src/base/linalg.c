@@ -4,7 +4,6 @@
 #include <float.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "rhotrack/approx.h"
 

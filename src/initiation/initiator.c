@@ -235,6 +235,7 @@ static void try_turns(struct search *search)
     }
     search->min_scans++; /* clutter makes them more easily */
     if (search->min_scans <= search->num_scans) {
+        search->log_turning = rho_initiator_log_turning(search);
         rho_initiator_let_turn(search, 1);
         search->sigma_least_m = 0.0f; /* gates are wider than noise */
         rho_initiator_try_turning_kernels(search);
@@ -289,7 +290,6 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     search.has_more = has_more(&search);
     search.reach_chi2 = search.has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
     search.has_one_noise = is_isotropic(&search);
-    search.is_isotropic = search.has_one_noise;
 #if RHO_SECTORS
     use_turn(&search);
 #endif

@@ -205,7 +205,7 @@ void rho_initiator_use_rate(struct search *search, const struct rate *rate)
  * scans that they may begin in: a score is a likelihood ratio. Thresholds that let more through
  * than TURNING of what is wanted are too low for turns.
  */
-static float log_turn(const struct search *search)
+float rho_initiator_log_turning(const struct search *search)
 {
     const struct rho_initiator *initiator = search->initiator;
     float wanted = initiator->config.false_tracks_per_hour * search->interval_s / 3600.0f;
@@ -222,6 +222,5 @@ static float log_turn(const struct search *search)
 void rho_initiator_let_turn(struct search *search, int turns)
 {
     search->turn_mps2 = turns ? search->initiator->config.turn_mps2 : 0.0f;
-    search->log_turn = turns ? log_turn(search) : 0.0f;
-    search->is_isotropic = search->has_one_noise && !turns;
+    search->log_turn = turns ? search->log_turning : 0.0f;
 }

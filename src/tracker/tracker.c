@@ -443,8 +443,7 @@ static void take_in(struct step *step)
     const unsigned place = place_of_sensor(step->tracker, step->scan->sensor_id);
     if (place < step->tracker->num_sensors) {
         step->sensor = &step->tracker->sensors[place];
-        /* one Kalman filter takes manoeuvres for noise */
-        step->learned = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? &step->tracker->learned[place] : 0;
+        step->learned = &step->tracker->learned[place];
     }
     rho_tracker_set_pd(step);
     rho_tracker_note_look(step);

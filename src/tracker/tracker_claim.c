@@ -101,6 +101,19 @@ void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float g
     (void)!rho_assignment_add(&step->tracker->assignment, row, column, gain > 1 ? -gain : -1);
 }
 
+int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat)
+{
+    const struct rho_assignment *assignment = &step->tracker->assignment;
+    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
+        if (assignment->pairs[row][i].column == column) {
+            *gain_nat = rho_tracker_odds(step, &step->tracker->tracks[row]).log_miss -
+                        0.001f * (float)assignment->pairs[row][i].cost;
+            return 1;
+        }
+    }
+    return 0;
+}
+
 void rho_tracker_assign(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;

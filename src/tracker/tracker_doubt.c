@@ -40,13 +40,9 @@ static float distance2_of(const struct step *step, const struct rho_track *track
     struct rho_gate_result result;
     struct rho_sensor sensor;
     rho_tracker_open_gate(step, track, &gate);
-    if (gate.sensor) {
-        /*
-         * as the plot itself says, or is known of its sensor; not as it counts while that is
-         * doubted
-         */
+    if (gate.sensor && step->is_doubted) {
+        /* as is known of the sensor; not as its plots count while it is doubted */
         sensor = *gate.sensor;
-        sensor.sigma_range_percent = sensor.sigma_cross_percent = 0;
         rho_tracker_use_noise(step, 1.0f, &sensor);
         gate.sensor = &sensor;
     }

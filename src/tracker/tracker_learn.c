@@ -55,14 +55,12 @@
 #define SURELY 2.5f
 #define CAUTION 1.0f
 
-static unsigned place_of(const struct step *step)
-{
-    return (unsigned)(step->learned - step->tracker->learned);
-}
+/* One Kalman filter takes manoeuvres for noise, and for misses. */
+#define CAN_LEARN RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)
 
 static int learns_noise(const struct rho_tracker_config *config)
 {
-    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST &&
+    return CAN_LEARN && config->gate == RHO_TRACKER_BEST &&
            (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
@@ -102,7 +100,8 @@ void rho_tracker_set_noise(struct step *step)
 {
     const float doubt = rho_tracker_weigh_sensor(step);
     if (step->learned) {
-        rho_tracker_use_noise(step, doubt, &step->tracker->sensors[place_of(step)]);
+        rho_tracker_use_noise(step, doubt,
+                              &step->tracker->sensors[step->learned - step->tracker->learned]);
     }
 }
 
@@ -246,45 +245,50 @@ static struct seen seen_at_all(const struct rho_tracker_learned *learned, float 
     return seen_of(hits, looks, PRIOR_OF_ALL, pd);
 }
 
-static float usable_pd(const struct rho_tracker *tracker, const struct seen *seen, float stated)
+static float usable_pd(const struct rho_tracker_config *config, const struct seen *seen,
+                       float stated)
 {
     const float pd = seen->pd + CAUTION * seen->sigma;
-    const float least = tracker->config.learn_pd_min * stated;
+    const float least = config->learn_pd_min * stated;
     return !(seen->pd + SURELY * seen->sigma < stated) ? stated : pd > least ? pd : least;
 }
 
-static float pd_at(const struct rho_tracker *tracker, unsigned place, unsigned ring)
+static float pd_at(const struct rho_tracker_config *config,
+                   const struct rho_tracker_learned *learned, float stated, unsigned ring)
 {
-    const struct rho_tracker_learned *learned = &tracker->learned[place];
-    const float stated = tracker->sensors[place].pd;
     const struct seen all = seen_at_all(learned, stated);
     const struct seen seen =
         seen_of((float)learned->hits[ring], (float)learned->looks[ring], PRIOR_OF_RING, all.pd);
-    return usable_pd(tracker, &seen, stated);
+    return usable_pd(config, &seen, stated);
+}
+
+static int is_lowered(const struct step *step)
+{
+    return CAN_LEARN && step->learned && step->learned->is_lowered;
 }
 
 struct odds rho_tracker_odds(const struct step *step, const struct rho_track *track)
 {
     const struct odds stated = {step->log_pd, step->log_miss};
-    if (!step->learned || !step->learned->is_lowered) {
+    if (!is_lowered(step)) {
         return stated;
     }
     const unsigned ring = ring_of(step->sensor, track);
     if (!(step->learned->is_lowered >> ring & 1u)) {
         return stated;
     }
-    const float pd = pd_at(step->tracker, place_of(step), ring);
+    const float pd = pd_at(&step->tracker->config, step->learned, step->sensor->pd, ring);
     return (struct odds){rho_log(pd), rho_log(1.0f - pd)};
 }
 
 float rho_tracker_mean_pd(const struct step *step)
 {
     const float stated = step->sensor->pd;
-    if (!step->learned || !step->learned->is_lowered) {
+    if (!is_lowered(step)) {
         return stated;
     }
     const struct seen all = seen_at_all(step->learned, stated);
-    return usable_pd(step->tracker, &all, stated);
+    return usable_pd(&step->tracker->config, &all, stated);
 }
 
 static void note_look(struct step *step, const struct rho_track *track, unsigned is_seen)
@@ -314,7 +318,7 @@ static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
 static void find_lowered(struct step *step)
 {
     struct rho_tracker_learned *learned = step->learned;
-    const float pd = pd_at(step->tracker, place_of(step), learned->ring);
+    const float pd = pd_at(&step->tracker->config, learned, step->sensor->pd, learned->ring);
     const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
     learned->is_lowered = (uint8_t)(others | (pd < step->sensor->pd ? bit : 0u));
     learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
@@ -325,7 +329,7 @@ static void find_lowered(struct step *step)
 static int is_telling(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
-    return track->status != RHO_TRACK_FREE && track->is_believed && track->hits >= RHO_GROWN_HITS &&
+    return track->status != RHO_TRACK_FREE && track->is_believed && rho_tracker_is_grown(track) &&
            rho_tracker_is_reached(step, row);
 }
 
@@ -347,7 +351,7 @@ static int can_learn(const struct step *step)
         return 0;
     }
 #endif
-    return step->learned && !step->is_late;
+    return CAN_LEARN && step->learned && !step->is_late;
 }
 
 void rho_tracker_learn(struct step *step)
@@ -405,16 +409,16 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
     if (!sensor) {
         return RHO_ERROR_STATE;
     }
-    const unsigned place = (unsigned)(sensor - tracker->sensors);
-    const struct rho_tracker_learned *learned = &tracker->learned[place];
+    const struct rho_tracker_learned *learned = &tracker->learned[sensor - tracker->sensors];
     *known = (struct rho_tracker_known){
         .range_factor = factor_of(tracker, learned, 0),
         .cross_factor = factor_of(tracker, learned, 1),
         .innovations = learned->innovations,
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        known->pd[ring] =
-            learned->is_lowered >> ring & 1u ? pd_at(tracker, place, ring) : sensor->pd;
+        known->pd[ring] = learned->is_lowered >> ring & 1u
+                              ? pd_at(&tracker->config, learned, sensor->pd, ring)
+                              : sensor->pd;
         known->looks += learned->looks[ring];
     }
     return RHO_OK;

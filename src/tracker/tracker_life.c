@@ -93,31 +93,31 @@ static int may_hide(const struct step *step, const struct rho_track *track)
 }
 
 /*
- * The limits of one track. What may hide ends later, and its evidence falls no further than twice
- * the doubt: a hidden target is missed for sure, and two plots that fit are to be enough when it is
- * back.
+ * What hides ends later, and its evidence falls no further than twice the doubt: a hidden target is
+ * missed for sure, and two plots that fit are to be enough when it is back.
  */
-static struct rho_track_limits limits_of(const struct step *step, struct rho_track *track,
-                                         const struct rho_track_limits *limits)
+static void let_hide(struct rho_track *track, struct rho_track_limits *limits)
 {
-    struct rho_track_limits own = *limits;
+    const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
     const int32_t most_mnat = 2 * limits->doubt_mnat;
-    const int is_low = track->score_max_mnat - track->score_mnat > most_mnat;
-    const int is_late = track->misses_in_row >= limits->misses_in_row_max;
-    if ((is_low || is_late) && may_hide(step, track)) {
-        const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
-        own.misses_in_row_max = misses < (float)UINT8_MAX ? (uint8_t)misses : UINT8_MAX;
-        own.fall_mnat = limits->fall_mnat > most_mnat ? limits->fall_mnat : most_mnat + 1;
-        track->score_mnat = is_low ? track->score_max_mnat - most_mnat : track->score_mnat;
-    }
-    own.doubt_mnat = is_late || rho_tracker_is_too_young(step, track) ? 0 : limits->doubt_mnat;
-    return own;
+    const int32_t least_mnat = track->score_max_mnat - most_mnat;
+    limits->misses_in_row_max = misses < (float)UINT8_MAX ? (uint8_t)misses : UINT8_MAX;
+    limits->fall_mnat = limits->fall_mnat > most_mnat ? limits->fall_mnat : most_mnat + 1;
+    track->score_mnat = track->score_mnat > least_mnat ? track->score_mnat : least_mnat;
 }
 
 static void judge(struct step *step, struct rho_track *track, const struct rho_track_limits *limits)
 {
     const uint8_t was_believed = track->is_believed;
-    const struct rho_track_limits own = limits_of(step, track, limits);
+    const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
+    const int is_late = track->misses_in_row >= limits->misses_in_row_max;
+    struct rho_track_limits own = *limits;
+    if ((is_low || is_late) && may_hide(step, track)) {
+        let_hide(track, &own);
+    }
+    if (is_late || rho_tracker_is_too_young(step, track)) {
+        own.doubt_mnat = 0;
+    }
     rho_tracker_note_growth(step, track);
     if (rho_track_judge(track, &own) == RHO_TRACK_FREE) {
         rho_tracker_note_death(step, track);

@@ -180,20 +180,6 @@ static float chance_of_twin(const struct rho_track *track)
     return 1.0f / (1.0f + rho_exp(-track->twin_nat));
 }
 
-/* What the assignment reckoned with: it is told over a miss. 0: it was not in the gate. */
-static int gain_of(const struct step *step, unsigned row, int column, float *gain_nat)
-{
-    const struct rho_assignment *assignment = &step->tracker->assignment;
-    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
-        if (assignment->pairs[row][i].column == column) {
-            *gain_nat = rho_tracker_odds(step, &step->tracker->tracks[row]).log_miss -
-                        0.001f * (float)assignment->pairs[row][i].cost;
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* Both have a plot: the younger's is a second plot, or its target's. */
 static float both_nat(const struct step *step, const struct rho_second_plots *table,
                       unsigned elder_row, unsigned row)
@@ -204,14 +190,14 @@ static float both_nat(const struct step *step, const struct rho_second_plots *ta
     const struct rho_plot *second = &step->scan->plots[track->plot];
     const struct offset offset = offset_of(step->sensor, first, second);
     float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
-    (void)gain_of(step, row, track->plot, &gain_nat);
+    (void)rho_tracker_gain_offered(step, row, track->plot, &gain_nat);
     /* the elder's target may have made the younger's plot: then the elder's is the second, or the younger's target made it */
     float ways = 1.0f, elder_ways = 1.0f;
-    if (gain_of(step, elder_row, elder->plot, &own_nat) &&
-        gain_of(step, elder_row, track->plot, &swap_nat)) {
+    if (rho_tracker_gain_offered(step, elder_row, elder->plot, &own_nat) &&
+        rho_tracker_gain_offered(step, elder_row, track->plot, &swap_nat)) {
         float other_nat;
         elder_ways += rho_exp(swap_nat - own_nat);
-        if (gain_of(step, row, elder->plot, &other_nat)) {
+        if (rho_tracker_gain_offered(step, row, elder->plot, &other_nat)) {
             ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
         }
     }
@@ -235,8 +221,8 @@ static float one_nat(const struct step *step, const struct rho_second_plots *tab
     if (elder->plot == track->plot) {
         return SHARED_NAT;
     }
-    const int is_in_gate = gain_of(step, row, plot, &gain_nat);
-    const int is_in_elders = gain_of(step, elder_row, plot, &elder_gain_nat);
+    const int is_in_gate = rho_tracker_gain_offered(step, row, plot, &gain_nat);
+    const int is_in_elders = rho_tracker_gain_offered(step, elder_row, plot, &elder_gain_nat);
     if (elder->plot < 0) {
         if (!is_in_elders) {
             /* a second plot, of a first that another track has; or clutter, if it was not the younger's target */

@@ -8,10 +8,9 @@
  * one lie apart. So those that cross keep their velocities, and those in formation stay together
  * until they part.
  *
- * Two targets d apart along the line of sight are seen as one with probability e^-(d^2 / 8
- * sigma^2), and so across it, each
- * with the sensor's sigma there; d is as uncertain as both tracks' places are, by a variance of c.
- * The product of both axes'
+ * Two targets d apart along the line of sight are seen as one with probability
+ * e^-(d^2 / 8 sigma^2), and so across it, each with the sensor's sigma there; d is as uncertain as
+ * both tracks' places are, by a variance of c. The product of both axes'
  *     root(4 sigma^2 / (4 sigma^2 + c)) e^-(d^2 / 2 (4 sigma^2 + c))
  * is `merged`.
  * The plot is shared where that explains it better than a miss of the second target does:
@@ -45,19 +44,6 @@ static int is_old(const struct rho_track *track)
 {
     /* one in doubt, too: a plot of both that is missed twice says nothing of the second target alone */
     return track->is_believed && track->hits >= HITS_MIN && track->plot < 0;
-}
-
-/* What the assignment reckoned with: it is told over a miss. */
-static float gain_of(const struct step *step, unsigned row, int column)
-{
-    const struct rho_assignment *assignment = &step->tracker->assignment;
-    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
-        if (assignment->pairs[row][i].column == column) {
-            return rho_tracker_odds(step, &step->tracker->tracks[row]).log_miss -
-                   0.001f * (float)assignment->pairs[row][i].cost;
-        }
-    }
-    return 0.0f;
 }
 
 /* Along the line of sight, and across it. */
@@ -94,7 +80,8 @@ static int find_pair(const struct step *step, unsigned row, struct pair *pair)
             least = offer->cost;
             pair->plot = offer->column;
             pair->first = &tracker->tracks[owner];
-            pair->gain_nat = gain_of(step, (unsigned)owner, offer->column);
+            pair->gain_nat = 0.0f;
+            (void)rho_tracker_gain_offered(step, (unsigned)owner, offer->column, &pair->gain_nat);
         }
     }
     if (least == 0) {

@@ -44,6 +44,11 @@
 #define PRIOR_HITS 9.0f
 #define PRIOR_MISSES 1.0f
 
+int rho_tracker_is_grown(const struct rho_track *track)
+{
+    return track->hits >= RHO_GROWN_HITS;
+}
+
 static float evidence(const struct step *step, const struct rho_track *track)
 {
     return (float)track->hits * HIT_NAT - (float)track->misses * step->miss_nat;
@@ -55,7 +60,7 @@ static float miss_nat(const struct rho_tracker *tracker)
     float hits = PRIOR_HITS, misses = PRIOR_MISSES;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->hits >= RHO_GROWN_HITS && track->hits < UINT16_MAX) { /* counts end there */
+        if (rho_tracker_is_grown(track) && track->hits < UINT16_MAX) { /* counts end there */
             hits += (float)track->hits;
             misses += (float)track->misses;
         }
@@ -69,7 +74,7 @@ static float growing(const struct step *step)
     float count = 0.0f;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         const struct rho_track *track = &step->tracker->tracks[i];
-        count += track->hits < RHO_GROWN_HITS && evidence(step, track) >= GROWING_NAT ? 1.0f : 0.0f;
+        count += !rho_tracker_is_grown(track) && evidence(step, track) >= GROWING_NAT ? 1.0f : 0.0f;
     }
     return count;
 }
@@ -103,14 +108,9 @@ void rho_tracker_weigh_youth(struct step *step)
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
 }
 
-int rho_tracker_is_grown(const struct rho_track *track)
-{
-    return track->hits >= RHO_GROWN_HITS;
-}
-
 int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track)
 {
-    return step->asked_nat > 0.0f && track->hits < RHO_GROWN_HITS &&
+    return step->asked_nat > 0.0f && !rho_tracker_is_grown(track) &&
            evidence(step, track) < step->asked_nat;
 }
 
@@ -123,7 +123,7 @@ void rho_tracker_note_growth(struct step *step, const struct rho_track *track)
 
 void rho_tracker_note_death(struct step *step, const struct rho_track *track)
 {
-    if (track->hits < RHO_GROWN_HITS && evidence(step, track) < 0.0f &&
+    if (!rho_tracker_is_grown(track) && evidence(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {
         step->tracker->died_young += 1.0f;
     }

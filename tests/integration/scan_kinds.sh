@@ -2,48 +2,31 @@
 # SPDX-License-Identifier: MIT
 # RHO_SCAN_KINDS: a build with some kinds of scans refuses messages of the others, gives the full build's bytes of what it has,
 # and finds targets whose plots have noise of one axis also without the faster search for these. Runs beside others.
-set -eu
-cd "$(dirname "$0")/../.."
-build=${BUILD:-build}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-passed=0
-failed=0
-
-check() { # name, command...
-    local name=$1
-    shift
-    if "$@" >"$folder/said" 2>&1; then
-        echo "ok   $name"
-        passed=$((passed + 1))
-    else
-        echo "FAIL $name"
-        cat "$folder/said"
-        failed=$((failed + 1))
-    fi
-}
+root=$(realpath "$(dirname "$0")/../..")
+build=$(realpath "${BUILD:-$root/build}")
+# shellcheck source=tests/integration/checks.bash
+. "$root/tests/integration/checks.bash"
 
 lines() { # kinds: what such a build says
-    # shellcheck disable=SC2046 # a file a word
-    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -Iinclude -DRHO_SCAN_KINDS="$1" -Wall -Wextra -Werror -o "$folder/kinds" \
-        tests/integration/scan_kinds.c $(echo src/wire/feed*.c src/initiation/initiator*.c) "$build/librhotrack.a"
-    "$folder/kinds"
+    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_SCAN_KINDS="$1" -Wall -Wextra -Werror -o kinds \
+        "$root/tests/integration/scan_kinds.c" "$root"/src/wire/feed*.c "$root"/src/initiation/initiator*.c \
+        "$build/librhotrack.a" && ./kinds
 }
 
 same_as_all() { # kinds, the lines' names as a pattern
-    lines "$1" >"$folder/some"
-    { grep -E "^($2):" "$folder/all"
-      grep -E '^kind' "$folder/all" | grep -vE "^($2):" | sed 's/: .*/: type 0 811c9dc5/'
-      grep -E '^(radar( bytes)?|one axis):' "$folder/all"; } | sort -u >"$folder/expected"
-    grep -E "^(kind .|radar( bytes)?|one axis|$2):" "$folder/some" | sort -u | diff "$folder/expected" -
+    lines "$1" >some || return 1
+    { grep -E "^($2):" all
+      grep -E '^kind' all | grep -vE "^($2):" | sed 's/: .*/: type 0 811c9dc5/'
+      grep -E '^(radar( bytes)?|one axis):' all; } | sort -u >expected
+    grep -E "^(kind .|radar( bytes)?|one axis|$2):" some | sort -u | diff expected -
 }
 
 finds_both() {
-    grep -q '^radar: ok 2 found' "$folder/all" && grep -q '^one axis: ok 2 found' "$folder/all" &&
-        [ "$(grep -c '^kind .: ok 2' "$folder/all")" = 3 ]
+    grep -q '^radar: ok 2 found' all && grep -q '^one axis: ok 2 found' all &&
+        [ "$(grep -c '^kind .: ok 2' all)" = 3 ]
 }
 
-lines 7 >"$folder/all"
+lines 7 >all
 check 'all kinds' finds_both
 check 'plots alone' same_as_all 1 'kind 0|one axis bytes'
 check 'polar plots alone' same_as_all 2 'kind 1'
@@ -52,6 +35,5 @@ check 'bearings alone' same_as_all 4 'kind 2'
 check 'plots and bearings' same_as_all 5 'kind [02]|one axis bytes'
 check 'polar plots and bearings' same_as_all 6 'kind [12]'
 check 'kinds that do not exist' grep -q 'RHO_SCAN_KINDS must be 1 .. 7' \
-    <(${CC:-gcc} -std=c11 -Iinclude -DRHO_SCAN_KINDS=8 -fsyntax-only src/wire/feed.c 2>&1)
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+    <(${CC:-gcc} -std=c11 -I"$root/include" -DRHO_SCAN_KINDS=8 -fsyntax-only "$root/src/wire/feed.c" 2>&1)
+finish

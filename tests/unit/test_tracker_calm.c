@@ -16,19 +16,8 @@ static int turn;
 
 static void begin_turns(void)
 {
-    draw(31);
-    initiation.scans = 7;
-    initiation.min_scans = 0;
-    initiation.false_tracks_per_hour = 1.0f;
-    config.accel_max_mps2 = 20.0f;
-    begin();
+    begin_by_rate(31);
     turn = 0;
-}
-
-static void see(double x_m, double y_m)
-{
-    const double dx_m = SIGMA_M * normal(), dy_m = SIGMA_M * normal();
-    (void)add(x_m + dx_m, y_m + dy_m, SIGMA_M);
 }
 
 /*
@@ -54,7 +43,7 @@ static void fly(int turns, int num_targets, int has_turns)
                 y_m +=
                     side * -radius_m + (angle < 0.0 ? 0.0 : side * radius_m * (1.0 - cos(angle)));
             }
-            see(x_m, y_m);
+            add_noisy(x_m, y_m, SIGMA_M);
         }
         step(t_s);
     }

@@ -11,19 +11,8 @@ static int turn;
 
 static void begin_turns(void)
 {
-    draw(20);
-    initiation.scans = 7;
-    initiation.min_scans = 0;
-    initiation.false_tracks_per_hour = 1.0f;
-    config.accel_max_mps2 = 20.0f;
-    begin();
+    begin_by_rate(20);
     turn = 0;
-}
-
-static void see(double x_m, double y_m)
-{
-    const double dx_m = SIGMA_M * normal(), dy_m = SIGMA_M * normal();
-    (void)add(x_m + dx_m, y_m + dy_m, SIGMA_M);
 }
 
 /* Clutter, and targets that fly far from all else. */
@@ -34,7 +23,7 @@ static void see_sky(void)
         (void)add(x_m, uniform(-60000.0, 60000.0), SIGMA_M);
     }
     for (int i = 0; i < GROWN; i++) {
-        see(-30000.0 + SPEED_MPS * TURN_S * (turn % 100), 40000.0 + 5000.0 * i);
+        add_noisy(-30000.0 + SPEED_MPS * TURN_S * (turn % 100), 40000.0 + 5000.0 * i, SIGMA_M);
     }
 }
 
@@ -52,7 +41,7 @@ static int show(double x_m, double y_m, int hits)
     for (int k = 0; k < hits + 10; k++) {
         const double at_m = x_m + SPEED_MPS * TURN_S * k;
         if (k < hits) {
-            see(at_m, y_m);
+            add_noisy(at_m, y_m, SIGMA_M);
         }
         take_turn();
         for (unsigned i = 0; i < report.num_tracks; i++) {

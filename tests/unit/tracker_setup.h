@@ -48,6 +48,17 @@ static inline void begin(void)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &initiation), RHO_OK);
 }
 
+/* Thresholds by a rate of false tracks, windows of seven scans, and targets that pull 20 m/s^2. */
+static inline void begin_by_rate(uint64_t seed)
+{
+    draw(seed);
+    initiation.scans = 7;
+    initiation.min_scans = 0;
+    initiation.false_tracks_per_hour = 1.0f;
+    config.accel_max_mps2 = 20.0f;
+    begin();
+}
+
 /* Of random numbers in its arguments there may be one: compilers draw them in any order. */
 static inline struct rho_plot *add(double x_m, double y_m, double sigma_m)
 {
@@ -57,6 +68,13 @@ static inline struct rho_plot *add(double x_m, double y_m, double sigma_m)
                                          .sigma_range_m = (float)sigma_m,
                                          .sigma_cross_m = (float)sigma_m};
     return &plots[num_plots++];
+}
+
+/* As measured: random numbers are drawn for x first. */
+static inline void add_noisy(double x_m, double y_m, double sigma_m)
+{
+    const double dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
+    (void)add(x_m + dx_m, y_m + dy_m, sigma_m);
 }
 
 static inline void check_sums(void)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* calibrate: what radars are like, from a recording: noise, pd, clutter, turn time, speeds. */
-#include <string.h>
 
 #include "calibrate.h"
 #include "calibrate_output.h"
@@ -37,12 +36,6 @@ static uint64_t read_all(const struct command_line *line, struct register_data *
     return skipped;
 }
 
-/* Then standard output has the INI file and nothing else. */
-static bool is_ini_on_output(const struct command_line *line)
-{
-    return line->output && strcmp(line->output, "-") == 0;
-}
-
 static void print(const struct command_line *line, const struct calibrate_result *result,
                   uint64_t rows_skipped)
 {
@@ -50,7 +43,7 @@ static void print(const struct command_line *line, const struct calibrate_result
 
     if (line->json) {
         calibrate_print_json(result, rows_skipped);
-    } else if (is_ini_on_output(line)) {
+    } else if (is_output_standard(line)) {
         calibrate_print(result, stderr);
     } else {
         output = output_open(NULL);
@@ -67,12 +60,7 @@ int command_calibrate(struct command_line *line)
     struct calibrate_result result;
     uint64_t rows_skipped;
 
-    refuse_own_input(line);
-    refuse_twins(line, "calibrate");
-    refuse_other_than_ini(line, "calibrate");
-    if (line->json && is_ini_on_output(line)) {
-        fail(EXIT_USAGE, "calibrate: --json and -o - both write on standard output");
-    }
+    command_line_check_ini(line, "calibrate");
     chain_set_gate(&line->parameters, line->gate);
     rows_skipped = read_all(line, data);
     if (register_num_radars(data) == 0) {

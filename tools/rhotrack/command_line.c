@@ -332,7 +332,7 @@ void refuse_own_input(const struct command_line *line)
     }
 }
 
-void refuse_twins(const struct command_line *line, const char *command)
+static void refuse_twins(const struct command_line *line, const char *command)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         for (int other = 0; other < i; other++) {
@@ -344,7 +344,7 @@ void refuse_twins(const struct command_line *line, const char *command)
     }
 }
 
-void refuse_other_than_ini(const struct command_line *line, const char *command)
+static void refuse_other_than_ini(const struct command_line *line, const char *command)
 {
     static const char *const endings[] = {".csv",     ".lcm",  ".ast", ".asterix",
                                           ".geojson", ".json", ".svg"};
@@ -354,6 +354,21 @@ void refuse_other_than_ini(const struct command_line *line, const char *command)
             fail(EXIT_USAGE, "%s: %s writes an INI file, and %s is the ending of another",
                  line->output, command, endings[i]);
         }
+    }
+}
+
+bool is_output_standard(const struct command_line *line)
+{
+    return line->output && strcmp(line->output, "-") == 0;
+}
+
+void command_line_check_ini(const struct command_line *line, const char *command)
+{
+    refuse_own_input(line);
+    refuse_twins(line, command);
+    refuse_other_than_ini(line, command);
+    if (line->json && is_output_standard(line)) {
+        fail(EXIT_USAGE, "%s: --json and -o - both write on standard output", command);
     }
 }
 

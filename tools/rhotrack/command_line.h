@@ -34,10 +34,14 @@ void command_line_help(const struct command *command, FILE *file);
 /* Exit 2 where --output names one of the arguments: of commands that nobody wants to put their output in an input's place. */
 void refuse_own_input(const struct command_line *line);
 
-/* The same input twice: its plots would count twice. */
-void refuse_twins(const struct command_line *line, const char *command);
+/* -o -: standard output has the file that is written, and nothing else. */
+bool is_output_standard(const struct command_line *line);
 
-/* An output whose name promises something else than an INI file: exit 2. */
-void refuse_other_than_ini(const struct command_line *line, const char *command);
+/*
+ * Of commands that learn from recordings and write an INI file. Exit 2 where --output names an
+ * input, or something else than an INI file; where an input is given twice, whose plots would count
+ * twice; where --json writes on standard output, too.
+ */
+void command_line_check_ini(const struct command_line *line, const char *command);
 
 #endif

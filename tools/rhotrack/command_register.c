@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* register: the biases of radars from the targets that several of them see. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "chain.h"
 #include "command_line.h"
@@ -10,12 +9,6 @@
 #include "inputs.h"
 #include "register.h"
 #include "register_output.h"
-
-/* Then standard output has the INI file and nothing else. */
-static bool is_ini_on_output(const struct command_line *line)
-{
-    return line->output && strcmp(line->output, "-") == 0;
-}
 
 /* What nobody described stands in the origin; that can be true of one radar alone. */
 struct unplaced {
@@ -87,7 +80,7 @@ static void print(const struct command_line *line, const struct register_result 
 
     if (line->json) {
         register_print_json(result, rows_skipped);
-    } else if (is_ini_on_output(line)) {
+    } else if (is_output_standard(line)) {
         register_print(result, stderr);
     } else {
         output = output_open(NULL);
@@ -104,12 +97,7 @@ int command_register(struct command_line *line)
     struct register_result result;
     uint64_t rows_skipped;
 
-    refuse_own_input(line);
-    refuse_twins(line, "register");
-    refuse_other_than_ini(line, "register");
-    if (line->json && is_ini_on_output(line)) {
-        fail(EXIT_USAGE, "register: --json and -o - both write on standard output");
-    }
+    command_line_check_ini(line, "register");
     chain_set_gate(&line->parameters, line->gate);
     rows_skipped = read_all(line, data);
     check_enough(data);

@@ -64,9 +64,8 @@ static struct pair_error error_of(size_t number, enum evaluation_motion motion,
         .error_m = norm(ex_m, ey_m, track->z_m - target->z_m),
         .error_mps = norm(ex_mps, ey_mps, track->vz_mps - target->vz_mps),
         .nees = nees_of(track->cov_xx_m2, track->cov_yx_m2, track->cov_yy_m2, ex_m, ey_m),
-        .velocity_ratio = nees_of(track->cov_vxx_m2ps2, track->cov_vyx_m2ps2, track->cov_vyy_m2ps2,
-                                  ex_mps, ey_mps) /
-                          EVALUATION_AXES,
+        .velocity_nees = nees_of(track->cov_vxx_m2ps2, track->cov_vyx_m2ps2, track->cov_vyy_m2ps2,
+                                 ex_mps, ey_mps),
     };
 }
 
@@ -108,7 +107,7 @@ static void follow_target(struct target_life *life, size_t track, struct evaluat
 
 /* Sums of the time's pairs, and numbers of those that have what is summed. */
 struct time_sums {
-    double error2_m2ps2, nees, velocity_ratio;
+    double error2_m2ps2, nees, velocity_nees;
     size_t velocities, covariances, velocity_covariances;
 };
 
@@ -124,8 +123,8 @@ static void add_pair(struct evaluation *e, const struct pair_error *error, struc
         sums->nees += error->nees;
         sums->covariances++;
     }
-    if (isfinite(error->velocity_ratio)) {
-        sums->velocity_ratio += error->velocity_ratio;
+    if (isfinite(error->velocity_nees)) {
+        sums->velocity_nees += error->velocity_nees;
         sums->velocity_covariances++;
     }
 }
@@ -174,7 +173,8 @@ static void follow_targets(struct evaluation *e, const struct evaluation_point *
     }
     scan->rmse_mps = sqrt(evaluation_mean(sums.error2_m2ps2, sums.velocities));
     scan->nees = evaluation_mean(sums.nees, sums.covariances);
-    scan->velocity_ratio = evaluation_mean(sums.velocity_ratio, sums.velocity_covariances);
+    scan->velocity_ratio =
+        evaluation_mean(sums.velocity_nees, sums.velocity_covariances) / EVALUATION_AXES;
 }
 
 void evaluation_time(struct evaluation *e, int64_t time_us, const struct evaluation_point *targets,

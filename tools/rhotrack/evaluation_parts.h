@@ -28,7 +28,7 @@ struct track_life {
 struct pair_error {
     size_t target; /* its number */
     enum evaluation_motion motion;
-    double error_m, error_mps, nees, velocity_ratio; /* NAN where not known */
+    double error_m, error_mps, nees, velocity_nees; /* NAN where not known */
 };
 
 struct evaluation {

@@ -8,6 +8,7 @@
 
 #include "common.h"
 #include "evaluation_figures.h"
+#include "evaluation_parts.h"
 #include "grid.h"
 #include "tracks_writer.h"
 
@@ -50,7 +51,8 @@ static void print_motion(struct grid *grid, const char *name, const struct evalu
     char texts[6][GRID_NUMBER];
     grid_row(grid, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
              grid_number(texts[0], 1, of->rmse_m), grid_number(texts[1], 2, of->rmse_mps),
-             grid_number(texts[2], 2, of->nees / 2.0), grid_number(texts[3], 3, of->nees_inside),
+             grid_number(texts[2], 2, of->nees / EVALUATION_AXES),
+             grid_number(texts[3], 3, of->nees_inside),
              grid_number(texts[4], 2, of->velocity_ratio),
              grid_number(texts[5], 3, of->velocity_inside));
 }

@@ -64,7 +64,7 @@ static void fill_nees(struct evaluation_errors *errors, const struct pair_error 
     struct nees_sum place = {0}, velocity = {0};
     for (size_t i = 0; i < count; i++) {
         add_nees(&place, pairs[i].nees);
-        add_nees(&velocity, pairs[i].velocity_ratio * EVALUATION_AXES);
+        add_nees(&velocity, pairs[i].velocity_nees);
     }
     errors->nees = evaluation_mean(place.sum, place.known);
     errors->nees_inside = evaluation_mean((double)place.inside, place.known);
