@@ -55,13 +55,15 @@
 #define SURELY 2.5f
 #define CAUTION 1.0f
 
-/* One Kalman filter takes manoeuvres for noise, and for misses. */
-#define CAN_LEARN RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)
+/* One Kalman filter takes manoeuvres for noise, and loses targets that are there. */
+static int learns(const struct rho_tracker_config *config)
+{
+    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
+}
 
 static int learns_noise(const struct rho_tracker_config *config)
 {
-    return CAN_LEARN && config->gate == RHO_TRACKER_BEST &&
-           (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
+    return learns(config) && (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
 /* ---- use of noise -------------------------------------------------------------------------- */
@@ -264,7 +266,7 @@ static float pd_at(const struct rho_tracker_config *config,
 
 static int is_lowered(const struct step *step)
 {
-    return CAN_LEARN && step->learned && step->learned->is_lowered;
+    return learns(&step->tracker->config) && step->learned && step->learned->is_lowered;
 }
 
 struct odds rho_tracker_odds(const struct step *step, const struct rho_track *track)
@@ -351,7 +353,7 @@ static int can_learn(const struct step *step)
         return 0;
     }
 #endif
-    return CAN_LEARN && step->learned && !step->is_late;
+    return learns(&step->tracker->config) && step->learned && !step->is_late;
 }
 
 void rho_tracker_learn(struct step *step)

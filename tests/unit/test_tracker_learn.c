@@ -245,6 +245,26 @@ static void tracks_that_are_seen_seldom_are_believed(void **state)
     assert_true(2 * learned < as_ever);
 }
 
+/* A build without hypotheses does the same. */
+static void the_gate_nearest_learns_nothing(void **state)
+{
+    struct radar radar = as_stated;
+
+    (void)state;
+    radar.claim = 0.5;
+    radar.pd_far = 0.5;
+    radar.pd_stated = 0.95;
+    draw(52);
+    config.accel_max_mps2 = 20.0f;
+    config.gate = RHO_TRACKER_NEAREST;
+    begin();
+    const struct rho_tracker_known known = known_after(&radar, 150);
+    assert_int_equal(known.innovations, 0);
+    assert_int_equal(known.looks, 0);
+    assert_float_equal(known.pd[4], 0.95f, 0.0f);
+    assert_int_equal(tracker.sensors[0].sigma_range_percent, 100);
+}
+
 /* Targets that are gone are no misses of those that are there; more than was stated is not
  * believed. */
 static void pd_is_not_lowered_by_what_is_gone_nor_raised(void **state)
@@ -312,6 +332,7 @@ int main(void)
         cmocka_unit_test(manoeuvres_are_no_noise),
         cmocka_unit_test(pd_is_learned_by_range),
         cmocka_unit_test(tracks_that_are_seen_seldom_are_believed),
+        cmocka_unit_test(the_gate_nearest_learns_nothing),
         cmocka_unit_test(pd_is_not_lowered_by_what_is_gone_nor_raised),
         cmocka_unit_test(sensors_are_told_apart_and_forgotten),
         cmocka_unit_test(bounds_are_checked),

@@ -312,22 +312,27 @@ def usage(message):
     sys.exit(2)
 
 
-def parse_options():
-    parser = argparse.ArgumentParser(prog=NAME, description=__doc__.split("\n\n")[0])
-    parser.add_argument("--scene", action="append", metavar="NAME|FILE.json", help="this one alone (repeatable); "
-                        "default: all of the folder that have a goal")
-    parser.add_argument("--runs", type=int, default=20, metavar="N", help="seeds of each scene (default 20)")
+def add_run_options(parser):
+    """Of experiments that track many seeds of a sky."""
+    parser.add_argument("--runs", type=int, default=20, metavar="N", help="seeds of each (default 20)")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="the first one (default 1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs side by side (default: processors)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a parameter of `rhotrack track`")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "rhotrack", metavar="PATH",
                         help="default: build/rhotrack")
     parser.add_argument("--simulator", type=pathlib.Path, metavar="PATH", help="another build that simulates; default: the same")
+    parser.add_argument("--json", action="store_true", help="one object on standard output instead of the tables")
+
+
+def parse_options():
+    parser = argparse.ArgumentParser(prog=NAME, description=__doc__.split("\n\n")[0])
+    parser.add_argument("--scene", action="append", metavar="NAME|FILE.json", help="this one alone (repeatable); "
+                        "default: all of the folder that have a goal")
+    add_run_options(parser)
     parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "tools" / "scenes", metavar="DIR",
                         help="default: tools/scenes")
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR",
                         default=ROOT / "build" / "experiment" / "real-skies", help="default: build/experiment/real-skies")
-    parser.add_argument("--json", action="store_true", help="one object on standard output instead of the tables")
     parser.add_argument("--lines", action="store_true", help="one line a scene, as soon as it is done; no pages")
     parser.add_argument("--search", action="store_true", help="choose the oracle's process noise anew where scenes state one")
     parser.add_argument("--no-oracle", action="store_true")

@@ -151,13 +151,7 @@ def line(found):
 def parse_options():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("--sky", action="append", choices=list(SKIES), help="this one alone (repeatable)")
-    parser.add_argument("--runs", type=int, default=20, metavar="N", help="seeds of each sky, 2 at least (default 20)")
-    parser.add_argument("--seed", type=int, default=1, metavar="S", help="the first one (default 1)")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs side by side (default: processors)")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a parameter of `rhotrack track`")
-    parser.add_argument("--program", default=real_skies.ROOT / "build" / "rhotrack", help="default: build/rhotrack")
-    parser.add_argument("--simulator", help="another build that simulates; default: the same")
-    parser.add_argument("--json", action="store_true", help="one object on standard output instead of the table")
+    real_skies.add_run_options(parser)
     options = parser.parse_args()
     if options.runs < 2 or options.jobs < 1:
         parser.error("--runs is 2 at least, --jobs 1")
