@@ -183,9 +183,9 @@ struct rho_tracker_look {
 /*
  * What tracks have shown of a sensor that was described: how large its plots' noise is, and how
  * often it sees targets. Both begin at what was stated, and are used where they surely differ:
- * sigmas by more than an eighth, within the bounds of the config; pd only where it is less. Where the
- * gate is best: noise of tracks that this sensor alone has seen, pd at looks of the sensor that saw
- * the track last.
+ * sigmas by more than an eighth, within the bounds of the config; pd only where it is less. With
+ * the gate best alone: noise of tracks that this sensor alone has seen, pd at looks of the sensor
+ * that saw the track last.
  */
 struct rho_tracker_learned {
     float log_noise

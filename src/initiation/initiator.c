@@ -290,6 +290,7 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     search.has_more = has_more(&search);
     search.reach_chi2 = search.has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
     search.has_one_noise = is_isotropic(&search);
+    rho_initiator_let_turn(&search, 0);
 #if RHO_SECTORS
     use_turn(&search);
 #endif

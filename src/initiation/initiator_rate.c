@@ -223,4 +223,5 @@ void rho_initiator_let_turn(struct search *search, int turns)
 {
     search->turn_mps2 = turns ? search->initiator->config.turn_mps2 : 0.0f;
     search->log_turn = turns ? search->log_turning : 0.0f;
+    search->is_isotropic = search->has_one_noise && !turns;
 }

@@ -39,6 +39,7 @@ struct search {
     /* one radar's noise: no plot's is above both; of the scan whose plots have the least, the largest. 0: not known */
     float sigma_near_m, sigma_per_m, sigma_least_m;
     int has_one_noise; /* no scan has noise of two axes, heights or range rates */
+    int is_isotropic;  /* the same, and sets are straight; private: rho_initiator_is_isotropic */
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
     float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean's */
     float log_prior;                /* ln of the births' density over area and velocity */
@@ -58,10 +59,13 @@ struct search {
     int is_left_out; /* the set that is scored: its plots are not in the map, so none are taken out of it */
 };
 
-/* No scan has noise of two axes, heights or range rates, and sets are straight: the fast path, where the build has one. */
+/*
+ * No scan has noise of two axes, heights or range rates, and sets are straight: the fast path,
+ * where the build has one.
+ */
 static inline int rho_initiator_is_isotropic(const struct search *search)
 {
-    return (RHO_SCAN_KINDS & 1) != 0 && search->has_one_noise && !(search->turn_mps2 > 0.0f);
+    return (RHO_SCAN_KINDS & 1) != 0 && search->is_isotropic;
 }
 
 /* Thresholds that clutter reaches as rarely as wanted. */
@@ -137,8 +141,10 @@ static inline float rho_initiator_remembered(const struct rho_initiator *initiat
 void rho_initiator_find_rate(struct search *search, struct rate *rate);
 void rho_initiator_use_rate(struct search *search, const struct rate *rate);
 
-/* initiator_rate.c: of how likely a target turns, ln, by the thresholds; and sets are a turning target's from here on, or a
- * straight one's */
+/*
+ * initiator_rate.c: ln of how likely a target turns, by the thresholds; and sets are a turning
+ * target's from here on, or a straight one's
+ */
 float rho_initiator_log_turning(const struct search *search);
 void rho_initiator_let_turn(struct search *search, int turns);
 

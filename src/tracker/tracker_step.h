@@ -536,7 +536,10 @@ void rho_tracker_open_gate(const struct step *step, const struct rho_track *trac
 /* A pair for the assignment: its cost is minus what it gains over a miss. What is in the gate is always better than
  * none. */
 void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);
-/* The gain of an offer, not over a miss as the assignment reckons; 0 where there was none, and *gain_nat stays. */
+/*
+ * The gain of an offer, not over a miss as the assignment reckons; 0 where there was none, and
+ * *gain_nat stays.
+ */
 int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat);
 
 /* Solves the assignment, and counts what its gates had no room for. */

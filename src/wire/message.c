@@ -22,10 +22,12 @@ static const struct message_float_rule echo_floats[] = {
     {offsetof(struct rho_message_echo, chance), 1, 0.0f, 1.0f},
 };
 static const struct message_format echo_format = {
-    RHO_MESSAGE_ECHO_FINGERPRINT, {echo_runs, 2, 34}, {0, 0, 0},
+    RHO_MESSAGE_ECHO_FINGERPRINT,
+    {echo_runs, 2, 34}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules echo_rules = {
-    &echo_format, {echo_ints, echo_floats, 2, 4}, {0, 0, 0, 0}};
+    &echo_format,
+    {echo_ints, echo_floats, 2, 4}, {0, 0, 0, 0}};
 
 static const struct message_run peak_runs[] = {
     {offsetof(struct rho_message_peak, rho_m), 4, 4},
@@ -41,10 +43,12 @@ static const struct message_float_rule peak_floats[] = {
     {offsetof(struct rho_message_peak, score_nat), 1, -FLT_MAX, FLT_MAX},
 };
 static const struct message_format peak_format = {
-    RHO_MESSAGE_PEAK_FINGERPRINT, {peak_runs, 2, 20}, {0, 0, 0},
+    RHO_MESSAGE_PEAK_FINGERPRINT,
+    {peak_runs, 2, 20}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules peak_rules = {
-    &peak_format, {peak_ints, peak_floats, 1, 4}, {0, 0, 0, 0}};
+    &peak_format,
+    {peak_ints, peak_floats, 1, 4}, {0, 0, 0, 0}};
 
 static const struct message_run plot_runs[] = {
     {offsetof(struct rho_message_plot, dt_us), 4, 10},
@@ -59,10 +63,12 @@ static const struct message_float_rule plot_floats[] = {
     {offsetof(struct rho_message_plot, snr_db), 1, -1000.0f, 1000.0f},
 };
 static const struct message_format plot_format = {
-    RHO_MESSAGE_PLOT_FINGERPRINT, {plot_runs, 1, 40}, {0, 0, 0},
+    RHO_MESSAGE_PLOT_FINGERPRINT,
+    {plot_runs, 1, 40}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules plot_rules = {
-    &plot_format, {plot_ints, plot_floats, 1, 4}, {0, 0, 0, 0}};
+    &plot_format,
+    {plot_ints, plot_floats, 1, 4}, {0, 0, 0, 0}};
 
 static const struct message_run polar_plot_runs[] = {
     {offsetof(struct rho_message_polar_plot, dt_us), 4, 6},
@@ -78,10 +84,12 @@ static const struct message_float_rule polar_plot_floats[] = {
     {offsetof(struct rho_message_polar_plot, snr_db), 1, -1000.0f, 1000.0f},
 };
 static const struct message_format polar_plot_format = {
-    RHO_MESSAGE_POLAR_PLOT_FINGERPRINT, {polar_plot_runs, 1, 24}, {0, 0, 0},
+    RHO_MESSAGE_POLAR_PLOT_FINGERPRINT,
+    {polar_plot_runs, 1, 24}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules polar_plot_rules = {
-    &polar_plot_format, {polar_plot_ints, polar_plot_floats, 1, 5}, {0, 0, 0, 0}};
+    &polar_plot_format,
+    {polar_plot_ints, polar_plot_floats, 1, 5}, {0, 0, 0, 0}};
 
 static const struct message_run sensor_runs[] = {
     {offsetof(struct rho_message_sensor, sensor_id), 2, 1},
@@ -105,10 +113,12 @@ static const struct message_float_rule sensor_floats[] = {
     {offsetof(struct rho_message_sensor, innovation_factor), 1, 0.0f, 1000000000000.0f},
 };
 static const struct message_format sensor_format = {
-    RHO_MESSAGE_SENSOR_FINGERPRINT, {sensor_runs, 7, 38}, {0, 0, 0},
+    RHO_MESSAGE_SENSOR_FINGERPRINT,
+    {sensor_runs, 7, 38}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules sensor_rules = {
-    &sensor_format, {sensor_ints, sensor_floats, 6, 2}, {0, 0, 0, 0}};
+    &sensor_format,
+    {sensor_ints, sensor_floats, 6, 2}, {0, 0, 0, 0}};
 
 static const struct message_run status_runs[] = {
     {offsetof(struct rho_message_status, utime), 8, 1},
@@ -120,17 +130,21 @@ static const struct message_int_rule status_ints[] = {
     {offsetof(struct rho_message_status, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_status, scans_accepted), 4, 23, MESSAGE_RANGE, 0, 2147483647},
     {offsetof(struct rho_message_status, tracks_tentative), 2, 3, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_status, origin_lat_1e7deg), 4, 1, MESSAGE_RANGE, -900000000, 900000000},
-    {offsetof(struct rho_message_status, origin_lon_1e7deg), 4, 1, MESSAGE_RANGE, -1800000000, 1800000000},
+    {offsetof(struct rho_message_status, origin_lat_1e7deg), 4, 1, MESSAGE_RANGE, -900000000,
+     900000000},
+    {offsetof(struct rho_message_status, origin_lon_1e7deg), 4, 1, MESSAGE_RANGE, -1800000000,
+     1800000000},
 };
 static const struct message_float_rule status_floats[] = {
     {offsetof(struct rho_message_status, step_us), 3, 0.0f, 1000000000000.0f},
 };
 static const struct message_format status_format = {
-    RHO_MESSAGE_STATUS_FINGERPRINT, {status_runs, 4, 138}, {0, 0, 0},
+    RHO_MESSAGE_STATUS_FINGERPRINT,
+    {status_runs, 4, 138}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules status_rules = {
-    &status_format, {status_ints, status_floats, 5, 1}, {0, 0, 0, 0}};
+    &status_format,
+    {status_ints, status_floats, 5, 1}, {0, 0, 0, 0}};
 
 static const struct message_run track_runs[] = {
     {offsetof(struct rho_message_track, track_id), 4, 1},
@@ -150,10 +164,12 @@ static const struct message_float_rule track_floats[] = {
     {offsetof(struct rho_message_track, covariance), 21, -FLT_MAX, FLT_MAX},
 };
 static const struct message_format track_format = {
-    RHO_MESSAGE_TRACK_FINGERPRINT, {track_runs, 4, 145}, {0, 0, 0},
+    RHO_MESSAGE_TRACK_FINGERPRINT,
+    {track_runs, 4, 145}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules track_rules = {
-    &track_format, {track_ints, track_floats, 4, 3}, {0, 0, 0, 0}};
+    &track_format,
+    {track_ints, track_floats, 4, 3}, {0, 0, 0, 0}};
 
 static const struct message_run truth_runs[] = {
     {offsetof(struct rho_message_truth, target_id), 4, 7},
@@ -163,10 +179,12 @@ static const struct message_float_rule truth_floats[] = {
     {offsetof(struct rho_message_truth, vx_mps), 3, -20000.0f, 20000.0f},
 };
 static const struct message_format truth_format = {
-    RHO_MESSAGE_TRUTH_FINGERPRINT, {truth_runs, 1, 28}, {0, 0, 0},
+    RHO_MESSAGE_TRUTH_FINGERPRINT,
+    {truth_runs, 1, 28}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules truth_rules = {
-    &truth_format, {0, truth_floats, 0, 2}, {0, 0, 0, 0}};
+    &truth_format,
+    {0, truth_floats, 0, 2}, {0, 0, 0, 0}};
 
 static const struct message_run work_runs[] = {
     {offsetof(struct rho_message_work, utime), 8, 1},
@@ -178,10 +196,12 @@ static const struct message_int_rule work_ints[] = {
     {offsetof(struct rho_message_work, num_steps), 8, 8, MESSAGE_COUNT, 0, 0},
 };
 static const struct message_format work_format = {
-    RHO_MESSAGE_WORK_FINGERPRINT, {work_runs, 3, 80}, {0, 0, 0},
+    RHO_MESSAGE_WORK_FINGERPRINT,
+    {work_runs, 3, 80}, {0, 0, 0},
     0, 0, 0, 0};
 static const struct message_rules work_rules = {
-    &work_format, {work_ints, 0, 2, 0}, {0, 0, 0, 0}};
+    &work_format,
+    {work_ints, 0, 2, 0}, {0, 0, 0, 0}};
 
 static const struct message_run bearing_scan_runs[] = {
     {offsetof(struct rho_message_bearing_scan, utime), 8, 1},
@@ -203,11 +223,14 @@ static const struct message_float_rule bearing_scan_element_floats[] = {
     {0, 1, -3.1415927f, 3.1415927f},
 };
 static const struct message_format bearing_scan_format = {
-    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT, {bearing_scan_runs, 4, 30}, {bearing_scan_element_runs, 1, 4},
-    offsetof(struct rho_message_bearing_scan, num_bearings), offsetof(struct rho_message_bearing_scan, bearing_rad),
+    RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
+    {bearing_scan_runs, 4, 30}, {bearing_scan_element_runs, 1, 4},
+    offsetof(struct rho_message_bearing_scan, num_bearings),
+    offsetof(struct rho_message_bearing_scan, bearing_rad),
     sizeof(float), RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD};
 static const struct message_rules bearing_scan_rules = {
-    &bearing_scan_format, {bearing_scan_ints, bearing_scan_floats, 1, 2}, {0, bearing_scan_element_floats, 0, 1}};
+    &bearing_scan_format,
+    {bearing_scan_ints, bearing_scan_floats, 1, 2}, {0, bearing_scan_element_floats, 0, 1}};
 
 static const struct message_run clutter_map_runs[] = {
     {offsetof(struct rho_message_clutter_map, utime), 8, 1},
@@ -218,14 +241,18 @@ static const struct message_int_rule clutter_map_ints[] = {
     {offsetof(struct rho_message_clutter_map, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_clutter_map, num_echoes_total), 2, 1, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_clutter_map, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_clutter_map, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_clutter_map, num_parts)},
+    {offsetof(struct rho_message_clutter_map, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_clutter_map, num_parts)},
 };
 static const struct message_format clutter_map_format = {
-    RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT, {clutter_map_runs, 3, 22}, {echo_runs, 2, 34},
-    offsetof(struct rho_message_clutter_map, num_echoes), offsetof(struct rho_message_clutter_map, echoes),
+    RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
+    {clutter_map_runs, 3, 22}, {echo_runs, 2, 34},
+    offsetof(struct rho_message_clutter_map, num_echoes),
+    offsetof(struct rho_message_clutter_map, echoes),
     sizeof(struct rho_message_echo), RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES};
 static const struct message_rules clutter_map_rules = {
-    &clutter_map_format, {clutter_map_ints, 0, 4, 0}, {echo_ints, echo_floats, 2, 4}};
+    &clutter_map_format,
+    {clutter_map_ints, 0, 4, 0}, {echo_ints, echo_floats, 2, 4}};
 
 static const struct message_run peak_list_runs[] = {
     {offsetof(struct rho_message_peak_list, utime), 8, 1},
@@ -235,11 +262,14 @@ static const struct message_int_rule peak_list_ints[] = {
     {offsetof(struct rho_message_peak_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
 };
 static const struct message_format peak_list_format = {
-    RHO_MESSAGE_PEAK_LIST_FINGERPRINT, {peak_list_runs, 2, 12}, {peak_runs, 2, 20},
-    offsetof(struct rho_message_peak_list, num_peaks), offsetof(struct rho_message_peak_list, peaks),
+    RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
+    {peak_list_runs, 2, 12}, {peak_runs, 2, 20},
+    offsetof(struct rho_message_peak_list, num_peaks),
+    offsetof(struct rho_message_peak_list, peaks),
     sizeof(struct rho_message_peak), RHO_MESSAGE_PEAK_LIST_MAX_PEAKS};
 static const struct message_rules peak_list_rules = {
-    &peak_list_format, {peak_list_ints, 0, 1, 0}, {peak_ints, peak_floats, 1, 4}};
+    &peak_list_format,
+    {peak_list_ints, 0, 1, 0}, {peak_ints, peak_floats, 1, 4}};
 
 static const struct message_run plot_scan_runs[] = {
     {offsetof(struct rho_message_plot_scan, utime), 8, 1},
@@ -253,17 +283,21 @@ static const struct message_int_rule plot_scan_ints[] = {
     {offsetof(struct rho_message_plot_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_plot_scan, kind), 1, 1, MESSAGE_ONE_OF, 0, 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6},
     {offsetof(struct rho_message_plot_scan, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_plot_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_plot_scan, num_parts)},
+    {offsetof(struct rho_message_plot_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_plot_scan, num_parts)},
 };
 static const struct message_float_rule plot_scan_floats[] = {
     {offsetof(struct rho_message_plot_scan, sector_from_rad), 2, -6.2831855f, 6.2831855f},
 };
 static const struct message_format plot_scan_format = {
-    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT, {plot_scan_runs, 6, 31}, {plot_runs, 1, 40},
-    offsetof(struct rho_message_plot_scan, num_plots), offsetof(struct rho_message_plot_scan, plots),
+    RHO_MESSAGE_PLOT_SCAN_FINGERPRINT,
+    {plot_scan_runs, 6, 31}, {plot_runs, 1, 40},
+    offsetof(struct rho_message_plot_scan, num_plots),
+    offsetof(struct rho_message_plot_scan, plots),
     sizeof(struct rho_message_plot), RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
 static const struct message_rules plot_scan_rules = {
-    &plot_scan_format, {plot_scan_ints, plot_scan_floats, 4, 1}, {plot_ints, plot_floats, 1, 4}};
+    &plot_scan_format,
+    {plot_scan_ints, plot_scan_floats, 4, 1}, {plot_ints, plot_floats, 1, 4}};
 
 static const struct message_run polar_scan_runs[] = {
     {offsetof(struct rho_message_polar_scan, utime), 8, 1},
@@ -277,7 +311,8 @@ static const struct message_int_rule polar_scan_ints[] = {
     {offsetof(struct rho_message_polar_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_polar_scan, has_elevation), 1, 2, MESSAGE_RANGE, 0, 1},
     {offsetof(struct rho_message_polar_scan, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_polar_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_polar_scan, num_parts)},
+    {offsetof(struct rho_message_polar_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_polar_scan, num_parts)},
 };
 static const struct message_float_rule polar_scan_floats[] = {
     {offsetof(struct rho_message_polar_scan, sensor_x_m), 3, -2000000.0f, 2000000.0f},
@@ -287,11 +322,14 @@ static const struct message_float_rule polar_scan_floats[] = {
     {offsetof(struct rho_message_polar_scan, sector_from_rad), 2, -6.2831855f, 6.2831855f},
 };
 static const struct message_format polar_scan_format = {
-    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT, {polar_scan_runs, 6, 60}, {polar_plot_runs, 1, 24},
-    offsetof(struct rho_message_polar_scan, num_polar_plots), offsetof(struct rho_message_polar_scan, polar_plots),
+    RHO_MESSAGE_POLAR_SCAN_FINGERPRINT,
+    {polar_scan_runs, 6, 60}, {polar_plot_runs, 1, 24},
+    offsetof(struct rho_message_polar_scan, num_polar_plots),
+    offsetof(struct rho_message_polar_scan, polar_plots),
     sizeof(struct rho_message_polar_plot), RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS};
 static const struct message_rules polar_scan_rules = {
-    &polar_scan_format, {polar_scan_ints, polar_scan_floats, 4, 5}, {polar_plot_ints, polar_plot_floats, 1, 5}};
+    &polar_scan_format,
+    {polar_scan_ints, polar_scan_floats, 4, 5}, {polar_plot_ints, polar_plot_floats, 1, 5}};
 
 static const struct message_run sensor_list_runs[] = {
     {offsetof(struct rho_message_sensor_list, utime), 8, 1},
@@ -302,14 +340,18 @@ static const struct message_int_rule sensor_list_ints[] = {
     {offsetof(struct rho_message_sensor_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_sensor_list, num_sensors_total), 2, 1, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_sensor_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_sensor_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_sensor_list, num_parts)},
+    {offsetof(struct rho_message_sensor_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_sensor_list, num_parts)},
 };
 static const struct message_format sensor_list_format = {
-    RHO_MESSAGE_SENSOR_LIST_FINGERPRINT, {sensor_list_runs, 3, 22}, {sensor_runs, 7, 38},
-    offsetof(struct rho_message_sensor_list, num_sensors), offsetof(struct rho_message_sensor_list, sensors),
+    RHO_MESSAGE_SENSOR_LIST_FINGERPRINT,
+    {sensor_list_runs, 3, 22}, {sensor_runs, 7, 38},
+    offsetof(struct rho_message_sensor_list, num_sensors),
+    offsetof(struct rho_message_sensor_list, sensors),
     sizeof(struct rho_message_sensor), RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS};
 static const struct message_rules sensor_list_rules = {
-    &sensor_list_format, {sensor_list_ints, 0, 4, 0}, {sensor_ints, sensor_floats, 6, 2}};
+    &sensor_list_format,
+    {sensor_list_ints, 0, 4, 0}, {sensor_ints, sensor_floats, 6, 2}};
 
 static const struct message_run track_list_runs[] = {
     {offsetof(struct rho_message_track_list, utime), 8, 1},
@@ -320,14 +362,18 @@ static const struct message_int_rule track_list_ints[] = {
     {offsetof(struct rho_message_track_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_track_list, num_tracks_total), 2, 1, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_track_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_track_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_track_list, num_parts)},
+    {offsetof(struct rho_message_track_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_track_list, num_parts)},
 };
 static const struct message_format track_list_format = {
-    RHO_MESSAGE_TRACK_LIST_FINGERPRINT, {track_list_runs, 3, 22}, {track_runs, 4, 145},
-    offsetof(struct rho_message_track_list, num_tracks), offsetof(struct rho_message_track_list, tracks),
+    RHO_MESSAGE_TRACK_LIST_FINGERPRINT,
+    {track_list_runs, 3, 22}, {track_runs, 4, 145},
+    offsetof(struct rho_message_track_list, num_tracks),
+    offsetof(struct rho_message_track_list, tracks),
     sizeof(struct rho_message_track), RHO_MESSAGE_TRACK_LIST_MAX_TRACKS};
 static const struct message_rules track_list_rules = {
-    &track_list_format, {track_list_ints, 0, 4, 0}, {track_ints, track_floats, 4, 3}};
+    &track_list_format,
+    {track_list_ints, 0, 4, 0}, {track_ints, track_floats, 4, 3}};
 
 static const struct message_run truth_list_runs[] = {
     {offsetof(struct rho_message_truth_list, utime), 8, 1},
@@ -337,14 +383,18 @@ static const struct message_run truth_list_runs[] = {
 static const struct message_int_rule truth_list_ints[] = {
     {offsetof(struct rho_message_truth_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_truth_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
-    {offsetof(struct rho_message_truth_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct rho_message_truth_list, num_parts)},
+    {offsetof(struct rho_message_truth_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_truth_list, num_parts)},
 };
 static const struct message_format truth_list_format = {
-    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT, {truth_list_runs, 3, 16}, {truth_runs, 1, 28},
-    offsetof(struct rho_message_truth_list, num_targets), offsetof(struct rho_message_truth_list, targets),
+    RHO_MESSAGE_TRUTH_LIST_FINGERPRINT,
+    {truth_list_runs, 3, 16}, {truth_runs, 1, 28},
+    offsetof(struct rho_message_truth_list, num_targets),
+    offsetof(struct rho_message_truth_list, targets),
     sizeof(struct rho_message_truth), RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS};
 static const struct message_rules truth_list_rules = {
-    &truth_list_format, {truth_list_ints, 0, 3, 0}, {0, truth_floats, 0, 2}};
+    &truth_list_format,
+    {truth_list_ints, 0, 3, 0}, {0, truth_floats, 0, 2}};
 
 typedef char bearing_scan_head_fits[offsetof(struct rho_message_bearing_scan, sigma_rad) ==
     offsetof(struct rho_message_bearing_scan_head, sigma_rad) ? 1 : -1];

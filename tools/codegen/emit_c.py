@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """C text of the codec: include/rhotrack/message.h, src/wire/message.c and src/wire/message_names.c."""
+import textwrap
+
 import lcm_types
 from lcm_types import PRIMITIVES, fail
 
@@ -313,12 +315,12 @@ def format_of(struct, tables):
             element = Tables.of_number(f"{struct.short}_element", struct.list.type, *limits(struct.list))
             own += element.text()
         layout, checks = element.layout(), element.checks()
-        rest = (f"offsetof({c_struct}, {struct.fields[-2].name}), offsetof({c_struct}, {struct.list.name}),\n"
+        rest = (f"offsetof({c_struct}, {struct.fields[-2].name}),\n    offsetof({c_struct}, {struct.list.name}),\n"
                 f"    sizeof({type_of(struct.list)}), {max_name(struct)}")
     return (f"{own}static const struct message_format {struct.short}_format = {{\n"
-            f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT, {head.layout()}, {layout},\n    {rest}}};\n"
+            f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n    {head.layout()}, {layout},\n    {rest}}};\n"
             f"static const struct message_rules {struct.short}_rules = {{\n"
-            f"    &{struct.short}_format, {head.checks()}, {checks}}};\n")
+            f"    &{struct.short}_format,\n    {head.checks()}, {checks}}};\n")
 
 
 def same_place(struct):
@@ -328,8 +330,13 @@ def same_place(struct):
             f"    offsetof(struct rho_message_{struct.short}_head, {last}) ? 1 : -1];\n")
 
 
+def row_text(row):
+    """Within 100 columns, but for choices: they stay beside their field."""
+    return f"    {row}," if "|" in row else textwrap.fill(f"{row},", 100, initial_indent="    ", subsequent_indent="     ")
+
+
 def table(name, kind, rows):
-    lines = "".join(f"    {row},\n" for row in rows)
+    lines = "".join(row_text(row) + "\n" for row in rows)
     return f"static const struct {kind} {name}[] = {{\n{lines}}};\n" if rows else ""
 
 
