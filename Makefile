@@ -32,29 +32,29 @@ OPT := -O2
 # --- what there is ---------------------------------------------------------------------------
 
 library_sources := $(sort $(wildcard src/*/*.c))
-program_sources := $(sort $(wildcard tools/rhotrack/*.c tools/rhotrack/*/*.c))
-scenes := $(sort $(wildcard tools/scenes/*.json))
-unit_sources := $(sort $(wildcard tests/unit/test_*.c))
-scenario_sources := $(sort $(wildcard tests/scenario/test_*.c))
+program_sources := $(sort $(shell find tools/rhotrack -name '*.c'))
+lab_sources := $(sort $(wildcard tools/lab/c/*.c))
+scenes := $(sort $(wildcard tools/scenes/*/*.json))
+unit_sources := $(sort $(wildcard tests/unit/*/test_*.c))
+tool_sources := $(sort $(wildcard tests/tools/*/test_*.c tests/scenario/test_*.c tests/lab/test_*.c))
 # Laid out by .clang-format: all but the tables that scripts write.
-sources := $(library_sources) $(program_sources) \
-           $(wildcard include/rhotrack/*.h src/*/*.h tools/rhotrack/*.h tools/rhotrack/*/*.h tools/instructions/*.[ch] \
-                      tools/firmware/*.[ch] tools/firmware/board/*.[ch] tools/firmware/board/*/*.[ch] \
-                      tools/examples/*.[ch] tests/*/*.[ch])
+sources := $(sort $(shell find include src tools tests -name '*.[ch]'))
 sources := $(filter-out tests/vectors/%,$(sources))
 
 library := $(BUILD)/librhotrack.a
 workstation_library := $(BUILD)/workstation/librhotrack.a
 program := $(BUILD)/rhotrack
+lab := $(BUILD)/rhotrack-lab
 
 embedded_objects := $(library_sources:%.c=$(BUILD)/embedded/%.o)
 workstation_objects := $(library_sources:%.c=$(BUILD)/workstation/%.o)
 program_objects := $(program_sources:%.c=$(BUILD)/program/%.o) $(BUILD)/program/scenes.o
+lab_objects := $(lab_sources:%.c=$(BUILD)/program/%.o)
 
-# Unit tests are built and run for both profiles; scenario tests use the program's own parts.
+# Unit tests are built and run for both profiles; tests of tools, scenarios and the lab use the program's own parts.
 unit_programs := $(unit_sources:tests/%.c=$(BUILD)/tests/embedded/%) \
                  $(unit_sources:tests/%.c=$(BUILD)/tests/workstation/%)
-scenario_programs := $(scenario_sources:tests/%.c=$(BUILD)/tests/%)
+tool_programs := $(tool_sources:tests/%.c=$(BUILD)/tests/%)
 
 # --- flags -----------------------------------------------------------------------------------
 
@@ -64,8 +64,8 @@ warnings := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wer
 library_flags := -std=c99 $(common_flags) $(warnings) -Wpedantic -Wconversion -Wdouble-promotion \
                  -Wfloat-equal -Wundef -Wcast-qual -Wvla -Wswitch-enum
 program_flags := -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) \
-                 -Wconversion -pthread
-test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itools/rhotrack $(warnings) $(TEST_CFLAGS)
+                 -Wconversion -pthread -Itools/rhotrack
+test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itests -Itests/unit -Itools/rhotrack -Itools/lab/c $(warnings) $(TEST_CFLAGS)
 capacities := $(if $(RHO_CONFIG_FILE),-DRHO_CONFIG_FILE='"$(abspath $(RHO_CONFIG_FILE))"')
 program_libraries := -llcm -lcsv -linih -lcjson -lproj -pthread -lm
 
@@ -82,7 +82,7 @@ jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 # --- what users build ------------------------------------------------------------------------
 
 ## Build the program (build/rhotrack) and the library (build/librhotrack.a); the default
-all: $(program) lib $(BUILD)/codegen.checked
+all: $(program) $(lab) lib $(BUILD)/codegen.checked
 
 ## Build the library alone, embedded profile
 lib: $(library)
@@ -93,6 +93,8 @@ $(library) $(workstation_library):
 	@rm -f $@ && echo "  ar       $@" && $(AR) rcs $@ $^
 
 $(program): $(program_objects) $(workstation_library)
+$(lab): $(lab_objects) $(filter-out %/rhotrack/main.o,$(program_objects)) $(workstation_library)
+$(program) $(lab):
 	$(call compile) $(LDFLAGS) -o $@ $^ $(program_libraries)
 
 $(BUILD)/embedded/%.o: %.c Makefile $(BUILD)/capacities
@@ -117,16 +119,17 @@ codegen:
 
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)
-vote_objects := $(foreach part,accumulator accumulator_rows accumulator_prune,%/src/base/$(part).o)
+vote_objects := $(foreach part,accumulator_plane accumulator_rows accumulator_prune,%/src/papers/$(part).o)
 $(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): override OPT := -O3
 endif
 
+$(lab_objects): private program_flags += -Itools/lab/c
 $(BUILD)/program/%.o: %.c Makefile
 	$(call compile,$(program_flags) -DRHOTRACK_VERSION='"$(VERSION)"') -c -o $@ $<
 
 # The shipped scenes as texts in the program.
 $(BUILD)/program/scenes.c: $(scenes) Makefile
-	@mkdir -p $(@D) && { echo '#include "tools/rhotrack/scene/scene_shipped.h"'; \
+	@mkdir -p $(@D) && { echo '#include "scene/scene_shipped.h"'; \
 	  echo 'const struct shipped_scene shipped_scenes[] = {'; \
 	  for file in $(scenes); do \
 	    echo "{\"$$(basename $$file .json)\","; \
@@ -134,7 +137,7 @@ $(BUILD)/program/scenes.c: $(scenes) Makefile
 	  done; echo '{0, 0}};'; } > $@
 
 $(BUILD)/program/scenes.o: $(BUILD)/program/scenes.c
-	$(call compile,$(program_flags) -I.) -c -o $@ $<
+	$(call compile,$(program_flags)) -c -o $@ $<
 
 ## Set up what is missing, build, track real radar plots and show the result (build/demo)
 demo:
@@ -166,7 +169,7 @@ else ifeq ($(PROFILE),workstation)
 installed_library := $(workstation_library)
 installed_define := RHO_PROFILE_WORKSTATION 1
 endif
-headers := $(notdir $(wildcard include/rhotrack/*.h))
+headers := $(patsubst include/rhotrack/%,%,$(wildcard include/rhotrack/*.h include/rhotrack/detail/*.h))
 cmake_folder := $(LIBDIR)/cmake/rhotrack
 
 # Templates have no DESTDIR. Folders under PREFIX are said relative to it; CMake's files are, to themselves.
@@ -195,10 +198,11 @@ install: install-lib install-program
 
 ## Install the library alone: headers, pkg-config file, CMake package; needs a C compiler and nothing else
 install-lib: install-checks $(installed_library)
-	install -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(cmake_folder) $(DESTDIR)$(INCLUDEDIR)/rhotrack \
+	install -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(cmake_folder) $(DESTDIR)$(INCLUDEDIR)/rhotrack/detail \
 	           $(DESTDIR)$(DOCDIR)
 	install -m 644 $(installed_library) $(DESTDIR)$(LIBDIR)/
 	install -m 644 include/rhotrack/*.h $(DESTDIR)$(INCLUDEDIR)/rhotrack/
+	install -m 644 include/rhotrack/detail/*.h $(DESTDIR)$(INCLUDEDIR)/rhotrack/detail/
 	$(if $(installed_define),sed -i '/^#define RHOTRACK_CONFIG_H$$/a #define $(installed_define)' \
 	    $(DESTDIR)$(INCLUDEDIR)/rhotrack/config.h)
 	$(if $(RHO_CONFIG_FILE),install -m 644 $(RHO_CONFIG_FILE) $(DESTDIR)$(INCLUDEDIR)/rhotrack/config_file.h)
@@ -219,23 +223,44 @@ uninstall:
 	rm -f $(DESTDIR)$(BINDIR)/rhotrack $(DESTDIR)$(LIBDIR)/librhotrack.a $(DESTDIR)$(LIBDIR)/pkgconfig/rhotrack.pc \
 	      $(DESTDIR)$(cmake_folder)/rhotrackConfig.cmake $(DESTDIR)$(cmake_folder)/rhotrackConfigVersion.cmake \
 	      $(DESTDIR)$(DOCDIR)/LICENSE $(addprefix $(DESTDIR)$(INCLUDEDIR)/rhotrack/,$(headers) config_file.h)
-	for folder in $(cmake_folder) $(INCLUDEDIR)/rhotrack $(DOCDIR); do \
+	for folder in $(cmake_folder) $(INCLUDEDIR)/rhotrack/detail $(INCLUDEDIR)/rhotrack $(DOCDIR); do \
 	    [ ! -d "$(DESTDIR)$$folder" ] || rmdir --ignore-fail-on-non-empty "$(DESTDIR)$$folder"; done
 
 # --- tests -----------------------------------------------------------------------------------
 
+# The inner loop: unit tests in the embedded profile, tests of the program's parts, every command from end to end with the
+# golden files, and the checks of the sources that take seconds. test-all runs everything else behind it.
+quick_scripts := $(addprefix tests/integration/,command_line.sh documents.sh examples.sh headers.sh layers.sh security.sh)
+quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
+                 $(addprefix tools/gates/,layers.py poison.sh extract_example.sh)
+quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs))
+other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))
+other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integration/*.sh tests/lab/test_*.py)) \
+                   tools/gates/gates.py tools/gates/determinism.sh)
+
 # A test that does not build counts as failed, so the build goes on past it (-k) and its runner decides.
-## Set up what is missing, build and run the whole test suite; ends with `N passed, N failed`
+run_tests = @$(MAKE) --no-print-directory -k $(jobs) all $(1) || echo "  ...  the build has failures"; \
+            BUILD=$(BUILD) tests/run.sh $(1) $(2)
+
+## Set up what is missing, build and run the tests of minutes; ends with `N passed, N failed`
 test:
+	@tools/setup.sh
+	@BUILD=$(BUILD) tools/python.sh
+	$(call run_tests,$(quick_programs),$(quick_scripts))
+
+## All tests: `make test`, then the other profile, the lab, the network, sizes, gates and determinism
+test-all:
+	@$(MAKE) --no-print-directory test || quick=failed; \
+	$(MAKE) --no-print-directory test-rest && test -z "$$quick"
+
+.PHONY: test-all test-rest
+test-rest:
 	@tools/setup.sh
 	@tools/setup.sh firmware
 	@BUILD=$(BUILD) tools/python.sh
-	@$(MAKE) --no-print-directory -k $(jobs) all test-programs || echo "  ...  the build has failures"
-	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
-	    $(sort $(wildcard tests/integration/*.sh tests/regression/*.sh)) $(sort $(wildcard tests/lab/test_*.py)) \
-	    tools/layers.py tools/poison.sh tools/gates.py tools/extract_example.sh tools/determinism.sh
+	$(call run_tests,$(other_programs),$(other_scripts))
 
-test-programs: $(unit_programs) $(scenario_programs)
+test-programs: $(unit_programs) $(tool_programs)
 
 $(BUILD)/tests/embedded/%: tests/%.c $(library) Makefile
 	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
@@ -244,10 +269,10 @@ $(BUILD)/tests/workstation/%: tests/%.c $(workstation_library) Makefile
 	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \
 	    $(workstation_library) -lcmocka -lm
 
-scenario_objects := $(filter-out %/main.o,$(program_objects))
-$(BUILD)/tests/scenario/%: tests/scenario/%.c $(scenario_objects) $(workstation_library) Makefile
+tool_objects := $(filter-out %/main.o,$(program_objects) $(lab_objects))
+$(tool_programs): $(BUILD)/tests/%: tests/%.c $(tool_objects) $(workstation_library) Makefile
 	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \
-	    $(scenario_objects) $(workstation_library) -lcmocka $(program_libraries)
+	    $(tool_objects) $(workstation_library) -lcmocka $(program_libraries)
 
 # Only where OpenCV is installed: `rhotrack bench hough` compares with it.
 opencv_flags := $(shell pkg-config --silence-errors --cflags opencv4 2>/dev/null || \
@@ -282,8 +307,8 @@ embedded_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs))
 embedded-tests: $(embedded_programs)
 	@BUILD=$(BUILD) tests/run.sh $(embedded_programs)
 
-sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
-	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(scenario_programs) \
+sanitized-tests: $(program) $(unit_programs) $(tool_programs)
+	@BUILD=$(BUILD) tests/run.sh $(unit_programs) $(tool_programs) \
 	    $(sort $(wildcard tests/integration/bad*.sh))
 
 # --- fuzzing ---------------------------------------------------------------------------------
@@ -292,22 +317,15 @@ sanitized-tests: $(program) $(unit_programs) $(scenario_programs)
 # scenes), and src/base that they call; of fuzz_snapshot and fuzz_tracker all of the library. The rest of library and program is
 # linked as it is. In src/wire an unsigned number that wraps is a finding,
 # too; elsewhere loops and the square root wrap on purpose.
-fuzz_readers := asterix asterix_antenna asterix_encode asterix_even asterix_file asterix_items \
-                asterix_row asterix_scans asterix_sensor asterix_text asterix_udp asterix_values \
-                bearing_row bearing_source feed_room frame_reader gather geodetic hint hold \
-                lcm_log log_scans log_table parameters parameters_convert parameters_feed \
-                parameters_load parameters_locate parameters_print plot_data plot_row plot_source \
-                row_check rows rows_bearings rows_collect rows_geodetic rows_plots rows_polar \
-                rows_read rows_scans rows_tracks rows_truth rows_write scan_numbers scan_reader \
-                scene/scene_flights scene/scene_json scene/scene_path scene/scene_read \
-                scene/scene_shipped table table_parse table_read
-fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers:%=tools/rhotrack/%.c) tools/firmware/board/udp_frame.c
+fuzz_readers := $(wildcard $(addprefix tools/rhotrack/,io/asterix/*.c io/csv/*.c io/rows/*.c io/scans/*.c io/log/*.c \
+                  settings/parameters*.c scene/*.c base/hint.c picture/plot_data.c))
+fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers) tools/firmware/board/udp_frame.c
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))
 fuzz_programs := $(fuzz_sources:tests/fuzz/%.c=$(BUILD)/fuzz/%) $(BUILD)/fuzz/fuzz_tracker_small
 fuzz_checks := -fsanitize=address,undefined,float-cast-overflow,float-divide-by-zero
 fuzz_integers := -fsanitize=integer -fno-sanitize=unsigned-shift-base
-fuzz_flags = -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) -Itools/rhotrack \
+fuzz_flags = -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags) $(warnings) -Itests -Itests/unit -Itools/rhotrack \
               -O1 -g $(fuzz_checks) -fno-sanitize-recover=all
 
 ## Fuzz every decoder and reader, and the tracker: FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH
@@ -363,37 +381,42 @@ $(BUILD)/fuzz/fuzz_tracker_small: tests/fuzz/fuzz_tracker.c $(small_fuzz_objects
 
 # --- gates -----------------------------------------------------------------------------------
 
-## Check every include against the module table of src/DESIGN.md
-layers:
-	@tools/layers.py
+## Check every include against the table of rooms in src/DESIGN.md, and that no files need one another in a circle
+layers: $(library) $(program) $(lab)
+	@BUILD=$(BUILD) tools/gates/layers.py
 
 ## Check that the library has no heap, no stdio, no double, no mutable globals
 poison: $(library)
-	@BUILD=$(BUILD) tools/poison.sh
+	@BUILD=$(BUILD) tools/gates/poison.sh
 
 ## The same in the objects for Cortex-M, Cortex-R and RISC-V, and no recursion, growing frame or call by a pointer
 gates:
-	@BUILD=$(BUILD) tools/gates.py
+	@BUILD=$(BUILD) tools/gates/gates.py
 
 ## Build with gcc and clang, -O0 and -O3, and compare what the programs write, byte by byte
 determinism:
-	@BUILD=$(BUILD) tools/determinism.sh
+	@BUILD=$(BUILD) tools/gates/determinism.sh
 
 ## Compile and run the C examples of README.md
 examples: $(library)
-	@BUILD=$(BUILD) tools/extract_example.sh
+	@BUILD=$(BUILD) tools/gates/extract_example.sh
 
-## Code, RAM and worst stack of each module; red where README.md or src/SIZES.md differ, or an object does not fit
+## Code, RAM and worst stack of each module; red where tools/lab/MEASUREMENTS.md differs, or an object does not fit
 size:
-	@BUILD=$(BUILD) tools/size.sh
+	@BUILD=$(BUILD) tools/gates/size.sh
 
-## Write what `make size` measures into README.md and src/SIZES.md
+## Write what `make size` measures into tools/lab/MEASUREMENTS.md
 size-update:
-	@BUILD=$(BUILD) tools/size.sh --update
+	@BUILD=$(BUILD) tools/gates/size.sh --update
 
 ## Instructions that typical jobs execute (valgrind); own covariances cost at most 1.5 times isotropic noise
 instructions: $(library) $(workstation_library)
-	@BUILD=$(BUILD) tools/instructions.sh
+	@BUILD=$(BUILD) tools/gates/instructions.sh
+
+## Change each policy constant by a factor of two; nine in ten must be noticed (hours; MUTATE='--sample 40')
+.PHONY: mutate
+mutate:
+	@BUILD=$(BUILD) tools/gates/mutate.py $(MUTATE)
 
 # One clang-tidy a file, as many at a time as there are processors; silent where all is well.
 tidy = printf '%s\n' $(1) | xargs -r -P "$$(nproc)" -n 1 sh -c \
@@ -442,7 +465,7 @@ LCM_JARS ?= /usr/share/java/lcm.jar:/usr/share/java/jchart2d.jar
 
 spy := $(BUILD)/spy
 spy_jars := $(spy)/rhotrack-types.jar $(spy)/rhotrack-spy.jar
-spy_sources := $(sort $(wildcard tools/spy/src/rhotrack/spy/*.java))
+spy_sources := $(sort $(wildcard tools/spy/src/rhotrack/spy/*.java tools/spy/src/rhotrack/spy/*/*.java))
 spy_tests := $(sort $(wildcard tools/spy/test/rhotrack/spy/*.java))
 spy_path := $(LCM_JARS):$(spy)/rhotrack-types.jar:$(spy)/rhotrack-spy.jar
 javac = echo "  javac    $@" && rm -rf $(1) && mkdir -p $(1) && javac --release 17 -encoding UTF-8 -d $(1)
@@ -494,5 +517,5 @@ help:
 	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-15s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
 
 -include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
-         $(unit_programs:=.d) $(scenario_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) \
+         $(unit_programs:=.d) $(tool_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) \
          $(small_fuzz_objects:.o=.d) $(fuzz_programs:=.d)

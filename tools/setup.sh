@@ -7,6 +7,7 @@ set -eu
 
 packages='
 gcc                 # compiler
+g++                 # tests: programs in C++ use the library, too
 libc6-dev           # its C library
 clang               # second compiler: warnings, sanitizers, determinism
 libclang-rt-14-dev  # the sanitizers of clang

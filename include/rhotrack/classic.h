@@ -1,23 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * classic: track initiation as the literature does it, for comparison and teaching: the Hough transform (HT), with pairs of
- * plots (MHT), with pairs that a target can fly (IHT), and the neutrosophic one (NHT). For work use the initiator.
+ * classic: track initiation as the literature does it, for comparison and teaching: the Hough
+ * transform (HT), with pairs of plots (MHT), with pairs that a target can fly (IHT), and the
+ * neutrosophic one (NHT). For work use the initiator.
  *
- * A line of the plane is a point (rho, theta). The plane of all such points is divided into cells that plots vote for:
+ * A line of the plane is a point (rho, theta). The plane of all such points is divided into cells
+ * that plots vote for:
  *
  *     HT    every plot, in each row of theta: the cell of the line through it
- *     MHT   every pair of plots of successive scans ("candidate temporary track"): the cell of the line through both
+ *     MHT   every pair of plots of successive scans ("candidate temporary track"): the cell of the
+ *           line through both
  *     IHT   the same, where v_min <= distance / time <= v_max, eq. (20)
- *     NHT   the same, where a pair of the scans before ("kernel") has nearly the same line; the vote is how nearly, eq. (27)
+ *     NHT   the same, where a pair of the scans before ("kernel") has nearly the same line; the
+ *           vote is the membership, eq. (27)
  *
- * The cells with at least tau of the most votes, and votes_min, are peaks, but for those near a better one.
+ * Peaks are the cells with at least votes_min votes and a share of tau of the most votes, except
+ * those near a better peak.
  *
- * The cells are never all there. HT streams rows of theta (accumulator). The votes of pairs go into a bounded hash; where
- * it is too small for all, as many rows of theta as fit are taken at a time. Results do not depend on its size.
+ * Not all cells are stored. HT streams rows of theta (accumulator). The votes of pairs go into a
+ * hash of fixed size; if it is too small, the rows of theta are searched in several passes. Results
+ * do not depend on its size.
  *
- * Source: Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple Target Tracking"; where the
- * paper leaves a choice or has a misprint, the field or function concerned says what is done. src/DESIGN.md has the reasons
- * and what these methods can and cannot do: the paper's claims hold up to about 0.6 m of noise, not at its own 10 m.
+ * Source: Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple
+ * Target Tracking"; where the paper leaves a choice or has a misprint, the comment of the
+ * field or function states the choice. src/DESIGN.md has the reasons and the limits of these
+ * methods: the paper's claims hold up to about 0.6 m of noise, not at its own 10 m.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -27,51 +34,75 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/accumulator.h"
 #include "rhotrack/config.h"
+#include "rhotrack/detail/accumulator.h"
 #include "rhotrack/status.h"
 
-/* Votes are counted in these parts of a vote; sums stop at the largest number. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One vote in the units of all counts, of 1/65536 vote; sums saturate. */
 #define RHO_CLASSIC_VOTE 65536u
 
-/* Cells that 2 eps may span, either way. */
+/* Largest number of cells within 2 eps, in each direction. */
 #define RHO_CLASSIC_REACH_MAX 255u
 
 enum rho_classic_method {
     RHO_CLASSIC_HT,
     RHO_CLASSIC_MHT,
     RHO_CLASSIC_IHT,
-    /* Where an NHT vote goes, the paper does not say clearly. Reading A: to the pair's own cell, literally (23). */
+    /*
+     * Where an NHT vote goes, the paper does not say clearly. Reading A: to the pair's own cell,
+     * literally (23).
+     */
     RHO_CLASSIC_NHT_A,
-    /* Reading C: to all cells within 2 eps of the pair's, weighted by (15), the "list of all the parameter points". */
+    /*
+     * Reading C: to all cells within 2 eps of the pair's, weighted by (15), the "list of all the
+     * parameter points".
+     */
     RHO_CLASSIC_NHT_C
 };
 
 struct rho_classic_config {
     enum rho_classic_method method;
-    /* The plane: as in struct rho_accumulator_config. rho is signed: (10) as printed takes |rho|, which makes one line of
-     * two mirror ones, and n_rho in (25) is for either sign. theta is in [0, pi): see rho_angle_line for (9). */
+    /*
+     * The plane: as in struct rho_accumulator_config. rho is signed: (10) as printed takes |rho|,
+     * which makes one line of two mirror ones, and n_rho in (25) is for either sign. theta is in
+     * [0, pi): see rho_angle_line for (9).
+     */
     float rho_max_m, rho_cell_m, theta_cell_rad;
-    /* epsilon of (15), (27), (28): kernels lie within 2 eps, ends included, in rho and in theta, also round the end of
-     * theta; so do peaks that a better one suppresses. At least 1 mm and 0.1 mrad, at most RHO_CLASSIC_REACH_MAX / 2
-     * cells and 0.5 rad. */
+    /*
+     * epsilon of (15), (27), (28): kernels lie within 2 eps, ends included, in rho and in theta,
+     * also round the end of theta; so do peaks that a better one suppresses. At least 1 mm and 0.1
+     * mrad, at most RHO_CLASSIC_REACH_MAX / 2 cells and 0.5 rad.
+     */
     float eps_rho_m, eps_theta_rad;
     float v_min_mps, v_max_mps; /* 0 <= v_min < v_max <= RHO_LIMIT_SPEED_MPS; IHT and NHT */
-    /* P_F and lambda_k of (29): F = lambda_k P_F^2, and a pair whose T and I are below F does not vote. (24) and (30) cannot
-     * both hold: votes are max(T, I), and F only this threshold. p_false 0 .. 1, lambda_k 0 .. 1e6. */
+    /*
+     * P_F and lambda_k of (29): F = lambda_k P_F^2, and a pair whose T and I are below F does not
+     * vote. (24) and (30) cannot both hold: votes are max(T, I), and F only this threshold. p_false
+     * 0 .. 1, lambda_k 0 .. 1e6.
+     */
     float p_false, lambda_k;
-    /* I: how near the pair's line is to that between the two best kernels, through the midpoints of their plots. It changes
-     * nothing that could be measured; 0: left out */
+    /*
+     * I: how near the pair's line is to that between the two best kernels, through the midpoints of
+     * their plots. It changes nothing that could be measured; 0: left out
+     */
     int uses_indeterminacy;
     enum rho_accumulator_votes votes; /* HT only; the paper counts points */
-    /* Thresholds: share of the most votes, eq. (32), 0 .. 1 (the paper gives none); and votes, 0 .. 65535, which (32)
-     * lacks: by it clutter alone always has a "target". */
+    /*
+     * Thresholds: share of the most votes, eq. (32), 0 .. 1 (the paper gives none); and votes, 0 ..
+     * 65535, which (32) lacks: by it clutter alone always has a "target".
+     */
     float tau, votes_min;
     int keeps_all_cells; /* no suppression: every cell above the thresholds is listed */
 };
 
-/* Plots in the order of their scans, and the time of each, seconds from any origin. The arrays stay the caller's. A scan
- * has at most 65535. */
+/*
+ * Plots in the order of their scans, and the time of each, seconds from any origin. The arrays stay
+ * the caller's. A scan has at most 65535.
+ */
 struct rho_classic_points {
     struct rho_accumulator_points at;
     const float *t_s;
@@ -79,25 +110,31 @@ struct rho_classic_points {
 
 struct rho_classic_result {
     uint32_t num_peaks;
-    /* cells above the thresholds beyond the caller's capacity, at most so many; peaks are right down to the lowest */
+    /*
+     * cells above the thresholds beyond the caller's capacity, at most so many; peaks are right
+     * down to the lowest
+     */
     uint32_t cells_dropped;
     uint32_t pairs;      /* of plots of successive scans; 0 for HT */
     uint32_t candidates; /* of them within the limits of speed; 0 for HT */
     uint32_t votes;      /* contributions to a cell that are not 0 */
     uint32_t cells;      /* with votes; 0 for HT */
     uint32_t votes_max;  /* parts of a vote */
-    uint32_t passes;     /* in so many parts theta was gone through */
-    /* what a single row of theta had too much of, for RHO_MAX_CLASSIC_CELLS and RHO_MAX_CLASSIC_KERNELS */
+    uint32_t passes;     /* over parts of theta */
+    /*
+     * what a single row of theta had too much of, for RHO_MAX_CLASSIC_CELLS and
+     * RHO_MAX_CLASSIC_KERNELS
+     */
     uint32_t votes_dropped, kernels_dropped;
 };
 
-/* Who voted for a cell, and the fit through them: a place and a velocity. */
+/* The voters of a cell, and the position and velocity fitted through them. */
 struct rho_classic_track {
     uint32_t votes;     /* parts of a vote; with reading C, to 2 of them a pair */
     uint32_t num_plots; /* each counted once */
     uint16_t mask;      /* bit m: a plot of scan m */
     uint16_t scans;     /* bits in mask */
-    int has_velocity; /* two scans or more; else the place is the plots' mean, and the velocity 0 */
+    int has_velocity;   /* two scans or more; else the mean position, and velocity 0 */
     float x_m, y_m, vx_mps, vy_mps;
 };
 
@@ -134,8 +171,11 @@ struct rho_classic {
     } work;
 };
 
-/* The paper's values: 5 m, 1 mrad, eps 20 m and 4 mrad, 100 .. 400 m/s, P_F 0.01, lambda_k 1, tau 0.5, points count, no I;
- * votes_min 0, cells near a better one suppressed, and rho_max the largest that RHO_MAX_RHO_CELLS allows. Constant cost. */
+/*
+ * The paper's values: 5 m, 1 mrad, eps 20 m and 4 mrad, 100 .. 400 m/s, P_F 0.01, lambda_k 1, tau
+ * 0.5, points count, no I; votes_min 0, cells near a better one suppressed, and rho_max the largest
+ * that RHO_MAX_RHO_CELLS allows. Constant cost.
+ */
 void rho_classic_config_default(struct rho_classic_config *config, enum rho_classic_method method);
 
 /*
@@ -148,14 +188,15 @@ RHO_MUST_CHECK enum rho_status rho_classic_init(struct rho_classic *classic, siz
 
 /*
  * Votes, and finds the peaks.
- *   peaks   room for max_peaks cells, from which the peaks are chosen: best first, votes in parts of a vote; mask is 0 but
- *           with HT and RHO_VOTES_SCANS
+ *   peaks   room for max_peaks cells, from which the peaks are chosen: best first, votes in parts
+ *           of a vote; mask is 0 but with HT and RHO_VOTES_SCANS
  *   result  filled whole
  * Two plots in one place have no line and do not vote as a pair; nor do lines beyond rho_max_m.
- * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a scan, a place not
- * finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s); nothing but *classic's scratch is changed.
- * Cost: HT as rho_accumulator_find. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2 additions a vote. Then the
- * cells above the thresholds, n log n. Stack: 1 KB, HT 1.9 KB, NHT_C 2.8 KB.
+ * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a
+ * scan, a place not finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s);
+ * nothing but *classic's scratch is changed.
+ * Cost: HT as rho_accumulator_find. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2 additions
+ * a vote. Then the cells above the thresholds, n log n. Stack: 1 KB, HT 1.9 KB, NHT_C 2.8 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
                                                 const struct rho_classic_points *points,
@@ -164,8 +205,8 @@ RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
                                                 struct rho_classic_result *result);
 
 /*
- * The votes of any cell of the plane, and whose they are.
- *   at_s   the time that the place is for
+ * The votes of any cell of the plane, and the plots that cast them.
+ *   at_s   time of the position in *track
  * Errors: as above, and VALUE for a cell outside the plane. Cost: the plots, which are also
  * checked anew, and the pairs (NHT: pairs of pairs) of those
  * near the line. Stack: 2.8 KB.
@@ -175,13 +216,20 @@ RHO_MUST_CHECK enum rho_status rho_classic_track(struct rho_classic *classic,
                                                  unsigned theta_cell, unsigned rho_cell, float at_s,
                                                  struct rho_classic_track *track);
 
-/* Pairs of plots of successive scans, and those of them within the limits of speed; both saturate. Cost: the pairs. */
+/*
+ * Pairs of plots of successive scans, and the number within the limits of speed; both saturate.
+ * Cost: the pairs.
+ */
 void rho_classic_count_pairs(const struct rho_classic *classic,
                              const struct rho_classic_points *points, uint32_t *pairs,
                              uint32_t *candidates);
 
-/* The line in the middle of a cell. Constant cost. */
+/* The line through the centre of a cell. Constant cost. */
 float rho_classic_theta_rad(const struct rho_classic *classic, unsigned theta_cell);
 float rho_classic_rho_m(const struct rho_classic *classic, unsigned rho_cell);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

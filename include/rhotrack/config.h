@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * config: the capacities that fix the size of every object, and what they cost.
+ * config: the capacities that fix the size of every object, and their costs.
  *
- * Two profiles give the defaults: embedded (used when nothing is said; a Cortex-M4F with 256 KiB of RAM) and
- * workstation (-DRHO_PROFILE_WORKSTATION; the command-line tools). Single capacities are overridden with -D, or all in
- * one file named by -DRHO_CONFIG_FILE='"my_config.h"', which is included first. Library and application must be built
- * with the same values: every init takes sizeof(object) and refuses a mismatch (RHO_ERROR_SIZE).
+ * Two profiles give the defaults: embedded (the default; a Cortex-M4F with 256 KiB of RAM) and
+ * workstation (-DRHO_PROFILE_WORKSTATION; the command-line tools). Single capacities are overridden
+ * with -D, or all in one file named by -DRHO_CONFIG_FILE='"my_config.h"', which is included first.
+ * Library and application must be built with the same values: every init takes sizeof(object) and
+ * refuses a mismatch (RHO_ERROR_SIZE).
  */
 #ifndef RHOTRACK_CONFIG_H
 #define RHOTRACK_CONFIG_H
@@ -20,30 +21,41 @@
 #define RHO_CONFIG_PICK(embedded, workstation) (embedded)
 #endif
 
-/* Scans in the initiation window. More scans find tracks in denser clutter, later. RAM: linear. 3 .. 12. */
+/*
+ * Scans in the initiation window. More scans find tracks in denser clutter, later. RAM: linear. 3
+ * .. 12.
+ */
 #ifndef RHO_MAX_SCANS
 #define RHO_MAX_SCANS RHO_CONFIG_PICK(7, 12)
 #endif
 
-/* Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. With RHO_SECTORS those held are of a
- * whole turn, as its sectors are one scan of the window. RAM: linear. 1 .. 16383. */
+/*
+ * Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. With
+ * RHO_SECTORS the limit of held plots is for a revolution: its sectors are one scan of the window.
+ * RAM: linear. 1 .. 16383.
+ */
 #ifndef RHO_MAX_PLOTS
 #define RHO_MAX_PLOTS RHO_CONFIG_PICK(256, 10000)
 #endif
 
-/* Bins of one scan's neighbour look-up. More bins mean fewer distance tests. RAM: 2 bytes a bin and scan. 1 .. 32767. */
+/*
+ * Bins of one scan's neighbour look-up. More bins mean fewer distance tests. RAM: 2 bytes a bin and
+ * scan. 1 .. 32767.
+ */
 #ifndef RHO_MAX_BINS
 #define RHO_MAX_BINS RHO_CONFIG_PICK(576, 16384)
 #endif
 
-/* Candidate tracks that one search keeps before the exclusive selection; the lowest score gives way. 1 .. 4096. */
+/*
+ * Candidate tracks that a search keeps before the selection; the lowest score gives way. 1 .. 4096.
+ */
 #ifndef RHO_MAX_CANDIDATES
 #define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 2048)
 #endif
 
 /*
- * Work that a step may do where nothing else is said, in units (work_max of struct
- * rho_tracker_config and rho_initiator_config).
+ * Default limit of the work of a step, in units (work_max of struct rho_tracker_config and
+ * rho_initiator_config).
  */
 #ifndef RHO_WORK_MAX
 #define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 8000000)
@@ -54,31 +66,42 @@
 #define RHO_MAX_DENSITY_CELLS RHO_CONFIG_PICK(8, 32)
 #endif
 
-/* Such maps of an initiator: radars that share one (their scans in one window) have one each, up to so many. 1 .. 8. */
+/*
+ * Clutter density maps of an initiator. Radars whose scans are in one window have a map each, up to
+ * this number. 1 .. 8.
+ */
 #ifndef RHO_MAX_DENSITY_MAPS
 #define RHO_MAX_DENSITY_MAPS RHO_CONFIG_PICK(1, 2)
 #endif
 
-/* Cells along each side of the map that remembers clutter for a hundred scans. 0: left out of the program (400 bytes on a
- * Cortex-M4). RAM: 2 bytes a cell. 0 .. 1024. */
+/*
+ * Cells along each side of the map that remembers clutter for a hundred scans. 0 leaves it out of
+ * the program (400 bytes on a Cortex-M4). RAM: 2 bytes a cell. 0 .. 1024.
+ */
 #ifndef RHO_MAX_CLUTTER_CELLS
 #define RHO_MAX_CLUTTER_CELLS RHO_CONFIG_PICK(16, 256)
 #endif
 
-/* Echoes of clutter that comes back (rhotrack/clutter_map.h), of all sensors together. 0: left out of the program. RAM: 64 bytes
- * each. 0 .. 32767. */
+/*
+ * Echoes in the clutter map (rhotrack/clutter_map.h), of all sensors together. 0 leaves the map out
+ * of the program. RAM: 64 bytes each. 0 .. 32767.
+ */
 #ifndef RHO_MAX_ECHOES
 #define RHO_MAX_ECHOES RHO_CONFIG_PICK(128, 8192)
 #endif
 
-/* Regions of range, and as many of azimuth, in which it is learned apart how often they come back. RAM: 480 bytes a region of
- * both. 1 .. 15. */
+/*
+ * Regions of range, and as many of azimuth. The return rate of echoes is learned in each region
+ * apart. RAM: 480 bytes a region. 1 .. 15.
+ */
 #ifndef RHO_ECHO_REGIONS
 #define RHO_ECHO_REGIONS RHO_CONFIG_PICK(2, 8)
 #endif
 
-/* Directions in which a scan's plots are counted, to find jammers' strobes: a strobe is at least as wide as one. RAM: 3 bytes each.
- * 8 .. 4096. */
+/*
+ * Directions in which the plots of a scan are counted to find jamming strobes. A strobe is at least
+ * as wide as one direction. RAM: 3 bytes each. 8 .. 4096.
+ */
 #ifndef RHO_STROBE_BINS
 #define RHO_STROBE_BINS RHO_CONFIG_PICK(360, 720)
 #endif
@@ -88,27 +111,38 @@
 #define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
 #endif
 
-/* Up to so many points the accumulator remembers which cells they touched, and looks at no others. RAM: 18 or 32 bytes a
- * point. 64 .. 4096. */
+/*
+ * Up to this number of points the accumulator remembers the cells that they touched, and searches
+ * those alone. RAM: 18 or 32 bytes a point. 64 .. 4096.
+ */
 #ifndef RHO_ACCUMULATOR_SPARSE_MAX
 #define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
 #endif
 
-/* Bins of rho in which the accumulator counts whether points can reach min_votes at all. About 4 a point that counts as
- * few; fewer of them leave out less. RAM: 4 bytes a bin. A power of two, 64 .. 16384. */
+/*
+ * Bins of rho in which the accumulator counts points, to skip those that cannot reach min_votes.
+ * About 4 bins a point of RHO_ACCUMULATOR_SPARSE_MAX; fewer bins skip less. RAM: 4 bytes a bin. A
+ * power of two, 64 .. 16384.
+ */
 #ifndef RHO_ACCUMULATOR_BINS
 #define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
 #endif
 
-/* Rows are looked through in blocks of 64 cells, read with what is around them as 80; a multiple of 4 bytes. */
+/* Rows are searched in blocks of 64 cells, read as 80 with their margins; a multiple of 4 bytes. */
 #define RHO_ACCUMULATOR_PADDING 84
 
-/* Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two, 256 .. 4194304. */
+/*
+ * Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two,
+ * 256 .. 4194304.
+ */
 #ifndef RHO_MAX_CLASSIC_CELLS
 #define RHO_MAX_CLASSIC_CELLS RHO_CONFIG_PICK(4096, 131072)
 #endif
 
-/* Pairs of one scan and the next that they hold at a time. RAM: 32 bytes a pair. 16 .. 65534. */
+/*
+ * Pairs of plots of one scan and the next that the papers' methods hold at a time. RAM: 32 bytes a
+ * pair. 16 .. 65534.
+ */
 #ifndef RHO_MAX_CLASSIC_KERNELS
 #define RHO_MAX_CLASSIC_KERNELS RHO_CONFIG_PICK(256, 16384)
 #endif
@@ -121,7 +155,10 @@
 #define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Passive sensors, and frames of them in a batch. RAM: 17 bytes a bearing, sensor and frame. 2 .. 8; 4 .. 16. */
+/*
+ * Passive sensors, 2 .. 8, and frames in a batch, 4 .. 16. RAM: 17 bytes a bearing, sensor and
+ * frame.
+ */
 #ifndef RHO_MAX_PASSIVE_SENSORS
 #define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 4)
 #endif
@@ -134,7 +171,10 @@
 #define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 1024)
 #endif
 
-/* Fitted hypotheses that compete in the selection. RAM: 24 bytes, and a byte a sensor and frame. 8 .. 255. */
+/*
+ * Fitted candidates that compete in the selection of passive tracks. RAM: 24 bytes each, and a byte
+ * a sensor and frame. 8 .. 255.
+ */
 #ifndef RHO_MAX_PASSIVE_CANDIDATES
 #define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
 #endif
@@ -152,8 +192,11 @@
 #define RHO_PASSIVE_RHO_CELLS 128
 #endif
 
-/* The paper's passive method. Lines that it finds: 1 .. 255. Cells of its accumulator, RAM: a byte a cell; of rho also 3
- * bytes. Crossings of a pair of sensors, RAM: 8 bytes a crossing: 16 .. 65535. */
+/*
+ * The paper's passive method: lines that it finds, 1 .. 255; cells of its accumulator, RAM: a byte
+ * a cell, and 3 bytes a cell of rho; crossings of a pair of sensors, 16 .. 65535, RAM: 8 bytes
+ * each.
+ */
 #ifndef RHO_MAX_PASSIVE_LINES
 #define RHO_MAX_PASSIVE_LINES 24
 #endif
@@ -167,75 +210,101 @@
 #define RHO_MAX_PAPER_CROSSINGS RHO_CONFIG_PICK(512, 4096)
 #endif
 
-/* Directions that a sensor's bearings of a scan are looked up by. More of them mean fewer bearings compared. RAM: a bit. A
- * multiple of 32, 32 .. 4096. */
+/*
+ * Directions by which bearings of a scan are looked up. More directions mean fewer comparisons.
+ * RAM: a bit each. A multiple of 32, 32 .. 4096.
+ */
 #ifndef RHO_PASSIVE_BINS
 #define RHO_PASSIVE_BINS 256
 #endif
 
-/* Pairs of crossings that are known to have been fitted; others may be fitted again. RAM: 6 bytes a pair. 1 .. 65536. */
+/*
+ * Pairs of crossings that are remembered as fitted; others may be fitted again. RAM: 6 bytes a
+ * pair. 1 .. 65536.
+ */
 #ifndef RHO_PASSIVE_PAIRS
 #define RHO_PASSIVE_PAIRS 256
 #endif
 
-/* Tracks alive at a time. When all are taken, the tentative track of the lowest score gives way. 1 .. 8192. */
+/*
+ * Tracks at a time. When all are taken, the tentative track of the lowest score is dropped. 1 ..
+ * 8192.
+ */
 #ifndef RHO_MAX_TRACKS
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
 #endif
 
-/* Hypotheses of all tracks together, up to eight a track: a quiet one needs one, one that manoeuvres in clutter eight. More
- * than RHO_MAX_TRACKS where the tracker's gate is `best`; 1 where it never is. RAM: 410 bytes each. 1 .. 65534. */
+/*
+ * Hypotheses of all tracks together, up to eight a track: a straight track without clutter needs
+ * one, a manoeuvring track in clutter eight. More than RHO_MAX_TRACKS where the tracker's gate is
+ * `best`; 1 where it never is. RAM: 410 bytes each. 1 .. 65534.
+ */
 #ifndef RHO_MAX_HYPOTHESES
 #define RHO_MAX_HYPOTHESES RHO_CONFIG_PICK(96, 6000)
 #endif
 
 /*
  * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2
- * input estimation and, of the same method, the gate hough, 4 hypotheses. What only the others need
- * is left out of the program: a radar with the gate best needs 4 alone (10 KB less on a Cortex-M4),
- * one with the gate nearest 1 (frames that start tracks want it, too). What asks for another one is
- * refused (CONFIG). RAM stays: without 4, RHO_MAX_HYPOTHESES is best 1. Default: all. 1 .. 7.
+ * input estimation with its gate hough, 4 hypotheses. Code of the other filters is left out of the
+ * program: a radar with the gate best needs 4 alone (10 KB less on a Cortex-M4), one with the gate
+ * nearest 1. Frames that start tracks need 1, too. Configurations that ask for another filter are
+ * refused (CONFIG). RAM does not change: without 4, set RHO_MAX_HYPOTHESES to 1. Default: all. 1 ..
+ * 7.
  */
 #ifndef RHO_FILTERS
 #define RHO_FILTERS 7
 #endif
 
 /*
- * Kinds of scans that come in, a bit each, 1 << enum rho_feed_kind: 1 plots, 2 polar plots, 4
- * bearings. What only the others need is left out of the program (with 2 alone 3.8 KB less on a
- * Cortex-M4): rho_feed takes none of their messages (TYPE), and without 1 there is no faster search
- * for plots whose noise has one axis; they are searched as others are. Default: all. 1 .. 7.
+ * Kinds of scans that are accepted, a bit each, 1 << enum rho_scan_assembler_kind: 1 plots, 2 polar
+ * plots, 4 bearings. Code of the other kinds is left out of the program (with 2 alone 3.8 KB less
+ * on a Cortex-M4): rho_scan_assembler refuses their messages (TYPE), and without 1 the initiator
+ * has no faster search for plots whose noise has one axis. Default: all. 1 .. 7.
  */
 #ifndef RHO_SCAN_KINDS
 #define RHO_SCAN_KINDS 7
 #endif
 
-/* 1: two tracks of targets that the sensor sees as one plot share it; 0: left out of the program (1 KB less on a Cortex-M4). */
+/*
+ * 1: two tracks share the merged plot of unresolved targets. 0: left out of the program (1 KB less
+ * on a Cortex-M4).
+ */
 #ifndef RHO_SHARES_PLOTS
 #define RHO_SHARES_PLOTS 1
 #endif
 
-/* 1: of scans of more than RHO_MAX_PLOTS, tracks may claim others, of the first four times as many; 0: left out of the program (400
- * bytes less on a Cortex-M4), for who never steps larger scans: rho_feed makes none. */
+/*
+ * 1: tracks may claim plots of a scan beyond the first RHO_MAX_PLOTS, up to four times as many. 0:
+ * left out of the program (400 bytes less on a Cortex-M4). rho_scan_assembler never makes such
+ * scans.
+ */
 #ifndef RHO_CLAIMS_BEYOND
 #define RHO_CLAIMS_BEYOND 1
 #endif
 
-/* 1: what turning radars and several of them need. Sectors that follow one another are one scan of the initiation window, and a
- * target between two of them is seen once a turn; late scans update tracks; a sensor that contradicts the others is doubted. 0: left
- * out of the program (5 KB less on a Cortex-M4), each scan is a look of its own. RAM: 36 bytes a scan of the window, 52 a sensor. */
+/*
+ * 1: sectors and several radars. Successive sectors are one scan of the initiation window, and a
+ * target between two sectors is seen once a revolution; out-of-sequence scans update tracks; sensor
+ * health finds the sensor that contradicts the others. 0: left out of the program (5 KB less on a
+ * Cortex-M4), every scan is a look of its own. RAM: 52 bytes a sensor.
+ */
 #ifndef RHO_SECTORS
 #define RHO_SECTORS 1
 #endif
 
-/* 1: range rates may be ambiguous (struct rho_sensor's range_rate_span_mps); 0: left out of the program (1.5 KB less on a
- * Cortex-M4), and a sensor has no such field. */
+/*
+ * 1: range rates may be ambiguous (range_rate_span_mps of struct rho_sensor). 0: left out of the
+ * program (1.5 KB less on a Cortex-M4), and a sensor with a span is refused.
+ */
 #ifndef RHO_AMBIGUOUS_RANGE_RATES
 #define RHO_AMBIGUOUS_RANGE_RATES 1
 #endif
 
-/* Strips that a scan's plots are sorted into, so that a track looks at those near it alone: worth it where tracks times plots
- * are a million. 1: no sorting. RAM: 2 bytes each, and 2 a plot. 1 .. 16384. */
+/*
+ * Strips that the plots of a scan are sorted into, so that a track is compared with near plots
+ * alone: of use from a million of tracks times plots. 1: no sorting. RAM: 2 bytes each, and 2 a
+ * plot. 1 .. 16384.
+ */
 #ifndef RHO_PLOT_STRIPS
 #define RHO_PLOT_STRIPS RHO_CONFIG_PICK(1, 1024)
 #endif
@@ -250,13 +319,19 @@
 #define RHO_MAX_SENSORS RHO_CONFIG_PICK(8, 64)
 #endif
 
-/* Scans of sensors that are put together, or wait for their turn, at a time. RAM: 56 bytes a plot of RHO_MAX_PLOTS each. With
- * 1 the parts of two sensors' scans that come at the same time drive each other out. 1 .. 64. */
+/*
+ * Scans that are assembled, or wait in the reorder buffer, at a time. With 1, parts of two sensors'
+ * scans that arrive interleaved displace each other. RAM: 56 bytes a plot of RHO_MAX_PLOTS each. 1
+ * .. 64.
+ */
 #ifndef RHO_MAX_OPEN_SCANS
 #define RHO_MAX_OPEN_SCANS RHO_CONFIG_PICK(2, 16)
 #endif
 
-/* Messages that one scan may be spread over; scans of more are refused. RAM: 2 bytes a part and open scan. 1 .. 32767. */
+/*
+ * Messages that one scan may be spread over; scans of more parts are refused. RAM: 2 bytes a part
+ * and open scan. 1 .. 32767.
+ */
 #ifndef RHO_MAX_PARTS
 #define RHO_MAX_PARTS RHO_CONFIG_PICK(16, 512)
 #endif
@@ -389,11 +464,11 @@
 
 /*
  * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c,
- * classic.c, initiator.c, tracker.c).
- * Embedded: initiator 66 KiB at most. The rest of a node is the caller's scan (56 bytes a plot) and report.
+ * classic.c, initiator.c, tracker.c). Embedded: initiator 66 KiB at most. A node also holds the
+ * caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \
-    (RHO_MAX_SCANS * (31 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160 + 36 * RHO_SECTORS) + 96)
+    (RHO_MAX_SCANS * (31 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160) + 120)
 #define RHO_RAM_INITIATOR_BYTES                                                                    \
     (RHO_RAM_WINDOW_BYTES + RHO_MAX_CANDIDATES * (2 * RHO_MAX_SCANS + 44) +                        \
      RHO_MAX_DENSITY_MAPS * (2 * RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS + 68) +             \
@@ -403,7 +478,7 @@
     (6 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024 +                              \
      RHO_RAM_LARGER(2 * RHO_MAX_RHO_CELLS,                                                         \
                     14 * RHO_ACCUMULATOR_SPARSE_MAX + 4 * RHO_ACCUMULATOR_BINS))
-/* as much as either needs: the accumulator, or cells with pairs or a row */
+/* the larger of the accumulator, and cells with pairs or a row */
 #define RHO_RAM_CLASSIC_BYTES                                                                      \
     (RHO_RAM_LARGER(RHO_RAM_ACCUMULATOR_BYTES,                                                     \
                     8 * RHO_MAX_CLASSIC_CELLS +                                                    \

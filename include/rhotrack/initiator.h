@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * initiator: the default track initiation: which plots of the last scans are tracks?
+ * initiator: the default track initiation: finds the plots of the last scans that are tracks.
  *
- * A kernel-centric, time-aware Hough transform. Every pair of plots far apart in time is a kernel: a line with a speed
- * and a sense, a point in the space of straight tracks. Each scan between votes for it with its plot nearest to the
- * place that the kernel predicts for that very scan, if one lies in the gate that the plots' own noise gives. Votes are
- * a bit mask of scans, so that no scan counts twice. Kernels with votes enough are fitted (weighted least squares),
- * every scan is asked again along the fitted track, and the candidate is scored: the logarithm of the likelihood that
- * these plots are one target's, over the likelihood that they are clutter of the local density. Candidates are accepted
- * best first; one that shares more than one plot with a better one is fitted again on what is left.
+ * A kernel-centric, time-aware Hough transform. Every pair of plots far apart in time is a kernel:
+ * a line with a speed and a sense, a point in the space of straight tracks. Each scan between votes
+ * for it with the plot nearest to the place that the kernel predicts for that scan, if one lies in
+ * the gate of the plots' noise. Votes are a bit mask of scans, so that no scan counts twice.
+ * Kernels with enough votes are fitted (weighted least squares), every scan is associated again
+ * with the fitted track, and the candidate is scored: the logarithm of the likelihood that these
+ * plots are one target's over the likelihood that they are clutter of the local density. Candidates
+ * are accepted best first; one that shares more than one plot with a better one is fitted again to
+ * the plots that are left.
  *
- * Every plot counts with its own time and its own covariance, and with its height and range rate where it has them.
- * After every scan the thresholds and M follow from the wanted rate of false tracks and from what the window tells of
- * clutter.
+ * Every plot counts with its own time and covariance, and with its height and range rate where
+ * measured. After every scan the thresholds and M follow from the wanted false-track rate and from
+ * the clutter in the window.
  *
- * src/DESIGN.md derives the gates, the score, the rate and the densities up to which this can work. Source: Fan et al.,
- * "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple Target Tracking" (votes in parameter space
- * by kernels of time-ordered scans); the score is the integrated likelihood ratio over all straight tracks with
- * speeds between v_min_mps and v_max_mps.
+ * src/DESIGN.md derives the gates, the score, the rate and the densities up to which this can work.
+ * Source: Fan et al., "Neutrosophic Hough Transform-Based Track Initiation Method for Multiple
+ * Target Tracking" (votes in parameter space by kernels of time-ordered scans); the score is the
+ * integrated likelihood ratio over all straight tracks with speeds between v_min_mps and v_max_mps.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -28,35 +30,45 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
+#include "rhotrack/detail/window.h"
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
-#include "rhotrack/window.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 struct rho_initiator_config {
     uint16_t scans; /* N, the window: 3 .. RHO_MAX_SCANS */
-    /* M, scans that must have voted: 3 .. N; 0: chosen from the clutter, by places alone: of a batch with range rates it may be
-     * more than it need be */
+    /*
+     * M, scans that must vote: 3 .. N; 0: chosen from the clutter, by positions alone: for a batch
+     * with range rates it may be larger than necessary
+     */
     uint16_t min_scans;
-    float v_min_mps,
-        v_max_mps; /* speeds of targets, 0 <= v_min < v_max, 0.01 <= v_max <= RHO_LIMIT_SPEED_MPS */
-    float pd;      /* probability that a scan sees the target: 0.01 .. 0.999 */
-    /* wanted of chance tracks, 0 or 1e-6 .. 1e6, for searches after every scan: thresholds and M follow from it; 0:
-     * score_min_nat is the threshold */
+    /* speeds of targets, 0 <= v_min < v_max, 0.01 <= v_max <= RHO_LIMIT_SPEED_MPS */
+    float v_min_mps, v_max_mps;
+    float pd; /* probability that a scan sees the target: 0.01 .. 0.999 */
+    /*
+     * wanted false-track rate, 1e-6 .. 1e6, of searches after every scan: thresholds and M follow
+     * from it; 0: score_min_nat is the threshold
+     */
     float false_tracks_per_hour;
-    float score_min_nat; /* candidates below are none; a batch always goes by it */
-    /* acceleration, constant within a scan interval, that gates and scores allow for in places; 0: none. Range rates are
-     * gated and scored as if there were none */
+    float score_min_nat; /* least score of a candidate; always used for a batch */
+    /*
+     * acceleration, constant within a scan interval, in the gates and scores of positions; 0: none.
+     * Range rates are gated and scored without it
+     */
     float process_noise_mps2;
     /*
-     * standard deviation of accelerations in the plane that stay the same for the window: after
-     * every scan, plots that a target may have had which turns or changes its speed are looked for,
-     * too; 0: straight ones alone
+     * standard deviation of accelerations in the plane that are constant over the window: the
+     * search after every scan also finds targets that turn or change their speed; 0: straight ones
+     * alone
      */
     float turn_mps2;
-    /* work that one search may do, up to 1e8 units, in a batch for each scan that tracks may end in; 0: no limit, for who has time */
+    /* limit of the work of a search, up to 1e8 units; in a batch for each last scan; 0: none */
     uint32_t work_max;
-    int area_is_fixed;      /* area below is meant; else the extent of the plots seen lately */
-    struct rho_extent area; /* that clutter and births are spread over */
+    int area_is_fixed;      /* use `area`; else the extent of recent plots */
+    struct rho_extent area; /* of clutter and births */
 };
 
 /* A track found: the plots that voted, and the fit at the newest scan's time. */
@@ -69,13 +81,13 @@ struct rho_candidate {
      */
     uint16_t plot[RHO_MAX_SCANS / 2 * 2 + 1];
     uint8_t has_z;      /* two plots or more have heights */
-    uint8_t is_turning; /* x .. vy are of a fit that has an acceleration */
+    uint8_t is_turning; /* x .. vy are of a fit with an acceleration */
     int32_t score_mnat;
     float x_m, y_m, vx_mps, vy_mps;
     float z_m, vz_mps; /* 0 unless has_z */
 };
 
-/* Work of the last search, and what its capacities cut. All saturate. */
+/* Work of the last search, and its losses by capacities. All saturate. */
 struct rho_initiator_work {
     uint32_t seeds; /* kernels tried */
     struct rho_window_work window;
@@ -83,78 +95,78 @@ struct rho_initiator_work {
     uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES, or beyond work_max */
 };
 
-/* Where a search begins among the newest plots: classes of how many plots lie near, then by place. */
-struct rho_initiator_turn {
+/* Where a search begins among the newest plots: their class of near plots, then their index. */
+struct rho_initiator_resume {
     uint16_t cost_class, plot;
 };
 
 #define RHO_INITIATOR_CLASSES 16u
 
 /*
- * What the limit on work did. A unit is a plot compared or a row of bins, 20 to 90 instructions; a kernel is 2, a look-up 3, a fit
- * 400. All saturate, and only rho_initiator_init clears them. work is at most work_max (of a batch: for each scan that kernels end in) and RHO_INITIATOR_WORK_BEYOND: what was
- * begun is ended. Thresholds and the density map come on top; what they cost follows from the capacities alone.
+ * Effects of the limit on work. A unit is a plot compared or a row of bins, 20 to 90 instructions;
+ * a kernel is 2, a look-up 3, a fit 400. All saturate, and only rho_initiator_init clears them.
+ * work is at most work_max (of a batch: for each scan that kernels end in) plus
+ * RHO_INITIATOR_WORK_BEYOND, as work that was begun is finished. Thresholds and the density map are
+ * not included; their cost follows from the capacities alone.
  */
 #define RHO_INITIATOR_WORK_BEYOND                                                                  \
     ((16u + 30u * RHO_MAX_SCANS) * (RHO_MAX_PLOTS + RHO_MAX_BINS) + 4000u * RHO_MAX_SCANS)
 struct rho_initiator_budget {
     uint32_t work, work_worst; /* units of the last search, of the worst one */
-    uint32_t
-        partial_steps; /* searches that left something out: plots, or candidates (candidates_dropped) */
-    uint32_t plots_not_tried;       /* newest plots whose kernels were not all tried */
-    struct rho_initiator_turn turn; /* where the next search begins */
+    uint32_t partial_steps;   /* searches that left out plots, or candidates (candidates_dropped) */
+    uint32_t plots_not_tried; /* newest plots whose kernels were not all tried */
+    struct rho_initiator_resume resume; /* where the next search begins */
 };
 
 /*
- * Where the plots of the last search's window lay. u and v are x and y; or, where all plots are one radar's, or of a few
- * that have a map each, their noise has its directions, and they look even in range rather than on the ground, range and
- * azimuth.
+ * Clutter density in the window of the last search. u and v are x and y. They are range and azimuth
+ * where all plots are of one radar, or of a few with a map each, the noise is anisotropic, and
+ * plots are spread evenly in range rather than on the ground.
  */
 struct rho_density_map {
     float mean;        /* plots a scan and unit of content */
-    float prior_plots; /* weight of the mean against a cell's own count */
-    float scans;       /* that were counted: of a turn that is only begun its share */
+    float prior_plots; /* weight of the mean against the count of a cell */
+    float scans;       /* counted; a revolution that has only begun counts by its share */
     float content;     /* of the whole map: m^2, or m rad */
-    float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from there */
+    float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from middle_rad */
     float u0, v0, width, height;
     uint8_t is_polar, columns, rows;
-    int32_t sensor_id; /* whose plots it counts, where there are several maps */
+    int32_t sensor_id; /* of the plots, where there are several maps */
     /* plots in the window, saturating; cell row * columns + column, u along the columns */
     uint16_t count[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
 };
 
-#if RHO_MAX_CLUTTER_CELLS > 0
-/* Where plots have left the window unused, over the last hundred scans. */
+#define RHO_CLUTTER_MEMORY_CELLS                                                                   \
+    (RHO_MAX_CLUTTER_CELLS > 0 ? RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS : 1)
+
+/* Plots that left the window unused over the last hundred scans; without cells it is not used. */
 struct rho_clutter_memory {
     float x_min_m, y_min_m, columns_per_m, rows_per_m;
-    uint32_t num_scans;                                            /* 0: nothing has left yet */
-    uint16_t count[RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS]; /* row * cells a side + column */
+    uint32_t num_scans;                       /* 0: nothing has left yet */
+    uint16_t count[RHO_CLUTTER_MEMORY_CELLS]; /* row * cells a side + column */
 };
-#endif
 
 enum rho_search {
     RHO_SEARCH_BATCH,  /* every track with min_scans votes anywhere in the window */
-    RHO_SEARCH_NEWEST, /* only tracks that the newest scan voted for: for use after every push */
+    RHO_SEARCH_NEWEST, /* tracks with a vote of the newest scan: for use after every push */
 };
 
 struct rho_initiator {
     uint32_t magic;
     uint16_t num_candidates; /* found by the last search, best first */
     uint16_t min_scans;      /* M in use at the last search */
-    /* scores that started a track in the last search, and that were enough to believe it */
+    /* scores that started and confirmed a track in the last search */
     int32_t start_mnat, confirm_mnat;
     struct rho_initiator_config config;
     struct rho_initiator_work work;
     float density_per_m2; /* plots a scan, mean over the area, of the last search */
     uint16_t num_maps; /* 1: of all sensors; several: one a sensor; 0: nothing was searched yet */
-    uint16_t has_turn; /* map and thresholds are those of the turn that the newest scan is of */
+    uint16_t has_revolution; /* map and thresholds belong to the revolution of the newest scan */
     struct rho_density_map density[RHO_MAX_DENSITY_MAPS];
-    /* by the age order of that search's scans: plots of the scan's sensor over those of all, a scan; 0: no scan */
+    /* by age order: plots a scan of the scan's sensor over the mean of all sensors; 0: no scan */
     float sensor_ratio[RHO_MAX_SCANS];
     int32_t sensor_id[RHO_MAX_SCANS];
-#if RHO_MAX_CLUTTER_CELLS > 0
     struct rho_clutter_memory memory;
-#endif
     struct rho_initiator_budget budget;
     uint8_t cost_class[RHO_MAX_PLOTS]; /* scratch of the search */
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
@@ -171,17 +183,21 @@ void rho_initiator_config_default(struct rho_initiator_config *config);
 /*
  * Prepares an empty initiator; the config is copied.
  *   size   sizeof(struct rho_initiator) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared. Stack: 168 bytes.
+ * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(initiator) bytes cleared.
+ * Stack: 168 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
                                                   const struct rho_initiator_config *config);
 
-/* True where a scan of this time can be pushed: the initiator is initialised, and holds no newer scan. Constant cost. */
+/*
+ * True where a scan of this time can be pushed: the initiator is initialised, and holds no newer
+ * scan. Constant cost.
+ */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
 /*
- * rho_window_push on the initiator's window; what an earlier search found is forgotten.
- * Stack: 264 bytes.
+ * rho_window_push on the initiator's window; candidates of an earlier search are cleared.
+ * Stack: 280 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,
@@ -192,19 +208,19 @@ RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiato
  * Searches the window. Results: initiator->candidates[0 .. num_candidates - 1], best first,
  * deterministic. Errors: NULL, STATE (not initialised). Fewer than min_scans scans held: RHO_OK and
  * no candidate. Cost: work_max, and thresholds for false_tracks_per_hour: 0.3 to 0.9 million
- * instructions, twice where there are likely candidates. What all would take grows with density,
- * not with area: the newest plots times the plots within v_max x time of each in the N - M + 1
- * scans before, a look-up each; where plots lie within their noise of one another all pairs with
- * all plots. Beyond work_max the newest plots with the fewest others near come first, and what is
- * left out moves the counters of `budget`. Kernels of turns come last, only where nothing was left
- * out, and take no more work than the others; what that leaves out is not counted. Stack: 3.3 KB
- * (embedded profile).
+ * instructions, twice where there are likely candidates. The work without a limit grows with
+ * density, not with area: the newest plots times the plots within v_max x time of each in the N - M
+ * + 1 scans before, a look-up each; where plots lie within their noise of one another, all pairs
+ * times all plots. With work_max the newest plots with the fewest near plots come first, and the
+ * counters of `budget` tell the plots that are left out. Kernels of turning targets come last, only
+ * where nothing was left out, and take no more work than the others; plots that they leave out are
+ * not counted. Stack: 3.3 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initiator,
                                                     enum rho_search search);
 
 /*
- * The same with so much work instead of the config's work_max: what a step has left for it.
+ * The same with work_max instead of the config's: the work that a step has left.
  * Stack: 3.3 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search_within(struct rho_initiator *initiator,
@@ -218,20 +234,25 @@ unsigned rho_initiator_consume(struct rho_initiator *initiator,
                                const struct rho_candidate *candidate);
 
 /*
- * Density of a sensor's plots near a place, plots a m^2 and scan, as of the last search: the map's cell over the
- * window, drawn towards the mean as far as the cells scatter no more than chance makes them, or what has left the window
- * there over the last hundred scans, where that is more (RHO_MAX_CLUTTER_CELLS); times what the sensor
- * sees more or less than the others, or from a map of its own. A sensor that the window does not hold counts as the mean.
- * 0 before the first search.
- * Cost: RHO_MAX_SCANS, for a map about a radar an arctangent and a square root. Stack: 110 bytes.
+ * Density of a sensor's plots near a place, plots a m^2 and scan, as of the last search: the count
+ * of the map's cell, shrunk towards the mean as far as the counts of the cells are Poisson, or the
+ * density of the last hundred scans there, where that is larger (RHO_MAX_CLUTTER_CELLS); times the
+ * ratio of the sensor's plots to those of all sensors, or from a map of its own. A sensor without a
+ * scan in the window counts as the mean. 0 before the first search. Cost: RHO_MAX_SCANS, for a map
+ * about a radar an arctangent and a square root. Stack: 110 bytes.
  */
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m);
 
 /*
- * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
- * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: all plots held. Stack: 250 bytes.
+ * True where an object of unknown origin (a snapshot, memory that outlived a reset) is consistent:
+ * counts, indices and numbers are within their limits. rho_snapshot_load calls it. Cost: all plots
+ * held. Stack: 250 bytes.
  */
 int rho_initiator_is_sound(const struct rho_initiator *initiator);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

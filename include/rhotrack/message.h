@@ -2,28 +2,36 @@
 /* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
 /* clang-format off */
 /*
- * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, nothing that is kept.
+ * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, no state.
  *
- * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in their order, big endian,
- * without gaps. Fields have the names, units and ranges of lcm_types/; capacities are RHO_MESSAGE_<STRUCT>_MAX_<LIST>,
- * the longest message RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fits one datagram.
+ * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in
+ * their order, big endian, without gaps. Fields have the names, units and ranges of lcm_types/. The
+ * capacity of a list is RHO_MESSAGE_<STRUCT>_MAX_<LIST>. The longest message of a struct has
+ * RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fit one datagram.
  *
  * For each struct S:
- *   rho_message_S_encode    struct to bytes. Errors: NULL, COUNT (of the list: negative, or beyond its MAX), CAPACITY (of
- *                           the buffer); nothing is written. Values are not looked at: validate does that.
- *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another fingerprint), COUNT, TRAILING;
- *                           *message is unchanged. Elements beyond the list's count are unchanged in any case.
- *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors: NULL, COUNT, VALUE;
- *                           *place (may be NULL) tells which member, and rho_message_S_field its name.
+ *   rho_message_S_encode    struct to bytes. Errors: NULL, COUNT (of the list: negative, or beyond
+ *                           its MAX), CAPACITY (of the buffer); nothing is written. Values are not
+ *                           checked: validate does that.
+ *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another
+ *                           fingerprint), COUNT, TRAILING; *message is unchanged. Elements beyond
+ *                           the list's count are unchanged in any case.
+ *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors:
+ *                           NULL, COUNT, VALUE; *place (may be NULL) tells which member, and
+ *                           rho_message_S_field its name.
  * and where S ends with a list, to write it without a copy of the list:
- *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the buffer. Errors: NULL,
- *                           CAPACITY; *writer is unchanged, and is not to be added to.
- *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another struct), CAPACITY (of
- *                           the buffer or the list); the message so far stays whole.
- *   rho_message_end         how long it is; the writer is empty then.
+ *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the
+ *                           buffer. Errors: NULL, CAPACITY; *writer is unchanged, and is not to be
+ *                           added to.
+ *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another
+ *                           struct), CAPACITY (of the buffer or the list); the message so far stays
+ *                           whole.
+ *   rho_message_end         the message's length; the writer is empty then.
  *
- * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent of one another.
- * Cost: proportional to the bytes, 2 instructions a byte to encode or decode, 6 to validate (`make instructions`).
+ * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent
+ * of one another.
+ * Cost: proportional to the bytes, 2 instructions a byte to encode or decode, 6 to validate
+ * (`make instructions`).
  * Stack: 130 bytes.
  */
 #ifndef RHOTRACK_MESSAGE_H
@@ -33,6 +41,10 @@
 #include <stdint.h>
 
 #include "rhotrack/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum rho_message_type {
     RHO_MESSAGE_TYPE_ECHO = 0,
@@ -61,7 +73,7 @@ struct rho_message_place {
     int16_t element; /* of the list; -1: before it */
 };
 
-/* A message that is being written; the buffer is the caller's, and holds a whole message at any time. */
+/* A message that is written; the caller's buffer holds a whole message at any time. */
 struct rho_message_writer {
     uint8_t *buffer;
     size_t capacity, size; /* bytes; size: so far */
@@ -69,17 +81,19 @@ struct rho_message_writer {
     uint16_t count; /* elements so far */
 };
 
-/* Which message this is by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
+/* The type by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
 enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size);
 
-/* The fingerprint; 0 for any other value. Name as in lcm_types/ ("plot_scan_t"); "unknown" for any other value. */
+/* The fingerprint, and the name as in lcm_types/ ("plot_scan_t"); 0 and "unknown" for others. */
 uint64_t rho_message_fingerprint(enum rho_message_type type);
 const char *rho_message_type_name(enum rho_message_type type);
 
 /* The length of what was begun and added. Errors: NULL, STATE (not begun). Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
 
-/* ---- echo_t: One echo of a clutter_map_t: something that gave clutter plots again and again in its place. ---- */
+/* ---- echo_t ---- */
+
+/* One echo of a clutter_map_t: something that gave clutter plots again and again in its place. */
 
 #define RHO_MESSAGE_ECHO_FINGERPRINT UINT64_C(0xd5072401d660f823)
 #define RHO_MESSAGE_ECHO_MAX_SIZE 42u
@@ -92,7 +106,8 @@ struct rho_message_echo {
     float y_m; /* north, m; -2e6 .. 2e6 */
     float vx_mps; /* velocity, m/s; 0: it stands; -2e4 .. 2e4 */
     float vy_mps; /* m/s; -2e4 .. 2e4 */
-    float sigma_range_m; /* standard deviation of the place along the sensor's line of sight, m; 0 .. 1e6 */
+    /* standard deviation of the place along the sensor's line of sight, m; 0 .. 1e6 */
+    float sigma_range_m;
     float sigma_cross_m; /* across it, m; 0 .. 1e6 */
     float chance; /* that the sensor's next look there sees it; 0 .. 1 */
 };
@@ -104,7 +119,9 @@ RHO_MUST_CHECK enum rho_status rho_message_echo_validate(
     const struct rho_message_echo *message, struct rho_message_place *place);
 const char *rho_message_echo_field(const struct rho_message_place *place);
 
-/* ---- peak_t: One line that initiation found: x cos(theta) + y sin(theta) = rho. ---- */
+/* ---- peak_t ---- */
+
+/* One line that initiation found: x cos(theta) + y sin(theta) = rho. */
 
 #define RHO_MESSAGE_PEAK_FINGERPRINT UINT64_C(0xef4db77f70fed866)
 #define RHO_MESSAGE_PEAK_MAX_SIZE 28u
@@ -125,7 +142,9 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_validate(
     const struct rho_message_peak *message, struct rho_message_place *place);
 const char *rho_message_peak_field(const struct rho_message_place *place);
 
-/* ---- plot_t: One plot of a plot_scan_t: a place, and what else its kind says. What is not measured is 0. ---- */
+/* ---- plot_t ---- */
+
+/* One plot of a plot_scan_t: a place, and what else its kind says. What is not measured is 0. */
 
 #define RHO_MESSAGE_PLOT_FINGERPRINT UINT64_C(0x788ad26d7448d55b)
 #define RHO_MESSAGE_PLOT_MAX_SIZE 48u
@@ -150,7 +169,9 @@ RHO_MUST_CHECK enum rho_status rho_message_plot_validate(
     const struct rho_message_plot *message, struct rho_message_place *place);
 const char *rho_message_plot_field(const struct rho_message_place *place);
 
-/* ---- polar_plot_t: One plot of a polar_scan_t, as the radar measures it. What is not measured is 0. ---- */
+/* ---- polar_plot_t ---- */
+
+/* One plot of a polar_scan_t, as the radar measures it. What is not measured is 0. */
 
 #define RHO_MESSAGE_POLAR_PLOT_FINGERPRINT UINT64_C(0x5482c658708a4062)
 #define RHO_MESSAGE_POLAR_PLOT_MAX_SIZE 32u
@@ -171,7 +192,9 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_plot_validate(
     const struct rho_message_polar_plot *message, struct rho_message_place *place);
 const char *rho_message_polar_plot_field(const struct rho_message_place *place);
 
-/* ---- sensor_t: One sensor of a sensor_list_t: whether it is heard, and whether the other sensors bear it out. ---- */
+/* ---- sensor_t ---- */
+
+/* One sensor of a sensor_list_t: whether it is heard, and whether the other sensors bear it out. */
 
 #define RHO_MESSAGE_SENSOR_FINGERPRINT UINT64_C(0x3384d71d72b4cd6c)
 #define RHO_MESSAGE_SENSOR_MAX_SIZE 46u
@@ -181,18 +204,36 @@ const char *rho_message_polar_plot_field(const struct rho_message_place *place);
 
 struct rho_message_sensor {
     int16_t sensor_id;
-    int8_t kind; /* of its messages; one number may send several kinds; one of PLOTS, POLAR, BEARINGS */
-    int8_t is_silent; /* 1: nothing was heard of it for so long (jump_max) that no scan waits for it any more; 0 .. 1 */
-    int8_t is_off_clock; /* 1: its clock is not the common one: its scans are refused until enough of them agree; 0 .. 1 */
-    int8_t is_doubted; /* 1: it contradicts the others: it starts no tracks, its misses say nothing, its plots count little; 0 .. 1 */
+    /* of its messages; one number may send several kinds; one of PLOTS, POLAR, BEARINGS */
+    int8_t kind;
+    /*
+     * 1: nothing was heard of it for so long (jump_max) that no scan waits for it any more; 0 .. 1
+     */
+    int8_t is_silent;
+    /*
+     * 1: its clock is not the common one: its scans are refused until enough of them agree; 0 .. 1
+     */
+    int8_t is_off_clock;
+    /*
+     * 1: it contradicts the others: it starts no tracks, its misses say nothing, its plots count
+     * little; 0 .. 1
+     */
+    int8_t is_doubted;
     int32_t scans; /* whose number was believed; stays at 65535; 0 .. 2147483647 */
-    int64_t scan_utime; /* time of measurement of the newest of them, us; -4000000000000000000 .. 4000000000000000000 */
-    int32_t heard_age_us; /* since that was received, by the receiver's clock; stays at 2147483647; 0 .. 2147483647 */
-    int32_t interval_us; /* from scan to scan, smoothed; 0: not known; stays at 2147483647; 0 .. 2147483647 */
+    /* time of measurement of the newest of them, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t scan_utime;
+    /* since that was received, by the receiver's clock; stays at 2147483647; 0 .. 2147483647 */
+    int32_t heard_age_us;
+    /* from scan to scan, smoothed; 0: not known; stays at 2147483647; 0 .. 2147483647 */
+    int32_t interval_us;
     int16_t watched; /* looks that the next one is of; below 12 it says little; 0 .. 32767 */
     int16_t watched_hits; /* plots that the last one is of; below 12 it says little; 0 .. 32767 */
     float seen_share; /* of those tracks where it looked, so many had a plot of it; 0 .. 1 */
-    float innovation_factor; /* their innovations' variance over what its sigmas and the tracks' say: 1 where all is well; 0 .. 1e12 */
+    /*
+     * their innovations' variance over what its sigmas and the tracks' say: 1 where all is well; 0
+     * .. 1e12
+     */
+    float innovation_factor;
 };
 RHO_MUST_CHECK enum rho_status rho_message_sensor_encode(
     const struct rho_message_sensor *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -202,7 +243,9 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_validate(
     const struct rho_message_sensor *message, struct rho_message_place *place);
 const char *rho_message_sensor_field(const struct rho_message_place *place);
 
-/* ---- status_t: How a tracker is doing: once a second, also when nothing comes. Channel RHO_STATUS. ---- */
+/* ---- status_t ---- */
+
+/* How a tracker is doing: once a second, also when nothing comes. Channel RHO_STATUS. */
 /* Counters count since the start and stay at 2147483647. */
 
 #define RHO_MESSAGE_STATUS_CHANNEL "RHO_STATUS"
@@ -210,20 +253,27 @@ const char *rho_message_sensor_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_STATUS_MAX_SIZE 146u
 
 struct rho_message_status {
-    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
     int32_t epoch; /* the tracker's boot number: another one after each restart */
     int32_t scans_accepted; /* taken for a step, whole or not; 0 .. 2147483647 */
-    int32_t scans_late; /* older than one of the same sensor that was taken before; 0 .. 2147483647 */
+    /* older than one of the same sensor that was taken before; 0 .. 2147483647 */
+    int32_t scans_late;
     int32_t scans_duplicate; /* scans or parts of them that were there already; 0 .. 2147483647 */
-    int32_t scans_lost; /* numbers that were skipped; one that comes after all is late, too; 0 .. 2147483647 */
-    int32_t scans_bad; /* good messages that contradict the sensor's earlier ones or each other; 0 .. 2147483647 */
-    int32_t messages_bad; /* not a message of this type: length, count, values, sensor; 0 .. 2147483647 */
-    int32_t messages_wrong_type; /* another fingerprint: another version, or something else; 0 .. 2147483647 */
+    /* numbers that were skipped; one that comes after all is late, too; 0 .. 2147483647 */
+    int32_t scans_lost;
+    /* good messages that contradict the sensor's earlier ones or each other; 0 .. 2147483647 */
+    int32_t scans_bad;
+    /* not a message of this type: length, count, values, sensor; 0 .. 2147483647 */
+    int32_t messages_bad;
+    /* another fingerprint: another version, or something else; 0 .. 2147483647 */
+    int32_t messages_wrong_type;
     int32_t messages_flooded; /* beyond what one channel may send in a second; 0 .. 2147483647 */
     int32_t frames_incomplete; /* of bearings, a sensor is missing in them; 0 .. 2147483647 */
     int32_t scans_incomplete; /* stepped with parts missing; 0 .. 2147483647 */
-    int32_t fragments_refused; /* datagrams of messages in fragments, or no LCM at all; 0 .. 2147483647 */
+    /* datagrams of messages in fragments, or no LCM at all; 0 .. 2147483647 */
+    int32_t fragments_refused;
     int32_t clock_jumps; /* scans whose time is far off the common clock; 0 .. 2147483647 */
     int32_t sensor_restarts; /* sensors whose numbers began anew; 0 .. 2147483647 */
     int32_t plots_in; /* 0 .. 2147483647 */
@@ -242,7 +292,8 @@ struct rho_message_status {
     float step_us; /* mean since the last status, us; 0 .. 1e12 */
     float step_max_us; /* longest since the last status, us; 0 .. 1e12 */
     float clutter_per_km2; /* mean over the area, a scan; 0 .. 1e12 */
-    int32_t origin_lat_1e7deg; /* of the local frame; all three 0: not said; -900000000 .. 900000000 */
+    /* of the local frame; all three 0: not said; -900000000 .. 900000000 */
+    int32_t origin_lat_1e7deg;
     int32_t origin_lon_1e7deg; /* -1800000000 .. 1800000000 */
     int32_t origin_alt_mm;
 };
@@ -254,7 +305,9 @@ RHO_MUST_CHECK enum rho_status rho_message_status_validate(
     const struct rho_message_status *message, struct rho_message_place *place);
 const char *rho_message_status_field(const struct rho_message_place *place);
 
-/* ---- track_t: One track of a track_list_t, at the list's time. ---- */
+/* ---- track_t ---- */
+
+/* One track of a track_list_t, at the list's time. */
 
 #define RHO_MESSAGE_TRACK_FINGERPRINT UINT64_C(0x07ff66dc5ae8b2bd)
 #define RHO_MESSAGE_TRACK_MAX_SIZE 153u
@@ -265,7 +318,10 @@ const char *rho_message_status_field(const struct rho_message_place *place);
 
 struct rho_message_track {
     int32_t track_id; /* never used twice between two restarts */
-    int8_t status; /* DELETED: this list names it for the last time; one of TENTATIVE, CONFIRMED, COASTING, DELETED */
+    /*
+     * DELETED: this list names it for the last time; one of TENTATIVE, CONFIRMED, COASTING, DELETED
+     */
+    int8_t status;
     int16_t hits; /* looks that updated it; stays at 32767; 0 .. 32767 */
     int16_t misses; /* looks that did not; stays at 32767; 0 .. 32767 */
     int16_t sensor_id; /* of the last update */
@@ -292,7 +348,9 @@ RHO_MUST_CHECK enum rho_status rho_message_track_validate(
     const struct rho_message_track *message, struct rho_message_place *place);
 const char *rho_message_track_field(const struct rho_message_place *place);
 
-/* ---- truth_t: One target of a truth_list_t, at the list's time. ---- */
+/* ---- truth_t ---- */
+
+/* One target of a truth_list_t, at the list's time. */
 
 #define RHO_MESSAGE_TRUTH_FINGERPRINT UINT64_C(0xa0d66a7393c5ab26)
 #define RHO_MESSAGE_TRUTH_MAX_SIZE 36u
@@ -314,7 +372,11 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_validate(
     const struct rho_message_truth *message, struct rho_message_place *place);
 const char *rho_message_truth_field(const struct rho_message_place *place);
 
-/* ---- work_t: What the limits of a tracker did: on the work of its steps, and of its outputs on what they had ---- */
+/* ---- work_t ---- */
+
+/*
+ * What the limits of a tracker did: on the work of its steps, and of its outputs on what they had
+ */
 /* room for. Once a second, with status_t. Channel RHO_WORK. */
 /* Counters count since the start and stay at the largest number that they may have. */
 
@@ -323,7 +385,8 @@ const char *rho_message_truth_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_WORK_MAX_SIZE 88u
 
 struct rho_message_work {
-    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
     int32_t epoch; /* the tracker's boot number: another one after each restart */
     int64_t num_steps; /* made so far; 0 .. 9223372036854775807 */
@@ -343,7 +406,9 @@ RHO_MUST_CHECK enum rho_status rho_message_work_validate(
     const struct rho_message_work *message, struct rho_message_place *place);
 const char *rho_message_work_field(const struct rho_message_place *place);
 
-/* ---- bearing_scan_t: Bearings of one look of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. ---- */
+/* ---- bearing_scan_t ---- */
+
+/* Bearings of one look of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. */
 
 #define RHO_MESSAGE_BEARING_SCAN_CHANNEL "RHO_BEARINGS_" /* and the sensor's number */
 #define RHO_MESSAGE_BEARING_SCAN_FINGERPRINT UINT64_C(0x66d140164191753b)
@@ -351,7 +416,11 @@ const char *rho_message_work_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD 256
 
 struct rho_message_bearing_scan {
-    int64_t utime; /* time of measurement, us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of measurement, us of the sensors' common clock; -4000000000000000000 ..
+     * 4000000000000000000
+     */
+    int64_t utime;
     int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
     int32_t epoch; /* the sender's boot number: another one after each restart */
     int16_t sensor_id; /* the number in the channel's name */
@@ -359,7 +428,8 @@ struct rho_message_bearing_scan {
     float sensor_y_m; /* -2e6 .. 2e6 */
     float sigma_rad; /* sd of the noise, rad; 0: not said; 0 .. 0.5 */
     int16_t num_bearings;
-    float bearing_rad[RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD]; /* to the targets, counter-clockwise from +x (east), rad; -3.1415927 .. 3.1415927 */
+    /* to the targets, counter-clockwise from +x (east), rad; -3.1415927 .. 3.1415927 */
+    float bearing_rad[RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD];
 };
 
 struct rho_message_bearing_scan_head {
@@ -384,7 +454,12 @@ RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_begin(
 RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
     struct rho_message_writer *writer, const float *bearing_rad);
 
-/* ---- clutter_map_t: Echoes that a tracker knows: clutter that comes back to its place; or a part of them, every few seconds. Channel RHO_CLUTTER. ---- */
+/* ---- clutter_map_t ---- */
+
+/*
+ * Echoes that a tracker knows: clutter that comes back to its place; or a part of them, every few
+ * seconds. Channel RHO_CLUTTER.
+ */
 
 #define RHO_MESSAGE_CLUTTER_MAP_CHANNEL "RHO_CLUTTER"
 #define RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT UINT64_C(0x62c5de2aae95967f)
@@ -392,7 +467,8 @@ RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
 #define RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES 40
 
 struct rho_message_clutter_map {
-    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
     int32_t epoch; /* the tracker's boot number: another one after each restart */
     int16_t num_echoes_total; /* of all parts; 0 .. 32767 */
@@ -423,7 +499,9 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_begin(
 RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
     struct rho_message_writer *writer, const struct rho_message_echo *echoe);
 
-/* ---- peak_list_t: The best candidates of the last search for new tracks, best first. Channel RHO_PEAKS. ---- */
+/* ---- peak_list_t ---- */
+
+/* The best candidates of the last search for new tracks, best first. Channel RHO_PEAKS. */
 
 #define RHO_MESSAGE_PEAK_LIST_CHANNEL "RHO_PEAKS"
 #define RHO_MESSAGE_PEAK_LIST_FINGERPRINT UINT64_C(0x68f79b7c84f4d541)
@@ -431,7 +509,8 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
 #define RHO_MESSAGE_PEAK_LIST_MAX_PEAKS 48
 
 struct rho_message_peak_list {
-    int64_t utime; /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
     int16_t num_peaks;
     struct rho_message_peak peaks[RHO_MESSAGE_PEAK_LIST_MAX_PEAKS];
@@ -454,7 +533,9 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_peak_list_add(
     struct rho_message_writer *writer, const struct rho_message_peak *peak);
 
-/* ---- plot_scan_t: Plots of one look of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>. ---- */
+/* ---- plot_scan_t ---- */
+
+/* Plots of one look of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>. */
 
 #define RHO_MESSAGE_PLOT_SCAN_CHANNEL "RHO_PLOTS_" /* and the sensor's number */
 #define RHO_MESSAGE_PLOT_SCAN_FINGERPRINT UINT64_C(0x0ec35bb85bc4cbde)
@@ -466,14 +547,23 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_list_add(
 #define RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS 34
 
 struct rho_message_plot_scan {
-    int64_t utime; /* time of measurement, us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of measurement, us of the sensors' common clock; -4000000000000000000 ..
+     * 4000000000000000000
+     */
+    int64_t utime;
     int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
     int32_t epoch; /* the sender's boot number: another one after each restart */
     int16_t sensor_id; /* the number in the channel's name */
-    int8_t kind; /* what the plots measure; one of POSITION_2D, POSITION_3D, POSITION_VELOCITY_2D, POSITION_VELOCITY_3D */
+    /*
+     * what the plots measure; one of POSITION_2D, POSITION_3D, POSITION_VELOCITY_2D,
+     * POSITION_VELOCITY_3D
+     */
+    int8_t kind;
     int16_t part; /* which part of the scan this is, from 0; 0 .. num_parts - 1 */
     int16_t num_parts; /* of the scan; 1 .. 32767 */
-    float sector_from_rad; /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    float sector_from_rad;
     float sector_to_rad; /* to here; both 0: the whole circle; -6.2831855 .. 6.2831855 */
     int16_t num_plots; /* in this part */
     struct rho_message_plot plots[RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS];
@@ -503,7 +593,9 @@ RHO_MUST_CHECK enum rho_status rho_message_plot_scan_begin(
 RHO_MUST_CHECK enum rho_status rho_message_plot_scan_add(
     struct rho_message_writer *writer, const struct rho_message_plot *plot);
 
-/* ---- polar_scan_t: Polar plots of one look of one radar, or a part of them. Channel RHO_POLAR_<sensor_id>. ---- */
+/* ---- polar_scan_t ---- */
+
+/* Polar plots of one look of one radar, or a part of them. Channel RHO_POLAR_<sensor_id>. */
 
 #define RHO_MESSAGE_POLAR_SCAN_CHANNEL "RHO_POLAR_" /* and the sensor's number */
 #define RHO_MESSAGE_POLAR_SCAN_FINGERPRINT UINT64_C(0x0570bdbf57d4a221)
@@ -511,7 +603,11 @@ RHO_MUST_CHECK enum rho_status rho_message_plot_scan_add(
 #define RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS 54
 
 struct rho_message_polar_scan {
-    int64_t utime; /* time of measurement, us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of measurement, us of the sensors' common clock; -4000000000000000000 ..
+     * 4000000000000000000
+     */
+    int64_t utime;
     int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
     int32_t epoch; /* the sender's boot number: another one after each restart */
     int16_t sensor_id; /* the number in the channel's name */
@@ -526,7 +622,8 @@ struct rho_message_polar_scan {
     float sigma_azimuth_rad; /* rad; 0: not said; 0 .. 0.5 */
     float sigma_elevation_rad; /* rad; 0: not said; 0 .. 0.5 */
     float sigma_range_rate_mps; /* m/s; 0: not said; 0 .. 1e5 */
-    float sector_from_rad; /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    float sector_from_rad;
     float sector_to_rad; /* to here; both 0: the whole circle; -6.2831855 .. 6.2831855 */
     int16_t num_polar_plots; /* in this part */
     struct rho_message_polar_plot polar_plots[RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS];
@@ -564,7 +661,12 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_scan_begin(
 RHO_MUST_CHECK enum rho_status rho_message_polar_scan_add(
     struct rho_message_writer *writer, const struct rho_message_polar_plot *polar_plot);
 
-/* ---- sensor_list_t: How the sensors are doing that a tracker hears, or a part of them: once a second, with status_t. Channel RHO_SENSORS. ---- */
+/* ---- sensor_list_t ---- */
+
+/*
+ * How the sensors are doing that a tracker hears, or a part of them: once a second, with status_t.
+ * Channel RHO_SENSORS.
+ */
 
 #define RHO_MESSAGE_SENSOR_LIST_CHANNEL "RHO_SENSORS"
 #define RHO_MESSAGE_SENSOR_LIST_FINGERPRINT UINT64_C(0x573b8d1ed41bb0ea)
@@ -572,7 +674,8 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_scan_add(
 #define RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS 36
 
 struct rho_message_sensor_list {
-    int64_t utime; /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
     int32_t epoch; /* the tracker's boot number: another one after each restart */
     int16_t num_sensors_total; /* of all parts; 0 .. 32767 */
@@ -603,7 +706,9 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_sensor_list_add(
     struct rho_message_writer *writer, const struct rho_message_sensor *sensor);
 
-/* ---- track_list_t: The tracks after one step of the tracker, or a part of them. Channel RHO_TRACKS. ---- */
+/* ---- track_list_t ---- */
+
+/* The tracks after one step of the tracker, or a part of them. Channel RHO_TRACKS. */
 
 #define RHO_MESSAGE_TRACK_LIST_CHANNEL "RHO_TRACKS"
 #define RHO_MESSAGE_TRACK_LIST_FINGERPRINT UINT64_C(0x50afcc23bcd9a625)
@@ -611,7 +716,8 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_list_add(
 #define RHO_MESSAGE_TRACK_LIST_MAX_TRACKS 9
 
 struct rho_message_track_list {
-    int64_t utime; /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the tracker's step, one more each */
     int32_t epoch; /* the tracker's boot number: another one after each restart */
     int16_t num_tracks_total; /* of all parts; 0 .. 32767 */
@@ -642,7 +748,11 @@ RHO_MUST_CHECK enum rho_status rho_message_track_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_track_list_add(
     struct rho_message_writer *writer, const struct rho_message_track *track);
 
-/* ---- truth_list_t: Where the targets of a simulation or a trial really were, or a part of them. Channel RHO_TRUTH. ---- */
+/* ---- truth_list_t ---- */
+
+/*
+ * Where the targets of a simulation or a trial really were, or a part of them. Channel RHO_TRUTH.
+ */
 
 #define RHO_MESSAGE_TRUTH_LIST_CHANNEL "RHO_TRUTH"
 #define RHO_MESSAGE_TRUTH_LIST_FINGERPRINT UINT64_C(0x36f25f198a476da8)
@@ -650,7 +760,8 @@ RHO_MUST_CHECK enum rho_status rho_message_track_list_add(
 #define RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS 50
 
 struct rho_message_truth_list {
-    int64_t utime; /* us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    /* us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the list, one more each */
     int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
     int16_t num_parts; /* of the list; 1 .. 32767 */
@@ -676,5 +787,9 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_list_begin(
     const struct rho_message_truth_list_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_truth_list_add(
     struct rho_message_writer *writer, const struct rho_message_truth *target);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

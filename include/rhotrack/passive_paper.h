@@ -1,23 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_paper: straight lines from the bearings of two to RHO_MAX_PASSIVE_SENSORS sensors, by the paper's method to the
- * letter. For comparison; passive is what finds tracks.
+ * passive_paper: straight lines from the bearings of two to RHO_MAX_PASSIVE_SENSORS sensors, by the
+ * paper's method to the letter. For comparison; passive is what finds tracks.
  *
  *   1 cross     each pair of sensors K, L, scan by scan; ghosts are pruned (ghost)
- *   2 vote      a crossing that is left votes in its pair's accumulator, in one cell of each row of theta, at
+ *   2 vote      a crossing that is left votes in its pair's accumulator, in one cell of each row
+ *               of theta, at
  *
- *                   rho = rho^K + rho_cor^K = D_ij^K cos(z_i^K - theta) + D_K cos(alpha_K - theta)               eq. (3)
+ *                   rho = rho^K + rho_cor^K                                            eq. (3)
+ *                       = D_ij^K cos(z_i^K - theta) + D_K cos(alpha_K - theta)
  *
- *               D_ij^K, z_i^K: range and bearing of the crossing from sensor K, which is at D_K, alpha_K
- *   3 accept    cells with T votes or more, distinct scans or crossings; with three sensors or more a place is confirmed
- *               where every pair has them, there or one cell beside it: ghosts of different pairs are elsewhere
- *   4 choose    the cell with the most votes of all pairs together, in the middle of those around it with as many; then
- *               not within 4 cells of theta and 3 of rho of it; and so on
+ *               D_ij^K, z_i^K: range and bearing of the crossing from sensor K, which is at the
+ *               polar coordinates D_K, alpha_K
+ *   3 accept    cells with T votes or more, of distinct scans or crossings; with three sensors or
+ *               more, a cell must be accepted in the accumulators of all pairs, there or in a
+ *               neighbour: the ghosts of different pairs lie elsewhere
+ *   4 choose    the cell with the most votes of all pairs together, the middle one of equal
+ *               neighbours; then the next one that is not within 4 cells of theta and 3 of rho
  *
- * A line knows no time. What it says of a target's place and velocity is a least-squares fit through the crossings that
+ * A line has no time. Its position and velocity are a least-squares fit through the crossings that
  * voted for it, ghosts among them.
  *
- * Source: passive Hough transform paper (see crossing.h), sections 3 and 4; src/DESIGN.md says how it is read.
+ * Source: passive Hough transform paper (see crossing.h), sections 3 and 4; src/DESIGN.md says how
+ * it is read.
  *
  * Stack: 32 bytes at most where nothing else is said.
  */
@@ -27,25 +32,32 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/accumulator.h"
-#include "rhotrack/batch.h"
 #include "rhotrack/config.h"
-#include "rhotrack/ghost.h"
+#include "rhotrack/detail/accumulator.h"
+#include "rhotrack/detail/batch.h"
+#include "rhotrack/detail/ghost.h"
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 struct rho_passive_paper_config {
     uint16_t scans;     /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
     uint16_t votes_min; /* T: 1 .. 255; 0: four fifths of the scans that are held, rounded up */
-    float range_max_m;  /* no sensor sees farther: 1000 .. 500000 */
-    /* 2 range_max_m over it: at most RHO_PAPER_RHO_CELLS; what is left holds half the sensors' distance to either side */
+    float range_max_m;  /* range limit of all sensors: 1000 .. 500000 */
+    /*
+     * 2 range_max_m over it: at most RHO_PAPER_RHO_CELLS; what is left holds half the sensors'
+     * distance to either side
+     */
     float rho_cell_m;
     float theta_cell_rad;             /* pi over it: at most RHO_PAPER_THETA_CELLS; at most 0.5 */
     enum rho_accumulator_votes votes; /* distinct scans, or crossings: their count stops at 255 */
     enum rho_ghost_rule rule;         /* of step 1 */
 };
 
-/* A line found: the middle of its cell. */
+/* A line, through the centre of its cell. */
 struct rho_passive_paper_line {
     float rho_m, theta_rad; /* x cos(theta) + y sin(theta) = rho; 0 <= theta < pi */
     uint16_t votes;         /* the least of any pair of sensors, each where it confirms the line */
@@ -57,17 +69,20 @@ struct rho_passive_paper_line {
     float x_m, y_m, vx_mps, vy_mps; /* at the newest scan; 0 without has_state */
 };
 
-/* What a search did, and what its capacities cut. All saturate. */
+/* Counters of a search, and of what exceeded a capacity. All saturate. */
 struct rho_passive_paper_work {
     uint32_t crossings, ghosts; /* all pairs of bearings; removed before voting */
-    /* of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS: the newest scans'; none in the default profiles */
+    /*
+     * of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS: the newest scans'; none in the default
+     * profiles
+     */
     uint32_t points_dropped;
     uint32_t votes;         /* crossings that are left times rows */
     uint32_t cells;         /* accepted, and confirmed by every pair */
     uint32_t lines_dropped; /* beyond RHO_MAX_PASSIVE_LINES: those of the lowest votes_sum */
 };
 
-/* A crossing that was not pruned; from the sensors' middle. */
+/* A crossing that was not pruned; the origin is the sensors' centroid. */
 struct rho_passive_paper_point {
     float x_m, y_m;
 };
@@ -88,8 +103,11 @@ struct rho_passive_paper {
     struct rho_passive_paper_line lines[RHO_MAX_PASSIVE_LINES];
     struct rho_passive_paper_work work;
     struct rho_batch batch;
-    /* scratch of a search: of all pairs of sensors 1 and the votes, or 0 where they do not confirm; of one pair three rows,
-     * and its crossings, those of scan k from scan_end[k - 1] to scan_end[k] - 1 */
+    /*
+     * scratch of a search: of all pairs of sensors 1 and the votes, or 0 where they do not confirm;
+     * of one pair three rows, and its crossings, those of scan k from scan_end[k - 1] to
+     * scan_end[k] - 1
+     */
     struct rho_passive_paper_fit fits[RHO_MAX_PASSIVE_LINES];
     uint8_t cells[RHO_PAPER_THETA_CELLS][RHO_PAPER_RHO_CELLS];
     uint8_t rows[3][RHO_PAPER_RHO_CELLS];
@@ -97,38 +115,51 @@ struct rho_passive_paper {
     struct rho_passive_paper_point points[RHO_MAX_PAPER_CROSSINGS];
 };
 
-/* scans 8, votes_min 0, range 100 km, cells of 1 km and 2 degrees, votes of scans, the literal rule. Constant cost. */
+/*
+ * scans 8, votes_min 0, range 100 km, cells of 1 km and 2 degrees, votes of scans, the literal
+ * rule. Constant cost.
+ */
 void rho_passive_paper_config_default(struct rho_passive_paper_config *config);
 
 /*
  * Prepares an empty batch; the config is copied.
  *   size   sizeof(struct rho_passive_paper) of the caller
- * Errors: NULL, SIZE, CONFIG (any field outside its range); *paper is unchanged. Cost: sizeof(paper) bytes cleared.
+ * Errors: NULL, SIZE, CONFIG (any field outside its range); *paper is unchanged. Cost:
+ * sizeof(paper) bytes cleared.
  * Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_passive_paper_init(struct rho_passive_paper *paper, size_t size,
                        const struct rho_passive_paper_config *config);
 
-/* Takes a frame: rho_batch_push of the batch, and its errors. The lines of the last search are gone.
- * Stack: 160 bytes. */
+/*
+ * Takes a frame: rho_batch_push of the batch, and its errors. The lines of the last search are
+ * gone.
+ * Stack: 160 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
                                                       const struct rho_frame *frame,
                                                       uint8_t *fates);
 
 /*
- * Searches the batch. Results: paper->lines[0 .. num_lines - 1]. Sensors without a scan in the batch are left out.
+ * Searches the batch. Results: paper->lines[0 .. num_lines - 1]. Sensors without a scan in the
+ * batch are left out.
  * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no line.
- * Cost: for each pair of sensors its crossings times the rows, and times the lines; cells times lines (also those
- * dropped). Stack: 1.5 KB with 8 bearings a scan, 4 KB with 16.
+ * Cost: for each pair of sensors its crossings times the rows, and times the lines; cells times
+ * lines (also those dropped). Stack: 1.5 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper);
 
 /*
- * Eq. (3): rho of the line in direction theta through what a sensor at (x_m, y_m) sees at this range and bearing. Any two
- * sensors that see the same agree. All finite, angles within 16 turns. Constant cost, stack 64 bytes.
+ * Eq. (3): rho of the line in direction theta through what a sensor at (x_m, y_m) sees at this
+ * range and bearing. Any two sensors that see the same agree. All finite, angles within 16 turns.
+ * Constant cost, stack 64 bytes.
  */
 float rho_passive_paper_rho_m(float range_m, float bearing_rad, float x_m, float y_m,
                               float theta_rad);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -20,22 +20,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/feed.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/message.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/scan_assembler.h"
 #include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Messages that the report's tracks take; 1 where there are none. Constant cost. */
 uint16_t rho_publish_num_parts(const struct rho_report *report);
 
 /*
- * One part of the report's tracks (track_list_t): first the live ones, then those that ended, DELETED, of which only
- * the identity is said. sensor_id beyond int16_t becomes -1, counts stay at 32767.
+ * One part of the report's tracks (track_list_t): first the live ones, then those that ended,
+ * DELETED, of which only the identity is said. sensor_id beyond int16_t becomes -1, counts stay at
+ * 32767.
  *   part  0 .. rho_publish_num_parts - 1
- * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the message's bytes.
+ * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the
+ * message's bytes.
  * Stack: 360 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step,
@@ -43,9 +49,10 @@ RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *repor
                                                   size_t capacity, size_t *size);
 
 /*
- * The best candidates of the last searches (peak_list_t), those of plots before those of bearings; each may be NULL.
- * Errors: NULL (buffer, size), CAPACITY (of the buffer); *size is unchanged. Cost: the message's bytes, and a square
- * root and an arctangent a peak. Stack: 280 bytes.
+ * The best candidates of the last searches (peak_list_t), those of plots before those of bearings;
+ * each may be NULL.
+ * Errors: NULL (buffer, size), CAPACITY (of the buffer); *size is unchanged. Cost: the message's
+ * bytes, and a square root and an arctangent a peak. Stack: 280 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
                                                  const struct rho_passive *passive, int64_t time_us,
@@ -53,11 +60,11 @@ RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *ini
                                                  size_t *size);
 
 /*
- * Fills the counters and numbers of tracks that these objects tell; each may be NULL, and counts as zeros. All other
- * fields are 0: scan, epoch, fragments_refused, step_us, step_max_us and the origin are the caller's. Cost:
- * RHO_MAX_TRACKS. Stack: 120 bytes.
+ * Fills the counters and numbers of tracks that these objects tell; each may be NULL, and counts as
+ * zeros. All other fields are 0: scan, epoch, fragments_refused, step_us, step_max_us and the
+ * origin are the caller's. Cost: RHO_MAX_TRACKS. Stack: 120 bytes.
  */
-void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *frames,
+void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status);
 
@@ -69,40 +76,50 @@ void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *fr
 void rho_publish_work(const struct rho_tracker *tracker, struct rho_message_work *work);
 
 /*
- * How one sensor is doing (sensor_t): what the feed hears of it, and of a sensor of plots what the tracker makes of it.
+ * How one sensor is doing (sensor_t): what the assembler hears of it, and of a sensor of plots what
+ * the tracker makes of it.
  *   tracker  NULL, or without RHO_SECTORS: nothing is known of that, and is_doubted is 0
- *   now_us   the feed's reception clock
- *   place    in the feed: 0 .. RHO_MAX_SENSORS - 1; a sensor keeps its place while it is known
- * Returns 0 where there is no sensor at this place, or feed or sensor is NULL; *sensor is unchanged then. Cost:
- * RHO_MAX_SENSORS. Stack: 180 bytes.
+ *   now_us   the assembler's reception clock
+ *   place    in the assembler: 0 .. RHO_MAX_SENSORS - 1; a sensor keeps its place while it is known
+ * Returns 0 where there is no sensor at this place, or assembler or sensor is NULL; *sensor is
+ * unchanged then. Cost: RHO_MAX_SENSORS. Stack: 180 bytes.
  */
-int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tracker,
-                       int64_t now_us, unsigned place, struct rho_message_sensor *sensor);
+int rho_publish_sensor(const struct rho_scan_assembler *assembler,
+                       const struct rho_tracker *tracker, int64_t now_us, unsigned place,
+                       struct rho_message_sensor *sensor);
 
-/* Messages that the feed's sensors take; 1 where there are none. Cost: RHO_MAX_SENSORS. */
-uint16_t rho_publish_num_sensor_parts(const struct rho_feed *feed);
+/* Messages that the assembler's sensors take; 1 where there are none. Cost: RHO_MAX_SENSORS. */
+uint16_t rho_publish_num_sensor_parts(const struct rho_scan_assembler *assembler);
 
 /*
- * Fills one part of the list of the sensors that the feed hears, in the order of their places. `utime` is the tracker's
- * time, 0 without one; scan and epoch are 0: they are the caller's.
+ * Fills one part of the list of the sensors that the assembler hears, in the order of their places.
+ * `utime` is the tracker's time, 0 without one; scan and epoch are 0: they are the caller's.
  *   part  0 .. rho_publish_num_sensor_parts - 1
- * Errors: NULL (feed, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS squared. Stack: 320 bytes.
+ * Errors: NULL (assembler, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS
+ * squared. Stack: 320 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_feed *feed,
+RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_scan_assembler *assembler,
                                                    const struct rho_tracker *tracker,
                                                    int64_t now_us, uint16_t part,
                                                    struct rho_message_sensor_list *list);
 
-/* Messages that the known echoes of the tracker's clutter map take; 1 where there are none. Cost: RHO_MAX_ECHOES. */
+/*
+ * Messages that the known echoes of the tracker's clutter map take; 1 where there are none. Cost:
+ * RHO_MAX_ECHOES.
+ */
 uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker);
 
 /*
- * Fills one part of the list of known echoes (clutter_map_t). `utime` is the tracker's time; scan and epoch are 0: they are the
- * caller's. sensor_id beyond int16_t becomes -1, hits stay at 32767.
+ * Fills one part of the list of known echoes (clutter_map_t). `utime` is the tracker's time; scan
+ * and epoch are 0: they are the caller's. sensor_id beyond int16_t becomes -1, hits stay at 32767.
  *   part  0 .. rho_publish_num_clutter_parts - 1
  * Errors: NULL, VALUE (no such part); *list is unchanged. Cost: RHO_MAX_ECHOES. Stack: 120 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t part,
                                                    struct rho_message_clutter_map *list);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

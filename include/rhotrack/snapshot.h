@@ -1,32 +1,38 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * snapshot: objects as one image of bytes, and back: a node that restarts goes on with its tracks and with what it has learned.
+ * snapshot: objects as one image of bytes, and back: a node that restarts goes on with its tracks
+ * and with all that it has learned.
  *
  *     struct rho_snapshot_part parts[] = {
  *         {.kind = RHO_SNAPSHOT_TRACKER, .object = &tracker, .size = sizeof tracker},
- *         {.kind = RHO_SNAPSHOT_INITIATOR, .id = 7, .object = &initiator, .size = sizeof initiator},
+ *         {.kind = RHO_SNAPSHOT_INITIATOR, .id = 7, .object = &starts, .size = sizeof starts},
  *     };
- *     for (size_t at = 0; rho_snapshot_save(parts, 2, at, page, sizeof page, &length) == RHO_OK && length > 0; at += length) {
+ *     size_t at = 0, length;
+ *     while (rho_snapshot_save(parts, 2, at, page, sizeof page, &length) == RHO_OK && length > 0) {
  *         write_flash(at, page, length);
+ *         at += length;
  *     }
  *     ...
  *     if (rho_snapshot_load(parts, 2, flash, flash_size) != RHO_OK) {
  *         begin_anew(); // rho_tracker_init, rho_initiator_init
  *     }
  *
- * An image holds any objects of the kinds below, whole: with their configurations, so that nothing has to be initialised before
- * it is loaded. It is taken between steps, at any of them; what follows has the same bytes as without. Scan assembly (feed,
- * frames) is not part of it: scans that were still open are lost.
+ * An image holds any objects of the kinds below, whole, with their configurations: nothing has to
+ * be initialised before it is loaded. It is taken between any two steps; later steps give the same
+ * bytes as without it. Scan assembly is not part of it: scans that were still open are lost.
  *
- *   header    magic, format's version, layout, size of the image, number of parts; each part's kind, id and size
+ *   header    magic, format's version, layout, size of the image, number of parts; each part's
+ *             kind, id and size
  *   objects   as they are in memory, each on 8 bytes
  *   checksum  CRC-32 of all before
  *
- * `layout` stands for everything that two builds must agree on: byte order, capacities, options, sizes and places of fields. An
- * image of another build is refused, and so is one that was not written to its end, or between whose pieces a step was made:
- * two areas, written in turn, survive a power cut. The checksum tells damage, not intent: whoever can write the flash can write
- * any image. That is why an image's objects are looked through (rho_tracker_is_sound and its like) before they are used: none
- * leads outside of its objects or into an endless loop. That their numbers are true is not promised.
+ * `layout` stands for everything that two builds must agree on: byte order, capacities, options,
+ * sizes and places of fields. An image of another build is refused, and so is an image that was not
+ * written to its end, or between whose pieces a step was made: two areas, written in turn, survive
+ * a power cut. The checksum finds damage, not intent: whoever can write the flash can write any
+ * image. So an image's objects are checked (rho_tracker_is_sound and its like) before they are
+ * used: none leads outside of its objects or into an endless loop. Whether their numbers are true
+ * is not checked.
  *
  * Stack: 130 bytes at most where nothing else is said.
  */
@@ -37,6 +43,10 @@
 #include <stdint.h>
 
 #include "rhotrack/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Goes up where fields of the objects change their meaning and not their place. */
 #define RHO_SNAPSHOT_VERSION 1
@@ -53,7 +63,7 @@ enum rho_snapshot_kind {
 /* An object of the caller. */
 struct rho_snapshot_part {
     enum rho_snapshot_kind kind;
-    int32_t id; /* the caller's: tells objects of a kind apart, as an initiator's sensor_id does */
+    int32_t id; /* the caller's: distinguishes objects of a kind, as an initiator's sensor_id */
     void *object;
     size_t size; /* sizeof(object) of the caller */
 };
@@ -62,23 +72,27 @@ struct rho_snapshot_part {
 size_t rho_snapshot_size(const struct rho_snapshot_part *parts, unsigned num_parts);
 
 /*
- * Writes the image from its byte `offset` on, as much as the buffer has room for: all of it, or a page after the other.
+ * Writes the image from its byte `offset` on, as much as the buffer has room for: all of it, or a
+ * page after the other.
  *   length  bytes written; 0: the image ends before `offset`
- * Errors: NULL, SIZE (a part's size is not the library's), VALUE (a kind that is none), STATE (a part is not initialised, or
- * its bytes are no object's: looked at where offset is 0). Cost: the bytes copied; with the last piece all bytes once more for
- * the checksum, about 12 instructions each. Stack: 900 bytes.
+ * Errors: NULL, SIZE (a part's size is not the library's), VALUE (a kind that is none), STATE (a
+ * part is not initialised, or its bytes are no object's: checked where offset is 0). Cost: the
+ * bytes copied; with the last piece all bytes once more for the checksum, about 12 instructions
+ * each. Stack: 900 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts,
                                                  unsigned num_parts, size_t offset, uint8_t *buffer,
                                                  size_t size, size_t *length);
 
 /*
- * Takes an image over into the parts' objects, which may hold anything. The parts are those of the image: as many, in their order,
- * with the same kinds and ids (rho_snapshot_list tells them).
- *   image  in memory that can be read as any other, on RHO_SNAPSHOT_ALIGNMENT; what lies behind the image is not looked at
- * Errors: NULL, SIZE (of another build; or a part's size is not the library's), VALUE (the image is not aligned; the checksum;
- * contents that are no object's), SHORT (it ends too early), TYPE (no image, or of another version), COUNT (other parts than
- * the image's). Nothing is changed. Cost: as rho_snapshot_save, and all objects looked through. Stack: 900 bytes.
+ * Takes an image over into the parts' objects, which may hold anything. The parts are those of the
+ * image: as many, in their order, with the same kinds and ids (rho_snapshot_list tells them).
+ *   image  in memory that can be read as any other, on RHO_SNAPSHOT_ALIGNMENT; bytes behind the
+ *          image are ignored
+ * Errors: NULL, SIZE (of another build; or a part's size is not the library's), VALUE (the image is
+ * not aligned; the checksum; contents that are no object's), SHORT (it ends too early), TYPE (no
+ * image, or of another version), COUNT (other parts than the image's). Nothing is changed. Cost: as
+ * rho_snapshot_save, and a check of all objects. Stack: 900 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts,
                                                  unsigned num_parts, const void *image,
@@ -95,14 +109,17 @@ struct rho_snapshot_loader {
         passes; /* so far; RHO_SNAPSHOT_PASSES: the parts are loaded. More: the image was refused */
 };
 
-/* Begins to load; the parts are kept by their address. Errors: NULL, SIZE, VALUE, as rho_snapshot_save. */
+/*
+ * Begins to load; the parts are kept by their address. Errors: NULL, SIZE, VALUE, as
+ * rho_snapshot_save.
+ */
 RHO_MUST_CHECK enum rho_status rho_snapshot_begin(struct rho_snapshot_loader *loader,
                                                   const struct rho_snapshot_part *parts,
                                                   unsigned num_parts);
 
 /*
- * Takes the image's next bytes, from memory that is not read as other memory is. All of the image goes by twice: first it is
- * checked, then taken over.
+ * Takes the image's next bytes, from memory that is not read as other memory is. All of the image
+ * goes by twice: first it is checked, then taken over.
  *
  *     for (pass = 0; pass < RHO_SNAPSHOT_PASSES; pass++) {
  *         for (at = 0; at < all && status == RHO_OK; at += sizeof page) {
@@ -111,21 +128,28 @@ RHO_MUST_CHECK enum rho_status rho_snapshot_begin(struct rho_snapshot_loader *lo
  *         }
  *     }
  *
- * With the last byte of a pass the next one begins; what the piece has behind it is left out. The pieces may have any size.
- * Errors: NULL, STATE (not begun, loaded, or refused before), and those of rho_snapshot_load. What the first pass refuses has
- * changed nothing: all damage. What only the second can see (contents that are no object's, bytes that are others when they are
- * read again) leaves the parts uninitialised, all zeros.
- * Cost: the bytes, and with the last one all objects looked through. Stack: 900 bytes.
+ * With the last byte of a pass the next one begins; the rest of the piece is ignored. The
+ * pieces may have any size.
+ * Errors: NULL, STATE (not begun, loaded, or refused before), and those of rho_snapshot_load. An
+ * error in the first pass, which finds all damage, changes nothing. An error that only the second
+ * can find (contents that are no object's, bytes that are others when they are read again) leaves
+ * the parts uninitialised, all zeros.
+ * Cost: the bytes, and with the last one a check of all objects. Stack: 900 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader,
                                                  const uint8_t *bytes, size_t size);
 
 /*
- * Says what an image holds: fills kind, id and size of up to max_parts parts, their objects are left alone. *num_parts: how
- * many the image has. Errors: those of rho_snapshot_load up to the checksum. Cost: the checksum.
+ * Says what an image holds: fills kind, id and size of up to max_parts parts, their objects are
+ * left alone. *num_parts: how many the image has. Errors: those of rho_snapshot_load up to the
+ * checksum. Cost: the checksum.
  */
 RHO_MUST_CHECK enum rho_status rho_snapshot_list(const void *image, size_t size,
                                                  struct rho_snapshot_part *parts,
                                                  unsigned max_parts, unsigned *num_parts);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

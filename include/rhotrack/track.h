@@ -24,24 +24,28 @@
 #include <stdint.h>
 
 #include "rhotrack/clutter_map.h"
-#include "rhotrack/gate.h"
-#include "rhotrack/hypotheses.h"
-#include "rhotrack/input.h"
+#include "rhotrack/detail/gate.h"
+#include "rhotrack/detail/hypotheses.h"
+#include "rhotrack/detail/input.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum rho_track_status {
     RHO_TRACK_FREE = 0,  /* an empty slot */
     RHO_TRACK_TENTATIVE, /* started, not yet believed; or believed no more */
-    RHO_TRACK_CONFIRMED, /* believed; updated when it was last looked at */
+    RHO_TRACK_CONFIRMED, /* believed; updated at the last look */
     RHO_TRACK_COASTING,  /* believed; predicted only since */
     RHO_NUM_TRACK_STATUS
 };
 
 enum rho_track_event {
     RHO_TRACK_START = 0, /* initiation found it */
-    RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold, or the doubt has gone */
+    RHO_TRACK_CONFIRM,   /* the score reached the confirm threshold, or recovered */
     RHO_TRACK_UPDATE,    /* a plot was claimed */
     RHO_TRACK_MISS,      /* the sensor looked there, and no plot was claimed */
     RHO_TRACK_DOUBT,     /* the score fell so far that the target is rather gone than missed */
@@ -49,7 +53,7 @@ enum rho_track_event {
     RHO_NUM_TRACK_EVENTS
 };
 
-/* What holds a track's estimate; it keeps to the one that it was started with. */
+/* The filter of a track, from its start to its end. */
 enum rho_track_filter {
     RHO_TRACK_KALMAN = 0, /* `kalman` alone: tracks of bearings, and without the two others */
     RHO_TRACK_INPUT,      /* `input`: Kalman filter with input estimation */
@@ -78,14 +82,17 @@ struct rho_track {
     int64_t seen_us;        /* of the last step in which it claimed a plot or bearing */
     float seen_every_s;     /* time between such steps: the shorter ones; 0: not known yet */
     uint8_t filter;         /* enum rho_track_filter */
-    uint8_t
-        is_undecided; /* input: bearings were taken since it was decided which inputs there are */
-    uint16_t slot;    /* in the pool of hypotheses */
-    struct rho_kalman
-        kalman; /* the estimate; of hypotheses, since the last rho_track_settle, moved on roughly */
+    /* input: bearings were taken since it was decided which inputs there are */
+    uint8_t is_undecided;
+    uint16_t slot; /* in the pool of hypotheses */
+    /* the estimate; of hypotheses, since the last rho_track_merge_estimates, moved on roughly */
+    struct rho_kalman kalman;
     float accel_mps2[3];        /* estimated; 0 of a plain Kalman filter */
     float maneuver_probability; /* of hypotheses; else 1 where an input is present, 0 where not */
-    /* velocity after the last update and the one before, and how many there were (saturates): the Hough gate's */
+    /*
+     * velocity after the last update and the one before, and how many there were (saturates): the
+     * Hough gate's
+     */
     float newest_mps[3], before_mps[3];
     uint8_t num_velocities;
     uint8_t is_believed; /* has been confirmed */
@@ -97,23 +104,30 @@ struct rho_track {
      */
     int8_t shown[2];
     uint8_t has_shown;
+    uint8_t is_shared; /* two sensors have seen it; 0 without RHO_SECTORS */
 #if RHO_SECTORS
-    uint8_t is_shared; /* two sensors have seen it */
-    /* of the two sensors that saw it last, the newer first: the tracker's count of their scans then */
+    /*
+     * of the two sensors that saw it last, the newer first: the tracker's count of their scans then
+     */
     int32_t look_sensor_id[2];
     uint16_t look[2];
     int64_t ahead_us; /* while a late scan is stepped: the time from which it was moved back */
 #endif
 #if RHO_MAX_ECHOES > 0
-    /* by class of hits: how far echoes of the clutter map explained its plots, until the map has been told that they are a
-     * target's */
+    /*
+     * by class of hits: how far echoes of the clutter map explained its plots, until the map has
+     * been told that they are a target's
+     */
     float returns[RHO_ECHO_HIT_CLASSES];
-    uint8_t has_taken_back; /* it has been told */
+    uint8_t has_taken_back; /* the map has been told */
     uint8_t has_moved;      /* the track was surely elsewhere than where it started */
     float start_m[2], start_sigma_m;
     /* its second plots: scans in which it had a plot, and others near it; both fade */
     float second_looks, second_plots;
-    /* an elder track that it started beside, 0: none; ln of how much likelier both are one target than two */
+    /*
+     * an elder track that it started beside, 0: none; ln of how much likelier both are one target
+     * than two
+     */
     uint32_t twin_id;
     float twin_nat;
     float second_share; /* scratch of a step: how far the track has all its second plots itself */
@@ -130,19 +144,30 @@ struct rho_track_limits {
     uint8_t misses_in_row_max; /* the track ends at so many misses in a row */
 };
 
-/* Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value. Constant cost. */
+/*
+ * Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value.
+ * Constant cost.
+ */
 const char *rho_track_status_name(enum rho_track_status status);
 
-/* The life cycle above as a pure function; an event that a status does not know changes nothing. Constant cost. */
+/*
+ * The life cycle above as a pure function; an event that a status does not know changes nothing.
+ * Constant cost.
+ */
 enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                             enum rho_track_event event);
 
-/* What targets may do, as maintenance assumes it, and who follows them. What is pointed to stays the caller's. */
+/*
+ * How targets may move, and the filter that follows them. Objects pointed to stay the caller's.
+ */
 struct rho_track_model {
     float speed_sigma_mps; /* of the velocity on an axis that was measured once */
-    float
-        noise_density; /* white acceleration of a plain Kalman filter, m^2/s^3 (rho_kalman_predict) */
-    /* tracks are started with hypotheses where there is a pool, else with input estimation where it is configured */
+    /* white acceleration of a plain Kalman filter, m^2/s^3 (rho_kalman_predict) */
+    float noise_density;
+    /*
+     * tracks are started with hypotheses where there is a pool, else with input estimation where it
+     * is configured
+     */
     struct rho_hypotheses *hypotheses;
     const struct rho_input_config *input;
 };
@@ -153,48 +178,49 @@ struct rho_track_plot {
     uint32_t measures; /* RHO_MEASURES_... */
     int32_t sensor_id;
     const struct rho_sensor *sensor; /* NULL: at the origin */
-    struct rho_plot plot;            /* offset_us is not looked at */
+    struct rho_plot plot;            /* offset_us is ignored */
     int16_t row;                     /* in its scan */
 };
 
 /*
- * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 1 plots: the first opens the filter, the
- * others predict and update it in the order of the array; the newest scan's plot comes last. The estimate's time is
- * that plot's own. Plots of several sensors may be a little out of order in time: going back adds no noise.
- * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses), CONFIG (the filter that the model
- * asks for is none of RHO_FILTERS); *track is unchanged. Cost: num_plots filter steps. Stack: 1.9 KB.
+ * Makes *track a TENTATIVE track with identity track_id from its num_plots >= 1 plots: the first
+ * opens the filter, the others predict and update it in the order of the array; the newest scan's
+ * plot comes last. The estimate's time is that plot's own. Plots of several sensors may be a little
+ * out of order in time: going back adds no noise.
+ * Errors: NULL, VALUE (num_plots, numbers), SINGULAR, CAPACITY (the pool of hypotheses), CONFIG
+ * (the filter that the model asks for is none of RHO_FILTERS); *track is unchanged. Cost: num_plots
+ * filter steps. Stack: 1.9 KB.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_track_plot *plots,
                 unsigned num_plots, const struct rho_track_model *model, int32_t score_mnat);
 
-/* Gives back what the track holds outside of itself: its hypotheses. Before it is forgotten. */
+/* Frees the track's hypotheses, before the track is forgotten. */
 void rho_track_end(struct rho_track *track, const struct rho_track_model *model);
 
 /*
- * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later within its scan), it
- * goes back without noise. Errors: NULL, VALUE (a covariance beyond its limit); unchanged, but one of hypotheses may
- * have lost them all: end it. Stack: 550 bytes.
+ * Predicts to time_us. Where that is before the estimate's (a plot of another sensor was later
+ * within its scan), it goes back without noise. Errors: NULL, VALUE (a covariance beyond its
+ * limit); unchanged, but one of hypotheses may have lost them all: end it. Stack: 550 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                                  const struct rho_track_model *model);
 
-#if RHO_SECTORS
 /*
- * Moves a track on to time_us without noise: back to where it had been before it was moved back, with what it has learned there.
+ * Moves a track on to time_us without noise: back to where it had been before it was moved back,
+ * with what it has learned there.
  * Errors and costs as rho_track_predict. Stack: 570 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
                                                 const struct rho_track_model *model);
-#endif
 
 /*
- * Updates with a plot: predicts to its own time, and takes its position, velocity and range rate, as far as measured,
- * by scalar updates; a first z opens the third axis. The estimate stays at the plot's time. gain_mnat is added to the
- * score.
- * Errors: NULL, VALUE, SINGULAR: the track is unchanged; but hypotheses have moved to the plot's time, or are lost where
- * that was refused. Cost: a prediction where the plot has an own time, and 2 to 7
- * scalar updates. Stack: 1.4 KB.
+ * Updates with a plot: predicts to its own time, and takes its position, velocity and range rate,
+ * as far as measured, by scalar updates; a first z opens the third axis. The estimate stays at the
+ * plot's time. gain_mnat is added to the score.
+ * Errors: NULL, VALUE, SINGULAR: the track is unchanged; but hypotheses have moved to the plot's
+ * time, or are lost where that was refused. Cost: a prediction where the plot has an own time, and
+ * 2 to 7 scalar updates. Stack: 1.4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
                                                 const struct rho_track_plot *plot,
@@ -202,8 +228,9 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
                                                 int32_t gain_mnat);
 
 /*
- * A track of hypotheses takes a scan whose plots it has weighed (rho_hypotheses_commit): its best hypothesis' plot is
- * claimed, if it has one, and the score changes by what all say. Then, or where the plot is refused, `plot` is -1.
+ * A track with hypotheses ends a scan whose plots it has scored (rho_hypotheses_commit): its best
+ * hypothesis' plot is claimed, if it has one, and the score changes by the likelihood of all. Then,
+ * or where the plot is refused, `plot` is -1.
  * Errors: NULL, STATE (another filter). Stack: 880 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
@@ -212,11 +239,12 @@ RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
                                                 const struct rho_track_model *model);
 
 /*
- * At the end of a step: `kalman`, acceleration and manoeuvre as all hypotheses have them, at time_us. With input estimation,
- * what the step's bearings tell together of inputs is decided. Else nothing. Stack: 890 bytes.
+ * At the end of a step: `kalman`, acceleration and manoeuvre as all hypotheses have them, at
+ * time_us. With input estimation, the inputs are decided on by all of the step's bearings. Else
+ * nothing. Stack: 890 bytes.
  */
-void rho_track_settle(struct rho_track *track, int64_t time_us,
-                      const struct rho_track_model *model);
+void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
+                               const struct rho_track_model *model);
 
 /* The prediction as a gate has to see it: an input may have begun since. Stack: 140 bytes. */
 void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected);
@@ -231,9 +259,9 @@ struct rho_track_bearing {
 };
 
 /*
- * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans have made; sensor_id
- * is one of those that saw it. Errors: NULL, CONFIG (RHO_FILTERS has no Kalman filter), VALUE (x or y not open, no hits);
- * *track is unchanged. Constant cost. Stack: 620 bytes.
+ * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans
+ * have made; sensor_id is one of those that saw it. Errors: NULL, CONFIG (RHO_FILTERS has no Kalman
+ * filter), VALUE (x or y not open, no hits); *track is unchanged. Constant cost. Stack: 620 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
                                                         const struct rho_kalman *estimate,
@@ -241,9 +269,9 @@ RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track,
                                                         uint16_t hits, int32_t score_mnat);
 
 /*
- * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of several sensors in one
- * step count as one hit: the first, while plot is -1. gain_mnat is added to the score. Inputs are decided on by
- * rho_track_settle.
+ * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of
+ * several sensors in one step count as one hit: the first, while plot is -1. gain_mnat is added to
+ * the score. Inputs are decided on by rho_track_merge_estimates.
  * Errors: NULL, VALUE, SINGULAR: the track is unchanged, but for the time of its hypotheses.
  * Cost: two predictions and an update. Stack: 1.2 KB.
  */
@@ -253,18 +281,29 @@ RHO_MUST_CHECK enum rho_status rho_track_update_bearing(struct rho_track *track,
                                                         int32_t gain_mnat);
 
 /* Takes loss_mnat >= 0 from the score, for a sensor that looked and saw nothing. Constant cost. */
-void rho_track_lose(struct rho_track *track, int32_t loss_mnat);
+void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat);
 
-/* Counts a scan that looked and saw nothing; loss_mnat >= 0 is taken from the score. Constant cost. */
+/*
+ * Counts a scan that looked and saw nothing; loss_mnat >= 0 is taken from the score. Constant cost.
+ */
 void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
 
-/* Applies the limits to the evidence: confirm, doubt, confirm again what had been, and drop. Returns the status, RHO_TRACK_FREE where it ended. Constant
- * cost. */
-enum rho_track_status rho_track_judge(struct rho_track *track,
-                                      const struct rho_track_limits *limits);
+/*
+ * Applies the limits to the evidence: confirm, make tentative, confirm again, and drop.
+ * Returns the status, RHO_TRACK_FREE where it ended. Constant cost.
+ */
+enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
+                                                 const struct rho_track_limits *limits);
 
-/* Root of the mean position (velocity) variance over the open axes, metres (metres a second). Constant cost. */
+/*
+ * Root of the mean position (velocity) variance over the open axes, metres (metres a second).
+ * Constant cost.
+ */
 float rho_track_sigma_m(const struct rho_track *track);
 float rho_track_sigma_mps(const struct rho_track *track);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -9,28 +9,40 @@
  *     rho_tracker_step(&tracker, &initiator, &scan, &report);
  *
  * One step a scan, in the order of time:
- *   predict   every live track to the scan's time that the sensor may see (its sector and range, and some way beyond)
- *   claim     gate the plots and assign them exclusively
- *   update    the tracks that claimed one
- *   age       the others, where the sensor looked; the dead make room
- *   initiate  tracks from the plots that nobody claimed
+ *   predict   every live track that the scan can see (sector and range, with a margin) to its time
+ *   claim     gate the plots, and assign them to tracks, each at most one
+ *   update    the tracks with the plots that they were assigned
+ *   age       count misses where the sensor looked; confirm tracks, and end them
+ *   initiate  tracks from the plots that no track claimed
  *   report    tracks, one fate a plot, counters
- * A scan is a whole turn of a radar, or a sector of it (RHO_SECTORS): sectors that go on where the one before ended, either way
- * round, are one turn. A target at the edge of two has one hit or one miss a turn; tracks start as from whole turns.
- * A sensor that does not see the tracks that others see, or sees them elsewhere, is doubted (struct rho_tracker_look, of which
- * rho_tracker_look_of gives a sensor's); the noise of its plots counts for more where it was described.
- * What a sensor was said to see (rho_tracker_set_sensor) bounds its plots, its misses, and how long tracks live without either:
- * one that no sensor can see ends after coast_scans_max scans' time, one that a sensor sees but does not look at after four times
- * that. Looked at again after so long, and missed, or seen amid clutter, it is tentative until it is seen once more; at its third miss
- * in a row it ends. Where more confirmed tracks die young than false_tracks_per_hour allows for, a new one stays tentative until it is
- * seen as often as targets are, or 16 times. A track whose place is known to no better than its sensor's range ends, too. Time is that of the scans: a silent sensor's tracks end at
- * the others' steps, or at its own next one.
- * Who steps a scan twice has it counted twice, but for the newest one of a sensor: rho_feed tells them apart.
- * Several radars: each scan is stepped by itself, in the order of time, with the initiator of its sensor or a common one.
- * Sectors of several need an initiator each.
- * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on every machine: there
- * is no clock, no random number and no global variable inside. Calls on one tracker must not overlap; several
- * trackers are independent. The objects hold no pointers: a memcpy is a snapshot (rhotrack/snapshot.h: one for flash or a file).
+ *
+ * A scan is a whole turn of a radar, or a sector of it (RHO_SECTORS): sectors that go on where the
+ * one before ended, either way round, are one turn. A target at the edge of two has one hit or one
+ * miss a turn; tracks start as from whole turns.
+ *
+ * A sensor that does not see the tracks that others see, or sees them elsewhere, is suspect (see
+ * struct rho_tracker_look; rho_tracker_look_of finds a sensor's). If it was described, the noise of
+ * its plots is taken as larger.
+ *
+ * The stated coverage of a sensor (rho_tracker_set_sensor) bounds its plots, its misses, and the
+ * time that tracks live without either. A track that no sensor covers ends after the time of
+ * coast_scans_max scans. A track that a sensor covers, but does not look at, ends after four times
+ * as long. When a sensor looks there again after so long, and misses the track or sees it amid
+ * clutter, the track is tentative until it is seen once more; it ends at the third miss in a row.
+ *
+ * Where more confirmed tracks die young than false_tracks_per_hour allows, a new track stays
+ * tentative until it is seen as often as targets are, or 16 times. A track also ends when its place
+ * is known no better than its sensor's range. Time is that of the scans: the tracks of a silent
+ * sensor end at steps of other sensors, or at its own next one.
+ *
+ * Stepping a scan twice counts it twice, unless it is that sensor's newest: rho_scan_assembler
+ * tells them apart. With several radars each scan is a step, in the order of time, with the
+ * initiator of its sensor or a common one. Sectors of several radars need an initiator each.
+ *
+ * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on
+ * every machine: there is no clock, no random number and no global variable inside. Calls on one
+ * tracker must not overlap; several trackers are independent. The objects hold no pointers: a
+ * memcpy is a snapshot (rhotrack/snapshot.h: one for flash or a file).
  *
  * Stack: 104 bytes at most where nothing else is said.
  */
@@ -40,35 +52,49 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/assignment.h"
 #include "rhotrack/clutter_map.h"
 #include "rhotrack/config.h"
-#include "rhotrack/gate.h"
-#include "rhotrack/hypotheses.h"
+#include "rhotrack/detail/assignment.h"
+#include "rhotrack/detail/gate.h"
+#include "rhotrack/detail/hypotheses.h"
+#include "rhotrack/detail/input.h"
+#include "rhotrack/detail/split_plots.h"
+#include "rhotrack/detail/window.h"
 #include "rhotrack/initiator.h"
-#include "rhotrack/input.h"
 #include "rhotrack/passive.h"
-#include "rhotrack/second_plots.h"
 #include "rhotrack/status.h"
 #include "rhotrack/track.h"
 #include "rhotrack/types.h"
-#include "rhotrack/window.h"
 
-/* How tracks of plots choose theirs, and what follows the target. Tracks of bearings have a plain Kalman filter. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * How tracks choose among plots, and the filter that follows the target. Tracks of bearings have a
+ * plain Kalman filter.
+ */
 enum rho_tracker_gate {
     RHO_TRACKER_BEST = 0, /* several hypotheses over two motion models: imm, hypotheses */
-    RHO_TRACKER_HOUGH, /* the paper: Hough clutter elimination among the plots in the gate, input estimation */
-    RHO_TRACKER_NEAREST, /* the likeliest plot in the gate, input estimation: least work and memory */
+    /* the paper: Hough clutter elimination among the plots in the gate, input estimation */
+    RHO_TRACKER_HOUGH,
+    /* the likeliest plot in the gate, input estimation: least work and memory */
+    RHO_TRACKER_NEAREST,
     RHO_NUM_TRACKER_GATES
 };
 
 struct rho_tracker_config {
     float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
-    /* slowest target: a track that is surely slower follows something that stands, and is dropped; 0: none. 0 .. v_max_mps.
-     * The initiator is to have the same, or it starts one after the other there. */
+    /*
+     * slowest target: a track that is surely slower follows something that stands, and is dropped;
+     * 0: none. 0 .. v_max_mps. The initiator is to have the same, or it starts one after the other
+     * there.
+     */
     float v_min_mps;
-    /* sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS. A track ends that three updates in a row leave
-     * faster by a tenth, and by two standard deviations */
+    /*
+     * sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS. A track ends
+     * that three updates in a row leave faster by a tenth, and by two standard deviations
+     */
     float v_max_mps;
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /*
@@ -78,10 +104,11 @@ struct rho_tracker_config {
      * grown track turns
      */
     float steady_s;
-#if RHO_SECTORS
-    /* scans that are older than the newest by so much at most update tracks all the same; 0: none. 0 .. 60 s */
+    /*
+     * scans that are older than the newest by so much at most update tracks all the same; 0: none.
+     * 0 .. 60 s; without RHO_SECTORS no older scan updates tracks, whatever stands here
+     */
     float late_max_s;
-#endif
     /*
      * bounds of what is learned of a sensor (struct rho_tracker_learned): of the factors on its
      * plots' sigmas, 0.1 .. 1 and 1 .. 10; and of the share of its stated pd, 0.1 .. 1. With 1
@@ -97,8 +124,10 @@ struct rho_tracker_config {
     uint16_t coast_scans_max;
     uint8_t gate;   /* enum rho_tracker_gate */
     uint8_t planes; /* hough: RHO_GATE_PLANE_... */
-    /* gates hough and nearest: is_estimated 0 is a Kalman filter with white acceleration of half accel_max for 1 s; not
-     * looked at where RHO_FILTERS has no input estimation */
+    /*
+     * gates hough and nearest: is_estimated 0 is a Kalman filter with white acceleration of half
+     * accel_max for 1 s; not looked at where RHO_FILTERS has no input estimation
+     */
     struct rho_input_config input;
     float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
     /*
@@ -113,11 +142,11 @@ struct rho_tracker_counters {
     uint32_t scans_accepted, scans_late;
     uint32_t plots_in;
     uint32_t fates[RHO_NUM_FATES];
-    uint32_t plots_outside;   /* of the invalid: beyond what their sensor was said to see */
+    uint32_t plots_outside;   /* of the invalid: outside of the stated coverage of their sensor */
     uint32_t plots_initiated; /* of the held: started a track */
     uint32_t plots_clutter;   /* of the held: left the window unused */
     uint32_t tracks_started, tracks_confirmed, tracks_ended;
-    /* of the ended: not looked at for longer than coasting allows, or nowhere; too fast */
+    /* of the ended: not looked at for longer than coasting allows, or of unknown place; too fast */
     uint32_t tracks_unseen, tracks_too_fast;
     /* starts refused, or tentative tracks that gave way: RHO_MAX_TRACKS */
     uint32_t tracks_no_room;
@@ -127,18 +156,18 @@ struct rho_tracker_counters {
     uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
 #if RHO_SECTORS
     uint32_t scans_retrodicted; /* of the accepted: late, by late_max_s at most */
-    uint32_t sensors_doubted;   /* times that a sensor began to be doubted */
+    uint32_t sensors_doubted;   /* times that a sensor became suspect */
 #endif
 };
 
 /*
- * What the limits on work did. A unit is 40 to 90 instructions of a Cortex-M4: those of struct
- * rho_initiator_budget; for a plot that a track weighs 20 to 220 by each of its hypotheses, or 12
- * by a Kalman filter's gate; for an echo of clutter and a plot near it 4 or 10, for two plots near
- * each other 12. Where plots crowd in a track's gate those far from its expected place are left
- * out, and the counters move. All saturate, and only rho_tracker_init clears them. work is at most
- * work_max and RHO_TRACKER_WORK_BEYOND: what was begun is ended. Of frames the passive initiator's
- * search is none of it: what it costs follows from the capacities alone.
+ * Effects of the limits on work. A unit is 40 to 90 instructions of a Cortex-M4: those of struct
+ * rho_initiator_budget; 20 to 220 for a plot that one hypothesis of a track scores, or 12 by a
+ * Kalman filter's gate; for an echo of clutter and a plot near it 4 or 10, for two plots near each
+ * other 12. Where plots crowd in a track's gate those far from its expected place are left out, and
+ * the counters move. All saturate, and only rho_tracker_init clears them. work is at most work_max
+ * and RHO_TRACKER_WORK_BEYOND: work that was begun is finished. The search of the passive initiator
+ * does not count: its cost follows from the capacities alone.
  */
 #define RHO_TRACKER_WORK_BEYOND (RHO_INITIATOR_WORK_BEYOND + 64u * RHO_MAX_PLOTS)
 struct rho_tracker_work {
@@ -158,34 +187,40 @@ struct rho_tracker_strips {
 };
 #endif
 
-#if RHO_SECTORS
-/* A sensor's newest scan. */
+/* A sensor's newest scan (RHO_SECTORS). */
 struct rho_tracker_look {
     int32_t sensor_id;
     float sector_from_rad, sector_to_rad;
     int64_t time_us;
-    /* of the last search of its initiator: scores that start and confirm a track; 0, 0: there was none */
+    /*
+     * of the last search of its initiator: scores that start and confirm a track; 0, 0: there was
+     * none
+     */
     int32_t start_mnat, confirm_mnat;
-    /* of confirmed tracks that another sensor had seen before: share of those that it saw where it looked, and the plots' squared
-     * distances a dimension, 1 on average where all is well; over the last `watched` looks and hits, 16 at most */
+    /*
+     * of confirmed tracks that another sensor had seen before: share of those that it saw where it
+     * looked, and the plots' squared distances a dimension, 1 on average where all is well; over
+     * the last `watched` looks and hits, 16 at most
+     */
     float seen_share, distance2;
     float sigma_m; /* that the newest of these plots claims, the larger one in the plane */
     uint16_t watched, watched_hits;
     uint16_t count; /* its scans so far, 1 .. 65535 round and round */
-    /* it contradicts what the others see: its plots' noise counts for more, its misses not at all, and it starts no tracks */
+    /*
+     * suspect: it contradicts the others; its plots' noise counts for more, its misses not at all,
+     * and it starts no tracks
+     */
     uint16_t is_doubted;
 };
-#endif
 
 /* Rings of range of equal widths, out to a sensor's range_max_m, that its pd is learned by. */
 #define RHO_LEARN_RINGS 6
 
 /*
- * What tracks have shown of a sensor that was described: how large its plots' noise is, and how
- * often it sees targets. Both begin at what was stated, and are used where they surely differ:
- * sigmas by more than an eighth, within the bounds of the config; pd only where it is less. With
- * the gate best alone: noise of tracks that this sensor alone has seen, pd at looks of the sensor
- * that saw the track last.
+ * Noise and detection probability of a described sensor, as its tracks show them. Both begin at the
+ * stated values, and are used where they surely differ: sigmas by more than an eighth, within the
+ * bounds of the config; pd only where it is less. With the gate best alone: noise of tracks that
+ * this sensor alone has seen, pd at looks of the sensor that saw the track last.
  */
 struct rho_tracker_learned {
     float log_noise
@@ -216,7 +251,8 @@ struct rho_tracker {
     int has_time;
     /* scores that start and confirm a track: the initiator's, of its last search */
     int32_t start_mnat, confirm_mnat;
-    float unclaimed_plots; /* a scan, smoothed: the clutter density where no initiator tells it */
+    /* a scan, smoothed: the clutter density where no initiator measures it */
+    float unclaimed_plots;
     float unclaimed_bearings; /* a passive sensor's scan, smoothed */
     struct rho_extent extent; /* of all valid plots so far */
     uint16_t num_sensors;
@@ -227,7 +263,10 @@ struct rho_tracker {
     struct rho_tracker_work work;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
     struct rho_tracker_learned learned[RHO_MAX_SENSORS]; /* of the same */
-    /* tracks that misses ended before they had 16 hits, and those that had; of the last half an hour */
+    /*
+     * tracks that misses ended before they had 16 hits, and those that had; of the last half an
+     * hour
+     */
     float died_young, grown;
     float straight_s,
         turning_s;         /* of those that had, likelier than not; of the last half an hour, too */
@@ -251,30 +290,35 @@ struct rho_tracker {
 #endif
 };
 
-/* One track as reported: the estimate at the step's time. Of a track that the scan could not see it is the last one, moved
- * there with its acceleration. */
+/*
+ * One track as reported: the estimate at the step's time. Of a track that the scan could not see it
+ * is the last one, moved there with its acceleration.
+ */
 struct rho_track_report {
     uint32_t track_id;
     enum rho_track_status status;
     uint16_t hits, misses;
     int32_t sensor_id; /* of the last claimed plot */
     int32_t plot;      /* row of the plot claimed in this scan; -1: none */
-    int32_t
-        update_age_us; /* scan's time after the last claimed plot's own; 0 where that is later */
+    /* scan's time after the last claimed plot's own; 0 where that is later */
+    int32_t update_age_us;
     float score_nat;
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
     float sigma_m, sigma_mps; /* root mean variance over the measured axes */
     float accel_mps2[3];
-    float
-        maneuver_probability; /* best: of the manoeuvring model; else 1 where an input is present, 0 where not */
+    /* best: of the manoeuvring model; else 1 where an input is present, 0 where not */
+    float maneuver_probability;
     uint16_t num_hypotheses; /* best; else 1 */
 };
 
-/* What one step did. Tracks in the order of their identities. */
+/* The result of one step. Tracks in the order of their identities. */
 struct rho_report {
     int64_t time_us;
-    /* of the scan: fates of the first RHO_MAX_PLOTS follow; the others are claimed, INVALID or NO_ROOM, or STALE of a late scan */
+    /*
+     * of the scan: fates of the first RHO_MAX_PLOTS follow; the others are claimed, INVALID or
+     * NO_ROOM, or STALE of a late scan
+     */
     uint32_t num_plots;
     uint16_t num_tracks, num_ended;
     uint32_t is_partial;                 /* work ended before all plots were tried */
@@ -296,59 +340,67 @@ void rho_tracker_config_default(struct rho_tracker_config *config);
 /*
  * Prepares an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
- * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS). Cost: sizeof(tracker)
- * bytes cleared. Stack: 384 bytes.
+ * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS).
+ * Cost: sizeof(tracker) bytes cleared. Stack: 384 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
                                                 const struct rho_tracker_config *config);
 
 /*
  * Describes a sensor, or replaces the description of the same sensor_id; what was learned of it
- * stays, over what is stated now.
- * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost: RHO_MAX_SENSORS.
+ * stays, and is applied to the new description.
+ * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost:
+ * RHO_MAX_SENSORS.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker,
                                                       const struct rho_sensor *sensor);
 
 /*
- * Forgets what was said of a sensor: from then on its scans use the defaults, and another one finds room.
- * Errors: NULL, STATE (not initialised, or nothing was said of it). Cost: RHO_MAX_SENSORS.
+ * Forgets the description of a sensor: its scans use the defaults from then on, and there is room
+ * for another one.
+ * Errors: NULL, STATE (not initialised, or not described). Cost: RHO_MAX_SENSORS.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker,
                                                          int32_t sensor_id);
 
-/* What a sensor is taken to be, as learned. */
+/* A sensor's noise and detection probability, as learned. */
 struct rho_tracker_known {
     float range_factor, cross_factor; /* that its plots' sigmas count */
     float pd[RHO_LEARN_RINGS];        /* by ring of range */
     uint32_t innovations, looks;      /* that was learned from */
 };
 
-/* Errors: NULL, STATE (not initialised, or nothing was said of the sensor). Constant cost.
+/* Errors: NULL, STATE (not initialised, or the sensor was not described). Constant cost.
  * Stack: 112 bytes. */
 RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker,
                                                     int32_t sensor_id,
                                                     struct rho_tracker_known *known);
 
-#if RHO_SECTORS
-/* What is known of a sensor that has sent scans; NULL: it has sent none, or RHO_MAX_SENSORS others since. Cost: RHO_MAX_SENSORS. */
+/*
+ * The health of a sensor that has sent scans; NULL: it has sent none, or RHO_MAX_SENSORS others
+ * since. Cost: RHO_MAX_SENSORS.
+ */
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id);
-#endif
 
 /*
  * Takes one scan through all phases above.
- *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held nowhere (fate NO_ROOM)
- *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks may claim (RHO_CLAIMS_BEYOND), in
- *              the first 4 RHO_MAX_PLOTS and 32767 of the scan; what nobody claims of them is not held, but NO_ROOM.
- *              A scan older than the newest accepted one is late. By late_max_s at most, tracks are moved back to its time,
- *              claim its plots and are missed as at any scan (of a sector: where all of the gate is in it); no track starts from it:
- *              the other plots are STALE. Beyond that
- *              all its plots are, and but for counters nothing else changes.
- *   report     filled whole, whatever it held before; of a late scan that updates tracks at the newest scan's time
- * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator not initialised),
- * VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.
- * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of the newest scan.
+ *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held
+ *              nowhere (fate NO_ROOM)
+ *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks
+ *              may claim (RHO_CLAIMS_BEYOND), in the first 4 RHO_MAX_PLOTS and 32767 of the scan;
+ *              unclaimed ones are not held, but NO_ROOM. A scan older than the newest
+ *              accepted one is late. By late_max_s at most, tracks are moved back to its time,
+ *              claim its plots and are missed as at any scan (of a sector: where all of the gate is
+ *              in it); no track starts from it: the other plots are STALE. Beyond that all its
+ *              plots are, and but for counters nothing else changes.
+ *   report     filled whole, whatever it held before; of a late scan that updates tracks at the
+ *              newest scan's time
+ * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator
+ * not initialised), VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US);
+ * nothing is changed, *report neither.
+ * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of
+ * the newest scan.
  * Stack: 3.8 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
@@ -357,21 +409,25 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
                                                 struct rho_report *report);
 
 /*
- * Takes one frame of bearings through all phases: its scans in their order, each with the bearings' own times.
- *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held nowhere (fate NO_ROOM);
- *            else its batch takes what nobody claims, and once it is full it is searched at each step. A found track with
- *            passive->start_mnat or more is started, and confirmed at once.
- *   frame    one scan a sensor; bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS of a scan NO_ROOM.
- *            A frame older than the last accepted scan or frame is late: all its bearings are STALE
- *   report   filled whole; fates in the order of the frame's scans. A track's plot and sensor_id are those of the last
- *            bearing that it claimed
- * A track has one hit or one miss a frame; its score counts every sensor. Frames and scans of plots may be mixed: they
- * update the same tracks.
- * Errors: NULL, STATE (tracker or passive not initialised), CONFIG (passive, where RHO_FILTERS has no Kalman filter), VALUE (a
- * place that is no coordinate, a sector beyond one turn
- * either way, a time beyond RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its frame), and those of
- * rho_passive_accepts; nothing is changed, *report neither.
- * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one rho_passive_search.
+ * Takes one frame of bearings through all phases: its scans in their order, each with the bearings'
+ * own times.
+ *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held
+ *            nowhere (fate NO_ROOM); else its batch takes the unclaimed bearings, and once it is
+ *            full it is searched at each step. A found track with passive->start_mnat or more is
+ *            started, and confirmed at once.
+ *   frame    one scan a sensor; bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS of
+ *            a scan NO_ROOM. A frame older than the last accepted scan or frame is late: all its
+ *            bearings are STALE
+ *   report   filled whole; fates in the order of the frame's scans. A track's plot and sensor_id
+ *            are those of the last bearing that it claimed
+ * A track has one hit or one miss a frame; its score counts every sensor. Frames and scans of plots
+ * may be mixed: they update the same tracks.
+ * Errors: NULL, STATE (tracker or passive not initialised), CONFIG (passive, where RHO_FILTERS has
+ * no Kalman filter), VALUE (a place that is no coordinate, a sector beyond one turn
+ * either way, a time beyond RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its
+ * frame), and those of rho_passive_accepts; nothing is changed, *report neither.
+ * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one
+ * rho_passive_search.
  * Stack: 4.2 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker,
@@ -380,9 +436,14 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracke
                                                       struct rho_report *report);
 
 /*
- * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that outlived a reset): counts and
- * places are within what they count, numbers within their limits. rho_snapshot_load asks it. Cost: tracks and hypotheses. Stack: 850 bytes.
+ * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that
+ * outlived a reset): counts and places are within what they count, numbers within their limits.
+ * rho_snapshot_load asks it. Cost: tracks and hypotheses. Stack: 850 bytes.
  */
 int rho_tracker_is_sound(const struct rho_tracker *tracker);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

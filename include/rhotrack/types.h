@@ -1,17 +1,50 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * types: what sensors say and what the library says of it. Plain data, a unit in every field name.
+ * types: scans, plots, bearings and sensors, and the words that the library uses for them. Plain
+ * data, a unit in every field name.
  *
  * Conventions, everywhere in rhotrack:
  *   frame     local Cartesian, metres: x east, y north, z up
- *   angles    radians; bearing, azimuth and heading counter-clockwise from +x (east); elevation up from the horizontal
+ *   angles    radians; bearing, azimuth and heading counter-clockwise from +x (east); elevation up
+ *             from the horizontal
  *   times     int64_t microseconds of one clock, any epoch; differences in float seconds
- *   lines     rho = x cos(theta) + y sin(theta), rho signed, theta in [0, pi); (rho, theta) and (-rho, theta +- pi)
- *             are one line; a track on it heads for theta + pi/2 or theta - pi/2
+ *   lines     rho = x cos(theta) + y sin(theta), rho signed, theta in [0, pi); (rho, theta) and
+ *             (-rho, theta +- pi) are one line; its tracks head to theta + pi/2 or theta - pi/2
  *   scores    natural logarithms of likelihood ratios, as integer thousandths of a nat (mnat)
  *
- * Stack: 100 bytes at most where nothing else is said. All headers: a call with everything it calls, at most, on a Cortex-M4F,
- * gcc 12.2 -Os, embedded profile; src/SIZES.md has other processors.
+ * Words:
+ *   plot                  one detection by a radar, as a place
+ *   look, dwell           one pass of a sensor's beam over a place
+ *   scan                  plots of one sensor from one look at a sector, or at the whole circle
+ *   revolution, turn      one whole circle of a rotating antenna: one scan, or several sectors
+ *   scan assembly         making scans of the messages that carry their parts
+ *   reorder buffer        holds scans back until older ones have arrived
+ *   out-of-sequence scan  a scan that arrives after a newer one was processed; code: late
+ *   time alignment        bringing estimates to one common time
+ *   coverage              the places where a sensor can look; its field of view
+ *   clutter               plots that no target caused
+ *   echo                  a place that returns clutter again and again: a tower, a quay, sea spikes
+ *   clutter map           the table of echoes, and how often they come back
+ *   NIS                   normalised innovation squared, a chi-square variable: the square of the
+ *                         Mahalanobis distance
+ *   gate                  the region about a prediction in which a plot may belong to a track: a
+ *                         limit of the NIS
+ *   track score           log-likelihood ratio of target against clutter
+ *   false-track rate      tracks that clutter alone starts, per hour
+ *   kernel                two plots of different scans: the straight track through them
+ *   vote                  a plot of another scan in the gate of a kernel
+ *   hypotheses            alternative histories of a track, with other plots
+ *   merged plot           one plot of several unresolved targets
+ *   split plots           several plots of one target
+ *   sensor health         estimated errors of a sensor; a suspect sensor contradicts the others,
+ *                         its witnesses
+ *   manoeuvre interval    mean time between manoeuvres of a target
+ *   frame, batch          bearing scans of several passive sensors at one time; successive frames
+ *   ghost                 a crossing of bearings at which there is no target
+ *   oracle                in experiments: an algorithm that is told the truth
+ *
+ * Stack: 100 bytes at most where nothing else is said. In all headers: the deepest call on a
+ * Cortex-M4F, gcc 12.2 -Os, embedded profile; tools/lab/MEASUREMENTS.md has others.
  */
 #ifndef RHOTRACK_TYPES_H
 #define RHOTRACK_TYPES_H
@@ -21,7 +54,11 @@
 
 #include "rhotrack/config.h"
 
-/* Limits of what is believed. Inputs beyond them get the fate INVALID; parameters beyond them are refused. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Limits of inputs. Plots beyond them get the fate INVALID; parameters beyond them are refused. */
 #define RHO_LIMIT_POSITION_M 2.0e6f
 #define RHO_LIMIT_SPEED_MPS 2.0e4f
 #define RHO_LIMIT_SIGMA_MIN 1.0e-3f
@@ -38,7 +75,7 @@
 /* either side of 0; differences then fit 64 bits */
 #define RHO_LIMIT_TIME_US INT64_C(4000000000000000000)
 
-/* What the plots of a scan measure beside x_m and y_m; values to be or-ed. */
+/* Quantities that plots of a scan measure besides x_m and y_m; values to be or-ed. */
 #define RHO_MEASURES_Z 1u
 #define RHO_MEASURES_VELOCITY 2u
 #define RHO_MEASURES_RANGE_RATE 4u
@@ -46,9 +83,9 @@
 /*
  * One plot: a detection by a radar or any other sensor that measures positions.
  *
- * Its noise has the axes of the sensor's line of sight (sensor to plot): along it, across it in the horizontal plane,
- * and upwards at right angles to both. Equal values are isotropic noise. Fields that the scan does not measure are
- * ignored and may hold anything.
+ * Its noise has the axes of the sensor's line of sight (sensor to plot): along it, across it in the
+ * horizontal plane, and upwards at right angles to both. Equal values are isotropic noise. Fields
+ * that the scan does not measure are ignored and may hold anything.
  */
 struct rho_plot {
     int32_t offset_us; /* time of this plot after the scan's time: a rotating antenna's delay */
@@ -62,8 +99,8 @@ struct rho_plot {
 };
 
 /*
- * One plot as a radar measures it; rho_measurement_from_polar makes a rho_plot of it. Fields that the scan does not
- * measure are ignored and may hold anything.
+ * One plot as a radar measures it; rho_measurement_from_polar makes a rho_plot of it. Fields that
+ * the scan does not measure are ignored and may hold anything.
  */
 struct rho_polar_plot {
     int32_t offset_us;   /* as above */
@@ -75,7 +112,10 @@ struct rho_polar_plot {
     float snr_db;
 };
 
-/* One look of one sensor: a whole turn, or a sector of it. The plots stay the caller's and are only read. */
+/*
+ * One look of one sensor: a whole revolution, or a sector of it. The plots belong to the caller and
+ * are only read.
+ */
 struct rho_scan {
     int64_t time_us;
     int32_t sensor_id;
@@ -94,71 +134,83 @@ struct rho_bearing {
     float snr_db;      /* 0 where unknown; passed on, not used */
 };
 
-/* One look of one passive sensor. The bearings stay the caller's and are only read. */
+/* One look of one passive sensor. The bearings belong to the caller and are only read. */
 struct rho_bearing_scan {
     int64_t time_us;
     int32_t sensor_id;
-    float x_m, y_m; /* the sensor's place, the same at every look */
+    float x_m, y_m; /* position of the sensor, the same at every look */
     /* counter-clockwise from .. to; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
     uint32_t num_bearings;
     const struct rho_bearing *bearings; /* num_bearings of them; may be NULL for 0 */
 };
 
-/* Looks of several passive sensors at one time. */
+/* Scans of several passive sensors at one time. */
 struct rho_frame {
     int64_t time_us;
     uint32_t num_scans;
     const struct rho_bearing_scan *scans; /* one a sensor at most */
 };
 
-/* What is known of a sensor. Scans of a sensor that was never described use the tracker's defaults: it may see any place. */
+/*
+ * Description of a sensor. A sensor without one has the tracker's defaults and covers every place.
+ */
 struct rho_sensor {
     int32_t sensor_id;
     float x_m, y_m, z_m;
-    /* probability that a target in the sensor's reach yields a plot, 0 < pd < 1 */
+    /* probability that a target in the coverage yields a plot, 0 < pd < 1 */
     float pd;
-    /* plots farther than 4 standard deviations outside of these are INVALID, targets there neither seen nor missed */
+    /*
+     * plots more than 4 standard deviations outside of these limits are INVALID; targets outside
+     * are neither seen nor missed
+     */
     float range_min_m; /* 0: none */
     float range_max_m;
-    /* where the sensor can look at all; equal: the whole circle */
+    /* azimuths of the coverage; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
-    /* what it measures too much of, taken off by rho_measurement_from_polar; time: plots are so much older than said. Feeds take
-     * it off the scan's time, so that scans are in the right order; who makes scans without a feed should do so too */
+    /*
+     * Biases: measured minus true. rho_measurement_from_polar subtracts them; a positive time bias
+     * means that plots are older than reported. The scan assembler subtracts it from the time of
+     * the scan, so that scans are in order. Callers that make scans themselves should do the same.
+     */
     float range_bias_m, azimuth_bias_rad, time_bias_s;
     /*
-     * how many hundredths of the sigmas of its plots' places count, along the line of sight and
-     * across it; 0: all, as 100. The tracker sets both, whatever the caller does: by the noise that
-     * it has learned, and of a sensor that it doubts
+     * per cent of the plots' sigmas that count, along the line of sight and across it; 0 counts as
+     * 100. The tracker overwrites both: by the noise that it has learned, and by sensor health
      */
     uint16_t sigma_range_percent, sigma_cross_percent;
-#if RHO_AMBIGUOUS_RANGE_RATES
-    /* range rates are known up to multiples of this, within +-span/2 or anywhere; 0: they are not ambiguous */
+    /*
+     * range rates are known up to multiples of this, within +-span/2 or anywhere; 0: they are not
+     * ambiguous, and no other value is accepted without RHO_AMBIGUOUS_RANGE_RATES
+     */
     float range_rate_span_mps;
-#endif
 };
 
-/*
- * What became of an input at the step that took it: exactly one of these. The fates of a scan add up to its plots.
- */
+/* What a step did with an input: every plot or bearing gets exactly one fate. */
 enum rho_fate {
     RHO_FATE_CLAIMED = 0, /* updated a track */
     RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */
-    RHO_FATE_GHOST, /* a bearing whose crossings are all false; kept all the same, for it may be a target's
-                             that the other sensors missed */
-    RHO_FATE_STALE, /* its scan is older than what was already stepped */
-    RHO_FATE_INVALID, /* not finite, outside the limits above, or of its sensor's range limits or sector */
+    /*
+     * a bearing with false crossings alone; kept, as the other sensors may have missed its target
+     */
+    RHO_FATE_GHOST,
+    RHO_FATE_STALE, /* its scan is older than the scans that were already processed */
+    /* not finite, or outside the limits above, the range limits or the sector of its sensor */
+    RHO_FATE_INVALID,
     RHO_FATE_NO_ROOM, /* beyond a capacity */
     RHO_NUM_FATES     /* count of the values above, not a fate */
 };
 
-/* Name of a fate in lower case ("claimed", ...); "unknown" for any other value. Constant cost, no stack. */
+/*
+ * Name of a fate in lower case ("claimed", ...); "unknown" for any other value. Constant cost, no
+ * stack.
+ */
 const char *rho_fate_name(enum rho_fate fate);
 
 /* One number for a plot's noise: the larger of its horizontal sigmas. Constant cost. */
 float rho_plot_sigma_m(const struct rho_plot *plot);
 
-/* a + n that stops at UINT32_MAX: every counter of the library moves this way. Constant cost. */
+/* a + n, saturating at UINT32_MAX, as every counter of the library does. Constant cost. */
 static inline uint32_t rho_count(uint32_t counter, uint32_t n)
 {
     uint32_t sum = counter + n;
@@ -168,10 +220,13 @@ static inline uint32_t rho_count(uint32_t counter, uint32_t n)
 /* Bits that are set in a mask of scans. */
 unsigned rho_count_bits(uint32_t mask);
 
-/* Seconds from one time to another, any two: rounded once for spans to 2^24 us, relative error 1.2e-7 beyond. */
+/*
+ * Seconds from one time to another, any two. Spans up to 2^24 us are rounded once; beyond, the
+ * relative error is 1.2e-7.
+ */
 float rho_seconds_between(int64_t from_us, int64_t to_us);
 
-/* Microseconds that have gone by since then, any two times; 0 where then is not before now. */
+/* Microseconds from then to now, any two times; 0 where then is not before now. */
 uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us);
 
 /* True where v is finite and lo <= v <= hi; false for NaN. */
@@ -180,10 +235,14 @@ int rho_is_within(float v, float lo, float hi);
 /* True where `count` numbers are finite. */
 int rho_are_finite(const float *values, size_t count);
 
-/* True of what an object can hold as a time: within RHO_LIMIT_TIME_US either way, and some own times of plots beyond. */
+/* True where an object may hold this time: within RHO_LIMIT_TIME_US, plus offsets of plots. */
 int rho_is_stored_time(int64_t time_us);
 
 /* True where a coordinate is finite and within RHO_LIMIT_POSITION_M either way. */
 int rho_is_coordinate(float v_m);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

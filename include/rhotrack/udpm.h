@@ -40,6 +40,10 @@
 #include "rhotrack/config.h"
 #include "rhotrack/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define RHO_UDPM_GROUP "239.255.76.67"
 #define RHO_UDPM_PORT 7667
 #define RHO_UDPM_MAX_CHANNEL 63 /* characters of a channel's name, 1 at least */
@@ -74,21 +78,27 @@ int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4);
 
 /*
  * Writes the head of a datagram to the buffer; *head: its length, behind which the message goes.
- * Errors: NULL, VALUE (a channel of no or more than 63 characters), CAPACITY (the buffer is shorter than the head);
- * nothing is written. Cost: the head's bytes. Stack: 88 bytes.
+ * Errors: NULL, VALUE (a channel of no or more than 63 characters), CAPACITY (the buffer is shorter
+ * than the head); nothing is written. Cost: the head's bytes. Stack: 88 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequence,
                                               const char *channel, size_t *head);
 
 /*
- * Opens a datagram; any bytes of any length may be given. The message itself is not looked into, and may be empty.
- * Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or no LCM), VALUE (a channel that is empty, longer
- * than 63 characters, or without its end); *datagram is unchanged. Cost: the channel's length. Stack: 88 bytes.
+ * Opens a datagram; any bytes of any length may be given. The message itself is not looked into,
+ * and may be empty.
+ * Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or no LCM), VALUE (a channel
+ * that is empty, longer than 63 characters, or without its end); *datagram is unchanged. Cost: the
+ * channel's length. Stack: 88 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_udpm_parse(const uint8_t *data, size_t size,
                                               struct rho_udpm_datagram *datagram);
 
 /* True for what liblcm sends to itself to try the network: channel LCM_SELF_TEST. Constant cost. */
 int rho_udpm_is_self_test(const struct rho_udpm_datagram *datagram);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

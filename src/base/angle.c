@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#include "rhotrack/angle.h"
+#include "rhotrack/detail/angle.h"
 
-#include "rhotrack/approx.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
 #define ANGLE_LIMIT_RAD 100.0f
 #define TURNS_PER_RADIAN 0.159154943f
 
-/* What is left of an angle in float32 after it was brought into one turn. */
+/* Rounding of an angle in float32 after it was reduced to one turn. */
 #define SECTOR_TOLERANCE_RAD 1.0e-6f
-/* Ends of two sectors so near are one. */
+/* Ends of two sectors within this angle are equal. */
 #define END_TOLERANCE_RAD 1.0e-3f
 
 /* 2 pi in three parts (Cody and Waite): the first two times a count up to 17 are exact. */
@@ -17,7 +17,7 @@
 #define TURN_MIDDLE 1.93500518798828125e-3f
 #define TURN_LOW 3.01991598195675286e-7f
 
-static float size_of(float v)
+static float magnitude(float v)
 {
     return v < 0.0f ? -v : v;
 }
@@ -28,7 +28,7 @@ static float without_turns(float angle_rad, float turns)
 }
 
 /* Counter-clockwise way from one direction to another, 0 <= way < 2 pi. */
-static float way_between(float from_rad, float to_rad)
+static float arc_between(float from_rad, float to_rad)
 {
     const float difference = rho_angle_difference(to_rad, from_rad);
 
@@ -52,8 +52,7 @@ float rho_angle_wrap(float angle_rad)
 }
 
 /*
- * Each is wrapped first: their difference may be beyond the limit, or too long for its last
- * digits.
+ * Both angles are wrapped first: their difference may be beyond the limit, or lose its last digits.
  */
 float rho_angle_difference(float a_rad, float b_rad)
 {
@@ -68,13 +67,16 @@ int rho_angle_is_sector(float from_rad, float to_rad)
 
 float rho_angle_sector_width(float from_rad, float to_rad)
 {
-    const float width = way_between(from_rad, to_rad);
+    const float width = arc_between(from_rad, to_rad);
 
     return width <= SECTOR_TOLERANCE_RAD ? RHO_TWO_PI : width;
 }
 
-/* 0 where the gap shows that sectors overlap by more than the tolerance: they and both gaps are then more than one turn. */
-static int settle_gap(float *gap_rad, float free_rad, float tolerance_rad)
+/*
+ * 0 where the gap shows that sectors overlap by more than the tolerance: they and both gaps are
+ * then more than one turn.
+ */
+static int close_gap(float *gap_rad, float free_rad, float tolerance_rad)
 {
     if (*gap_rad > free_rad + 2.0f * tolerance_rad) {
         if (RHO_TWO_PI - *gap_rad > tolerance_rad) {
@@ -94,11 +96,11 @@ unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_
     const float tolerance_rad =
         0.25f * narrower_rad < END_TOLERANCE_RAD ? 0.25f * narrower_rad : END_TOLERANCE_RAD;
     const float free_rad = RHO_TWO_PI - width_rad - next_rad;
-    float left_rad = way_between(to_rad, next_from_rad);
-    float right_rad = way_between(next_to_rad, from_rad);
+    float left_rad = arc_between(to_rad, next_from_rad);
+    float right_rad = arc_between(next_to_rad, from_rad);
 
-    if (!(free_rad >= -tolerance_rad) || !settle_gap(&left_rad, free_rad, tolerance_rad) ||
-        !settle_gap(&right_rad, free_rad, tolerance_rad)) {
+    if (!(free_rad >= -tolerance_rad) || !close_gap(&left_rad, free_rad, tolerance_rad) ||
+        !close_gap(&right_rad, free_rad, tolerance_rad)) {
         return 0;
     }
     if (left_rad <= tolerance_rad && right_rad <= tolerance_rad) {
@@ -112,8 +114,8 @@ unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_
 
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
 {
-    const float width = way_between(from_rad, to_rad);
-    const float way = way_between(from_rad, angle_rad);
+    const float width = arc_between(from_rad, to_rad);
+    const float way = arc_between(from_rad, angle_rad);
 
     if (!(width >= 0.0f && way >= 0.0f)) {
         return 0;
@@ -129,7 +131,7 @@ int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
 {
-    const float longer = size_of(dx) > size_of(dy) ? size_of(dx) : size_of(dy);
+    const float longer = magnitude(dx) > magnitude(dy) ? magnitude(dx) : magnitude(dy);
     const float ux = dx / longer;
     const float uy = dy / longer;
     const float rho_m = (y_m * ux - x_m * uy) / rho_sqrt(ux * ux + uy * uy);

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#include "rhotrack/approx.h"
+#include "rhotrack/detail/approx.h"
 
 #include <float.h>
 #include <stdint.h>
 
-/* s390x by gcc -std=c99, x87, and arithmetic that is rearranged, would all decide otherwise than the rest of the world. 16: of
- * half precision alone is computed as it is written, float as float. */
+/*
+ * s390x by gcc -std=c99, x87, and rearranged arithmetic would all compute other bits. 16: half
+ * precision alone is computed as written, float as float.
+ */
 #if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
-#error                                                                                             \
-    "float has to be computed as float: -fexcess-precision=fast (s390x), -msse2 -mfpmath=sse (32-bit x86)"
+#error "float must be computed as float: -fexcess-precision=fast (s390x), -msse2 -mfpmath=sse (x86)"
 #endif
 #if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__ ||        \
     (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
@@ -40,7 +41,10 @@
 #define EXP_LOWEST (-87.0f)
 #define EXP_HIGHEST 88.0f
 
-/* What the processor has for a square root. RHO_SOFTWARE_ROOT: it is not used, for tests of what others run. */
+/*
+ * The processor's square root. RHO_SOFTWARE_ROOT leaves it out, to test the code of other
+ * processors.
+ */
 #if defined __GNUC__ && !defined RHO_SOFTWARE_ROOT
 #if defined __SSE__
 #define ROOT_INSTRUCTION "sqrtss {%1, %0|%0, %1}" /* as -masm says */
@@ -223,7 +227,7 @@ float rho_log_one_plus(float v)
 
 #if defined ROOT_INSTRUCTION
 
-/* Correctly rounded, too: the same bits in an instruction instead of forty. */
+/* Correctly rounded, too: the same bits in one instruction instead of forty. */
 static float root_of(float v)
 {
     float root;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#include "rhotrack/linalg.h"
+#include "rhotrack/detail/linalg.h"
 
 #include <float.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/approx.h"
+#include "rhotrack/detail/approx.h"
 
 /*
  * A variance that an update may lower is first raised by 2^-20, sixteen units of float32's
@@ -15,10 +15,10 @@
  */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
-/* The same for a turn, as a share of the larger variance: four units of rounding. */
+/* The same for a rotation, as a share of the larger variance: four units of rounding. */
 #define TURN_ALLOWANCE (1.0f / 4194304.0f)
 
-/* Where row i of a packed 6 x 6 matrix lies. */
+/* Begin of row i of a packed 6 x 6 matrix. */
 static const uint8_t row_places[6][6] = {
     {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
     {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
@@ -64,7 +64,10 @@ static int factor_row(int i, const float *a, float *l)
     return is_positive(pivot);
 }
 
-/* p := p - row row^T / s, off the diagonal. Written out, as what follows: a loop would take twice the time. */
+/*
+ * p := p - row row^T / s, off the diagonal. Unrolled, as is the code below: a loop would take twice
+ * the time.
+ */
 static inline void lower_covariances(float p[21], const float row[6], const float gain[6])
 {
     p[RHO_AT(1, 0)] -= gain[1] * row[0];
@@ -84,7 +87,7 @@ static inline void lower_covariances(float p[21], const float row[6], const floa
     p[RHO_AT(5, 4)] -= gain[5] * row[4];
 }
 
-/* The allowance is for what covariances lose by rounding: a variance without any needs none. */
+/* The allowance covers the rounding of covariances: a variance without any needs none. */
 static inline float lowered(float variance, float gain, float covariance)
 {
     const float taken = gain * covariance; /* never negative; 0 where the two are not coupled */
@@ -220,7 +223,7 @@ enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *dist
     return RHO_OK;
 }
 
-/* What an update does to the state; false, and nothing done, where a result is not finite. */
+/* Updates the state; false, and nothing is changed, where a result is not finite. */
 static inline int move_state(float x[6], const float gain[6], float innovation, float inverse)
 {
     const float x0 = x[0] + gain[0] * innovation, x1 = x[1] + gain[1] * innovation;
@@ -239,7 +242,7 @@ static inline int move_state(float x[6], const float gain[6], float innovation, 
     return 1;
 }
 
-/* Row i of a packed matrix, by where it lies. */
+/* Row i of a packed matrix, from its begin. */
 static inline void read_row(float row[6], const float p[21], const uint8_t place[6])
 {
     row[0] = p[place[0]];
@@ -270,13 +273,13 @@ static inline void scale_row(float scaled[6], const float row[6], float factor)
     scaled[5] = row[5] * factor;
 }
 
-/* Where an element's covariances with the other two axes lie. */
+/* Places of an element's covariances with the other two axes. */
 static const uint8_t other_axes[6][4] = {
     {1, 3, 10, 15}, {1, 4, 7, 16},    {3, 4, 8, 12},
     {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
 };
 
-/* A number but for its sign: 0 for zero. */
+/* Absolute value; 0 for zero. */
 static inline uint32_t magnitude_bits(float v)
 {
     return rho_float_bits(v) << 1;
@@ -288,13 +291,15 @@ static inline int is_apart(const float p[21], const uint8_t others[4])
             magnitude_bits(p[others[2]]) | magnitude_bits(p[others[3]])) == 0;
 }
 
-/* A scalar measurement of one element, by what it was and what it is. */
+/* A scalar measurement of one element: its value and its prediction. */
 struct scalar {
     float innovation, inverse, kept;
 };
 
-/* Of an element that only the other one of its axis goes with: the same bits but for the sign of a zero, in a third of the
- * instructions. */
+/*
+ * The same for an element that is coupled with the other one of its axis alone: the same bits up to
+ * the sign of a zero, in a third of the time.
+ */
 static int update_apart(float x[6], float p[21], int index, const struct scalar *seen)
 {
     const int other = index < 3 ? index + 3 : index - 3;
@@ -346,7 +351,9 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     }
     predicted = p[RHO_AT(index, index)];
     sum = predicted + variance;
-    /* The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1. */
+    /*
+     * The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1.
+     */
     seen = (struct scalar){innovation, 1.0f / sum, variance / sum};
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
@@ -361,7 +368,7 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     return RHO_OK;
 }
 
-/* Rows written out, as compilers that are to save bytes unroll no loops; not all six of them, to save bytes. */
+/* Some rows are unrolled, as compilers do not unroll loops when they optimise for size. */
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6])
 {
     float variance = 0.0f;
@@ -408,7 +415,7 @@ void rho_linalg_turn6(float p[21], int a, int b, float c, float s)
 {
     const uint8_t *row_a = row_places[a], *row_b = row_places[b];
     const float aa = p[row_a[a]], ab = p[row_a[b]], bb = p[row_b[b]];
-    /* the mean of both variances stays what it is, and only the rest is turned: that rounds least */
+    /* the mean of both variances stays, and only the rest is rotated: that rounds least */
     const float cos_twice = c * c - s * s, sin_twice = 2.0f * c * s;
     const float mean = 0.5f * (aa + bb), half = 0.5f * (aa - bb);
     const float rest = cos_twice * half + sin_twice * ab;

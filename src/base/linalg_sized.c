@@ -6,10 +6,12 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "rhotrack/approx.h"
-#include "rhotrack/linalg.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/linalg.h"
 
-/* As in linalg.c: a variance that an update may lower is first raised by sixteen units of rounding. */
+/*
+ * As in linalg.c: a variance that an update may lower is first raised by sixteen units of rounding.
+ */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
 /* False for NaN. */
@@ -23,7 +25,7 @@ static int is_positive(float v)
     return v > 0.0f && v <= FLT_MAX;
 }
 
-/* 1 / (predicted + variance), or 0 where that is no number one can divide by. */
+/* 1 / (predicted + variance), or 0 where that is not a finite number. */
 static float inverse_of(float predicted, float variance)
 {
     const float sum = predicted + variance;
@@ -33,7 +35,7 @@ static float inverse_of(float predicted, float variance)
                                                                                         : 0.0f;
 }
 
-/* x += spread innovation / S; false, and nothing done, where a result is not finite. */
+/* x += spread innovation / S; false, and nothing is changed, where a result is not finite. */
 static int move_state(int n, float *x, const float *spread, float innovation, float inverse)
 {
     float next[RHO_LINALG_MAX], total = 0.0f;
@@ -51,7 +53,10 @@ static int move_state(int n, float *x, const float *spread, float innovation, fl
     return 1;
 }
 
-/* p -= spread spread^T / S. What is not coupled to what was measured stays as it is: an axis without heights, say. */
+/*
+ * p -= spread spread^T / S. Elements that are not coupled to the measurement stay unchanged: an
+ * axis without heights, say.
+ */
 static void lower(int n, float *p, const float *spread, float inverse)
 {
     int i, j;
@@ -110,7 +115,10 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
     return RHO_OK;
 }
 
-/* spread := p row; returns row . p row. Each element of p is met once: rows of it, and what they add to the elements before. */
+/*
+ * spread := p row; returns row . p row. Each element of p is read once: for its row, and for the
+ * elements before.
+ */
 static float project(int n, const float *p, int num, const float *row, float *spread)
 {
     float variance = 0.0f;

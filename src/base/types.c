@@ -9,8 +9,8 @@ static const char fate_names[RHO_NUM_FATES][8] = {
 };
 
 /*
- * To the nearest float, as a conversion goes: the bits that do not fit leave a trace in the last one. Not by a conversion,
- * since compilers' own of 64 bits drag double's arithmetic into firmware.
+ * To the nearest float, as a conversion goes: the bits that do not fit leave a trace in the last
+ * one. Not by a conversion, since compilers' own of 64 bits drag double's arithmetic into firmware.
  */
 static float float_of(uint64_t value)
 {

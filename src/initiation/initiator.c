@@ -3,12 +3,13 @@
 
 #include <string.h>
 
-#include "initiator_search.h"
+#include "rhotrack/detail/angle.h"
+#include "search.h"
 
-/* A pause counts as so many usual intervals. */
+/* Usual intervals that a pause counts as. */
 #define PAUSE_GAPS 3.0f
 
-/* Slower "fastest targets" would leave no room for velocities in float32. */
+/* Least v_max: below, velocities are not resolved in float32. */
 #define V_MAX_LEAST_MPS 0.01f
 
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
@@ -18,7 +19,7 @@ typedef char rho_assert_window_ram[sizeof(struct rho_window) <= RHO_RAM_WINDOW_B
 typedef char
     rho_assert_initiator_ram[sizeof(struct rho_initiator) <= RHO_RAM_INITIATOR_BYTES ? 1 : -1];
 
-/* ---- public ----------------------------------------------------------------------------------- */
+/* ---- public ---------------------------------------------------------------------------------- */
 
 void rho_initiator_config_default(struct rho_initiator_config *config)
 {
@@ -87,24 +88,23 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-#if RHO_MAX_CLUTTER_CELLS > 0
-    /* what leaves is remembered before it is overwritten, unless the push is going to be refused */
-    if (initiator->window.num_scans == initiator->config.scans &&
+    /* the oldest scan is remembered before it is overwritten, unless the push will be refused */
+    if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
         !rho_window_goes_on(&initiator->window, scan, sensor)) {
-        rho_initiator_remember(initiator);
+        rho_initiator_add_to_memory(initiator);
     }
-#endif
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
         initiator->num_candidates = 0;
-#if RHO_SECTORS
-        /* other dimensions have other thresholds */
-        initiator->has_turn &= initiator->window.is_continued && !initiator->window.is_remeasured;
-#endif
+        /* other measured quantities need other thresholds */
+        initiator->has_revolution &=
+            initiator->window.is_continued && !initiator->window.is_remeasured;
     }
     return status;
 }
+
+/* ---- the window as a search sees it ---------------------------------------------------------- */
 
 static int has_more(const struct search *search)
 {
@@ -115,8 +115,8 @@ static int has_more(const struct search *search)
     return (measures & (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)) != 0;
 }
 
-/* Noise of one axis in every scan, and nothing else measured: the fast path. */
-static int is_isotropic(const struct search *search)
+/* Noise of one axis in every scan, and nothing else measured. */
+static int has_one_noise(const struct search *search)
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
@@ -127,7 +127,7 @@ static int is_isotropic(const struct search *search)
     return !search->has_more;
 }
 
-/* The usual time between scans: their mean, in which a pause counts as PAUSE_GAPS times the median. */
+/* The usual time between scans: their mean, with pauses limited to PAUSE_GAPS times the median. */
 static float usual_interval_s(const struct search *search)
 {
     float gaps[RHO_MAX_SCANS] = {0.0f};
@@ -148,9 +148,11 @@ static float usual_interval_s(const struct search *search)
     return n > 0 ? sum_s / (float)n : 0.0f;
 }
 
-/* Times relative to the newest scan, and the least side of an area that is not given: what a target crosses
- * meanwhile. */
-static void lay_times(struct search *search)
+/*
+ * Times relative to the newest scan. An area that is not given has at least the travel of targets
+ * within the window as its sides.
+ */
+static void set_times(struct search *search)
 {
     struct rho_window *window = &search->initiator->window;
     int64_t newest_us = rho_window_scan_at(window, search->num_scans - 1u)->time_us;
@@ -164,68 +166,48 @@ static void lay_times(struct search *search)
     }
 }
 
-#if RHO_SECTORS
-/* Of a turn that is only begun, its share of the widest of the window's. */
+/* The share of a revolution that the newest scan has seen, against the widest of the window's. */
 static float share_of_newest(struct search *search)
 {
-    struct rho_window *window = &search->initiator->window;
-    const float newest_rad = rho_window_scan_at(window, search->num_scans - 1u)->newest.width_rad;
-    float widest_rad = newest_rad;
+    float newest_rad = 0.0f, widest_rad = 0.0f;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        const float width_rad = rho_window_scan_at(window, m)->newest.width_rad;
-        widest_rad = width_rad > widest_rad ? width_rad : widest_rad;
+        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+        newest_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
+        widest_rad = newest_rad > widest_rad ? newest_rad : widest_rad;
     }
     return newest_rad / widest_rad;
 }
 
-static void use_turn(struct search *search)
+/* Whether the newest input is a sector, and whether its revolution was searched before. */
+static void open_revolution(struct search *search)
 {
+    struct rho_initiator *initiator = search->initiator;
+    const int is_newest = search->kind == RHO_SEARCH_NEWEST;
     search->scans_seen = (float)(search->num_scans - 1u) + share_of_newest(search);
-    /* a further sector of a turn, whose first one had everything measured and decided */
-    search->is_continued = search->kind == RHO_SEARCH_NEWEST &&
-                           search->initiator->window.is_continued && search->initiator->has_turn;
-    search->initiator->has_turn = search->kind == RHO_SEARCH_NEWEST;
-    if (search->kind == RHO_SEARCH_NEWEST &&
-        (search->is_continued || !search->initiator->window.is_continued)) {
-        search->newest =
-            &rho_window_scan_at(&search->initiator->window, search->num_scans - 1u)->newest;
+    search->is_continued = is_newest && initiator->window.is_continued && initiator->has_revolution;
+    initiator->has_revolution = (uint16_t)is_newest;
+    if (is_newest && (search->is_continued || !initiator->window.is_continued)) {
+        search->newest = &initiator->window.newest;
     }
 }
 
-/* Those of the sector before hold for the whole turn. */
-static int keeps_thresholds(struct search *search)
+static void open_window(struct search *search)
 {
-    const struct rho_initiator *initiator = search->initiator;
-    if (search->is_continued) {
-        search->min_scans = initiator->min_scans;
-        search->score_min_nat = (float)initiator->start_mnat * 0.001f;
+    search->wanted_mask = search->kind == RHO_SEARCH_NEWEST ? 1u << (search->num_scans - 1u) : 0u;
+    search->scans_seen = (float)search->num_scans;
+    search->has_more = has_more(search);
+    search->gate_chi2 = search->has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
+    search->has_one_noise = has_one_noise(search);
+    rho_initiator_assume_turns(search, 0);
+    if (RHO_SECTORS) {
+        open_revolution(search);
     }
-    return search->is_continued;
-}
-#endif
-
-/* Without a rate to keep, the one threshold starts tracks and is enough to believe them. */
-static void set_thresholds(struct search *search)
-{
-#if RHO_SECTORS
-    if (keeps_thresholds(search)) {
-        return;
-    }
-#endif
-    struct rate rate = {.start_nat = search->initiator->config.score_min_nat,
-                        .confirm_nat = search->initiator->config.score_min_nat,
-                        .min_scans = search->min_scans};
-    if (search->keeps_rate && search->num_scans >= 3) {
-        rho_initiator_find_rate(search, &rate);
-        search->min_scans = rate.min_scans;
-    }
-    rho_initiator_use_rate(search, &rate);
-    search->initiator->min_scans = (uint16_t)search->min_scans;
+    set_times(search);
 }
 
-/*
- * What all kernels of plots as straight targets have them leave of the work is for those that turn.
- */
+/* ---- search ---------------------------------------------------------------------------------- */
+
+/* Kernels of turning targets get work that those of straight ones have left. */
 static void try_turns(struct search *search)
 {
     const unsigned min_scans = search->min_scans;
@@ -233,29 +215,14 @@ static void try_turns(struct search *search)
         search->is_partial) {
         return;
     }
-    search->min_scans++; /* clutter makes them more easily */
+    search->min_scans++; /* clutter makes turns more easily */
     if (search->min_scans <= search->num_scans) {
-        search->log_turning = rho_initiator_log_turning(search);
-        rho_initiator_let_turn(search, 1);
+        search->log_turning = rho_initiator_log_turn_prior(search);
+        rho_initiator_assume_turns(search, 1);
         search->sigma_least_m = 0.0f; /* gates are wider than noise */
         rho_initiator_try_turning_kernels(search);
     }
     search->min_scans = min_scans;
-}
-
-static void run(struct search *search)
-{
-    set_thresholds(search);
-    if (search->num_scans < 3 || search->num_scans < search->min_scans) {
-        return;
-    }
-    rho_initiator_try_kernels(search);
-    try_turns(search);
-    rho_initiator_select(search);
-    rho_initiator_let_turn(search, 0);
-    if (search->keeps_rate) {
-        rho_initiator_judge(search);
-    }
 }
 
 enum rho_status rho_initiator_search(struct rho_initiator *initiator, enum rho_search kind)
@@ -286,18 +253,20 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     if (search.num_scans == 0) {
         return RHO_OK;
     }
-    search.wanted_mask = kind == RHO_SEARCH_NEWEST ? 1u << (search.num_scans - 1u) : 0u;
-    search.has_more = has_more(&search);
-    search.reach_chi2 = search.has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
-    search.has_one_noise = is_isotropic(&search);
-    rho_initiator_let_turn(&search, 0);
-#if RHO_SECTORS
-    use_turn(&search);
-#endif
-    lay_times(&search);
-    rho_initiator_prepare_process(&search);
-    rho_initiator_prepare(&search);
-    run(&search);
+    open_window(&search);
+    rho_initiator_prepare_process_noise(&search);
+    rho_initiator_prepare_density(&search);
+    rho_initiator_prepare_vote_gates(&search);
+    rho_initiator_prepare_prior(&search);
+    rho_initiator_set_thresholds(&search);
+    if (search.num_scans >= 3 && search.num_scans >= search.min_scans) {
+        rho_initiator_try_kernels(&search);
+        try_turns(&search);
+        rho_initiator_select(&search);
+        if (search.keeps_rate) {
+            rho_initiator_rescore(&search);
+        }
+    }
     rho_initiator_close_budget(&search);
     return RHO_OK;
 }

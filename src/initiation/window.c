@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-#include "rhotrack/window.h"
+#include "rhotrack/detail/window.h"
 
 #include <float.h>
 #include <string.h>
 
-#include "rhotrack/angle.h"
+#include "rhotrack/detail/angle.h"
 #include "rhotrack/measurement.h"
 #include "window_extent.h"
 #include "window_sigma.h"
@@ -13,14 +13,16 @@
 
 #define ROW_MAX RHO_WINDOW_ROW
 
-/* Sectors that are missing in between (lost, or late) do not end a turn, up to an eighth of it. What they would have seen counts as
- * not seen. */
+/*
+ * Missing sectors (lost, or out of sequence) up to this angle do not end a revolution. Their places
+ * count as not covered.
+ */
 #define SECTOR_GAP_RAD (RHO_TWO_PI / 8.0f)
 
-/* Bins a plot that are worth their memory traffic when a scan has few plots. */
+/* Bins a plot of scans with few plots: more are not worth their memory traffic. */
 #define BINS_PER_PLOT 8u
 
-/* ---- areas and bins ---------------------------------------------------------------------------- */
+/* ---- areas and bins -------------------------------------------------------------------------- */
 
 static float at_least(float v, float limit)
 {
@@ -34,38 +36,9 @@ static int is_usable_area(const struct rho_extent *area)
            area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
 }
 
-/* Cell of a coordinate among n, its border cells outside; NaN counts as the first. */
-static int cell_of(float v_m, float origin_m, float cells_per_m, int n)
-{
-    float cell = (v_m - origin_m) * cells_per_m;
-    if (!(cell > 0.0f)) {
-        return 0;
-    }
-    return cell < (float)n ? (int)cell : n - 1;
-}
-
-static unsigned bin_of(const struct rho_window_scan *scan, float x_m, float y_m)
-{
-    int column = cell_of(x_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x);
-    int row = cell_of(y_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y);
-    return (unsigned)(row * scan->bins_x + column);
-}
-
-struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m,
-                                             float x1_m, float y0_m, float y1_m)
-{
-    struct rho_window_bins bins = {
-        .column_first = cell_of(x0_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
-        .column_last = cell_of(x1_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
-        .row_first = cell_of(y0_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
-        .row_last = cell_of(y1_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
-    };
-    return bins;
-}
-
-/* Nearly square bins over the area, as many as the plots are worth. */
-static void lay_bins(struct rho_window_scan *scan, const struct rho_window *window,
-                     unsigned num_plots)
+/* Nearly square bins over the area, in proportion to the plots. */
+static void size_bins(struct rho_window_scan *scan, const struct rho_window *window,
+                      unsigned num_plots)
 {
     float width_m = rho_extent_width_m(&window->extent, at_least(window->side_min_m, 1.0f));
     float height_m = rho_extent_height_m(&window->extent, at_least(window->side_min_m, 1.0f));
@@ -85,15 +58,15 @@ static void lay_bins(struct rho_window_scan *scan, const struct rho_window *wind
     scan->bins_per_m_y = (float)scan->bins_y / height_m;
 }
 
-/* ---- taking a scan in ------------------------------------------------------------------------- */
+/* ---- taking a scan in ------------------------------------------------------------------------ */
 
 static float seconds(int32_t offset_us)
 {
     return (float)offset_us * 1e-6f;
 }
 
-/* Decides who fits, beside those that are held. */
-static unsigned admit(const struct rho_scan *scan, unsigned held, uint8_t *fates)
+/* Gives plots without room their fate. Returns the number held with those that were held before. */
+static unsigned limit_to_capacity(const struct rho_scan *scan, unsigned held, uint8_t *fates)
 {
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         if (fates[i] != RHO_FATE_HELD) {
@@ -109,8 +82,8 @@ static unsigned admit(const struct rho_scan *scan, unsigned held, uint8_t *fates
 }
 
 /* The first scan has bins before the area is known. */
-static void guess_extent_once(struct rho_window *window, const struct rho_scan *scan,
-                              const uint8_t *fates)
+static void set_first_extent(struct rho_window *window, const struct rho_scan *scan,
+                             const uint8_t *fates)
 {
     if (window->area_is_fixed || window->extent.x_min_m <= window->extent.x_max_m) {
         return;
@@ -122,15 +95,13 @@ static void guess_extent_once(struct rho_window *window, const struct rho_scan *
     }
 }
 
-/* The scan that plots go into, and their scan's time after its own. */
+/* A scan on its way into its slot of the ring. */
 struct entry {
     struct rho_window_scan *slot;
     const struct rho_scan *scan;
     const uint8_t *fates;
     struct rho_sigma_factors factors; /* of what plots say of their noise */
-#if RHO_SECTORS
-    float after_s;
-#endif
+    float after_s;                    /* the scan's time after that of the slot */
 };
 
 static float within_limits(float sigma)
@@ -146,11 +117,7 @@ static struct rho_window_plot window_plot(const struct entry *entry, uint32_t ro
     struct rho_window_plot held = {
         .x_m = plot->x_m,
         .y_m = plot->y_m,
-#if RHO_SECTORS
         .offset_s = entry->after_s + seconds(plot->offset_us),
-#else
-        .offset_s = seconds(plot->offset_us),
-#endif
         .sigma_range = sigma_code(within_limits(entry->factors.range * plot->sigma_range_m)),
         .sigma_cross = sigma_code(within_limits(entry->factors.cross * plot->sigma_cross_m)),
     };
@@ -165,26 +132,24 @@ static struct rho_window_plot window_plot(const struct entry *entry, uint32_t ro
     return held;
 }
 
-static void widen_ranges(struct rho_window_scan *slot, const struct rho_window_plot *plot)
+static void widen_ranges(struct rho_window *window, struct rho_window_scan *slot,
+                         const struct rho_window_plot *plot)
 {
     slot->sigma_max_m = at_least(slot->sigma_max_m, sigma_of(larger_sigma(plot)));
     if (plot->sigma_up) {
-        /* a high line of sight brings it down into the plane */
+        /* a steep line of sight turns the upward noise into the plane */
         slot->sigma_max_m = at_least(slot->sigma_max_m, sigma_of(plot->sigma_up));
     }
     slot->is_isotropic = slot->is_isotropic && plot->sigma_range == plot->sigma_cross;
     slot->offset_max_s = at_least(slot->offset_max_s, plot->offset_s);
     slot->offset_min_s = plot->offset_s < slot->offset_min_s ? plot->offset_s : slot->offset_min_s;
-#if RHO_SECTORS
-    if (plot->offset_s < slot->newest.offset_min_s) {
-        slot->newest.offset_min_s = plot->offset_s;
+    if (RHO_SECTORS && plot->offset_s < window->newest.offset_min_s) {
+        window->newest.offset_min_s = plot->offset_s;
     }
-    rho_extent_add(&slot->newest.extent, plot->x_m, plot->y_m);
-#endif
 }
 
-/* Where each bin's plots will begin, with those that come. */
-static void lay_starts(const struct entry *entry)
+/* Begins of the bins with the new plots. */
+static void find_bin_starts(const struct entry *entry)
 {
     struct rho_window_scan *slot = entry->slot;
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
@@ -199,7 +164,7 @@ static void lay_starts(const struct entry *entry)
     for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
         const struct rho_plot *plot = &entry->scan->plots[i];
         if (entry->fates[i] == RHO_FATE_HELD) {
-            start[bin_of(slot, plot->x_m, plot->y_m) + 1]++;
+            start[rho_window_bin_of(slot, plot->x_m, plot->y_m) + 1]++;
         }
     }
     for (unsigned c = 0; c < bins; c++) {
@@ -207,50 +172,54 @@ static void lay_starts(const struct entry *entry)
     }
 }
 
-#if RHO_SECTORS
-/* Plots that are there move up to where their bins begin now, the last bin first; the starts then are behind them. */
-static void move_up(struct rho_window_scan *slot)
+/*
+ * Moves the plots of earlier sectors to the new begins of their bins, the last bin first.
+ * Afterwards each start lies behind the plots that were moved.
+ */
+static void move_held_plots(struct rho_window_scan *slot)
 {
     unsigned end = slot->num_plots;
     while (end > 0) {
-        unsigned bin = bin_of(slot, slot->plots[end - 1].x_m, slot->plots[end - 1].y_m);
+        unsigned bin = rho_window_bin_of(slot, slot->plots[end - 1].x_m, slot->plots[end - 1].y_m);
         unsigned first = end - 1;
-        while (first > 0 &&
-               bin_of(slot, slot->plots[first - 1].x_m, slot->plots[first - 1].y_m) == bin) {
+        while (first > 0 && rho_window_bin_of(slot, slot->plots[first - 1].x_m,
+                                              slot->plots[first - 1].y_m) == bin) {
             first--;
         }
         unsigned to = slot->bin_start[bin];
         memmove(&slot->plots[to], &slot->plots[first], (end - first) * sizeof slot->plots[0]);
         memmove(&slot->marks[to], &slot->marks[first], (end - first) * sizeof slot->marks[0]);
-#if RHO_MAX_ECHOES > 0
-        memmove(&slot->repeats[to], &slot->repeats[first], end - first);
-#endif
+        if (RHO_MAX_ECHOES > 0) {
+            memmove(&slot->repeats[to], &slot->repeats[first], end - first);
+        }
         slot->bin_start[bin] = (uint16_t)(to + end - first);
         end = first;
     }
 }
-#endif
 
-/* Counting sort by bin, stable, without a second array: starts move up as bins fill, and are then shifted back. */
-static void sort_into_bins(const struct entry *entry)
+/*
+ * Counting sort by bin, stable, without a second array: starts advance as bins fill, and are then
+ * shifted back.
+ */
+static void sort_into_bins(struct rho_window *window, const struct entry *entry)
 {
     struct rho_window_scan *slot = entry->slot;
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
     uint16_t *start = slot->bin_start;
-    lay_starts(entry);
-#if RHO_SECTORS
-    move_up(slot);
-#endif
+    find_bin_starts(entry);
+    if (RHO_SECTORS) {
+        move_held_plots(slot);
+    }
     for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
         if (entry->fates[i] == RHO_FATE_HELD) {
             struct rho_window_plot plot = window_plot(entry, i);
-            unsigned place = start[bin_of(slot, plot.x_m, plot.y_m)]++;
+            unsigned place = start[rho_window_bin_of(slot, plot.x_m, plot.y_m)]++;
             slot->plots[place] = plot;
             slot->marks[place] = (uint16_t)i;
-#if RHO_MAX_ECHOES > 0
-            slot->repeats[place] = 0;
-#endif
-            widen_ranges(slot, &plot);
+            if (RHO_MAX_ECHOES > 0) {
+                slot->repeats[place] = 0;
+            }
+            widen_ranges(window, slot, &plot);
         }
     }
     memmove(start + 1, start, bins * sizeof start[0]);
@@ -269,9 +238,7 @@ static struct rho_window_scan *next_slot(struct rho_window *window, uint32_t *le
     return rho_window_scan_at(window, window->num_scans - 1u);
 }
 
-/* ---- sectors ---------------------------------------------------------------------------------- */
-
-#if RHO_SECTORS
+/* ---- sectors --------------------------------------------------------------------------------- */
 
 static const struct rho_window_scan *newest_of(const struct rho_window *window)
 {
@@ -279,53 +246,47 @@ static const struct rho_window_scan *newest_of(const struct rho_window *window)
     return &window->ring[(end > window->scans_max ? end - window->scans_max : end) - 1u];
 }
 
-static int is_newest_older(const struct rho_window *window, int64_t time_us)
-{
-    return newest_of(window)->newest.time_us <= time_us;
-}
-
 static int is_equal(float a, float b)
 {
     return a <= b && a >= b;
 }
 
-/* What the turn's plots are held with would not be that of the sector's. */
+/* True where the held plots were seen by a sensor of another description. */
 static int is_other_sensor(const struct rho_window_scan *held, const struct rho_sensor *sensor)
 {
     const struct rho_sensor *was = &held->sensor;
     if (!sensor) {
         return was->pd > 0.0f;
     }
-#if RHO_AMBIGUOUS_RANGE_RATES
-    if (!is_equal(was->range_rate_span_mps, sensor->range_rate_span_mps)) {
-        return 1;
-    }
-#endif
-    return !(was->pd > 0.0f) || !is_equal(was->x_m, sensor->x_m) ||
-           !is_equal(was->y_m, sensor->y_m) || !is_equal(was->z_m, sensor->z_m);
+    return !(was->pd > 0.0f) || !is_equal(was->range_rate_span_mps, sensor->range_rate_span_mps) ||
+           !is_equal(was->x_m, sensor->x_m) || !is_equal(was->y_m, sensor->y_m) ||
+           !is_equal(was->z_m, sensor->z_m);
 }
 
 int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
                        const struct rho_sensor *sensor)
 {
-    if (window->magic != WINDOW_MAGIC || window->num_scans == 0) {
+    if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
     }
     const struct rho_window_scan *held = newest_of(window);
     return held->sensor.sensor_id == scan->sensor_id && !is_other_sensor(held, sensor) &&
-           held->newest.time_us <= scan->time_us &&
+           window->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
            rho_angle_sector_goes_on(held->sector_from_rad, held->sector_to_rad,
                                     scan->sector_from_rad, scan->sector_to_rad,
                                     SECTOR_GAP_RAD) != 0;
 }
 
-/* How many plots the turn will have that begins with so many in a sector: as the turn before, if there was one. */
-static unsigned plots_of_turn(struct rho_window *window, const struct rho_scan *scan, unsigned held)
+/*
+ * How many plots the revolution will have that begins with `held` in a sector: as many as the
+ * revolution before, where the window has one.
+ */
+static unsigned plots_of_revolution(struct rho_window *window, const struct rho_scan *scan,
+                                    unsigned held)
 {
-    const float turns =
-        RHO_TWO_PI / rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
-    if (!(turns > 1.0f)) {
+    const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
+    if (!RHO_SECTORS || !(RHO_TWO_PI / width_rad > 1.0f)) {
         return held;
     }
     if (window->num_scans < 2) {
@@ -335,13 +296,10 @@ static unsigned plots_of_turn(struct rho_window *window, const struct rho_scan *
     return held > before ? held : before;
 }
 
-/* A scan that has come, or what of one has. */
-static void begin_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
+/* Begins the record of a new sector, or of a whole scan. */
+static void begin_sector(struct rho_window *window, const struct rho_scan *scan)
 {
-    slot->newest.time_us = scan->time_us;
-    slot->newest.offset_min_s = FLT_MAX;
-    slot->newest.extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
-    slot->newest.width_rad = rho_angle_sector_width(slot->sector_from_rad, slot->sector_to_rad);
+    window->newest = (struct rho_window_sector){.time_us = scan->time_us, .offset_min_s = FLT_MAX};
 }
 
 static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
@@ -355,13 +313,13 @@ static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *sc
         slot->sector_to_rad = scan->sector_to_rad;
     }
     if (ends == (RHO_ANGLE_GOES_ON_LEFT | RHO_ANGLE_GOES_ON_RIGHT)) {
-        slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the turn is whole */
+        slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the revolution is complete */
     }
 }
 
-/* A turn measures what all its plots do: a sector that saw nothing measures nothing, and takes nothing away. */
-static void even_measures(struct rho_window *window, struct rho_window_scan *slot,
-                          const struct rho_scan *scan, unsigned held)
+/* A revolution measures the quantities that all its sectors with plots measure. */
+static void intersect_measures(struct rho_window *window, struct rho_window_scan *slot,
+                               const struct rho_scan *scan, unsigned held)
 {
     const uint32_t before = slot->measures;
     if (slot->num_plots == 0) {
@@ -378,45 +336,21 @@ static void add_sector(struct rho_window *window, const struct rho_scan *scan,
     struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
     const struct entry entry = {slot, scan, fates, rho_measurement_sigma_factors(sensor),
                                 rho_seconds_between(slot->time_us, scan->time_us)};
-    const unsigned held = admit(scan, slot->num_plots, fates);
+    const unsigned held = limit_to_capacity(scan, slot->num_plots, fates);
     if (slot->num_plots == 0) {
-        guess_extent_once(window, scan, fates);
-        lay_bins(slot, window, plots_of_turn(window, scan, held));
+        set_first_extent(window, scan, fates);
+        size_bins(slot, window, plots_of_revolution(window, scan, held));
     }
-    even_measures(window, slot, scan, held);
+    intersect_measures(window, slot, scan, held);
     widen_sector(slot, scan);
-    begin_sector(slot, scan);
-    sort_into_bins(&entry);
+    begin_sector(window, scan);
+    sort_into_bins(window, &entry);
     slot->sensor.pd = sensor ? sensor->pd : 0.0f;
     slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
     slot->num_plots = (uint16_t)held;
 }
 
-#else
-
-static int is_newest_older(const struct rho_window *window, int64_t time_us)
-{
-    unsigned newest =
-        ((unsigned)window->first + window->num_scans + window->scans_max - 1u) % window->scans_max;
-    return window->ring[newest].time_us <= time_us;
-}
-
-int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
-                       const struct rho_sensor *sensor)
-{
-    (void)window, (void)scan, (void)sensor;
-    return 0;
-}
-
-static unsigned plots_of_turn(struct rho_window *window, const struct rho_scan *scan, unsigned held)
-{
-    (void)window, (void)scan;
-    return held;
-}
-
-#endif
-
-/* ---- public ----------------------------------------------------------------------------------- */
+/* ---- public ---------------------------------------------------------------------------------- */
 
 enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned scans_max,
                                 const struct rho_extent *area, float side_min_m)
@@ -445,7 +379,7 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us)
     if (window->magic != WINDOW_MAGIC) {
         return 0;
     }
-    return window->num_scans == 0 || is_newest_older(window, time_us);
+    return window->num_scans == 0 || window->newest.time_us <= time_us;
 }
 
 enum rho_status rho_window_check_push(const struct rho_window *window, const struct rho_scan *scan,
@@ -454,11 +388,9 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
     if (!window || !scan || !left_unused || (scan->num_plots && (!scan->plots || !fates))) {
         return RHO_ERROR_NULL;
     }
-#if RHO_SECTORS
-    if (!rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
+    if (RHO_SECTORS && !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
         return RHO_ERROR_VALUE;
     }
-#endif
     return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
 }
 
@@ -470,7 +402,7 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
                                 .scan = scan,
                                 .fates = fates,
                                 .factors = rho_measurement_sigma_factors(sensor)};
-    unsigned held = admit(scan, 0, fates);
+    unsigned held = limit_to_capacity(scan, 0, fates);
     slot->time_us = scan->time_us;
     slot->measures = scan->measures;
     slot->sector_from_rad = scan->sector_from_rad;
@@ -481,12 +413,10 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
     slot->num_plots = 0;
     slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
     slot->is_isotropic = 1;
-#if RHO_SECTORS
-    begin_sector(slot, scan);
-#endif
-    guess_extent_once(window, scan, fates);
-    lay_bins(slot, window, plots_of_turn(window, scan, held));
-    sort_into_bins(&entry);
+    begin_sector(window, scan);
+    set_first_extent(window, scan, fates);
+    size_bins(slot, window, plots_of_revolution(window, scan, held));
+    sort_into_bins(window, &entry);
     slot->num_plots = slot->num_unused = (uint16_t)held;
     if (!window->area_is_fixed) {
         rho_window_follow_extent(window);
@@ -501,20 +431,12 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     if (status != RHO_OK) {
         return status;
     }
-#if RHO_SECTORS
     window->is_continued = rho_window_goes_on(window, scan, sensor) != 0;
     window->is_remeasured = 0;
     if (window->is_continued) {
         add_sector(window, scan, sensor, fates);
-        return RHO_OK;
+    } else {
+        add_scan(window, scan, sensor, fates, left_unused);
     }
-#endif
-    add_scan(window, scan, sensor, fates, left_unused);
     return RHO_OK;
-}
-
-struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m)
-{
-    const unsigned place = window->first + m;
-    return &window->ring[place < window->scans_max ? place : place - window->scans_max];
 }

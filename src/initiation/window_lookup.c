@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * window_lookup: what is held, and which plot is nearest.
- */
+/* window_lookup: the held scans and plots, and the plot nearest to a place. */
 #include <string.h>
 
+#include "rhotrack/detail/window.h"
 #include "rhotrack/measurement.h"
-#include "rhotrack/window.h"
 #include "window_sigma.h"
 
-/* ---- what is held ----------------------------------------------------------------------------- */
+/* ---- what is held ---------------------------------------------------------------------------- */
 
 float rho_window_sigma(uint16_t code)
 {
@@ -20,7 +18,46 @@ float rho_window_sigma_m(const struct rho_window_plot *plot)
     return sigma_of(larger_sigma(plot));
 }
 
-/* ---- isotropic noise -------------------------------------------------------------------------- */
+struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m)
+{
+    const unsigned place = window->first + m;
+    return &window->ring[place < window->scans_max ? place : place - window->scans_max];
+}
+
+/* ---- bins ------------------------------------------------------------------------------------ */
+
+/*
+ * Cell of a coordinate among n. Coordinates outside belong to the border cells, NaN to the first.
+ */
+static int cell_of(float v_m, float origin_m, float cells_per_m, int n)
+{
+    float cell = (v_m - origin_m) * cells_per_m;
+    if (!(cell > 0.0f)) {
+        return 0;
+    }
+    return cell < (float)n ? (int)cell : n - 1;
+}
+
+unsigned rho_window_bin_of(const struct rho_window_scan *scan, float x_m, float y_m)
+{
+    int column = cell_of(x_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x);
+    int row = cell_of(y_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y);
+    return (unsigned)(row * scan->bins_x + column);
+}
+
+struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m,
+                                             float x1_m, float y0_m, float y1_m)
+{
+    struct rho_window_bins bins = {
+        .column_first = cell_of(x0_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
+        .column_last = cell_of(x1_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
+        .row_first = cell_of(y0_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
+        .row_last = cell_of(y1_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
+    };
+    return bins;
+}
+
+/* ---- isotropic noise ------------------------------------------------------------------------- */
 
 /* The best plot so far: distance2 / variance is compared by cross-multiplication. */
 struct nearest {
@@ -48,7 +85,7 @@ static void compare_plots(struct nearest *best, const struct rho_window_scan *sc
     }
 }
 
-/* How far the plots' own times can move the place along one axis, forth or back. */
+/* Displacement of the place along one axis by the plots' own times, least and most. */
 static float shift_min(const struct rho_window_scan *scan, float v_mps)
 {
     return v_mps * (v_mps > 0.0f ? scan->offset_min_s : scan->offset_max_s);
@@ -60,18 +97,19 @@ static float shift_max(const struct rho_window_scan *scan, float v_mps)
 }
 
 static struct rho_window_bins bins_around(const struct rho_window_scan *scan, float x_m, float y_m,
-                                          float vx_mps, float vy_mps, float reach_m)
+                                          float vx_mps, float vy_mps, float gate_radius_m)
 {
-    return rho_window_bins_under(
-        scan, x_m - reach_m + shift_min(scan, vx_mps), x_m + reach_m + shift_max(scan, vx_mps),
-        y_m - reach_m + shift_min(scan, vy_mps), y_m + reach_m + shift_max(scan, vy_mps));
+    return rho_window_bins_under(scan, x_m - gate_radius_m + shift_min(scan, vx_mps),
+                                 x_m + gate_radius_m + shift_max(scan, vx_mps),
+                                 y_m - gate_radius_m + shift_min(scan, vy_mps),
+                                 y_m + gate_radius_m + shift_max(scan, vy_mps));
 }
 
 int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
                        struct rho_window_work *work)
 {
-    struct rho_window_bins bins =
-        bins_around(scan, query->x_m, query->y_m, query->vx_mps, query->vy_mps, query->reach_m);
+    struct rho_window_bins bins = bins_around(scan, query->x_m, query->y_m, query->vx_mps,
+                                              query->vy_mps, query->gate_radius_m);
     /* a plot exactly on the gate counts as outside */
     struct nearest best = {.index = -1, .distance2_m2 = query->gate_chi2, .variance_m2 = 1.0f};
     unsigned compared = 0;
@@ -87,7 +125,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
     return best.index;
 }
 
-/* ---- plots with their own covariance ---------------------------------------------------------- */
+/* ---- plots with their own covariance --------------------------------------------------------- */
 
 #define RANGE_LEAST_M2 1.0f /* nearer to the sensor there is no line of sight */
 #define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
@@ -139,7 +177,7 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
         along_m2 += rise * (up_m2 - along_m2);
     }
     float per_m2 = 1.0f / ground2_m2, xx = dx_m * dx_m * per_m2, yy = dy_m * dy_m * per_m2;
-    /* what rounding may take off the thinnest of ellipses */
+    /* rounding of the thinnest ellipses */
     float allowance_m2 = (along_m2 > cross_m2 ? along_m2 : cross_m2) * ROUNDING_ALLOWANCE;
     noise.xx_m2 = xx * along_m2 + yy * cross_m2 + allowance_m2;
     noise.xy_m2 = (along_m2 - cross_m2) * dx_m * dy_m * per_m2;
@@ -147,10 +185,12 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
     return noise;
 }
 
-static int see_range_rate(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
-                          const struct rho_window_place *place, struct rho_window_range_rate *seen)
+int rho_window_see_range_rate(const struct rho_window_scan *scan,
+                              const struct rho_window_plot *plot,
+                              const struct rho_window_place *place,
+                              struct rho_window_range_rate *seen)
 {
-    /* where the scan has no heights, the place's own tells how steeply the sensor looks up */
+    /* without heights, the height of the place gives the elevation of the line of sight */
     float z_m =
         scan->measures & RHO_MEASURES_Z ? plot->z_m : place->z_m + place->vz_mps * plot->offset_s;
     float state[6] = {plot->x_m,
@@ -161,11 +201,9 @@ static int see_range_rate(const struct rho_window_scan *scan, const struct rho_w
                       place->vz_mps};
     const struct rho_window_noise *noise = &place->velocity_noise;
     float row[6], rate_mps;
-#if RHO_AMBIGUOUS_RANGE_RATES
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3 && RHO_AMBIGUOUS_RANGE_RATES; i++) {
         state[i + 3] += place->more_mps[i];
     }
-#endif
     if (!rho_measurement_range_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
         return 0;
     }
@@ -183,35 +221,25 @@ static int see_range_rate(const struct rho_window_scan *scan, const struct rho_w
     return 1;
 }
 
-#if RHO_AMBIGUOUS_RANGE_RATES
-int rho_window_see_range_rate(const struct rho_window_scan *scan,
-                              const struct rho_window_plot *plot,
-                              const struct rho_window_place *place,
-                              struct rho_window_range_rate *seen)
-{
-    return see_range_rate(scan, plot, place, seen);
-}
-#endif
-
 float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,
                                       const struct rho_window_place *place)
 {
     struct rho_window_range_rate seen;
-    if (!see_range_rate(scan, plot, place, &seen)) {
+    if (!rho_window_see_range_rate(scan, plot, place, &seen)) {
         return 0.0f;
     }
     return seen.error_mps * seen.error_mps / seen.variance;
 }
 
-/* Squared distance of a plot from the place, all dimensions; `limit` or more as soon as it is known to be. */
+/* NIS of a plot about the place, all dimensions; `limit` or more as soon as that is certain. */
 static float distance2_to(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
                           const struct rho_window_place *place, float limit)
 {
     float t_s = plot->offset_s;
     float dx_m = plot->x_m - place->x_m - (place->vx_mps + 0.5f * place->ax_mps2 * t_s) * t_s;
     float dy_m = plot->y_m - place->y_m - (place->vy_mps + 0.5f * place->ay_mps2 * t_s) * t_s;
-    if (dx_m * dx_m + dy_m * dy_m > place->reach_m * place->reach_m) {
+    if (dx_m * dx_m + dy_m * dy_m > place->gate_radius_m * place->gate_radius_m) {
         return limit;
     }
     struct rho_window_noise noise = rho_window_noise(scan, plot);
@@ -241,14 +269,14 @@ static float gate_chi2(const struct rho_window_scan *scan, const struct rho_wind
     return more == 0 ? RHO_GATE_CHI2_2D : more == 1 ? RHO_GATE_CHI2_3D : RHO_GATE_CHI2_4D;
 }
 
-/* A plot compared in its own noise costs so many more than one in that of all. */
+/* Units of a comparison with an own covariance, besides the comparison itself. */
 #define OWN_NOISE_UNITS 2u
 
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work)
 {
-    struct rho_window_bins bins =
-        bins_around(scan, place->x_m, place->y_m, place->vx_mps, place->vy_mps, place->reach_m);
+    struct rho_window_bins bins = bins_around(scan, place->x_m, place->y_m, place->vx_mps,
+                                              place->vy_mps, place->gate_radius_m);
     float best = gate_chi2(scan, place);
     int index = -1;
     unsigned compared = 0;

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* How a window codes standard deviations: the upper 16 bits below the sign of a float32, exponents from 2^-10 on.
- * Private to src/initiation/window*.c. */
+/*
+ * How a window codes standard deviations: the upper 16 bits below the sign of a float32, exponents
+ * from 2^-10 on. Private to src/initiation/window*.c.
+ */
 #ifndef RHOTRACK_WINDOW_SIGMA_H
 #define RHOTRACK_WINDOW_SIGMA_H
 
 #include <stdint.h>
 
-#include "rhotrack/approx.h"
-#include "rhotrack/window.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/window.h"
 
 /* Exponent of the least code, 2^-10, as a float32 has it. */
 #define SIGMA_EXPONENT (117u << 23)

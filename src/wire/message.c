@@ -438,6 +438,24 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
     return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;
 }
 
+enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
+{
+    uint64_t fingerprint = 0;
+    int type = 0;
+
+    if (!data || size < MESSAGE_FINGERPRINT_BYTES) {
+        return RHO_NUM_MESSAGE_TYPES;
+    }
+    for (unsigned i = 0; i < MESSAGE_FINGERPRINT_BYTES; i++) {
+        fingerprint = fingerprint << 8 | data[i];
+    }
+    while (type < RHO_NUM_MESSAGE_TYPES &&
+           rho_message_fingerprint((enum rho_message_type)type) != fingerprint) {
+        type++;
+    }
+    return (enum rho_message_type)type;
+}
+
 enum rho_status rho_message_echo_encode(
     const struct rho_message_echo *message, uint8_t *buffer, size_t capacity, size_t *size)
 {

@@ -314,18 +314,6 @@ enum rho_status rho_message_decode(const struct message_format *format, const ui
     return RHO_OK;
 }
 
-enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
-{
-    if (data && size >= MESSAGE_FINGERPRINT_BYTES) {
-        for (int i = 0; i < RHO_NUM_MESSAGE_TYPES; i++) {
-            if (get64(data) == rho_message_fingerprint((enum rho_message_type)i)) {
-                return (enum rho_message_type)i;
-            }
-        }
-    }
-    return RHO_NUM_MESSAGE_TYPES;
-}
-
 /* ---- Validate ---- */
 
 static int64_t read_int(const uint8_t *from, unsigned width)

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "rhotrack/angle.h"
-#include "rhotrack/approx.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
 
 #define PART_TRACKS RHO_MESSAGE_TRACK_LIST_MAX_TRACKS
 #define NAT(mnat) ((float)(mnat) / 1000.0f)
@@ -191,23 +191,25 @@ enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
 
 /* ---- Status ---- */
 
-static void fill_feed(const struct rho_feed_counters *feed, struct rho_message_status *status)
+static void fill_assembler(const struct rho_scan_assembler_counters *assembler,
+                           struct rho_message_status *status)
 {
-    status->scans_accepted = long_count(feed->scans_accepted);
-    status->scans_late = long_count(feed->scans_late);
-    status->scans_duplicate = long_count(rho_count(feed->scans_duplicate, feed->scans_other));
-    status->scans_lost = long_count(feed->scans_lost);
-    status->scans_bad = long_count(rho_count(feed->scans_bad, feed->sensors_no_room));
-    status->messages_bad = long_count(feed->messages_bad);
-    status->messages_wrong_type = long_count(feed->messages_wrong_type);
+    status->scans_accepted = long_count(assembler->scans_accepted);
+    status->scans_late = long_count(assembler->scans_late);
+    status->scans_duplicate =
+        long_count(rho_count(assembler->scans_duplicate, assembler->scans_other));
+    status->scans_lost = long_count(assembler->scans_lost);
+    status->scans_bad = long_count(rho_count(assembler->scans_bad, assembler->sensors_no_room));
+    status->messages_bad = long_count(assembler->messages_bad);
+    status->messages_wrong_type = long_count(assembler->messages_wrong_type);
     status->messages_flooded =
-        long_count(rho_count(feed->messages_flooded, feed->messages_not_allowed));
-    status->scans_incomplete = long_count(feed->scans_incomplete);
-    status->clock_jumps = long_count(feed->clock_jumps);
-    status->sensor_restarts = long_count(feed->sensor_restarts);
-    status->bearings_in = long_count(feed->bearings_in);
-    status->plots_in = long_count(feed->plots_no_room);
-    status->inputs_no_room = long_count(feed->plots_no_room);
+        long_count(rho_count(assembler->messages_flooded, assembler->messages_not_allowed));
+    status->scans_incomplete = long_count(assembler->scans_incomplete);
+    status->clock_jumps = long_count(assembler->clock_jumps);
+    status->sensor_restarts = long_count(assembler->sensor_restarts);
+    status->bearings_in = long_count(assembler->bearings_in);
+    status->plots_in = long_count(assembler->plots_no_room);
+    status->inputs_no_room = long_count(assembler->plots_no_room);
 }
 
 static int32_t sum(int32_t counter, uint32_t more)
@@ -251,7 +253,7 @@ static void add_tracker(const struct rho_tracker *tracker, struct rho_message_st
     status->tracks_coasting = short_count(count[RHO_TRACK_COASTING]);
 }
 
-void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *frames,
+void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status)
 {
@@ -259,8 +261,8 @@ void rho_publish_status(const struct rho_feed *feed, const struct rho_frames *fr
         return;
     }
     *status = (struct rho_message_status){.utime = 0};
-    if (feed) {
-        fill_feed(&feed->counters, status);
+    if (assembler) {
+        fill_assembler(&assembler->counters, status);
     }
     if (frames) {
         add_frames(&frames->counters, status);

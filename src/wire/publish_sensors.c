@@ -6,11 +6,11 @@
 
 /* ---- One sensor ---- */
 
-static int8_t kind_of(const struct rho_feed_source *source)
+static int8_t kind_of(const struct rho_scan_assembler_source *source)
 {
-    return source->kind == RHO_FEED_PLOTS   ? RHO_MESSAGE_SENSOR_PLOTS
-           : source->kind == RHO_FEED_POLAR ? RHO_MESSAGE_SENSOR_POLAR
-                                            : RHO_MESSAGE_SENSOR_BEARINGS;
+    return source->kind == RHO_SCAN_ASSEMBLER_PLOTS   ? RHO_MESSAGE_SENSOR_PLOTS
+           : source->kind == RHO_SCAN_ASSEMBLER_POLAR ? RHO_MESSAGE_SENSOR_POLAR
+                                                      : RHO_MESSAGE_SENSOR_BEARINGS;
 }
 
 static int32_t at_most_int32(uint64_t value)
@@ -18,26 +18,12 @@ static int32_t at_most_int32(uint64_t value)
     return (int32_t)(value < INT32_MAX ? value : INT32_MAX);
 }
 
-#if RHO_SECTORS
-static void add_look(const struct rho_tracker *tracker, struct rho_message_sensor *sensor)
+int rho_publish_sensor(const struct rho_scan_assembler *assembler,
+                       const struct rho_tracker *tracker, int64_t now_us, unsigned place,
+                       struct rho_message_sensor *sensor)
 {
-    const struct rho_tracker_look *look = rho_tracker_look_of(tracker, sensor->sensor_id);
-
-    if (look) {
-        sensor->is_doubted = look->is_doubted != 0;
-        sensor->watched = (int16_t)look->watched;
-        sensor->watched_hits = (int16_t)look->watched_hits;
-        sensor->seen_share = look->seen_share;
-        sensor->innovation_factor = look->distance2;
-    }
-}
-#endif
-
-int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tracker,
-                       int64_t now_us, unsigned place, struct rho_message_sensor *sensor)
-{
-    const struct rho_feed_source *source =
-        feed && place < RHO_MAX_SENSORS ? &feed->sources[place] : NULL;
+    const struct rho_scan_assembler_source *source =
+        assembler && place < RHO_MAX_SENSORS ? &assembler->sources[place] : NULL;
 
     if (!sensor || !source || !source->is_used) {
         return 0;
@@ -45,31 +31,36 @@ int rho_publish_sensor(const struct rho_feed *feed, const struct rho_tracker *tr
     *sensor = (struct rho_message_sensor){
         .sensor_id = source->sensor_id,
         .kind = kind_of(source),
-        .is_silent = rho_elapsed_us(now_us, source->heard_us) > (uint64_t)feed->config.jump_max_us,
+        .is_silent =
+            rho_elapsed_us(now_us, source->heard_us) > (uint64_t)assembler->config.jump_max_us,
         .is_off_clock = source->off_clock > 0,
         .scans = source->scans,
         .scan_utime = source->place.time_us,
         .heard_age_us = at_most_int32(rho_elapsed_us(now_us, source->heard_us)),
         .interval_us = at_most_int32(source->interval_us),
     };
-#if RHO_SECTORS
-    if (tracker && source->kind != RHO_FEED_BEARINGS) {
-        add_look(tracker, sensor);
+    if (RHO_SECTORS && tracker && source->kind != RHO_SCAN_ASSEMBLER_BEARINGS) {
+        const struct rho_tracker_look *look = rho_tracker_look_of(tracker, source->sensor_id);
+
+        if (look) {
+            sensor->is_doubted = look->is_doubted != 0;
+            sensor->watched = (int16_t)look->watched;
+            sensor->watched_hits = (int16_t)look->watched_hits;
+            sensor->seen_share = look->seen_share;
+            sensor->innovation_factor = look->distance2;
+        }
     }
-#else
-    (void)tracker;
-#endif
     return 1;
 }
 
 /* ---- All of them ---- */
 
-static unsigned count_sensors(const struct rho_feed *feed)
+static unsigned count_sensors(const struct rho_scan_assembler *assembler)
 {
     unsigned count = 0;
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        count += feed->sources[i].is_used != 0;
+        count += assembler->sources[i].is_used != 0;
     }
     return count;
 }
@@ -79,22 +70,22 @@ static unsigned num_parts(unsigned sensors)
     return sensors <= PART_SENSORS ? 1 : (sensors + PART_SENSORS - 1) / PART_SENSORS;
 }
 
-uint16_t rho_publish_num_sensor_parts(const struct rho_feed *feed)
+uint16_t rho_publish_num_sensor_parts(const struct rho_scan_assembler *assembler)
 {
-    return (uint16_t)num_parts(feed ? count_sensors(feed) : 0);
+    return (uint16_t)num_parts(assembler ? count_sensors(assembler) : 0);
 }
 
-enum rho_status rho_publish_sensors(const struct rho_feed *feed, const struct rho_tracker *tracker,
-                                    int64_t now_us, uint16_t part,
-                                    struct rho_message_sensor_list *list)
+enum rho_status rho_publish_sensors(const struct rho_scan_assembler *assembler,
+                                    const struct rho_tracker *tracker, int64_t now_us,
+                                    uint16_t part, struct rho_message_sensor_list *list)
 {
     struct rho_message_sensor sensor;
     unsigned sensors, at = 0;
 
-    if (!feed || !list) {
+    if (!assembler || !list) {
         return RHO_ERROR_NULL;
     }
-    sensors = count_sensors(feed);
+    sensors = count_sensors(assembler);
     if (part >= num_parts(sensors)) {
         return RHO_ERROR_VALUE;
     }
@@ -105,7 +96,8 @@ enum rho_status rho_publish_sensors(const struct rho_feed *feed, const struct rh
     list->num_parts = (int16_t)num_parts(sensors);
     list->num_sensors = 0;
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        if (rho_publish_sensor(feed, tracker, now_us, i, &sensor) && at++ / PART_SENSORS == part) {
+        if (rho_publish_sensor(assembler, tracker, now_us, i, &sensor) &&
+            at++ / PART_SENSORS == part) {
             list->sensors[list->num_sensors++] = sensor;
         }
     }

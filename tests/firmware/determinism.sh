@@ -8,7 +8,7 @@
 
 check 'the records are made' record_all
 
-sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,node_bearings,replay}.c "$root"/tools/firmware/board/host/files_host.c)
+sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,replay}.c "$root"/tools/firmware/board/host/files_host.c)
 build_replay() { # file, compiler, flags...
     local file=$1
     shift
@@ -40,7 +40,8 @@ start() {
     replay_all "out-$name" "$@" >"sums-$name" &
 }
 
-# same_as_first SUMS NAME: the sums of the first variant that ran are what all others are compared with.
+# same_as_first SUMS NAME: the sums of the first variant that ran are what all others are compared
+# with.
 same_as_first() { diff "$reference" "$1"; }
 
 reference=sums-gcc-O0

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# For the scripts beside it: records of simulated sensors as LCM logs, and the images that they are played to. Source it
-# before checks.bash. Work goes on in $folder.
+# For the scripts beside it: records of simulated sensors as LCM logs, and the images that they are
+# played to. Source it before checks.bash. Work goes on in $folder.
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 build=$(cd "$root" && realpath -m "${BUILD:-build}")
 images=$build/firmware
@@ -14,7 +14,8 @@ record() {
         "$program" convert "$name/$table.csv" "$name.lcm" --config "$name/scenario.ini"
 }
 
-# The real plots of three aircraft among 100 clutter plots; three passive sensors; one target that pulls 10 g; a turning radar.
+# The real plots of three aircraft among 100 clutter plots; three passive sensors; one target that
+# pulls 10 g; a turning radar.
 record_all() {
     record table3 radar plots &&
         record passive passive-three bearings --set duration_s=200 &&
@@ -40,8 +41,8 @@ runs() {
     done
 }
 
-# replay_all DIR COMMAND...: every run by `COMMAND... IN OUT SETTINGS`, into DIR, and what it said into DIR/said. Prints the
-# files' sums.
+# replay_all DIR COMMAND...: every run by `COMMAND... IN OUT SETTINGS`, into DIR, and what it said
+# into DIR/said. Prints the files' sums.
 replay_all() { # directory, command...
     local directory=$1 name gate
     shift
@@ -52,4 +53,15 @@ replay_all() { # directory, command...
             { echo "$name $gate: exit $?"; return 1; }
     done < <(runs) >"$directory/said" 2>&1 || { cat "$directory/said"; return 1; }
     (cd "$directory" && sha256sum ./*.lcm)
+}
+
+# says_the_page SECTION FILE: tools/lab/MEASUREMENTS.md has the file's text in this section, where the compiler is Debian 12's.
+# LOAD=update writes it there.
+says_the_page() {
+    local page=$root/tools/lab/MEASUREMENTS.md
+    if [ "${LOAD-}" = update ]; then
+        "$root/tools/lab/measurements.py" --standard-input "$1" <"$2"
+    elif [ "$(arm-none-eabi-gcc -dumpfullversion)" = 12.2.1 ]; then
+        diff <(sed "/^<!-- $1:/,/^<!-- end of $1 /!d; /^<!--/d" "$page") "$2"
+    fi
 }

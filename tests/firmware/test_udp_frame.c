@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Frames of the firmware example: beside one of liblcm's, and whatever else may come over a wire. */
+/*
+ * Frames of the firmware example: beside one of liblcm's, and whatever else may come over a wire.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +17,10 @@
 static const struct udp_frame_host host = {.mac = {2, 0x52, 0x48, 0x4f, 0, 1},
                                            .address = {10, 9, 0, 100}};
 
-/* liblcm 1.5.3 sends "hi" on channel A from 10.9.0.1 with TTL 1; its checksum as a network card completes it. */
+/*
+ * liblcm 1.5.3 sends "hi" on channel A from 10.9.0.1 with TTL 1; its checksum as a network card
+ * completes it.
+ */
 static const uint8_t of_liblcm[] = {
     0x01, 0x00, 0x5e, 0x7f, 0x4c, 0x43, 0x16, 0xb6, 0x2b, 0x9c, 0x92, 0x43, 0x08, 0x00,
     0x45, 0x00, 0x00, 0x28, 0x67, 0xba, 0x40, 0x00, 0x01, 0x11, 0xcb, 0xbe, 0x0a, 0x09,
@@ -106,7 +111,10 @@ static void what_is_built_opens_again(void **state)
     }
 }
 
-/* A sum of 0xffff leaves a checksum of 0, which would say that there is none: it goes out as 0xffff. */
+/*
+ * A sum of 0xffff leaves a checksum of 0, which would say that there is none: it goes out as
+ * 0xffff.
+ */
 static void a_checksum_of_zero_is_not_left_out(void **state)
 {
     int seen = 0;

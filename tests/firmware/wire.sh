@@ -23,7 +23,8 @@ speed=16
 replay_all_tracks() { "$images/replay-radar" popup.lcm expected.lcm radars=1; }
 check 'the replay gives the tracks expected' replay_all_tracks
 
-# Takes messages with the Python package until it is told to end: how many of each channel, and the last list's scan.
+# Takes messages with the Python package until it is told to end: how many of each channel, and the
+# last list's scan.
 cat >listen.py <<'PYTHON'
 import collections
 import signal

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # What a step of each shipped configuration of the node costs at most (tools/firmware/promises.bash) holds for the worst scans
 # that were found (worst_skies.txt), and for a few that are drawn now; the limit on work is why. The smallest node also runs
-# here on a record, and fits.
+# here on a record, and fits. LOAD=update writes the worst steps into tools/lab/MEASUREMENTS.md.
 # shellcheck source=tests/firmware/records.bash
 . "$(dirname "$0")/records.bash"
 # shellcheck source=tests/integration/checks.bash
@@ -18,15 +18,33 @@ keeps() { # the promise, and what the processor has time for
     [ "$instructions" -gt 0 ] && [ "$instructions" -le "$((a + b * work_max))" ] && [ "$instructions" -le "$most" ]
 }
 
+declare -A worst promised time_for
 keeps_under() { # name, sky
-    promise_of "$1" && worst_of "$1" sky "$2" && keeps "$1"
+    promise_of "$1" && worst_of "$1" sky "$2" && keeps "$1" || return 1
+    promised[$1]=$((a + b * work_max)) time_for[$1]=$most
+    [ "$instructions" -le "${worst[$1]:-0}" ] || worst[$1]=$instructions
+}
+
+# The section `worst` of the page.
+section() {
+    local name
+    printf '\nMillions of instructions of the worst step in the skies that are kept, arm-none-eabi-gcc %s.\n\n' \
+        "$(arm-none-eabi-gcc -dumpfullversion)"
+    printf '| node | worst found | promised | time for |\n|---|---|---|---|\n'
+    for name in $shipped; do
+        [ -z "${worst[$name]-}" ] || awk -v name="$name" -v worst="${worst[$name]}" -v promised="${promised[$name]}" \
+            -v most="${time_for[$name]}" \
+            'BEGIN { printf "| %s | %.3g | %.3g | %.3g |\n", name, worst / 1e6, promised / 1e6, most / 1e6 }'
+    done
+    printf '\n'
 }
 
 keeps_drawn() { # name
     promise_of "$1" && worst_of "$1" search 7 3 && keeps "$1"
 }
 
-# The smallest node follows eight targets among 40 clutter plots, in the emulator, and no step costs more than it may.
+# The smallest node follows eight targets among 40 clutter plots, in the emulator, and no step costs
+# more than it may.
 runs_on_a_record() {
     promise_of smallest &&
         record small polar plots --set targets.0.count=8 --set duration_s=120 --set clutter.0.plots=40 &&
@@ -52,6 +70,8 @@ done <"$root/tests/firmware/worst_skies.txt"
 for name in $shipped; do
     check "$name keeps it when others are drawn" keeps_drawn "$name"
 done
+section >section
+check 'tools/lab/MEASUREMENTS.md says so' says_the_page worst section
 check 'the smallest node runs on a record' runs_on_a_record
 check 'it fits' fits
 finish

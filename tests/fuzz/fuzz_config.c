@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/common.h"
 #include "check.h"
-#include "common.h"
-#include "local_frame.h"
-#include "parameters.h"
+#include "io/csv/local_frame.h"
 #include "refusal.h"
+#include "settings/parameters.h"
 
 #define SETS_MAX 8
 #define BETWEEN 1 /* the byte before an assignment */
@@ -22,7 +22,7 @@
 static struct parameters parameters;
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
-static struct rho_feed feed;
+static struct rho_scan_assembler feed;
 static FILE *nowhere;
 
 struct reading {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A feed that takes what a script says: good messages, damaged ones, any bytes, steps of the reception clock, and calls for
- * what is due. After each step its promises are checked: fates add up, scans are within their capacities and in the order of
- * time, and there is always room after two calls.
+ * A feed that takes what a script says: good messages, damaged ones, any bytes, steps of the
+ * reception clock, and calls for what is due. After each step its promises are checked: fates add
+ * up, scans are within their capacities and in the order of time, and there is always room after
+ * two calls.
  */
 #include <stdint.h>
 #include <stdio.h>
@@ -10,19 +11,19 @@
 #include <string.h>
 
 #include "check.h"
-#include "rhotrack/feed.h"
 #include "rhotrack/message.h"
+#include "rhotrack/scan_assembler.h"
 #include "rhotrack/types.h"
 
 #define SENSORS 5
 #define SLOT_FREE 0 /* of a slot's private state */
 #define SLOT_GIVEN 3
 
-static struct rho_feed feed;
-static struct rho_feed_item item;
+static struct rho_scan_assembler feed;
+static struct rho_scan_assembler_item item;
 static uint64_t given;
 
-/* ---- the script ------------------------------------------------------------------------------- */
+/* ---- the script ------------------------------------------------------------------------------ */
 
 struct script {
     const uint8_t *data;
@@ -49,7 +50,7 @@ static int64_t signed_number(struct script *script, unsigned bytes)
     return value < half ? (int64_t)value : -(int64_t)(2 * (half - 1) + 1 - value) - 1;
 }
 
-/* ---- checks ----------------------------------------------------------------------------------- */
+/* ---- checks ---------------------------------------------------------------------------------- */
 
 static unsigned in_slots(void)
 {
@@ -74,7 +75,7 @@ static uint64_t parts_in_slots(void)
 
 static uint64_t refusals(void)
 {
-    const struct rho_feed_counters *counters = &feed.counters;
+    const struct rho_scan_assembler_counters *counters = &feed.counters;
 
     return (uint64_t)counters->messages_bad + counters->messages_wrong_type +
            counters->messages_flooded + counters->scans_late + counters->scans_duplicate +
@@ -82,7 +83,10 @@ static uint64_t refusals(void)
            counters->messages_not_allowed + counters->scans_other;
 }
 
-/* Each scan that was accepted waits, was given, or was dropped for a new clock or, a newcomer's, for want of room. */
+/*
+ * Each scan that was accepted waits, was given, or was dropped for a new clock or, a newcomer's,
+ * for want of room.
+ */
 static void check_scans(void)
 {
     uint64_t there = given + in_slots();
@@ -95,7 +99,7 @@ static void check_scans(void)
 
 static void check_item(void)
 {
-    int is_bearings = item.kind == RHO_FEED_BEARINGS;
+    int is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS;
     int64_t time_us = is_bearings ? item.bearings.time_us : item.scan.time_us;
 
     CHECK(item.kind < RHO_NUM_FEED_KINDS);
@@ -116,7 +120,7 @@ static void check_item(void)
 
 static int next(int64_t now_us)
 {
-    int is_there = rho_feed_next(&feed, now_us, &item);
+    int is_there = rho_scan_assembler_next(&feed, now_us, &item);
 
     if (is_there) {
         given++;
@@ -131,7 +135,7 @@ static void drain(int64_t now_us)
 
     while (next(now_us)) {
         int64_t time_us =
-            item.kind == RHO_FEED_BEARINGS ? item.bearings.time_us : item.scan.time_us;
+            item.kind == RHO_SCAN_ASSEMBLER_BEARINGS ? item.bearings.time_us : item.scan.time_us;
 
         CHECK(time_us >= last_us);
         last_us = time_us;
@@ -140,7 +144,7 @@ static void drain(int64_t now_us)
 
 static void take(const char *channel, const uint8_t *data, size_t size, int64_t now_us)
 {
-    struct rho_feed_counters before = feed.counters;
+    struct rho_scan_assembler_counters before = feed.counters;
     uint64_t refused = refusals(), parts = parts_in_slots();
     uint8_t *exact = malloc(size > 0 ? size : 1);
     enum rho_status status;
@@ -148,7 +152,7 @@ static void take(const char *channel, const uint8_t *data, size_t size, int64_t 
 
     CHECK(exact);
     memcpy(exact, data, size);
-    status = rho_feed_take(&feed, channel, exact, size, now_us);
+    status = rho_scan_assembler_take(&feed, channel, exact, size, now_us);
     while (status == RHO_ERROR_CAPACITY) {
         CHECK(memcmp(&before, &feed.counters, sizeof before) == 0);
         CHECK(++tries <= 2);
@@ -156,7 +160,7 @@ static void take(const char *channel, const uint8_t *data, size_t size, int64_t 
         before = feed.counters;
         refused = refusals();
         parts = parts_in_slots();
-        status = rho_feed_take(&feed, channel, exact, size, now_us);
+        status = rho_scan_assembler_take(&feed, channel, exact, size, now_us);
     }
     if (status == RHO_OK) {
         CHECK(refusals() > refused || parts_in_slots() > parts);
@@ -166,7 +170,7 @@ static void take(const char *channel, const uint8_t *data, size_t size, int64_t 
     free(exact);
 }
 
-/* ---- what the script can say ------------------------------------------------------------------ */
+/* ---- what the script can say ----------------------------------------------------------------- */
 
 struct sender {
     int64_t time_us;
@@ -183,7 +187,7 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
     int16_t count = (int16_t)(number(script, 1) % 35);
     size_t size = 0;
 
-    if (kind == RHO_FEED_PLOTS) {
+    if (kind == RHO_SCAN_ASSEMBLER_PLOTS) {
         plots = (struct rho_message_plot_scan){.utime = sender->time_us,
                                                .scan = sender->scan,
                                                .epoch = sender->epoch,
@@ -193,7 +197,7 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
                                                .num_parts = parts,
                                                .num_plots = count};
         (void)!rho_message_plot_scan_encode(&plots, buffer, capacity, &size);
-    } else if (kind == RHO_FEED_POLAR) {
+    } else if (kind == RHO_SCAN_ASSEMBLER_POLAR) {
         polar = (struct rho_message_polar_scan){.utime = sender->time_us,
                                                 .scan = sender->scan,
                                                 .epoch = sender->epoch,
@@ -267,9 +271,9 @@ static int64_t move_clock(struct script *script, int64_t now_us)
 
 static int begin(struct script *script)
 {
-    struct rho_feed_config config;
+    struct rho_scan_assembler_config config;
 
-    rho_feed_config_default(&config);
+    rho_scan_assembler_config_default(&config);
     config.hold_us = (int64_t)(number(script, 1) * 1000);
     config.follow_scans = (uint16_t)(2 + number(script, 1) % 6);
     config.flood_per_s = (uint32_t)(1 + number(script, 1) * 10);
@@ -277,7 +281,7 @@ static int begin(struct script *script)
     config.late_max_us =
         (int64_t)(config.follow_scans % 3) * 20000000; /* no byte of its own: old inputs stay */
     given = 0;
-    return rho_feed_init(&feed, sizeof feed, &config) == RHO_OK;
+    return rho_scan_assembler_init(&feed, sizeof feed, &config) == RHO_OK;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -305,7 +309,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         } else {
             drain(now_us);
         }
-        (void)rho_feed_due_us(&feed);
+        (void)rho_scan_assembler_due_us(&feed);
         check_scans();
     }
     drain(INT64_MAX);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Any bytes as an Ethernet frame of the firmware example: what is accepted lies within them, and is built again. */
+/*
+ * Any bytes as an Ethernet frame of the firmware example: what is accepted lies within them, and is
+ * built again.
+ */
 #include <stdint.h>
 #include <string.h>
 

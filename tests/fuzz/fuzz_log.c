@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The parser of LCM event logs on any bytes: it goes on to the end, stays inside, gives each byte to an event or a skip,
- * finds the same in a stream that comes in pieces as in one, and reads what it wrote.
+ * The parser of LCM event logs on any bytes: it goes on to the end, stays inside, gives each byte
+ * to an event or a skip, finds the same in a stream that comes in pieces as in one, and reads what
+ * it wrote.
  */
 #include <stdlib.h>
 #include <string.h>
 
-#include "lcm_log.h"
+#include "io/log/lcm_log.h"
 
 static void must(bool holds)
 {

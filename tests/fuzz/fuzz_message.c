@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The LCM codec on any bytes. Each input is offered to every decode three times: as it is; with the struct's own
- * fingerprint in front; and with the count, too, that its length makes, so that the fuzzer need not find 8 bytes of
- * fingerprint and a length that fits. Then the input is a struct in memory, for encode, validate and the writer.
+ * The LCM codec on any bytes. Each input is offered to every decode three times: as it is; with the
+ * struct's own fingerprint in front; and with the count, too, that its length makes, so that the
+ * fuzzer need not find 8 bytes of fingerprint and a length that fits. Then the input is a struct in
+ * memory, for encode, validate and the writer.
  */
 #include <stdlib.h>
 
-#include "../unit/message_codecs.h"
+#include "unit/wire/message_codecs.h"
 
 #define PATTERN 0x5a
 
@@ -40,7 +41,10 @@ static void check_validate(size_t type, const void *message)
     must(strlen(codecs[type].field(&place)) > 0);
 }
 
-/* Memory of its exact size, so that a step beyond is seen. Refused: untouched. Accepted: the same bytes again. */
+/*
+ * Memory of its exact size, so that a step beyond is seen. Refused: untouched. Accepted: the same
+ * bytes again.
+ */
 static void check_decode(size_t type, const uint8_t *data, size_t size)
 {
     const struct message_shape *shape = &our_shapes[type];
@@ -117,7 +121,9 @@ static void check_encode(size_t type, const uint8_t *data, size_t size)
     free(message);
 }
 
-/* A list in a buffer of any size: whole after each element. Room for the head is what begin wants. */
+/*
+ * A list in a buffer of any size: whole after each element. Room for the head is what begin wants.
+ */
 static void check_writer(size_t type, const uint8_t *data, size_t size)
 {
     const struct message_shape *shape = &our_shapes[type];

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/common.h"
 #include "check.h"
-#include "common.h"
 #include "refusal.h"
 #include "scene/scene.h"
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * An image of a running tracker, changed in places and with a right checksum: it is refused, with nothing changed, or what is
- * loaded can be stepped on, whatever its numbers are. In the embedded profile.
+ * An image of a running tracker, changed in places and with a right checksum: it is refused, with
+ * nothing changed, or what is loaded can be stepped on, whatever its numbers are. In the embedded
+ * profile.
  */
 #include <math.h>
 #include <stdint.h>
@@ -18,13 +19,13 @@
 #define PLOTS 40
 #define IMAGE_MAX 400000
 
-struct chain {
+struct pipeline {
     struct rho_tracker tracker;
     struct rho_initiator initiator;
     struct rho_passive passive;
 };
 
-static struct chain chain, before;
+static struct pipeline chain, before;
 static struct rho_report report;
 static _Alignas(8) uint8_t images[SCENES][IMAGE_MAX], image[IMAGE_MAX];
 static size_t image_bytes;
@@ -38,7 +39,7 @@ static double uniform(double from, double to)
     return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
 }
 
-/* ---- what is stepped -------------------------------------------------------------------------- */
+/* ---- what is stepped ------------------------------------------------------------------------- */
 
 static double target_m(int target, double t_s, int axis)
 {
@@ -133,7 +134,7 @@ static void begin(int scene)
     CHECK(rho_tracker_set_sensor(&chain.tracker, &radar) == RHO_OK);
 }
 
-/* ---- images ----------------------------------------------------------------------------------- */
+/* ---- images ---------------------------------------------------------------------------------- */
 
 static void list_parts(struct rho_snapshot_part parts[3])
 {

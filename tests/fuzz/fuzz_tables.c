@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The CSV readers on any file: the table itself, plots to scans, bearings to frames, and what the plot command reads
- * (truth and tracks, too). The first byte says which, whether bad rows are skipped, and whether rows of half a second are
- * one scan; the rest is the file.
+ * The CSV readers on any file: the table itself, plots to scans, bearings to frames, and what the
+ * plot command reads (truth and tracks, too). The first byte says which, whether bad rows are
+ * skipped, and whether rows of half a second are one scan; the rest is the file.
  */
 #include <math.h>
 #include <stdlib.h>
 
-#include "common.h"
-#include "frame_reader.h"
-#include "local_frame.h"
-#include "parameters.h"
-#include "plot_data.h"
+#include "base/common.h"
+#include "io/csv/local_frame.h"
+#include "io/csv/table.h"
+#include "io/scans/frame_reader.h"
+#include "io/scans/scan_reader.h"
+#include "picture/plot_data.h"
 #include "refusal.h"
 #include "rhotrack/types.h"
-#include "scan_reader.h"
-#include "table.h"
+#include "settings/parameters.h"
 
 static void must(bool holds)
 {
@@ -41,12 +41,10 @@ static void read_table(const char *path, bool keep_going)
     for (size_t row = 0; row < table->num_rows; row++) {
         must(row == 0 || table->lines[row] > table->lines[row - 1]);
         for (size_t column = 0; column < table->num_columns; column++) {
-            const char *cell = table_cell(table, row, (int)column);
-
-            must(table_number(cell, &number) || isfinite((float)number));
-            must(table_time_us(cell, &time_us) ||
+            must(table_number(table, row, (int)column, &number) || isfinite((float)number));
+            must(table_time_us(table, row, (int)column, &time_us) ||
                  (time_us >= -RHO_LIMIT_TIME_US && time_us <= RHO_LIMIT_TIME_US));
-            (void)table_int32(cell, &integer);
+            (void)table_int32(table, row, (int)column, &integer);
         }
     }
     table_free(table);
@@ -169,7 +167,10 @@ static void set_origin(struct parameters *parameters, bool is_set)
     }
 }
 
-/* What PROJ keeps for the whole program is there before a run's memory is looked at. It does without its database. */
+/*
+ * What PROJ keeps for the whole program is there before a run's memory is looked at. It does
+ * without its database.
+ */
 static void warm_up(struct parameters *parameters)
 {
     must(setenv("PROJ_DATA", "/nonexistent", 1) == 0);

@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "rhotrack/angle.h"
+#include "rhotrack/detail/angle.h"
 #include "rhotrack/measurement.h"
 #include "rhotrack/snapshot.h"
 #include "rhotrack/tracker.h"
@@ -248,7 +248,7 @@ static int64_t next_time(struct script *script)
 
 /* ---- the objects, and what is known of them -------------------------------------------------- */
 
-static struct chain {
+static struct pipeline {
     struct rho_tracker tracker;
     struct rho_initiator initiators[INITIATORS];
     struct rho_passive passives[PASSIVES];
@@ -1306,7 +1306,7 @@ static void save(const struct rho_snapshot_part parts[PARTS])
 /* Into objects that hold anything. */
 static void load(const struct rho_snapshot_part parts[PARTS])
 {
-    memset(&chain, 0x77, offsetof(struct chain, report));
+    memset(&chain, 0x77, offsetof(struct pipeline, report));
     HOLDS("what was saved can be loaded",
           rho_snapshot_load(parts, PARTS, image, image_bytes) == RHO_OK);
 }

@@ -9,8 +9,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "base/common.h"
 #include "check.h"
-#include "common.h"
 
 /* ---- What a run allocates ---- */
 

@@ -173,7 +173,7 @@ check 'another command' says 2 'rhotrack: maintain takes no --clutter-map*'
 (
     cd "$here/../.." || exit 1 # in a shell of its own: checks write where they are
     ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -Wall -Wextra -Werror -Iinclude -DRHO_MAX_ECHOES=0 -o "$folder/without" \
-        tests/unit/test_tracker.c src/*/*.c -lcmocka -lm 2>"$folder/stderr"
+        tests/unit/tracker/test_tracker.c src/*/*.c -lcmocka -lm 2>"$folder/stderr"
 )
 check 'a build without the map tracks' "$folder/without"
 

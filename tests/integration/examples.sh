@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/extract_example.sh runs the C blocks of a document, and goes red for one that is wrong.
+# tools/gates/extract_example.sh runs the C blocks of a document, and goes red for one that is wrong.
 # Runs beside others.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -15,7 +15,7 @@ document() { # body of main
 
 must_fail() { # what, document, the message expected
     printf '%s\n' "$2" >"$folder/document.md"
-    if tools/extract_example.sh "$folder/document.md" "$library" >"$folder/output" 2>&1; then
+    if tools/gates/extract_example.sh "$folder/document.md" "$library" >"$folder/output" 2>&1; then
         echo "extract_example.sh did not see $1"
         exit 1
     fi
@@ -23,7 +23,7 @@ must_fail() { # what, document, the message expected
 }
 
 document 'return rho_status_name(RHO_OK)[0] == 0;' >"$folder/document.md"
-tools/extract_example.sh "$folder/document.md" "$library"
+tools/gates/extract_example.sh "$folder/document.md" "$library"
 must_fail 'an example that fails' "$(document 'return 3;')" 'exits with 3'
 must_fail 'a warning, by the line of the document' "$(document 'int unused; return 0;')" 'document.md:9'
 must_fail 'a document without examples' '# Title' 'no ```c block'

@@ -9,7 +9,7 @@ build=$(realpath "${BUILD:-$root/build}")
 
 lines() { # filters: what such a build says
     ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_FILTERS="$1" -Wall -Wextra -Werror -o filters \
-        "$root/tests/integration/filters.c" "$root"/src/tracker/tracker*.c "$root"/src/maintenance/track*.c \
+        "$root/tests/integration/filters.c" "$root"/src/tracker/*.c \
         "$build/librhotrack.a" && ./filters
 }
 

@@ -18,7 +18,7 @@ if ! echo 'int LLVMFuzzerTestOneInput(const char *d, unsigned long n) { return d
     exit 0
 fi
 
-flags='-std=c11 -D_GNU_SOURCE -O1 -g -Iinclude -Isrc/wire -Itools/rhotrack -ffp-contract=off
+flags='-std=c11 -D_GNU_SOURCE -O1 -g -Iinclude -Isrc/wire -Itests -Itools/rhotrack -ffp-contract=off
     -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all'
 
 # shellcheck disable=SC2086 # words on purpose
@@ -41,7 +41,7 @@ build_config() { build_of_program fuzz_config "$1"; }
 build_scene() { build_of_program fuzz_scene "$1"; }
 
 # All of the library, small, but the seeded file.
-small="$flags -DRHO_CONFIG_FILE=\"tests/fuzz/small_capacities.h\" -I. -Isrc/tracker -Isrc/initiation -Isrc/passive"
+small="$flags -DRHO_CONFIG_FILE=\"tests/fuzz/small_capacities.h\" -I. -Isrc/tracker -Isrc/initiation -Isrc/bearings"
 # shellcheck disable=SC2086
 build_tracker_small() { # file of the library
     clang ${small/fuzzer,/fuzzer-no-link,} -c -o "$folder/seeded.o" "$1" &&
@@ -128,11 +128,11 @@ tracker_must_find src/tracker/tracker.c 'a covariance that is none' \
     's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += 9.0f * (out->covariance[0] + out->covariance[2]);/'
 tracker_must_find src/tracker/tracker.c 'a scan that is too late, and changes the density' \
     's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
-tracker_must_find src/tracker/tracker_life.c 'an end that is not told' 's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
-tracker_must_find src/tracker/tracker_life.c 'an identity that comes again' 's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
-tracker_must_find src/initiation/initiator_budget.c 'a search without its limit' \
+tracker_must_find src/tracker/life_cycle.c 'an end that is not told' 's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
+tracker_must_find src/tracker/life_cycle.c 'an identity that comes again' 's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
+tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_spent\(search\) > search->limit_units;/return 0;/'
-tracker_must_find src/passive/batch_sound.c 'a batch that is unsound for its times' 's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
+tracker_must_find src/bearings/batch_validate.c 'a batch that is unsound for its times' 's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 must_pass fuzz_tracker_small src/tracker/tracker.c
 
 objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)
@@ -141,12 +141,12 @@ if [ -z "$objects" ] || [ ! -f "$build/workstation/librhotrack.a" ]; then
 else
     # shellcheck disable=SC2086
     ar rcs "$folder/program.a" $objects "$build/program/scenes.o"
-    seeded fuzz_config tools/rhotrack/parameters.c 'parameters beyond their limits' \
+    seeded fuzz_config tools/rhotrack/settings/parameters.c 'parameters beyond their limits' \
         's/number < text->min \|\| number > text->max/0/'
     seeded fuzz_scene tools/rhotrack/scene/scene_read.c 'a scene whose text is not given back' 's/^    free\(text\);$//'
-    seeded fuzz_tables tools/rhotrack/row_check.c 'numbers beyond their limits' 's/number < min \|\| number > max/0/'
-    seeded fuzz_tables tools/rhotrack/table.c 'a table that is not given back' 's/free\(table->text\);//'
-    must_pass fuzz_tables tools/rhotrack/table.c
+    seeded fuzz_tables tools/rhotrack/io/csv/row_check.c 'numbers beyond their limits' 's/number < min \|\| number > max/0/'
+    seeded fuzz_tables tools/rhotrack/io/csv/table.c 'a table that is not given back' 's/free\(table->text\);//'
+    must_pass fuzz_tables tools/rhotrack/io/csv/table.c
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates.py passes on a clean little library, and goes red for each thing that it forbids, with file and function.
+# tools/gates/gates.py passes on a clean little library, and goes red for each thing that it forbids, with file and function.
 set -eu
 cd "$(dirname "$0")/../.."
 BUILD=$(mktemp -d)
@@ -17,7 +17,7 @@ fi
 
 look() { # targets, source text of the only module
     printf '%s\n' "$2" >"$copy/src/base/sample.c"
-    tools/gates.py --target "$1" "$copy" >"$BUILD/output" 2>&1
+    tools/gates/gates.py --target "$1" "$copy" >"$BUILD/output" 2>&1
 }
 
 must_pass() { # what, source

@@ -45,7 +45,7 @@ small=$(ram rho_tracker 4)
 
 # ---- make install ----
 usual='^/opt/rt/(bin/rhotrack|lib/librhotrack\.a|lib/pkgconfig/rhotrack\.pc|lib/cmake/rhotrack/rhotrackConfig(Version)?\.cmake)$'
-usual+='|^/opt/rt/(include/rhotrack/[a-z_]+\.h|share/doc/rhotrack/LICENSE)$'
+usual+='|^/opt/rt/(include/rhotrack/(detail/)?[a-z_]+\.h|share/doc/rhotrack/LICENSE)$'
 stage=$folder/stage
 (umask 077 && install_by_make "$stage" install PREFIX=/opt/rt)
 status=$?
@@ -98,7 +98,7 @@ odd='PREFIX=/usr LIBDIR=/usr/lib/odd INCLUDEDIR=/inc/odd DOCDIR=/usr/doc-rt'
 install_by_make "$folder/own" install-lib $odd RHO_CONFIG_FILE="$own" BUILD="$folder/build-own" OPT=-O0
 check 'make install-lib with RHO_CONFIG_FILE, in odd folders' exits 0
 check 'nothing is put elsewhere' no_files_but own \
-    '^/usr/lib/odd/(librhotrack\.a|(pkgconfig|cmake)/.*)$|^/inc/odd/rhotrack/[a-z_]+\.h$|^/usr/doc-rt/LICENSE$'
+    '^/usr/lib/odd/(librhotrack\.a|(pkgconfig|cmake)/.*)$|^/inc/odd/rhotrack/(detail/)?[a-z_]+\.h$|^/usr/doc-rt/LICENSE$'
 check 'no file knows where it was staged or built' leaks_nothing own -e "$folder"
 export PKG_CONFIG_LIBDIR=$folder/own/usr/lib/odd/pkgconfig
 check 'pkg-config: odd folders' says_flags --cflags --libs '-I/inc/odd -L/usr/lib/odd -lrhotrack'
@@ -237,11 +237,11 @@ sizeof() { # object, compiler and flags...: its bytes
 }
 holds_table() { # compiler and flags...
     local object bytes sums=(0 0 0 0 0) column
-    for object in rho_tracker rho_initiator rho_report rho_feed; do
+    for object in rho_tracker rho_initiator rho_report rho_scan_assembler; do
         for column in 3 4; do
             bytes=$(if [ "$column" = 3 ]; then sizeof "$object" "$@"; else sizeof "$object" "$@" "-DRHO_CONFIG_FILE=\"$own\""; fi)
             [ "$bytes" = "$(ram "$object" "$column")" ] || { echo "$object: $bytes bytes, not $(ram "$object" "$column")"; return 1; }
-            [ "$object" = rho_feed ] || sums[column]=$((sums[column] + bytes))
+            [ "$object" = rho_scan_assembler ] || sums[column]=$((sums[column] + bytes))
         done
     done
     [ "${sums[3]} ${sums[4]}" = "$(ram together 3) $(ram together 4)" ] || { echo "together: ${sums[*]}"; return 1; }

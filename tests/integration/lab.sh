@@ -196,7 +196,7 @@ run experiment passive --set sigma_rad=1 -o "$folder/refused"
 check "nor parameters" says 2 "*--set*"
 run experiment polar --runs 1 --method passive -o "$folder/refused"
 check "the others know no method of bearings" says 2 "*polar*kernel*passive*"
-# experiment false-alarms takes two minutes even with --runs 1: scenario/test_experiments.c calls its functions instead
+# experiment false-alarms takes two minutes even with --runs 1: lab/test_experiments.c calls its functions instead
 for name in initiation polar false-alarms passive; do
     run experiment "$name" --runs 1 --method nonsense -o "$folder/refused"
     check "experiment $name knows no other method" says 2 "*$name*knows the method*nonsense*"

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/poison.sh passes on a clean little library, and goes red for each thing that it forbids.
+# tools/gates/poison.sh passes on a clean little library, and goes red for each thing that it forbids.
 set -eu
 cd "$(dirname "$0")/../.."
 top=$(pwd)
@@ -17,13 +17,13 @@ build() { # source text of the only module
 
 must_pass() { # what, source
     build "$2"
-    "$top/tools/poison.sh" "$copy" "$copy/sample.a" >"$copy/output" ||
+    "$top/tools/gates/poison.sh" "$copy" "$copy/sample.a" >"$copy/output" ||
         { echo "poison.sh refuses $1:"; cat "$copy/output"; exit 1; }
 }
 
 must_fail() { # what, source, the heading expected, the finding expected
     build "$2"
-    if "$top/tools/poison.sh" "$copy" "$copy/sample.a" >"$copy/output"; then
+    if "$top/tools/gates/poison.sh" "$copy" "$copy/sample.a" >"$copy/output"; then
         echo "poison.sh did not see $1"
         exit 1
     fi

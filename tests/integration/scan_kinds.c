@@ -7,15 +7,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "rhotrack/feed.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/message.h"
+#include "rhotrack/scan_assembler.h"
 
 #define SCANS 7
 #define TARGETS 2
 #define CLUTTER 20
 
-static struct rho_feed feed;
+static struct rho_scan_assembler feed;
 static struct rho_initiator initiator;
 static uint32_t sum, random_state;
 
@@ -53,8 +53,9 @@ static size_t encode(int kind, uint8_t *buffer, size_t capacity)
         .sensor_id = 1, .sensor_x_m = 7.0f, .num_bearings = 2, .bearing_rad = {1.0f, -1.0f}};
     size_t size = 0;
     enum rho_status status =
-        kind == RHO_FEED_PLOTS ? rho_message_plot_scan_encode(&plots, buffer, capacity, &size)
-        : kind == RHO_FEED_POLAR
+        kind == RHO_SCAN_ASSEMBLER_PLOTS
+            ? rho_message_plot_scan_encode(&plots, buffer, capacity, &size)
+        : kind == RHO_SCAN_ASSEMBLER_POLAR
             ? rho_message_polar_scan_encode(&polar, buffer, capacity, &size)
             : rho_message_bearing_scan_encode(&bearings, buffer, capacity, &size);
     return status == RHO_OK ? size : 0;
@@ -65,19 +66,19 @@ static void print_feed(int kind)
     static const char *const channels[] = {RHO_MESSAGE_PLOT_SCAN_CHANNEL "1",
                                            RHO_MESSAGE_POLAR_SCAN_CHANNEL "1",
                                            RHO_MESSAGE_BEARING_SCAN_CHANNEL "1"};
-    struct rho_feed_config config;
-    struct rho_feed_item item;
+    struct rho_scan_assembler_config config;
+    struct rho_scan_assembler_item item;
     uint8_t buffer[256];
     size_t size = encode(kind, buffer, sizeof buffer);
     unsigned inputs = 0;
-    rho_feed_config_default(&config);
-    if (size == 0 || rho_feed_init(&feed, sizeof feed, &config) != RHO_OK) {
+    rho_scan_assembler_config_default(&config);
+    if (size == 0 || rho_scan_assembler_init(&feed, sizeof feed, &config) != RHO_OK) {
         printf("kind %d: unusable\n", kind);
         return;
     }
     sum = 2166136261u;
-    enum rho_status status = rho_feed_take(&feed, channels[kind], buffer, size, 0);
-    while (rho_feed_next(&feed, INT64_MAX, &item)) {
+    enum rho_status status = rho_scan_assembler_take(&feed, channels[kind], buffer, size, 0);
+    while (rho_scan_assembler_next(&feed, INT64_MAX, &item)) {
         add(&item.sensor.x_m, sizeof item.sensor.x_m);
         add(item.scan.plots, item.scan.num_plots * sizeof *item.scan.plots);
         add(item.bearings.bearings, item.bearings.num_bearings * sizeof *item.bearings.bearings);

@@ -9,7 +9,7 @@ build=$(realpath "${BUILD:-$root/build}")
 
 lines() { # kinds: what such a build says
     ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_SCAN_KINDS="$1" -Wall -Wextra -Werror -o kinds \
-        "$root/tests/integration/scan_kinds.c" "$root"/src/wire/feed*.c "$root"/src/initiation/initiator*.c \
+        "$root/tests/integration/scan_kinds.c" "$root"/src/wire/scan_*.c "$root"/src/initiation/*.c \
         "$build/librhotrack.a" && ./kinds
 }
 
@@ -35,5 +35,5 @@ check 'bearings alone' same_as_all 4 'kind 2'
 check 'plots and bearings' same_as_all 5 'kind [02]|one axis bytes'
 check 'polar plots and bearings' same_as_all 6 'kind [12]'
 check 'kinds that do not exist' grep -q 'RHO_SCAN_KINDS must be 1 .. 7' \
-    <(${CC:-gcc} -std=c11 -I"$root/include" -DRHO_SCAN_KINDS=8 -fsyntax-only "$root/src/wire/feed.c" 2>&1)
+    <(${CC:-gcc} -std=c11 -I"$root/include" -DRHO_SCAN_KINDS=8 -fsyntax-only "$root/src/wire/scan_assembler.c" 2>&1)
 finish

@@ -180,7 +180,7 @@ run config --config all/scenario.ini
 check 'scenario.ini is good' exits 0
 
 # ---- all that ship ----
-for file in "$scenes"/*.json; do
+for file in "$scenes"/*/*.json; do
     name=$(basename "$file" .json)
     run simulate "$name" -o "$name"
     check "$name simulates" exits 0
@@ -201,8 +201,8 @@ for number in 1 2 3; do # of the manual's examples
     run track "example-$number/plots.csv" --config "example-$number/scenario.ini" -o tracks.csv
     check "example $number of the manual has tracks" test "$(wc -l <tracks.csv)" -gt 10
 done
-check 'the manual names all that ship' matches "$(sed -n 's/^| \([a-z0-9-]*\) | .*/\1/p' "$scenes/README.md" | sed '1,/^name$/d' | tail -n "$(ls "$scenes"/*.json | wc -l)" | sort | tr '\n' ' ')" \
-    "$(cd "$scenes" && ls ./*.json | sed 's/^..//; s/.json$//' | sort | tr '\n' ' ')"
+check 'the manual names all that ship' matches "$(sed -n 's/^| \([a-z0-9-]*\) | .*/\1/p' "$scenes/README.md" | sed '1,/^name$/d' | tail -n "$(ls "$scenes"/*/*.json | wc -l)" | sort | tr '\n' ' ')" \
+    "$(cd "$scenes" && ls ./*/*.json | sed 's/.*\///; s/.json$//' | sort | tr '\n' ' ')"
 sim() { run simulate "$1" -o "$1" && run track "$1/plots.csv" --config "$1/scenario.ini" -o "$1/tracks.csv"; }
 sim helicopters
 run evaluate helicopters/truth.csv helicopters/tracks.csv --json

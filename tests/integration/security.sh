@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Each attack in src/SECURITY.md names a test, and that is there: a file, and where a name follows it a test in it.
+# Each attack in SECURITY.md names a test, and that is there: a file, and where a name follows it a test in it.
 # Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 here=$(realpath "$(dirname "$0")")
@@ -8,7 +8,7 @@ here=$(realpath "$(dirname "$0")")
 root=$here/../..
 
 awk -F'|' '/^## Attacks/ { on = 1 } /^\*\*What it costs/ { on = 0 }
-    on && /^\|/ && !/^\|[- |]*$/ { print $(NF - 1) "|" $2 }' "$root/src/SECURITY.md" |
+    on && /^\|/ && !/^\|[- |]*$/ { print $(NF - 1) "|" $2 }' "$root/SECURITY.md" |
     grep -v '^ test |' >rows
 check 'there are attacks' test "$(wc -l <rows)" -ge 12
 while IFS='|' read -r cell attack; do

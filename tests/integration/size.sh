@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/size.sh finds README.md and src/SIZES.md true and holds its bars as the sources are. It goes red where a document says
-# something else, where code has grown, and where an object is too large or does not compile.
+# tools/gates/size.sh finds tools/lab/MEASUREMENTS.md true and holds its bars as the sources are. It goes red where the page
+# says something else, where code has grown, and where an object is too large or does not compile.
 set -eu
 cd "$(dirname "$0")/../.."
 common=$(realpath -m "${BUILD:-build}")
@@ -9,7 +9,7 @@ copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 faults=0
 
-BUILD=$common tools/size.sh >"$copy/sizes" || { cat "$copy/sizes"; exit 1; }
+BUILD=$common tools/gates/size.sh >"$copy/sizes" || { cat "$copy/sizes"; exit 1; }
 grep '^skipped' "$copy/sizes" || true
 
 must_fail() { # what, the message expected, command...
@@ -28,38 +28,39 @@ mkdir "$copy/build"
 cp -r "$common/cross" "$copy/build"
 export BUILD=$copy/build
 
-bars() { SIZE_FLAGS=$1 tools/size.sh --bars; }
+bars() { SIZE_FLAGS=$1 tools/gates/size.sh --bars; }
 must_fail 'more crossings than fit' 'embedded, .* 49152  MISSED' bars -DRHO_MAX_PASSIVE_POINTS=2000
 must_fail 'more candidates than fit' 'workstation, .* 92160  MISSED' bars -DRHO_MAX_PASSIVE_CANDIDATES=200
 must_fail 'a capacity beyond its range' 'RHO_MAX_PASSIVE_POINTS must be' bars -DRHO_MAX_PASSIVE_POINTS=8
 
 if ! grep -q '^skipped' "$copy/sizes"; then
-    cp -r README.md src include tools "$copy"
-    documents=(tools/size.sh --documents "$copy")
-    "${documents[@]}" >/dev/null || { echo 'size.sh refuses a copy'; exit 1; }
+    cp -r src include tools "$copy"
+    page=$copy/tools/lab/MEASUREMENTS.md
+    compared=(tools/gates/size.sh --page "$page")
+    "${compared[@]}" >/dev/null || { echo 'size.sh refuses a copy'; exit 1; }
 
-    sed -i -E '/^\| report of a step/s/[0-9]{4}/1234/' "$copy/README.md"
-    must_fail 'a figure of README.md' '^-| report of a step .* 1234' "${documents[@]}"
-    cp README.md "$copy"
-    sed -i '/^| udpm /d' "$copy/src/SIZES.md"
-    must_fail 'a row that is missing' '^+| udpm ' "${documents[@]}"
-    cp src/SIZES.md "$copy/src"
-    sed -i '/written by make size-update/d' "$copy/README.md"
-    must_fail 'a README.md without its mark' 'no place for the sizes' "${documents[@]}"
-    cp README.md "$copy"
+    sed -i -E '/^\| report of a step/s/[0-9]{4}/1234/' "$page"
+    must_fail 'a figure of the page' '^-| report of a step .* 1234' "${compared[@]}"
+    cp tools/lab/MEASUREMENTS.md "$page"
+    sed -i '/^| wire /d' "$page"
+    must_fail 'a row that is missing' '^+| wire ' "${compared[@]}"
+    cp tools/lab/MEASUREMENTS.md "$page"
+    sed -i '/written by make size-update/d' "$page"
+    must_fail 'a page without its mark' 'no place for .sizes.' "${compared[@]}"
+    cp tools/lab/MEASUREMENTS.md "$page"
 
-    sed -i 's/arm-none-eabi-gcc [0-9.]*/arm-none-eabi-gcc 99.1.0/' "$copy/README.md"
-    "${documents[@]}" | grep '^skipped: README.md is of arm-none-eabi-gcc 99.1.0' >/dev/null ||
+    sed -i 's/arm-none-eabi-gcc [0-9.]*/arm-none-eabi-gcc 99.1.0/' "$page"
+    "${compared[@]}" | grep '^skipped: MEASUREMENTS.md is of arm-none-eabi-gcc 99.1.0' >/dev/null ||
         { echo 'size.sh compares with another compiler'; exit 1; }
-    cp README.md "$copy"
+    cp tools/lab/MEASUREMENTS.md "$page"
 
     echo 'float rho_more(float v); float rho_more(float v) { return v * v + 1.0f; }' >>"$copy/src/base/angle.c"
-    must_fail 'code that has grown' '^+| base: ' "$copy/tools/size.sh"
-    "$copy/tools/size.sh" --update
-    "$copy/tools/size.sh" >/dev/null || { echo 'size.sh --update did not write what is'; exit 1; }
+    must_fail 'code that has grown' '^+| base and measurement ' "$copy/tools/gates/size.sh"
+    "$copy/tools/gates/size.sh" --update
+    "$copy/tools/gates/size.sh" >/dev/null || { echo 'size.sh --update did not write what is'; exit 1; }
     cp src/base/angle.c "$copy/src/base"
 
     sed -i '/^float rho_angle_wrap/,/^{/ s/^{$/{\n    volatile char room[512];\n    room[0] = 0;/' "$copy/src/base/angle.c"
-    must_fail 'a stack that has grown' '^+| angle .* 5[0-9][0-9] .* rho_angle' "$copy/tools/size.sh"
+    must_fail 'a stack that has grown' '^+| base .* 5[0-9][0-9] .* rho_angle' "$copy/tools/gates/size.sh"
 fi
 echo "size.sh: $faults seeded faults seen"

@@ -2,19 +2,20 @@
 /*
  * The library's messages beside those of lcm-gen's C, and of other runtimes by files:
  *
- *   interop c N              N random messages of each type from one codec through the other, both ways
+ *   interop c N              N random messages of each type from one codec to the other, both ways
  *   interop write FOLDER N   N random messages of each type to FOLDER/TYPE.log
- *   interop read FOLDER N    such files of another runtime: our decode, the values compared, our encode
+ *   interop read FOLDER N    files of another runtime: our decode, values compared, our encode
  *   interop vectors          the text of tests/vectors/message_vectors.h, made by lcm-gen's C alone
  *
- * Files are LCM event logs: each message is followed by an event on the channel VALUES, its numbers by name instead of by
- * place. So a codec that swaps two members in both directions is seen. One line `ok` or `FAIL` a check.
+ * Files are LCM event logs: each message is followed by an event on the channel VALUES, its numbers
+ * by name instead of by place. So a codec that swaps two members in both directions is seen. One
+ * line `ok` or `FAIL` a check.
  */
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "../unit/message_codecs.h"
 #include "lcm_gen_codecs.h"
+#include "unit/wire/message_codecs.h"
 
 #define EVENT_MAGIC 0xeda1da01u
 #define EVENT_HEADER_BYTES 28
@@ -34,7 +35,10 @@ static void say(bool good, const char *format, ...)
     num_failed += !good;
 }
 
-/* Signalling NaNs become quiet ones: Python's float is a double, and turning one into it makes the NaN quiet. */
+/*
+ * Signalling NaNs become quiet ones: Python's float is a double, and turning one into it makes the
+ * NaN quiet.
+ */
 static void quieten(const struct message_shape *shape, void *message)
 {
     for (struct walk w = walk_start(shape, message); walk_next(&w);) {
@@ -137,7 +141,10 @@ static uint8_t *put_by_name(uint8_t *to, const char *at, const struct message_me
     return to;
 }
 
-/* The numbers by the names of their members: first those before the list and its count, then element by element. */
+/*
+ * The numbers by the names of their members: first those before the list and its count, then
+ * element by element.
+ */
 static size_t values_of(const struct message_shape *shape, void *message, uint8_t *values)
 {
     uint8_t *to = put_by_name(values, message, shape->members, shape->num_members,
@@ -268,7 +275,7 @@ static void print_vectors(void)
     printf("/* SPDX-License-Identifier: MIT */\n"
            "/* Made by make_message_vectors.sh: messages as the C of lcm-gen 1.3.1 encodes them. "
            "Contents: fill_golden in "
-           "tests/unit/message_shape.h. */\n"
+           "tests/unit/wire/message_shape.h. */\n"
            "#include \"../unit/message_shape.h\"\n\n"
            "static const struct {\n    const char *name;\n    enum golden golden;\n    const char "
            "*hex;\n"

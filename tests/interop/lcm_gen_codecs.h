@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* The same messages by the C that lcm-gen makes of lcm_types/: shapes and functions that take any struct. */
+/*
+ * The same messages by the C that lcm-gen makes of lcm_types/: shapes and functions that take any
+ * struct.
+ */
 #ifndef RHOTRACK_TESTS_LCM_GEN_CODECS_H
 #define RHOTRACK_TESTS_LCM_GEN_CODECS_H
 
 #include <float.h>
 #include <stdlib.h>
 
-#include "../unit/message_shape.h"
 #include "lcm_gen.h" /* all its headers; build.sh writes it */
+#include "unit/wire/message_shape.h"
 
 #define MESSAGE_STRUCT(s) rhotrack_##s##_t
 #define MESSAGE_HEAD(s, m) 0
 #define MESSAGE_TABLE(name) their_##name
 #define MESSAGE_LIST_IS_POINTER true
-#include "../vectors/message_table.h"
+#include "vectors/message_table.h"
 #undef MESSAGE_STRUCT
 #undef MESSAGE_HEAD
 #undef MESSAGE_TABLE

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * `maintain` from inside: which plot each gate takes and what the estimate is then, beside the same in double precision
- * and by brute force; and the density of clutter that it makes of its scans, beside the one they were drawn from.
+ * `maintain` from inside: which plot each gate takes and what the estimate is then, beside the same
+ * in double precision and by brute force; and the density of clutter that it makes of its scans,
+ * beside the one they were drawn from.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,10 +12,10 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "maintainer.h"
-#include "random.h"
-#include "rhotrack/linalg.h"
-#include "scan_density.h"
+#include "base/random.h"
+#include "pipeline/maintainer.h"
+#include "pipeline/scan_density.h"
+#include "rhotrack/detail/linalg.h"
 
 #define PI 3.141592653589793
 #define DT_S 0.25
@@ -43,7 +44,7 @@ static struct rho_plot plot_at(const double place_m[3], const double velocity_mp
                              .sigma_mps = 3.0f};
 }
 
-/* ---- A Kalman filter in double precision: axes apart, as isotropic noise leaves them ------------ */
+/* ---- A Kalman filter in double precision: axes apart, as isotropic noise leaves them --------- */
 
 struct axis {
     double x, v, xx, xv, vv;
@@ -101,7 +102,7 @@ static void update(struct axis axes[3], const struct rho_plot *plot)
     axis_update(&axes[2], plot->z_m, plot->vz_mps, 10.0, 3.0);
 }
 
-/* ---- Scans by chance about a target ------------------------------------------------------------- */
+/* ---- Scans by chance about a target ---------------------------------------------------------- */
 
 #define PLOTS 5
 
@@ -155,7 +156,7 @@ static void assert_near(double value, double expected, double most)
     assert_true(fabs(value - expected) <= most);
 }
 
-/* ---- nearest ------------------------------------------------------------------------------------ */
+/* ---- nearest --------------------------------------------------------------------------------- */
 
 static void nearest_takes_the_least_distance_and_follows_the_double_filter(void **state)
 {
@@ -311,7 +312,7 @@ static void an_input_is_found_and_reported(void **state)
     maintainer_free(maintainer);
 }
 
-/* ---- hough -------------------------------------------------------------------------------------- */
+/* ---- hough ----------------------------------------------------------------------------------- */
 
 static double change_at(const double from[3], const double to[3], const int plane[2], double theta)
 {
@@ -363,7 +364,10 @@ struct tally {
     int early, early_differs, compared, other_than_nearest;
 };
 
-/* From the fourth measurement on the plot whose velocity changes rho least, before that the nearest. */
+/*
+ * From the fourth measurement on the plot whose velocity changes rho least, before that the
+ * nearest.
+ */
 static void check_hough(uint64_t seed, int steps, struct tally *tally)
 {
     struct parameters parameters = parameters_at_default();
@@ -421,7 +425,7 @@ static void hough_takes_the_plot_that_the_paper_does(void **state)
     assert_true(tally.compared > 500 && tally.other_than_nearest > 100);
 }
 
-/* ---- none --------------------------------------------------------------------------------------- */
+/* ---- none ------------------------------------------------------------------------------------ */
 
 static void none_takes_every_valid_plot_equally_often(void **state)
 {
@@ -451,7 +455,7 @@ static void none_takes_every_valid_plot_equally_often(void **state)
     maintainer_free(maintainer);
 }
 
-/* ---- scans without a plot that will do, own times ------------------------------------------------ */
+/* ---- scans without a plot that will do, own times -------------------------------------------- */
 
 static void check_coasting(enum maintainer_gate gate)
 {
@@ -548,7 +552,7 @@ static void places_alone_are_enough_to_start(void **state)
     maintainer_free(maintainer);
 }
 
-/* ---- The density of clutter ---------------------------------------------------------------------- */
+/* ---- The density of clutter ------------------------------------------------------------------ */
 
 #define CLUTTER_MAX 400
 
@@ -701,7 +705,10 @@ static void a_change_of_density_is_seen(void **state)
     scan_density_free(density);
 }
 
-/* As many plots as there must be for a missed target alone, in a ball of 1 km standard deviation an axis. */
+/*
+ * As many plots as there must be for a missed target alone, in a ball of 1 km standard deviation an
+ * axis.
+ */
 static void without_clutter_the_density_is_low(void **state)
 {
     struct scan_density *density = scan_density_new();

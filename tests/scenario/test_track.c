@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "gospa.h"
+#include "evaluation/gospa.h"
 #include "rhotrack/tracker.h"
 #include "scenario.h"
 #include "scene/scene_watch.h"

@@ -239,7 +239,8 @@ static inline struct dense_measurement dense_row(const float row[6], double y, d
 
 /*
  * The rate that a sensor at `from` would see, linearised at the estimate; axes: 2 where heights are
- * not known. What that leaves out counts as noise: (v s^2 / range^2)^2 / 2, s^2 the place's variance.
+ * not known. What that leaves out counts as noise: (v s^2 / range^2)^2 / 2, s^2 the place's
+ * variance.
  */
 static inline struct dense_measurement dense_range_rate(const struct dense *d, const double from[3],
                                                         int axes, double rate, double variance)

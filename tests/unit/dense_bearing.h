@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A bearing from a place as a measurement of the filter of textbooks (dense.h), in metres across the line of sight. */
+/*
+ * A bearing from a place as a measurement of the filter of textbooks (dense.h), in metres across
+ * the line of sight.
+ */
 #ifndef RHOTRACK_TESTS_DENSE_BEARING_H
 #define RHOTRACK_TESTS_DENSE_BEARING_H
 
@@ -7,7 +10,9 @@
 
 #define DENSE_PI 3.14159265358979323846
 
-/* The bearing of a state, and its derivative by x and y from central differences, two metres apart. */
+/*
+ * The bearing of a state, and its derivative by x and y from central differences, two metres apart.
+ */
 static inline double dense_bearing_of(const double x[DENSE], const double place[2])
 {
     return atan2(x[1] - place[1], x[0] - place[0]);
@@ -25,8 +30,8 @@ static inline double dense_slope(const struct dense *d, const double place[2], i
 }
 
 /*
- * What the line leaves out of range times the bearing is -a c / range, for errors a along and c across: of variance
- * (var a var c + cov^2) / range^2.
+ * What the line leaves out of range times the bearing is -a c / range, for errors a along and c
+ * across: of variance (var a var c + cov^2) / range^2.
  */
 static inline double dense_bow(const struct dense *d, double bearing, double range)
 {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A tracker with a passive initiation, the frames of a scene for as long as one likes, and a filter beside it. */
+/*
+ * A tracker with a passive initiation, the frames of a scene for as long as one likes, and a filter
+ * beside it.
+ */
 #ifndef FRAME_CHAIN_H
 #define FRAME_CHAIN_H
 
@@ -23,7 +26,7 @@ static struct rho_report report;
 static struct scene scene;
 static struct full_frame full;
 
-/* ---- setting up ------------------------------------------------------------------------------- */
+/* ---- setting up ------------------------------------------------------------------------------ */
 
 static inline void start_chain(float accel_max_mps2)
 {
@@ -52,7 +55,7 @@ static inline void look_round(unsigned k, double time_s)
     fill_frame(&scene, slot_of(k), &full);
 }
 
-/* ---- steps ------------------------------------------------------------------------------------ */
+/* ---- steps ----------------------------------------------------------------------------------- */
 
 static inline uint32_t count_held(void)
 {
@@ -124,7 +127,7 @@ static inline void fly(unsigned from, unsigned to, double interval_s)
     }
 }
 
-/* ---- tracks and targets ----------------------------------------------------------------------- */
+/* ---- tracks and targets ---------------------------------------------------------------------- */
 
 static inline double error_m(const struct rho_track_report *track, const struct target *target,
                              double time_s)
@@ -158,14 +161,17 @@ static inline const struct rho_track_report *track_with_id(uint32_t track_id)
     return NULL;
 }
 
-/* ---- a filter in double precision ------------------------------------------------------------- */
+/* ---- a filter in double precision ------------------------------------------------------------ */
 
 /* Extended Kalman filter of textbooks, in x, y, vx, vy; bearings in radians. */
 struct ekf {
     double x[4], p[4][4];
 };
 
-/* It begins at the truth, and knows next to nothing beside what a batch of bearings tells: 5 km and 100 m/s. */
+/*
+ * It begins at the truth, and knows next to nothing beside what a batch of bearings tells: 5 km and
+ * 100 m/s.
+ */
 static inline struct ekf ekf_of(const struct target *target)
 {
     struct ekf ekf = {.x = {target->x_m, target->y_m, target->vx_mps, target->vy_mps}};
@@ -219,7 +225,10 @@ static inline void ekf_update(struct ekf *ekf, double x_m, double y_m,
     ekf_take_row(ekf, row, off_rad, (double)bearing->sigma_rad * (double)bearing->sigma_rad);
 }
 
-/* A plot as seen from a place: its two axes along and across the line of sight, one after the other. */
+/*
+ * A plot as seen from a place: its two axes along and across the line of sight, one after the
+ * other.
+ */
 static inline void ekf_take_plot(struct ekf *ekf, double x_m, double y_m,
                                  const struct rho_plot *plot)
 {
@@ -249,7 +258,10 @@ static inline struct ekf ekf_from(const struct rho_track_report *track)
     return ekf;
 }
 
-/* All bearings of a target that the frame in slot k has, in the order of sensors; own times from the scan's. */
+/*
+ * All bearings of a target that the frame in slot k has, in the order of sensors; own times from
+ * the scan's.
+ */
 static inline void ekf_take_frame(struct ekf *ekf, unsigned k, int target)
 {
     for (unsigned s = 0; s < scene.sensors; s++) {

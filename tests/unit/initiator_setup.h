@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the tests of the initiation share: one initiator, scans filled plot by plot, random numbers. */
+/*
+ * What the tests of the initiation share: one initiator, scans filled plot by plot, random numbers.
+ */
 #ifndef RHOTRACK_TESTS_INITIATOR_SETUP_H
 #define RHOTRACK_TESTS_INITIATOR_SETUP_H
 

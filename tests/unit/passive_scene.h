@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Targets that fly towards passive sensors, what the sensors see of them, and frames of it. In double precision. */
+/*
+ * Targets that fly towards passive sensors, what the sensors see of them, and frames of it. In
+ * double precision.
+ */
 #ifndef PASSIVE_SCENE_H
 #define PASSIVE_SCENE_H
 
@@ -91,7 +94,7 @@ static inline struct scene scene_of(unsigned sensors, unsigned targets, double s
     return scene;
 }
 
-/* ---- targets ---------------------------------------------------------------------------------- */
+/* ---- targets --------------------------------------------------------------------------------- */
 
 static inline double scene_span_s(const struct scene *scene)
 {
@@ -123,7 +126,7 @@ static inline double target_y_m(const struct target *target, double time_s)
     return target->y_m + time_s * target->vy_mps;
 }
 
-/* ---- what is seen ----------------------------------------------------------------------------- */
+/* ---- what is seen ---------------------------------------------------------------------------- */
 
 static inline void add_bearing(struct look *look, double bearing_rad, double sigma_rad, int target)
 {
@@ -222,7 +225,7 @@ static inline void move_scene(struct scene *scene, double turn_rad, double x_m, 
     }
 }
 
-/* ---- frames ----------------------------------------------------------------------------------- */
+/* ---- frames ---------------------------------------------------------------------------------- */
 
 /* A frame with all it points to. */
 struct full_frame {
@@ -286,7 +289,7 @@ static inline enum rho_status search_scene(struct rho_passive *passive, const st
     return status == RHO_OK ? rho_passive_search(passive) : status;
 }
 
-/* ---- what must hold of any tracks ------------------------------------------------------------- */
+/* ---- what must hold of any tracks ------------------------------------------------------------ */
 
 static inline int is_track_finite(const struct rho_passive_track *track)
 {

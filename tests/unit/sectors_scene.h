@@ -24,7 +24,10 @@ static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
 
-/* A scene: which way the antenna turns (+1 counter-clockwise), where its first sector begins, and who is not seen. */
+/*
+ * A scene: which way the antenna turns (+1 counter-clockwise), where its first sector begins, and
+ * who is not seen.
+ */
 struct scene {
     int turning;
     double first_rad;
@@ -63,7 +66,9 @@ static inline double range_of(int target)
     return 20000.0 + 4000.0 * target;
 }
 
-/* Target i starts at the edge of sectors 4 i and 4 i + 1, and flies along a circle about the radar. */
+/*
+ * Target i starts at the edge of sectors 4 i and 4 i + 1, and flies along a circle about the radar.
+ */
 static inline double azimuth_of(const struct scene *scene, int target, double t_s)
 {
     return scene->first_rad + 4.0 * target * 2.0 * PI / SECTORS +
@@ -75,7 +80,10 @@ static inline double wrapped(double angle_rad)
     return remainder(angle_rad, 2.0 * PI);
 }
 
-/* When the antenna passes it in a turn: the turn's own time, or less than 0 where that is in no such turn. */
+/*
+ * When the antenna passes it in a turn: the turn's own time, or less than 0 where that is in no
+ * such turn.
+ */
 static inline double time_of_pass(const struct scene *scene, int target, int turn)
 {
     double turn_s = (double)TURN_US * 1e-6, t_s = turn * turn_s;

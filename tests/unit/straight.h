@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The straight track through plots and its score, in double precision and as full matrices: the covariance of each plot
- * in x, y, z is inverted, the normal equations are eliminated. The score is added up as the hypotheses read: what a
- * target's plots are expected to be, over the same of clutter.
+ * The straight track through plots and its score, in double precision and as full matrices: the
+ * covariance of each plot in x, y, z is inverted, the normal equations are eliminated. The score is
+ * added up as the hypotheses read: what a target's plots are expected to be, over the same of
+ * clutter.
  */
 #ifndef RHOTRACK_TESTS_STRAIGHT_H
 #define RHOTRACK_TESTS_STRAIGHT_H
@@ -28,8 +29,10 @@ struct straight_fit {
     int rows, heights, rates;
 };
 
-/* Inverts the leading n x n, and returns its determinant: Gauss and Jordan, no pivoting for what is positive
- * definite. */
+/*
+ * Inverts the leading n x n, and returns its determinant: Gauss and Jordan, no pivoting for what is
+ * positive definite.
+ */
 static inline double straight_invert(int n, double s[STRAIGHT][STRAIGHT])
 {
     double determinant = 1.0;
@@ -74,7 +77,10 @@ static inline void straight_noise(const struct straight_plot *plot, int has_z,
     }
 }
 
-/* What a place or rate row says: count rows, their design h, what they miss the state by y, and the weights w. */
+/*
+ * What a place or rate row says: count rows, their design h, what they miss the state by y, and the
+ * weights w.
+ */
 struct straight_rows {
     int count;
     double h[3][STRAIGHT], y[3], w[STRAIGHT][STRAIGHT], log_det;
@@ -107,7 +113,10 @@ static inline double straight_rate(const struct straight_fit *fit, const struct 
     return product / sqrt(range2);
 }
 
-/* Linearised at `point`, by differences: no derivative is worked out here that could be worked out wrongly alike. */
+/*
+ * Linearised at `point`, by differences: no derivative is worked out here that could be worked out
+ * wrongly alike.
+ */
 static inline struct straight_rows straight_rate_rows(const struct straight_fit *fit,
                                                       const struct straight_plot *plot,
                                                       const double point[STRAIGHT])
@@ -187,7 +196,10 @@ static inline double straight_solve(struct straight_fit *fit, const double right
     return log(determinant);
 }
 
-/* Fits the places, then with the rates as they are near there. log_fisher: ln det of the normal equations. */
+/*
+ * Fits the places, then with the rates as they are near there. log_fisher: ln det of the normal
+ * equations.
+ */
 static inline struct straight_fit straight_through(const struct straight_plot *of, int n,
                                                    double *log_fisher)
 {
@@ -209,7 +221,10 @@ static inline struct straight_fit straight_through(const struct straight_plot *o
     return fit;
 }
 
-/* What targets and clutter are like: half a target in area, heights, speeds and climbs; clutter a m^2 and scan. */
+/*
+ * What targets and clutter are like: half a target in area, heights, speeds and climbs; clutter a
+ * m^2 and scan.
+ */
 struct straight_world {
     double area_m2, v_min_mps, v_max_mps, pd, clutter_per_m2;
     int misses;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What tests of the tracker share: a tracker with its initiator, scans filled plot by plot, and what holds after each. */
+/*
+ * What tests of the tracker share: a tracker with its initiator, scans filled plot by plot, and
+ * what holds after each.
+ */
 #ifndef RHOTRACK_TESTS_TRACKER_SETUP_H
 #define RHOTRACK_TESTS_TRACKER_SETUP_H
 
@@ -25,7 +28,10 @@ static struct rho_initiator_config initiation;
 static struct rho_plot plots[PLOTS_MAX];
 static uint32_t num_plots;
 
-/* The usual configurations, to be changed before begin(): four plots of five start a track, and it is believed at once. */
+/*
+ * The usual configurations, to be changed before begin(): four plots of five start a track, and it
+ * is believed at once.
+ */
 static inline void draw(uint64_t seed)
 {
     random_state = seed;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""GOSPA and OSPA of sets of points, straight from their definitions: the reference of tests/scenario/test_gospa.c.
+"""GOSPA and OSPA of sets of points, straight from their definitions: the reference of tests/tools/evaluation/test_gospa.c.
 
 Usage: make_gospa_vectors.py > gospa_vectors.h   (in tests/vectors; needs NumPy and SciPy)
        make_gospa_vectors.py --compare           (needs Stone Soup, too: the same cases through its metrics)

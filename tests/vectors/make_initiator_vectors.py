@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Scores and fits of plot sets in double precision: the reference of tests/unit/test_initiator.c.
+"""Scores and fits of plot sets in double precision: the reference of tests/unit/initiation/test_initiator.c.
 
 Usage: make_initiator_vectors.py > initiator_vectors.h   (in tests/vectors)
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Made by make_message_vectors.sh: messages as the C of lcm-gen 1.3.1 encodes them. Contents: fill_golden in tests/unit/message_shape.h. */
-#include "../unit/message_shape.h"
+/* Made by make_message_vectors.sh: messages as the C of lcm-gen 1.3.1 encodes them. Contents: fill_golden in tests/unit/wire/message_shape.h. */
+#include "unit/wire/message_shape.h"
 
 static const struct {
     const char *name;

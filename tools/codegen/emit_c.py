@@ -7,6 +7,7 @@ from lcm_types import PRIMITIVES, fail
 
 DATAGRAM_BYTES = 1472  # UDP payload of an Ethernet frame
 SHORT_HEADER_BYTES = 8  # of LCM
+COLUMNS = 100  # of comments
 CHANNEL_BYTES = 24  # longest channel used, with its end
 FLT_MAX = "FLT_MAX"
 C_TYPES = {"int8_t": "int8_t", "int16_t": "int16_t", "int32_t": "int32_t", "int64_t": "int64_t", "float": "float"}
@@ -16,28 +17,36 @@ HEADER_TOP = """\
 /* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
 /* clang-format off */
 /*
- * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, nothing that is kept.
+ * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, no state.
  *
- * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in their order, big endian,
- * without gaps. Fields have the names, units and ranges of lcm_types/; capacities are RHO_MESSAGE_<STRUCT>_MAX_<LIST>,
- * the longest message RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fits one datagram.
+ * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in
+ * their order, big endian, without gaps. Fields have the names, units and ranges of lcm_types/. The
+ * capacity of a list is RHO_MESSAGE_<STRUCT>_MAX_<LIST>. The longest message of a struct has
+ * RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fit one datagram.
  *
  * For each struct S:
- *   rho_message_S_encode    struct to bytes. Errors: NULL, COUNT (of the list: negative, or beyond its MAX), CAPACITY (of
- *                           the buffer); nothing is written. Values are not looked at: validate does that.
- *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another fingerprint), COUNT, TRAILING;
- *                           *message is unchanged. Elements beyond the list's count are unchanged in any case.
- *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors: NULL, COUNT, VALUE;
- *                           *place (may be NULL) tells which member, and rho_message_S_field its name.
+ *   rho_message_S_encode    struct to bytes. Errors: NULL, COUNT (of the list: negative, or beyond
+ *                           its MAX), CAPACITY (of the buffer); nothing is written. Values are not
+ *                           checked: validate does that.
+ *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another
+ *                           fingerprint), COUNT, TRAILING; *message is unchanged. Elements beyond
+ *                           the list's count are unchanged in any case.
+ *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors:
+ *                           NULL, COUNT, VALUE; *place (may be NULL) tells which member, and
+ *                           rho_message_S_field its name.
  * and where S ends with a list, to write it without a copy of the list:
- *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the buffer. Errors: NULL,
- *                           CAPACITY; *writer is unchanged, and is not to be added to.
- *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another struct), CAPACITY (of
- *                           the buffer or the list); the message so far stays whole.
- *   rho_message_end         how long it is; the writer is empty then.
+ *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the
+ *                           buffer. Errors: NULL, CAPACITY; *writer is unchanged, and is not to be
+ *                           added to.
+ *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another
+ *                           struct), CAPACITY (of the buffer or the list); the message so far stays
+ *                           whole.
+ *   rho_message_end         the message's length; the writer is empty then.
  *
- * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent of one another.
- * Cost: proportional to the bytes, 2 instructions a byte to encode or decode, 6 to validate (`make instructions`).
+ * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent
+ * of one another.
+ * Cost: proportional to the bytes, 2 instructions a byte to encode or decode, 6 to validate
+ * (`make instructions`).
  * Stack: 130 bytes.
  */
 #ifndef RHOTRACK_MESSAGE_H
@@ -47,6 +56,18 @@ HEADER_TOP = """\
 #include <stdint.h>
 
 #include "rhotrack/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+"""
+
+HEADER_END = """
+#ifdef __cplusplus
+}
+#endif
+
+#endif
 """
 
 HEADER_COMMON = """
@@ -56,7 +77,7 @@ struct rho_message_place {
     int16_t element; /* of the list; -1: before it */
 };
 
-/* A message that is being written; the buffer is the caller's, and holds a whole message at any time. */
+/* A message that is written; the caller's buffer holds a whole message at any time. */
 struct rho_message_writer {
     uint8_t *buffer;
     size_t capacity, size; /* bytes; size: so far */
@@ -64,10 +85,10 @@ struct rho_message_writer {
     uint16_t count; /* elements so far */
 };
 
-/* Which message this is by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
+/* The type by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
 enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size);
 
-/* The fingerprint; 0 for any other value. Name as in lcm_types/ ("plot_scan_t"); "unknown" for any other value. */
+/* The fingerprint, and the name as in lcm_types/ ("plot_scan_t"); 0 and "unknown" for others. */
 uint64_t rho_message_fingerprint(enum rho_message_type type);
 const char *rho_message_type_name(enum rho_message_type type);
 
@@ -128,6 +149,26 @@ enum rho_status rho_message_{s}_add(
 }}
 """
 
+TYPE_OF = """
+enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
+{
+    uint64_t fingerprint = 0;
+    int type = 0;
+
+    if (!data || size < MESSAGE_FINGERPRINT_BYTES) {
+        return RHO_NUM_MESSAGE_TYPES;
+    }
+    for (unsigned i = 0; i < MESSAGE_FINGERPRINT_BYTES; i++) {
+        fingerprint = fingerprint << 8 | data[i];
+    }
+    while (type < RHO_NUM_MESSAGE_TYPES &&
+           rho_message_fingerprint((enum rho_message_type)type) != fingerprint) {
+        type++;
+    }
+    return (enum rho_message_type)type;
+}
+"""
+
 
 def check_sizes(known):
     """Every message must fit one datagram: fragments are lost whole, and refused by the receiver."""
@@ -153,10 +194,20 @@ def range_text(field):
     return f"one of {', '.join(field.choices)}" if field.choices else ""
 
 
+def comment_of(text, indent=""):
+    """A comment on a line of its own, or as a block."""
+    one = f"{indent}/* {text} */"
+    lines = textwrap.wrap(text, COLUMNS, initial_indent=f"{indent} * ", subsequent_indent=f"{indent} * ",
+                          break_long_words=False, break_on_hyphens=False)
+    return one if len(one) <= COLUMNS else "\n".join([f"{indent}/*", *lines, f"{indent} */"])
+
+
 def declaration(struct, field):
     dimension = f"[{max_name(struct) if field.is_list else field.dimension}]" if field.dimension else ""
     comment = "; ".join(text for text in (field.comment, range_text(field)) if text)
-    return f"    {type_of(field)} {field.name}{dimension};" + (f" /* {comment} */" if comment else "")
+    line = f"    {type_of(field)} {field.name}{dimension};"
+    one = f"{line} /* {comment} */" if comment else line
+    return one if len(one) <= COLUMNS else comment_of(comment, "    ") + f"\n{line}"
 
 
 def constants(struct, known):
@@ -172,8 +223,7 @@ def constants(struct, known):
 
 
 def header_of(struct, known):
-    lines = ["", f"/* ---- {struct.name}: {struct.comment[0]} ---- */"]
-    lines += [f"/* {text} */" for text in struct.comment[1:]]
+    lines = ["", f"/* ---- {struct.name} ---- */", "", *(comment_of(text) for text in struct.comment)]
     lines += ["", *constants(struct, known), "", f"struct rho_message_{struct.short} {{"]
     lines += [declaration(struct, field) for field in struct.fields] + ["};", ""]
     if struct.list:
@@ -193,7 +243,8 @@ def header(known):
     for index, struct in enumerate(known.values()):
         lines.append(f"    RHO_MESSAGE_TYPE_{struct.short.upper()}" + (" = 0," if index == 0 else ","))
     lines.append("    RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */\n};")
-    return "\n".join(lines) + "\n" + HEADER_COMMON + "".join(header_of(s, known) for s in known.values()) + "\n#endif\n"
+    structs = "".join(header_of(s, known) for s in known.values())
+    return "\n".join(lines) + "\n" + HEADER_COMMON + structs + HEADER_END
 
 
 # ---- Tables ----
@@ -359,7 +410,7 @@ def fingerprints(known):
     rows = "".join(f"        RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n" for struct in known.values())
     return ("uint64_t rho_message_fingerprint(enum rho_message_type type)\n{\n"
             f"    static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {{\n{rows}    }};\n\n"
-            "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;\n}\n")
+            "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;\n}\n" + TYPE_OF)
 
 
 # ---- Names ----

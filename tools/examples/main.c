@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A radar sees one target in clutter, every 2 s: the target becomes a track, the clutter none. Exit code 0 where so.
+ * A radar sees one target in clutter, every 2 s: the target becomes a track, the clutter none. Exit
+ * code 0 where so.
  */
 #include <stdio.h>
 

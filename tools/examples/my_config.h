@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Capacities of one small radar: 64 plots a scan, 8 tracks. What is not named here has the embedded profile's value.
- * README.md beside says what RAM that takes; rhotrack/config.h, what each means.
+ * Capacities of one small radar: 64 plots a scan, 8 tracks. What is not named here has the embedded
+ * profile's value. README.md beside says what RAM that takes; rhotrack/config.h, what each means.
  */
 #define RHO_MAX_SCANS 5
 #define RHO_MAX_PLOTS 64

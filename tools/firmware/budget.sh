@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # What the images of the radar node take of their budget: flash and RAM, stack included, as the linker laid them. Exit 1
-# where it is exceeded; with --readme also where README.md says otherwise of the M4 (and the compiler is Debian 12's).
+# where it is exceeded. The last line is what tools/lab/MEASUREMENTS.md says of the M4.
 # Environment: BUILD.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -24,8 +24,5 @@ for core in m4 m7; do
         "$ram_most" "$verdict"
     [ "$core" = m7 ] || said="$(digits "$flash") bytes of flash and $(digits "$ram") of RAM"
 done
-if [ "${1-}" = --readme ] && [ "$(arm-none-eabi-gcc -dumpfullversion)" = 12.2.1 ] && ! grep -qF "$said" README.md; then
-    echo "README.md does not say: $said"
-    failed=1
-fi
+echo "$said"
 exit "$failed"

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
 #
-# Images for Cortex-M4F and M7 on Arm's MPS2 boards, which QEMU emulates, and what runs in them. Part of the Makefile.
+# Images for Cortex-M4F and M7 on Arm's MPS2 boards, which QEMU emulates, and what runs in them.
+# Part of the Makefile.
 
 firmware := $(BUILD)/firmware
 firmware_folder := tools/firmware
 board := $(firmware_folder)/board
 ARM_CC ?= arm-none-eabi-gcc
-# For little flash: the whole program at once, no code moved out of loops, none rearranged, no paths taken apart,
-# parameters as they are written. For 4 KiB of stack: no large frames put into one another.
+# For little flash: the whole program at once, no code moved out of loops, none rearranged, no paths
+# taken apart, parameters as they are written. For 4 KiB of stack: no large frames put into one
+# another.
 FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-reorder-blocks -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
                 -fno-tree-dominator-opts -fno-ipa-sra \
                 --param=large-stack-frame=64 --param=large-stack-frame-growth=50
@@ -24,7 +26,7 @@ memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 # What any compiler can look at: all but what is the board's.
 firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
 firmware_scripts := $(wildcard $(board)/mps2/*.ld) $(firmware_folder)/firmware.mk
-firmware_node := $(addprefix $(firmware_folder)/,node.c node_bearings.c)
+firmware_node := $(firmware_folder)/node.c
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
                  $(board)/memory.c \
                  $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
@@ -77,7 +79,7 @@ $(firmware)/$(1)/replay/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 endef
 $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 
-# --- the configurations of nodes/: build/firmware/CORE/nodes/NAME.elf, and the search for their worst scans in worst/ --------
+# --- configurations of nodes/: build/firmware/CORE/nodes/NAME.elf; their worst scans: worst/ ------
 
 worst_sources := $(library_sources) tools/instructions/worst.c \
                  $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
@@ -105,7 +107,7 @@ $(smallest_replay): $(filter-out %/main.o %/udp_frame.o %/board_mps2.o %/lan9118
 
 ## Search for the scans that cost each shipped configuration of the node most (WORST_SKIES=400 WORST_SEED=1); minutes
 worst: $(worst_images)
-	@BUILD=$(BUILD) tools/worst.sh
+	@BUILD=$(BUILD) tools/gates/worst.sh
 
 # --- jobs of tools/instructions: build/firmware/CORE/jobs/NAME.elf ---------------------------
 
@@ -130,7 +132,7 @@ $(foreach core,m4 m7,$(eval $(call job_core,$(core))))
 
 # Many sources at once leave no list of the headers that each needs.
 replay_needs := $(firmware_node) $(firmware_folder)/replay.c $(board)/host/files_host.c
-replay_headers := $(wildcard include/rhotrack/*.h src/*/*.h $(firmware_folder)/*.h $(board)/*.h)
+replay_headers := $(wildcard include/rhotrack/*.h include/rhotrack/detail/*.h src/*/*.h $(firmware_folder)/*.h $(board)/*.h)
 
 replay := $(BUILD)/firmware/replay
 $(replay): $(replay_needs) $(library) $(replay_headers) Makefile

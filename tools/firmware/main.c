@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The radar node: hears scans over LCM, publishes tracks. Where to start from for a node of your own: the radars that
- * it knows are in radars.h, the tracker's settings in start(), the hardware in board/.
+ * The radar node: hears scans over LCM, publishes tracks. Where to start from for a node of your
+ * own: the radars that it knows are in radars.h, the tracker's settings in start(), the hardware in
+ * board/.
  */
 #include "board/board.h"
 #include "node.h"
@@ -34,7 +35,10 @@ static enum rho_status start(void)
     return node_start(&config);
 }
 
-/* A number that only grows goes to the end of the text, "stack       3904", which has room for ten digits. */
+/*
+ * A number that only grows goes to the end of the text, "stack       3904", which has room for ten
+ * digits.
+ */
 struct growth {
     char text[sizeof "stack           "];
     uint32_t said;

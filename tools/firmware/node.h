@@ -11,8 +11,8 @@
  *     }
  *
  * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and
- * RHO_WORK, once a second) and nothing of it stops the node. It takes passive sensors, too,
- * but for builds whose RHO_SCAN_KINDS has none (node_bearings.h).
+ * RHO_WORK, once a second) and nothing of it stops the node. It takes passive sensors, too, where
+ * RHO_SCAN_KINDS has them. What becomes of the messages is the library's node (rhotrack/node.h).
  */
 #ifndef NODE_H
 #define NODE_H
@@ -20,28 +20,31 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/feed.h"
 #include "rhotrack/initiator.h"
+#include "rhotrack/scan_assembler.h"
 #include "rhotrack/tracker.h"
 #include "rhotrack/udpm.h"
 
 struct node_config {
-    struct rho_feed_config feed;
+    struct rho_scan_assembler_config assembler;
     struct rho_tracker_config tracker;
     struct rho_initiator_config initiator;
-    const struct rho_feed_sensor *sensors; /* num_sensors of them; only read by node_start */
+    const struct rho_scan_assembler_sensor
+        *sensors; /* num_sensors of them; only read by node_start */
     uint16_t num_sensors;
     /*
      * Where the network is not closed: addresses that datagrams may come from (IPv4, 10.9.0.1 as
-     * 0x0a090001), num_sources of them, 0: any; only read by node_start. And who looks at the code
-     * behind each datagram: returns 0 where it is not the right one, else *size without it. NULL:
-     * there is none. What is sent gets its code in send.
+     * 0x0a090001), num_sources of them, 0: any; only read by node_start. And the check of the
+     * code behind each datagram: returns 0 where it is not the right one, else *size without it.
+     * NULL: there is none. What is sent gets its code in send.
      */
     const uint32_t *sources;
     uint16_t num_sources;
     int (*is_authentic)(void *context, const uint8_t *datagram, size_t *size);
-    /* Counts starts, in memory that stays: receivers see by it that track numbers began anew. Messages say 256 of it and
-     * how often the sensors' clock was set. */
+    /*
+     * Counts starts, in memory that stays: receivers see by it that track numbers began anew.
+     * Messages say 256 of it and how often the sensors' clock was set.
+     */
     int32_t boot;
     /* Called from within the functions below, which must not be called by them. */
     void *context;
@@ -54,7 +57,10 @@ struct node_config {
 /* What node_settings.h says, else the defaults; without sensors and functions. */
 void node_config_default(struct node_config *config);
 
-/* Once a program. The config is copied. Errors: those of the objects' init functions; the node then takes nothing. */
+/*
+ * Once a program. The config is copied. Errors: those of the objects' init functions; the node then
+ * takes nothing.
+ */
 RHO_MUST_CHECK enum rho_status node_start(const struct node_config *config);
 
 /*
@@ -63,7 +69,7 @@ RHO_MUST_CHECK enum rho_status node_start(const struct node_config *config);
  */
 void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us);
 
-/* Who was refused so far. RHO_STATUS counts them under fragments_refused, with what is no LCM. */
+/* Senders refused so far; in RHO_STATUS among fragments_refused, with datagrams that are no LCM. */
 const struct rho_udpm_guard *node_guard(void);
 
 /* Steps what is due though nothing has come, and says once a second how the node is. */

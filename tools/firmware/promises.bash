@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-# What a step of each shipped configuration of the node (nodes/) costs at most, as far as a guided search for the worst one can
-# tell: `promise_of NAME` sets core, a step's fixed instructions (a), those of a unit of work (b), and what the processor has
-# time for (most): a quarter of the scan interval at
-# 168 MHz (M4) or 480 MHz (M7), for `smallest` 4 million; `full` is any radar's, here one of 4 s.
+# What a step of each shipped configuration of the node (nodes/) costs at most, as far as a guided
+# search for the worst one can tell: `promise_of NAME` sets core, a step's fixed instructions (a),
+# those of a unit of work (b), and what the processor has time for (most): a quarter of the scan
+# interval at 168 MHz (M4) or 480 MHz (M7), for `smallest` 4 million; `full` is any radar's, here
+# one of 4 s.
 shipped='full en_route marine traffic smallest'
 promise_of() {
     core=m4 a=5000000 b=90
@@ -16,7 +17,8 @@ promise_of() {
     esac
 }
 
-# worst_of NAME ARGUMENT...: runs its program (search or sky); sets instructions, work, work_max, sky of the worst.
+# worst_of NAME ARGUMENT...: runs its program (search or sky); sets instructions, work, work_max,
+# sky of the worst.
 worst_of() {
     local name=$1 line said
     shift

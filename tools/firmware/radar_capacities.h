@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * radar_capacities: the embedded profile but for what one radar does not need (RHO_CONFIG_FILE; rhotrack/config.h says
- * what each costs). Library and node are compiled with it.
+ * radar_capacities: the embedded profile but for what one radar does not need (RHO_CONFIG_FILE;
+ * rhotrack/config.h says what each costs). Library and node are compiled with it.
  */
 
 /* Plots and polar plots: passive sensors are none of this. */
 #define RHO_SCAN_KINDS 3
 
-/* Nobody else's scans come in between: one is put together at a time. */
+/* One radar: no scans of others come in between, one is assembled at a time. */
 #define RHO_MAX_OPEN_SCANS 1
 
-/* Tracks of plots by hypotheses alone: the gate best. The filters of the others, and of bearings, are left out. */
+/*
+ * Tracks of plots by hypotheses alone: the gate best. The filters of the others, and of bearings,
+ * are left out.
+ */
 #define RHO_FILTERS 4
 
 /* No plots of two targets: the flash is full. */
 #define RHO_SHARES_PLOTS 0
 
-/* The feed's scans are never larger. */
+/* The scan assembler's scans are never larger. */
 #define RHO_CLAIMS_BEYOND 0
 
 /* Its range rates, if it has any, are not ambiguous. */

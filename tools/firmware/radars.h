@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* The radars that the node knows before it hears them: of the image, and of the replay that says what it must send. */
+/*
+ * The radars that the node knows before it hears them: of the image, and of the replay that says
+ * what it must send.
+ */
 #ifndef RHOTRACK_FIRMWARE_RADARS_H
 #define RHOTRACK_FIRMWARE_RADARS_H
 
 #include "node_settings.h"
-#include "rhotrack/feed.h"
+#include "rhotrack/scan_assembler.h"
 
-/* One radar at the origin. Sensors that are not in the table are taken at their word, with the feed's defaults. */
-static const struct rho_feed_sensor radars[] = {
+/*
+ * One radar at the origin. Sensors that are not in the table are taken at their word, with the
+ * scan assembler's defaults.
+ */
+static const struct rho_scan_assembler_sensor radars[] = {
     {.sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = NODE_RANGE_MAX_M},
      .noise = {.sigma_m = 20.0f,
                .sigma_mps = 1.0f,

@@ -186,7 +186,10 @@ static int start(int count, char **arguments)
     return node_start(&config) == RHO_OK;
 }
 
-/* A datagram that made a step counts with it; parts of a scan before its last are added to the next. */
+/*
+ * A datagram that made a step counts with it; parts of a scan before its last are added to the
+ * next.
+ */
 static void measure(const uint8_t *datagram, size_t size)
 {
     static uint32_t since_step;

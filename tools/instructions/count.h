@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * count: the instructions between count_begin and count_end, for the jobs beside it. On this machine valgrind counts
- * them (callgrind, started with --collect-atstart=no); on a Cortex-M under QEMU (COUNT_ON_TARGET) the timer does, and
- * count_report says what it has seen. What a job says itself goes to standard output before that.
+ * count: the instructions between count_begin and count_end, for the jobs beside it. On this
+ * machine valgrind counts them (callgrind, started with --collect-atstart=no); on a Cortex-M under
+ * QEMU (COUNT_ON_TARGET) the timer does, and count_report says what it has seen. What a job says
+ * itself goes to standard output before that.
  */
 #ifndef COUNT_H
 #define COUNT_H

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * filters: one step of a Kalman filter, or of the literature's filter with its gate, for tools/instructions.sh to count
- * the instructions of. Argument: predict+3, predict+6 (updates of an element each), coupled+6 (the same where a polar plot
- * has coupled the axes), predict+polar, input+hough.
+ * filters: one step of a Kalman filter, or of the literature's filter with its gate, for
+ * tools/gates/instructions.sh to count the instructions of. Argument: predict+3, predict+6 (updates
+ * of an element each), coupled+6 (the same where a polar plot has coupled the axes), predict+polar,
+ * input+hough.
  */
 #include <string.h>
 
 #include "count.h"
 #include "draw.h"
-#include "rhotrack/gate.h"
-#include "rhotrack/input.h"
+#include "rhotrack/detail/gate.h"
+#include "rhotrack/detail/input.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/measurement.h"
 
@@ -60,7 +61,7 @@ static void update_polar(void)
     must(rho_kalman_update_range_rate(&kalman, NULL, 100.0f, 1.0f));
 }
 
-/* ---- the literature's step: target and clutter of one scan, which the caller has put aside from the last ---- */
+/* ---- the literature's step: target and clutter of one scan ---- */
 
 static struct rho_input_config config;
 static struct rho_input input;
@@ -90,9 +91,9 @@ static void step_input(void)
     must(rho_input_predict(&input, &config, 0.25f));
     must(rho_gate_hough_open(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
                              0.0872664626f, before_mps, newest_mps));
-    float least = rho_gate_hough_off(&hough, &seen[0][3]);
+    float least = rho_gate_hough_residual_mps(&hough, &seen[0][3]);
     for (int i = 1; i < PLOTS; i++) {
-        float off = rho_gate_hough_off(&hough, &seen[i][3]);
+        float off = rho_gate_hough_residual_mps(&hough, &seen[i][3]);
         if (off < least) {
             least = off;
             best = i;

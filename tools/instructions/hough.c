@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hough: one search of the accumulator, for tools/instructions.sh to count the instructions of: `hough POINTS plain|pruned`.
- * As in `rhotrack bench hough`: 30 x 30 km, 7 scans, 5 votes, cells of 5 m x 1 mrad. Prints the votes, points times rows
- * of theta.
+ * hough: one search of the accumulator, for tools/gates/instructions.sh to count the instructions
+ * of: `hough POINTS plain|pruned`. As in `rhotrack bench hough`: 30 x 30 km, 7 scans, 5 votes,
+ * cells of 5 m x 1 mrad. Prints the votes, points times rows of theta.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "count.h"
 #include "draw.h"
-#include "rhotrack/accumulator.h"
+#include "rhotrack/detail/accumulator.h"
 
 #define SCANS 7
 #define POINTS_MAX 3000

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * initiation: searches of a full window, for tools/instructions.sh to count the instructions of.
+ * initiation: searches of a full window, for tools/gates/instructions.sh to count the instructions
+ * of.
  *
- * Arguments: batch or newest; isotropic, own or rate (nearly the same noise, but a plot's own; and range rates);
- * clutter plots a scan; windows, each with other plots. Three targets cross the area of the literature's Table 1, 4 x 2.5 km.
- * Prints seeds, look-ups, distances and candidates of the last search.
+ * Arguments: batch or newest; isotropic, own or rate (nearly the same noise, but a plot's own; and
+ * range rates); clutter plots a scan; windows, each with other plots. Three targets cross the area
+ * of the literature's Table 1, 4 x 2.5 km. Prints seeds, look-ups, distances and candidates of the
+ * last search.
  */
 #include <stdlib.h>
 #include <string.h>

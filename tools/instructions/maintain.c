@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * maintain: the default's step of one track, for tools/instructions.sh to count the instructions of: a target that flies
- * straight, and clutter uniform in its gate, each scan the same number of plots.
+ * maintain: the default's step of one track, for tools/gates/instructions.sh to count the
+ * instructions of: a target that flies straight, and clutter uniform in its gate, each scan the
+ * same number of plots.
  *
- * Arguments: plots in the gate, the target's among them; 0 for isotropic noise, 1 for noise along a line of sight.
- * Prints the hypotheses, and the plots that were in a gate, a scan.
+ * Arguments: plots in the gate, the target's among them; 0 for isotropic noise, 1 for noise along a
+ * line of sight. Prints the hypotheses, and the plots that were in a gate, a scan.
  */
 #include <stdlib.h>
 
 #include "count.h"
 #include "draw.h"
-#include "rhotrack/approx.h"
-#include "rhotrack/hypotheses.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/hypotheses.h"
 
 #define SCANS 100 /* the mean of whole numbers has two decimals */
 #define PLOTS_MAX 32
@@ -69,17 +70,17 @@ static int step(int64_t time_us)
 {
     const struct rho_hypotheses_scan scan = {
         .time_us = time_us, .measures = RHO_MEASURES_Z, .plots = plots, .log_miss = log_miss};
-    struct rho_hypotheses_reach reach;
+    struct rho_hypotheses_box reach;
     struct rho_hypotheses_outcome outcome;
     struct rho_imm_plot seen;
     float gain_nat;
     int failed = rho_hypotheses_predict(&pool, slot, time_us) != RHO_OK;
-    rho_hypotheses_look(&pool, slot, &reach);
+    rho_hypotheses_begin_scan(&pool, slot, &reach);
     for (int i = 0; i < num_plots; i++) {
-        if (rho_hypotheses_reaches(&pool, slot, &reach, &plots[i], RHO_MEASURES_Z)) {
+        if (rho_hypotheses_is_in_box(&pool, slot, &reach, &plots[i], RHO_MEASURES_Z)) {
             rho_imm_open_plot(&seen, &plots[i], RHO_MEASURES_Z, NULL);
-            num_in_gate += rho_hypotheses_weigh(&pool, slot, &seen, time_us, (int16_t)i, log_pd,
-                                                &clutter, &gain_nat);
+            num_in_gate += rho_hypotheses_score_plot(&pool, slot, &seen, time_us, (int16_t)i,
+                                                     log_pd, &clutter, &gain_nat);
         }
     }
     failed |= rho_hypotheses_commit(&pool, slot, &scan, &outcome) != RHO_OK;

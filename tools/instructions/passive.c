@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive: searches of a full batch of bearings, for tools/instructions.sh to count the instructions of. Arguments:
- * targets; false bearings a look; batches, each with other bearings. Three sensors, eight frames 10 s apart, 0.1 degrees.
- * Prints the tracks and the hypotheses of the last search.
+ * passive: searches of a full batch of bearings, for tools/gates/instructions.sh to count the
+ * instructions of. Arguments: targets; false bearings a look; batches, each with other bearings.
+ * Three sensors, eight frames 10 s apart, 0.1 degrees. Prints the tracks and the hypotheses of the
+ * last search.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "count.h"
 #include "draw.h"
-#include "rhotrack/approx.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/passive.h"
 
 #define SENSORS 3

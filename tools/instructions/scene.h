@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene: eight targets on a ring about a radar, flying round it, for the jobs beside it; and plots of them, polar (15 m x
- * 3 mrad, range rates) or Cartesian (places and velocities, isotropic noise). Clutter is 1.3 to 2.2 standard deviations off
- * on each axis: in the gate, and seldom the nearest.
+ * scene: eight targets on a ring about a radar, flying round it, for the jobs beside it; and plots
+ * of them, polar (15 m x 3 mrad, range rates) or Cartesian (places and velocities, isotropic
+ * noise). Clutter is 1.3 to 2.2 standard deviations off on each axis: in the gate, and seldom the
+ * nearest.
  */
 #ifndef SCENE_H
 #define SCENE_H
 
 #include "draw.h"
-#include "rhotrack/angle.h"
-#include "rhotrack/approx.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/measurement.h"
 
 #define TARGETS 8

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track: a step of one track by itself, for tools/instructions.sh to count the instructions of: prediction, the gate over
- * its plots, the update with the one that is chosen. No assignment, life cycle and report.
+ * track: a step of one track by itself, for tools/gates/instructions.sh to count the instructions
+ * of: prediction, the gate over its plots, the update with the one that is chosen. No assignment,
+ * life cycle and report.
  *
- * Arguments: nearest or hough (with input estimation); polar or cartesian; plots, the target's own among them.
- * Prints the plots that were in the gate, a step.
+ * Arguments: nearest or hough (with input estimation); polar or cartesian; plots, the target's own
+ * among them. Prints the plots that were in the gate, a step.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "count.h"
-#include "rhotrack/gate.h"
+#include "rhotrack/detail/gate.h"
 #include "rhotrack/track.h"
 #include "scene.h"
 
@@ -62,7 +63,7 @@ static int choose(int by_hough)
         const struct rho_plot *plot = &plots[i].plot;
         if (rho_gate_test(&gate, plot, &result)) {
             const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
-            float cost = by_hough ? rho_gate_hough_off(&hough, velocity_mps)
+            float cost = by_hough ? rho_gate_hough_residual_mps(&hough, velocity_mps)
                                   : result.distance2 + result.log_det;
             num_in_gate++;
             if (cost < least) {

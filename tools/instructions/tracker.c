@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker: whole steps of a tracker that maintains eight tracks, for tools/instructions.sh to count the instructions of:
- * prediction, gates, assignment, updates, report; no initiation.
+ * tracker: whole steps of a tracker that maintains eight tracks, for tools/gates/instructions.sh to
+ * count the instructions of: prediction, gates, assignment, updates, report; no initiation.
  *
- * Arguments: the gate (best, hough or nearest); polar (a radar's plots of 15 m x 3 mrad in range and azimuth, with range
- * rates) or cartesian (positions and velocities with isotropic noise); the plots of each target; sectors of a turn, a step
- * each. The target's own plot comes with clutter around it (scene.h). Prints tracks and plots a turn.
+ * Arguments: the gate (best, hough or nearest); polar (a radar's plots of 15 m x 3 mrad in range
+ * and azimuth, with range rates) or cartesian (positions and velocities with isotropic noise); the
+ * plots of each target; sectors of a turn, a step each. The target's own plot comes with clutter
+ * around it (scene.h). Prints tracks and plots a turn.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * wire: messages to bytes and back, for tools/instructions.sh to count the instructions of. Argument: the job's name. Prints the message's bytes.
+ * wire: messages to bytes and back, for tools/gates/instructions.sh to count the instructions of.
+ * Argument: the job's name. Prints the message's bytes.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "count.h"
-#include "rhotrack/feed.h"
 #include "rhotrack/message.h"
 #include "rhotrack/publish.h"
+#include "rhotrack/scan_assembler.h"
 
 static struct rho_message_plot_scan scan;
 static struct rho_report report;
-static struct rho_feed feed;
+static struct rho_scan_assembler feed;
 static uint8_t bytes[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
 static size_t size;
 static enum rho_status status;
@@ -34,7 +35,7 @@ static void validate_scan(void)
 
 static void take_scan(void)
 {
-    status = rho_feed_take(&feed, "RHO_PLOTS_1", bytes, size, 0);
+    status = rho_scan_assembler_take(&feed, "RHO_PLOTS_1", bytes, size, 0);
     if (status == RHO_OK && feed.counters.scans_accepted != 1) {
         status = RHO_ERROR_VALUE;
     }
@@ -47,7 +48,7 @@ static void publish_tracks(void)
 
 static void fill(void)
 {
-    struct rho_feed_config config;
+    struct rho_scan_assembler_config config;
 
     scan = (struct rho_message_plot_scan){.scan = 1,
                                           .sensor_id = 1,
@@ -63,8 +64,8 @@ static void fill(void)
         report.tracks[i].track_id = i + 1;
         report.tracks[i].status = RHO_TRACK_CONFIRMED;
     }
-    rho_feed_config_default(&config);
-    status = rho_feed_init(&feed, sizeof feed, &config);
+    rho_scan_assembler_config_default(&config);
+    status = rho_scan_assembler_init(&feed, sizeof feed, &config);
 }
 
 int main(int argc, char **argv)

@@ -17,8 +17,8 @@
 #include "count.h"
 #include "draw.h"
 #include "node_settings.h"
-#include "rhotrack/angle.h"
-#include "rhotrack/approx.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/tracker.h"
 
 static struct rho_tracker tracker;

@@ -53,7 +53,7 @@ def measure(options, run_program):
     names = options.scene or SCENES
     work = []
     for name in names:
-        path = options.scenes / f"{name}.json"
+        path = scene_files.path_of(options.scenes, name)
         scene = without_targets(json.loads(path.read_text(encoding="utf-8")), LEARNING_S + 3600 * hours_each)
         work += [{"program": str(options.program), "simulator": str(options.simulator), "run_program": run_program, "name": name, "scene": scene,
                   "seed": options.seed + i, "set": options.set} for i in range(options.runs)]

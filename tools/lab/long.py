@@ -164,7 +164,7 @@ def judged(name, goal, runs):
 def measure(options, run_program):
     work, goals = [], {}
     for name in options.scene or SCENES:
-        scene = json.loads((options.scenes / f"{name}.json").read_text(encoding="utf-8"))
+        scene = json.loads(scene_files.path_of(options.scenes, name).read_text(encoding="utf-8"))
         goals[name] = scene.get("goal") or {}
         scene["duration_s"] = 3600 * options.hours
         hours = math.ceil(options.hours)

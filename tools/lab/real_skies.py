@@ -291,9 +291,9 @@ def as_json(results, options, alarms, longs):
 def find_scenes(options):
     """{name: (path, scene)}: those named, or all with a goal, in the order of their names."""
     if options.scene:
-        paths = [pathlib.Path(name) if name.endswith(".json") else options.scenes / f"{name}.json" for name in options.scene]
+        paths = [pathlib.Path(name) if name.endswith(".json") else scene_files.path_of(options.scenes, name) for name in options.scene]
     else:
-        paths = sorted(options.scenes.glob("*.json"))
+        paths = sorted(options.scenes.glob("**/*.json"))
     found = {}
     for path in paths:
         try:

@@ -16,6 +16,11 @@ STRAIGHT, TURNING, COASTING, NO_MOTION = range(4)
 MORE = ("vx_mps", "vy_mps", "cov_x_x", "cov_y_x", "cov_y_y", "cov_vx_vx", "cov_vy_vx", "cov_vy_vy", "is_coasting")
 
 
+def path_of(folder, name):
+    """The file of a shipped scene: they lie in folders by what they are about."""
+    return next(folder.glob(f"**/{name}.json"), folder / f"{name}.json")
+
+
 @dataclasses.dataclass
 class Sensor:
     """A sensor as the tracker is told of it: its place, its coverage and its errors."""

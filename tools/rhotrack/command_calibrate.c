@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* calibrate: what radars are like, from a recording: noise, pd, clutter, turn time, speeds. */
 
-#include "calibrate.h"
-#include "calibrate_output.h"
+#include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "common.h"
-#include "inputs.h"
-#include "register_data.h"
+#include "io/scans/inputs.h"
+#include "registration/calibrate.h"
+#include "registration/calibrate_output.h"
+#include "registration/register_data.h"
 
 static uint64_t read_all(const struct command_line *line, struct register_data *data)
 {
@@ -56,17 +56,17 @@ static void print(const struct command_line *line, const struct calibrate_result
 int command_calibrate(struct command_line *line)
 {
     struct register_data *data = register_start(&line->parameters);
-    struct chain chain = chain_start();
+    struct pipeline pipeline = pipeline_start();
     struct calibrate_result result;
     uint64_t rows_skipped;
 
     command_line_check_ini(line, "calibrate");
-    chain_set_gate(&line->parameters, line->gate);
+    pipeline_set_gate(&line->parameters, line->gate);
     rows_skipped = read_all(line, data);
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "calibrate: the input has no plots");
     }
-    result = calibrate(data, &chain);
+    result = calibrate(data, &pipeline);
     print(line, &result, rows_skipped);
     if (!calibrate_knows_any(&result)) {
         fail(EXIT_RUNTIME, "calibrate: too little was tracked to tell noise or pd of any radar");
@@ -76,6 +76,6 @@ int command_calibrate(struct command_line *line)
     }
     calibrate_free(&result);
     register_free(data);
-    chain_free(&chain);
+    pipeline_free(&pipeline);
     return 0;
 }

@@ -3,9 +3,9 @@
 #include <cjson/cJSON.h>
 #include <stdio.h>
 
+#include "base/common.h"
 #include "commands.h"
-#include "common.h"
-#include "method.h"
+#include "settings/method.h"
 
 /* A number, or a word where the parameter is one. */
 static void add_value(cJSON *object, const char *name, const struct parameter_text *text,

@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* convert: a CSV file as an LCM log, the messages of one kind of a log as a CSV file, tracks of either as GeoJSON, or a recording in
- * ASTERIX as either. */
+/*
+ * convert: a CSV file as an LCM log, the messages of one kind of a log as a CSV file, tracks of
+ * either as GeoJSON, or a recording in ASTERIX as either.
+ */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "asterix_file.h"
-#include "asterix_text.h"
-#include "asterix_tracks.h"
+#include "base/common.h"
 #include "commands.h"
-#include "common.h"
-#include "geojson.h"
-#include "geojson_rows.h"
-#include "lcm_log.h"
-#include "lone_plots.h"
-#include "message_source.h"
-#include "rows_collect.h"
-#include "rows_read.h"
-#include "rows_write.h"
-#include "table.h"
+#include "io/asterix/asterix_file.h"
+#include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_tracks.h"
+#include "io/csv/table.h"
+#include "io/log/lcm_log.h"
+#include "io/log/message_source.h"
+#include "io/output/geojson.h"
+#include "io/output/geojson_rows.h"
+#include "io/rows/rows_collect.h"
+#include "io/rows/rows_read.h"
+#include "io/rows/rows_write.h"
+#include "io/scans/scan_interval_hint.h"
 
 /* ---- Which way ---- */
 
@@ -73,7 +75,7 @@ static void write_log(struct message_source *source, const struct command_line *
     const char *path = line->arguments[1];
     struct output output = output_open(path);
     struct lcm_log_writer writer = {.file = output.file};
-    struct lone_plots plots = {.scans = 0};
+    struct scan_interval_hint plots = {.scans = 0};
     struct message_event event;
 
     if (isatty(fileno(output.file))) {
@@ -81,13 +83,13 @@ static void write_log(struct message_source *source, const struct command_line *
     }
     while (message_source_next(source, &event)) {
         lcm_log_must_write(&writer, path, event.utime, event.channel, event.data, event.size);
-        lone_plots_add(&plots, &event);
+        scan_interval_hint_add(&plots, &event);
     }
     output_close(&output);
     if (guesses_scans(source, &line->parameters)) {
-        lone_plots_report(&plots, line->arguments[0]);
+        scan_interval_hint_report(&plots, line->arguments[0]);
     }
-    lone_plots_free(&plots);
+    scan_interval_hint_free(&plots);
 }
 
 static void convert_to_log(const struct command_line *line)
@@ -109,20 +111,23 @@ static void convert_to_log(const struct command_line *line)
 static void convert_from_asterix(const struct command_line *line)
 {
     const char *path = line->arguments[0];
-    struct asterix_text *text = asterix_text_open(path, &line->parameters, line->keep_going);
+    struct asterix_records *records =
+        asterix_records_open(path, &line->parameters, line->keep_going);
+    struct table *table = asterix_records_table(path, asterix_records_columns(records));
     struct output output = output_open(line->arguments[1]);
     struct progress progress = progress_start("rows", 0);
-    char row[ASTERIX_LINE_BYTES];
     uint64_t bytes = file_bytes(path), rows = 0;
-    size_t length;
 
-    while (asterix_text_next(text, row, &length)) {
-        fwrite(row, 1, length, output.file);
-        progress_show_bytes(&progress, ++rows, asterix_text_position(text), bytes);
+    table_write_header(output.file, table);
+    while (asterix_records_next(records, table)) {
+        table_write_row(output.file, table, 0);
+        table->num_rows = 0;
+        progress_show_bytes(&progress, ++rows, asterix_records_position(records), bytes);
     }
     progress_end(&progress);
     output_close(&output);
-    asterix_text_close(text);
+    table_free(table);
+    asterix_records_close(records);
 }
 
 /* ---- Tracks to ASTERIX ---- */

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* evaluate: tracks against truth. */
+#include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "common.h"
-#include "evaluation.h"
-#include "evaluation_input.h"
-#include "evaluation_report.h"
-#include "log_table.h"
-#include "table.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/evaluation_input.h"
+#include "evaluation/evaluation_report.h"
+#include "io/csv/table.h"
+#include "io/log/log_table.h"
 
 static void check_output(const char *path)
 {

@@ -5,16 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/common.h"
 #include "commands.h"
-#include "common.h"
-#include "frame_reader.h"
-#include "initiate_classic.h"
-#include "initiate_passive.h"
-#include "initiate_passive_paper.h"
-#include "initiated_output.h"
+#include "io/output/initiated_output.h"
+#include "io/scans/frame_reader.h"
+#include "io/scans/revolutions.h"
+#include "io/scans/scan_reader.h"
+#include "pipeline/initiate_classic.h"
+#include "pipeline/initiate_passive.h"
+#include "pipeline/initiate_passive_paper.h"
 #include "rhotrack/tracker.h"
-#include "scan_reader.h"
-#include "turns.h"
 
 struct batch {
     struct rho_initiator *initiator;
@@ -55,14 +55,14 @@ static void push(struct batch *batch, const struct rho_scan *scan, const struct 
 /* Pushes the last scans of the reader that fit the window, turns of radars that look by sectors. */
 static void push_last(struct batch *batch, struct scan_reader *reader)
 {
-    struct turns turns = turns_read(reader, batch->initiator->config.scans);
+    struct revolutions revolutions = revolutions_read(reader, batch->initiator->config.scans);
 
-    for (size_t i = 0; i < turns.count; i++) {
-        const struct turn *turn = &turns.list[i];
+    for (size_t i = 0; i < revolutions.count; i++) {
+        const struct revolution *turn = &revolutions.list[i];
 
         push(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
     }
-    turns_free(&turns);
+    revolutions_free(&revolutions);
 }
 
 static void search(struct batch *batch, const struct command_line *line)

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "asterix_file.h"
-#include "asterix_text.h"
-#include "common.h"
-#include "hint.h"
-#include "method.h"
+#include "base/common.h"
+#include "base/hint.h"
+#include "io/asterix/asterix_file.h"
+#include "io/asterix/asterix_records.h"
+#include "settings/method.h"
 
 enum { NUM_OPTIONS = 23, RUNS_MAX = 1000000 };
 
@@ -288,7 +288,10 @@ static void read_options(struct command_line *line, const struct command *comman
     }
 }
 
-/* Where nobody set the origin of the local frame it is where the first radar of a recording says that it stands. */
+/*
+ * Where nobody set the origin of the local frame it is where the first radar of a recording says
+ * that it stands.
+ */
 static void suggest_origin(struct command_line *line)
 {
     struct parameters *parameters = &line->parameters;
@@ -300,7 +303,7 @@ static void suggest_origin(struct command_line *line)
          i++) {
         place = asterix_file_place(line->arguments[i]);
         if (place.is_given) {
-            asterix_text_suggest_origin(line->arguments[i], &place, parameters);
+            asterix_records_suggest_origin(line->arguments[i], &place, parameters);
         }
     }
 }

@@ -31,7 +31,10 @@ void command_line_locate(struct command_line *line);
 /* Help of one command. */
 void command_line_help(const struct command *command, FILE *file);
 
-/* Exit 2 where --output names one of the arguments: of commands that nobody wants to put their output in an input's place. */
+/*
+ * Exit 2 where --output names one of the arguments: of commands that nobody wants to put their
+ * output in an input's place.
+ */
 void refuse_own_input(const struct command_line *line);
 
 /* -o -: standard output has the file that is written, and nothing else. */

@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/common.h"
 #include "commands.h"
-#include "common.h"
-#include "frame_reader.h"
-#include "maintainer.h"
+#include "io/output/tracks_output.h"
+#include "io/scans/frame_reader.h"
+#include "io/scans/scan_reader.h"
+#include "pipeline/maintainer.h"
 #include "rhotrack/measurement.h"
 #include "rhotrack/track.h"
-#include "scan_reader.h"
-#include "tracks_output.h"
 
 struct maintaining {
     struct maintainer *maintainer;

@@ -16,40 +16,33 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "chain.h"
-#include "clutter_file.h"
+#include "base/common.h"
 #include "commands.h"
-#include "common.h"
-#include "node_core.h"
-#include "node_log.h"
-#include "node_print.h"
-#include "node_sensors.h"
-#include "node_tally.h"
+#include "io/output/clutter_file.h"
+#include "live/node_core.h"
+#include "live/node_log.h"
+#include "live/node_print.h"
+#include "live/node_sensors.h"
+#include "live/node_tally.h"
+#include "live/transport.h"
+#include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
-#include "transport.h"
 
-/* Messages that are taken before signals and clocks are looked at again. */
-/* And how long what may come after all must be missing before it is said. */
-/*
- * How long outputs have at the end for what is left, and the program for all of it once it is told
- * to end.
- */
-/* The map of clutter goes out with every so manyth status. */
 enum {
-    TURN_MESSAGES = 256,
-    STATUS_US = 1000000,
-    CLUTTER_STATUSES = 5,
-    COMPLAINT_US = 1000000,
-    MISSING_US = 3000000,
+    TURN_MESSAGES = 256,  /* taken before signals and clocks are looked at again */
+    STATUS_US = 1000000,  /* from one RHO_STATUS to the next */
+    CLUTTER_STATUSES = 5, /* statuses from one RHO_CLUTTER to the next */
+    WARNING_US = 1000000, /* from one warning of a cause to the next */
+    MISSING_US = 3000000, /* that a scan must be missing for before it is called lost */
     SNAPSHOT_US = 60000000,
-    END_US = 500000,
-    END_MOST_US = 900000
+    END_US = 500000,     /* for the outputs at the end */
+    END_MOST_US = 900000 /* for the whole program, once it is told to end */
 };
 
-struct complaint {
+struct warning {
     uint64_t said;
     int64_t said_us;
-    bool is_more;   /* than was said, at every look */
+    bool is_more;   /* the count exceeds the last warning, since more_us */
     uint64_t least; /* since more_us */
     int64_t more_us;
 };
@@ -63,7 +56,7 @@ struct node {
     int64_t snapshot_us;       /* clock_us: when the next one is due */
     pid_t snapshot_writer;     /* 0: none is at work */
     pid_t clutter_writer;      /* likewise */
-    struct complaint complaints[NODE_TALLIES];
+    struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
     struct clutter_file clutter;
     int signals;               /* descriptor */
@@ -115,7 +108,7 @@ static bool has_ended(pid_t *writer, int options, int *code)
 }
 
 /* The next snapshot may be written. */
-static void complain_of_snapshot(struct node *node, const char *why)
+static void warn_of_snapshot(struct node *node, const char *why)
 {
     fprintf(stderr, "rhotrack: %s: %s; the snapshot is not written\n", node->snapshot_path, why);
     node->exit_code = EXIT_RUNTIME;
@@ -127,7 +120,7 @@ static bool has_snapshot_ended(struct node *node, int options)
     const bool is_ended = has_ended(&node->snapshot_writer, options, &code);
 
     if (is_ended && code) {
-        complain_of_snapshot(node, strerror(code));
+        warn_of_snapshot(node, strerror(code));
     }
     return is_ended;
 }
@@ -141,7 +134,7 @@ static void start_snapshot(struct node *node)
     }
     if (node->snapshot_writer < 0) {
         node->snapshot_writer = 0;
-        complain_of_snapshot(node, strerror(errno));
+        warn_of_snapshot(node, strerror(errno));
     }
 }
 
@@ -158,7 +151,7 @@ static void write_last_snapshot(struct node *node)
     if (node->snapshot_path) {
         (void)has_snapshot_ended(node, 0);
         if (!node_core_save(node->core, node->snapshot_path)) {
-            complain_of_snapshot(node, strerror(errno));
+            warn_of_snapshot(node, strerror(errno));
         }
     }
 }
@@ -193,7 +186,7 @@ static void save_last_clutter(struct node *node)
     note_saved(node, clutter_file_save(&node->clutter, node_core_clutter(node->core)));
 }
 
-/* ---- What the core says ---- */
+/* ---- Calls of the core ---- */
 
 static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
 {
@@ -205,7 +198,10 @@ static void on_send(void *context, const char *channel, const uint8_t *data, siz
     }
 }
 
-/* At each step, so that no change is missed however many of them come at once; and not into a table. */
+/*
+ * At each step, so that no change is missed however many of them come at once; and not into a
+ * table.
+ */
 static void watch_sensors(struct node *node)
 {
     node_sensors_watch(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
@@ -219,42 +215,41 @@ static void on_step(void *context, const struct rho_report *report)
     watch_sensors(node);
 }
 
-/* ---- Complaints and the summary ---- */
+/* ---- Warnings and the summary ---- */
 
 /*
- * What is to be said of it by now: of what may fall again the least that it was for MISSING_US. A number that was skipped is
- * lost only where its scan does not come a moment later.
+ * What is to be said of it by now: of what may fall again the least that it was for MISSING_US. A
+ * number that was skipped is lost only where its scan does not come a moment later.
  */
-static uint64_t count_of(struct complaint *complaint, const struct node_tally *tally,
-                         int64_t now_us)
+static uint64_t count_to_warn_of(struct warning *warning, const struct node_tally *tally,
+                                 int64_t now_us)
 {
-    bool was_more = complaint->is_more;
+    bool was_more = warning->is_more;
 
-    complaint->is_more = tally->count > complaint->said;
-    if (tally->kind != NODE_TALLY_MAY_FALL || !complaint->is_more) {
+    warning->is_more = tally->count > warning->said;
+    if (tally->kind != NODE_TALLY_MAY_FALL || !warning->is_more) {
         return tally->count;
     }
     if (!was_more) {
-        complaint->more_us = now_us;
+        warning->more_us = now_us;
     }
-    complaint->least =
-        was_more && complaint->least < tally->count ? complaint->least : tally->count;
-    return now_us >= complaint->more_us + MISSING_US ? complaint->least : complaint->said;
+    warning->least = was_more && warning->least < tally->count ? warning->least : tally->count;
+    return now_us >= warning->more_us + MISSING_US ? warning->least : warning->said;
 }
 
-static void complain_of(struct complaint *complaint, const struct node_tally *tally, int64_t now_us)
+static void warn_of(struct warning *warning, const struct node_tally *tally, int64_t now_us)
 {
-    uint64_t count = count_of(complaint, tally, now_us);
+    uint64_t count = count_to_warn_of(warning, tally, now_us);
 
-    if (tally->kind != NODE_TALLY_USUAL && count > complaint->said &&
-        now_us >= complaint->said_us + COMPLAINT_US) {
-        *complaint = (struct complaint){.said = count, .said_us = now_us};
+    if (tally->kind != NODE_TALLY_USUAL && count > warning->said &&
+        now_us >= warning->said_us + WARNING_US) {
+        *warning = (struct warning){.said = count, .said_us = now_us};
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " so far\n", tally->name, count);
     }
 }
 
 /* A cause speaks at most once a second, and not into a table. */
-static void complain(struct node *node)
+static void warn_of_losses(struct node *node)
 {
     struct node_tally tallies[NODE_TALLIES];
     int64_t now_us = clock_us();
@@ -264,7 +259,7 @@ static void complain(struct node *node)
     }
     node_tally(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
-        complain_of(&node->complaints[i], &tallies[i], now_us);
+        warn_of(&node->warnings[i], &tallies[i], now_us);
     }
 }
 
@@ -276,7 +271,7 @@ static void print_summary(const struct node *node)
     const uint64_t events_left_out = node_log_left_out(node->log);
 
     fprintf(stderr,
-            "rhotrack: %" PRIu64 " messages in, %" PRIu64 " out; %" PRIu64 " steps, %" PRIu32
+            "rhotrack: %" PRIu64 " messages in, %" PRIu64 " out; %" PRIu32 " steps, %" PRIu32
             " plots, %" PRIu32 " tracks confirmed; %.0f us a step, %.0f at most",
             node->taken, network.sent, node_core_counters(node->core)->steps, tracker->plots_in,
             tracker->tracks_confirmed, node_core_mean_us(node->core), node_core_max_us(node->core));
@@ -303,8 +298,9 @@ static void print_summary(const struct node *node)
 /* ---- The loop ---- */
 
 /*
- * Signals become readable before liblcm starts threads, which inherit that. They stay blocked: what an unfinished
- * output would do about them (common.c) is not needed, for the log is written under its own name.
+ * Signals become readable before liblcm starts threads, which inherit that. They stay blocked: what
+ * an unfinished output would do about them (common.c) is not needed, for the log is written under
+ * its own name.
  */
 static int open_signals(void)
 {
@@ -423,7 +419,9 @@ static bool is_output(const char *channel)
            strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0;
 }
 
-/* Other programs' channels are left out of the log, and what was published is there as it was sent. */
+/*
+ * Other programs' channels are left out of the log, and what was published is there as it was sent.
+ */
 static void take_message(struct node *node, const struct transport_message *message)
 {
     if (is_output(message->channel)) {
@@ -499,7 +497,7 @@ static void keep_clocks(struct node *node)
     keep_snapshot(node, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
     show(node, false);
-    complain(node);
+    warn_of_losses(node);
     watch_sensors(node);
     note_saved(node, node_log_watch(node->log));
     keep_clutter(node);
@@ -543,7 +541,7 @@ int command_node(struct command_line *line)
     if (line->log && transport_is_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
-    chain_set_gate(&line->parameters, line->gate);
+    pipeline_set_gate(&line->parameters, line->gate);
     clutter_file_refuse(line->clutter_map, line->log, "log");
     if (line->clutter_map && transport_is_file(line->lcm, line->clutter_map)) {
         fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
@@ -551,7 +549,7 @@ int command_node(struct command_line *line)
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
     node.snapshot_path = line->snapshot;
     node.snapshot_us = node.status_us + SNAPSHOT_US;
-    if (line->snapshot && node_core_restore(node.core, line->snapshot) == CHAIN_RESTORED) {
+    if (line->snapshot && node_core_restore(node.core, line->snapshot) == PIPELINE_RESTORED) {
         fprintf(stderr, "rhotrack: %s: tracks go on\n", line->snapshot);
         is_restored = true;
     }

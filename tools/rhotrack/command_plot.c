@@ -4,16 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clutter_file.h"
+#include "base/common.h"
 #include "commands.h"
-#include "common.h"
-#include "map.h"
-#include "picture.h"
-#include "plot_bearings.h"
-#include "plot_clutter.h"
-#include "plot_data.h"
-#include "plot_errors.h"
-#include "plot_parameter_space.h"
+#include "io/output/clutter_file.h"
+#include "picture/map.h"
+#include "picture/picture.h"
+#include "picture/plot_bearings.h"
+#include "picture/plot_clutter.h"
+#include "picture/plot_data.h"
+#include "picture/plot_errors.h"
+#include "picture/plot_parameter_space.h"
 
 /* From so many points on a picture has small marks. */
 #define MANY_POINTS 1500
@@ -23,7 +23,7 @@ static double mark_size(const struct plot_points *points, double size)
     return points->count > MANY_POINTS ? 0.5 * size : size;
 }
 
-/* ---- maps ------------------------------------------------------------------------------------- */
+/* ---- maps ---- */
 
 static void draw_scans(struct picture *picture, const struct plot_data *data)
 {
@@ -36,7 +36,9 @@ static void draw_scans(struct picture *picture, const struct plot_data *data)
             mark_size(&data->plots, 0.45));
 }
 
-/* The straight line on which a track was found, back from its first row to the first plot's time. */
+/*
+ * The straight line on which a track was found, back from its first row to the first plot's time.
+ */
 static void put_start_lines(const struct map *map, const struct plot_data *data)
 {
     struct plot_points one;
@@ -128,7 +130,7 @@ static void draw_tracks(struct picture *picture, const struct plot_data *data)
     fprintf(map.script, "\n");
 }
 
-/* ---- the command ------------------------------------------------------------------------------ */
+/* ---- the command ---- */
 
 static void need(const struct plot_points *points, const char *kind, const char *what)
 {
@@ -162,18 +164,18 @@ static void check_content(const char *kind, const struct plot_data *data)
 
 /* What is found before the picture is begun: what is refused then leaves nothing. */
 struct findings {
-    struct turns turns;
+    struct revolutions revolutions;
     struct plot_errors errors;
 };
 
 static struct findings find(const char *kind, const struct plot_data *data,
                             const struct parameters *parameters)
 {
-    struct findings findings = {.turns = {.count = 0}};
+    struct findings findings = {.revolutions = {.count = 0}};
     if (strcmp(kind, "errors") == 0) {
         findings.errors = plot_errors_find(data, parameters);
     } else if (strcmp(kind, "parameter-space") == 0) {
-        findings.turns = plot_parameter_space_read(data, parameters);
+        findings.revolutions = plot_parameter_space_read(data, parameters);
     }
     return findings;
 }
@@ -190,7 +192,7 @@ static void draw(const char *kind, struct picture *picture, const struct plot_da
     } else if (strcmp(kind, "errors") == 0) {
         plot_errors(picture, data, &findings->errors);
     } else {
-        plot_parameter_space(picture, data, &findings->turns);
+        plot_parameter_space(picture, data, &findings->revolutions);
     }
 }
 
@@ -230,7 +232,7 @@ int command_plot(struct command_line *line)
     struct picture picture = picture_open(line->output, 1100, 680);
     draw(kind, &picture, &data, &findings);
     picture_close(&picture);
-    turns_free(&findings.turns);
+    revolutions_free(&findings.revolutions);
     plot_errors_free(&findings.errors);
     plot_data_free(&data);
     return 0;

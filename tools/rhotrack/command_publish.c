@@ -1,30 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* publish: plays files as sensors: their messages in time over LCM. */
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 
-#include "asterix_udp.h"
+#include "base/common.h"
 #include "commands.h"
-#include "common.h"
-#include "lcm_log.h"
-#include "message_shift.h"
-#include "message_source.h"
-#include "publish.h"
+#include "io/asterix/asterix_udp.h"
+#include "io/log/lcm_log.h"
+#include "io/log/message_shift.h"
+#include "io/log/message_source.h"
+#include "live/publish.h"
+#include "live/transport.h"
 #include "rhotrack/udpm.h"
-#include "transport.h"
 
 #define NS_PER_S 1000000000
 #define PIECE_NS 100000000 /* a signal between a look and a sleep is noticed after this long */
 #define LATEST_S 1e9       /* nobody waits as long */
-#define TRIES 100          /* 1 ms apart, where the network has no room for a moment */
-
-static volatile sig_atomic_t is_stopped;
 
 /* What a sensor's scans were numbered in the first pass. */
 struct channel {
@@ -45,33 +40,17 @@ struct player {
     uint64_t times;    /* different ones, of the first pass */
     uint64_t start_ns; /* CLOCK_MONOTONIC: of the first event */
     uint64_t passes, skipped;
+    bool is_over;    /* its time is */
     double shift_us; /* of this pass */
     double lag_max_s;
 };
 
-static void on_signal(int number)
-{
-    (void)number;
-    is_stopped = 1;
-}
-
-void publish_watch_signals(void)
-{
-    struct sigaction action = {.sa_handler = on_signal}; /* sleeps end, they are not restarted */
-
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    if (!is_ignored(SIGHUP)) {
-        sigaction(SIGHUP, &action, NULL);
-    }
-}
-
-bool publish_is_stopped(void)
-{
-    return is_stopped;
-}
-
 /* ---- Time ---- */
+
+static bool is_stopped(const struct player *player)
+{
+    return player->is_over || publish_is_stopped();
+}
 
 static uint64_t monotonic_ns(void)
 {
@@ -82,22 +61,22 @@ static uint64_t monotonic_ns(void)
 }
 
 /* Deadlines are absolute: what one sleep is late, the next is not. */
-static void sleep_until(const struct player *player, uint64_t deadline_ns)
+static void sleep_until(struct player *player, uint64_t deadline_ns)
 {
     uint64_t now_ns = monotonic_ns();
     uint64_t end_ns = player->line->seconds > 0
                           ? player->start_ns + (uint64_t)(player->line->seconds * 1e9)
                           : UINT64_MAX;
 
-    while (!is_stopped && now_ns < deadline_ns) {
+    while (!is_stopped(player) && now_ns < deadline_ns) {
         uint64_t next_ns = deadline_ns - now_ns > PIECE_NS ? now_ns + PIECE_NS : deadline_ns;
         struct timespec next = {(time_t)(next_ns / NS_PER_S), (long)(next_ns % NS_PER_S)};
 
         clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, NULL);
         now_ns = monotonic_ns();
-        is_stopped = is_stopped || now_ns >= end_ns;
+        player->is_over = now_ns >= end_ns;
     }
-    is_stopped = is_stopped || now_ns >= end_ns;
+    player->is_over = now_ns >= end_ns;
 }
 
 /* Waits for an event's time; times that go back are now. */
@@ -112,7 +91,7 @@ static void wait_for(struct player *player, int64_t utime)
     uint64_t deadline_ns =
         player->start_ns + (uint64_t)(fmin(fmax(after_s, 0), LATEST_S) * NS_PER_S);
     sleep_until(player, deadline_ns);
-    if (player->line->speed > 0 && !is_stopped) {
+    if (player->line->speed > 0 && !is_stopped(player)) {
         player->lag_max_s =
             fmax(player->lag_max_s, (double)(monotonic_ns() - deadline_ns) / NS_PER_S);
     }
@@ -195,27 +174,6 @@ static const uint8_t *change(struct player *player, const struct message_event *
 
 /* ---- Sending ---- */
 
-bool publish_send(struct transport *transport, const char *channel, const uint8_t *data,
-                  size_t size)
-{
-    const struct timespec moment = {.tv_nsec = 1000000};
-    int tries = 1;
-
-    while (!transport_send(transport, channel, data, size)) {
-        if (errno == EMSGSIZE) {
-            return false;
-        }
-        if (errno == EINTR) {
-            continue;
-        }
-        if ((errno != ENOBUFS && errno != EAGAIN) || tries++ == TRIES) {
-            fail(EXIT_RUNTIME, "%s: %s: %s", transport_url(transport), channel, strerror(errno));
-        }
-        nanosleep(&moment, NULL);
-    }
-    return true;
-}
-
 static void send_event(struct player *player, const struct message_event *event)
 {
     player->skipped +=
@@ -233,14 +191,14 @@ static void play(struct player *player, struct message_source *source)
 {
     struct message_event event;
 
-    while (!is_stopped && message_source_next(source, &event)) {
+    while (!is_stopped(player) && message_source_next(source, &event)) {
         if (!player->start_ns) {
             player->start_ns = monotonic_ns();
             player->first_us = event.utime;
         }
         note_event(player, &event);
         wait_for(player, event.utime);
-        if (!is_stopped) {
+        if (!is_stopped(player)) {
             send_event(player, &event);
         }
     }
@@ -252,7 +210,10 @@ static void play(struct player *player, struct message_source *source)
 
 /* ---- Epochs ---- */
 
-/* Whether a CSV file's header, its first line that is no comment, names the column. A pipe is not looked into. */
+/*
+ * Whether a CSV file's header, its first line that is no comment, names the column. A pipe is not
+ * looked into.
+ */
 static bool names_epoch(const char *path)
 {
     char line[4096] = "#";
@@ -274,15 +235,10 @@ static bool names_epoch(const char *path)
     return false;
 }
 
-int32_t publish_epoch(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (int32_t)(((int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000) & INT32_MAX) | 1;
-}
-
-/* A sensor that begins anew says so by its epoch; logs and files that say one keep it. 0 stands for none. */
+/*
+ * A sensor that begins anew says so by its epoch; logs and files that say one keep it. 0 stands for
+ * none.
+ */
 static int32_t own_epoch(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
@@ -325,7 +281,7 @@ int command_publish(struct command_line *line)
     source = open_source(line); /* what is wrong with it is said before a log is emptied */
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
     play(&player, source);
-    while (line->loop && !is_stopped) {
+    while (line->loop && !is_stopped(&player)) {
         play(&player, open_source(line));
     }
     print_summary(&player);

@@ -2,13 +2,13 @@
 /* register: the biases of radars from the targets that several of them see. */
 #include <stdlib.h>
 
-#include "chain.h"
+#include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "common.h"
-#include "inputs.h"
-#include "register.h"
-#include "register_output.h"
+#include "io/scans/inputs.h"
+#include "pipeline/pipeline.h"
+#include "registration/register.h"
+#include "registration/register_output.h"
 
 /* What nobody described stands in the origin; that can be true of one radar alone. */
 struct unplaced {
@@ -93,15 +93,15 @@ static void print(const struct command_line *line, const struct register_result 
 int command_register(struct command_line *line)
 {
     struct register_data *data = register_start(&line->parameters);
-    struct chain chain = chain_start();
+    struct pipeline pipeline = pipeline_start();
     struct register_result result;
     uint64_t rows_skipped;
 
     command_line_check_ini(line, "register");
-    chain_set_gate(&line->parameters, line->gate);
+    pipeline_set_gate(&line->parameters, line->gate);
     rows_skipped = read_all(line, data);
     check_enough(data);
-    result = register_estimate(data, &chain);
+    result = register_estimate(data, &pipeline);
     if (result.targets == 0) {
         fail(EXIT_RUNTIME, "register: no target was tracked by two radars at the same time, within "
                            "3 km; nothing can be said of biases");
@@ -117,6 +117,6 @@ int command_register(struct command_line *line)
     }
     register_result_free(&result);
     register_free(data);
-    chain_free(&chain);
+    pipeline_free(&pipeline);
     return 0;
 }

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/common.h"
+#include "base/hint.h"
 #include "commands.h"
-#include "common.h"
-#include "hint.h"
 #include "scene/scene.h"
 
 static void write_runs(const struct command_line *line, const struct scene *scene)

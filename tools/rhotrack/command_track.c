@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* track: the whole chain, scans in, tracks out. */
+/* track: the whole pipeline, scans in, tracks out. */
 #include <cjson/cJSON.h>
 #include <inttypes.h>
 #include <math.h>
@@ -7,21 +7,21 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "bearings_batch.h"
-#include "chain.h"
-#include "clutter_file.h"
+#include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "common.h"
-#include "frame_reader.h"
-#include "inputs.h"
-#include "learned.h"
-#include "method.h"
-#include "scan_reader.h"
-#include "tracks_output.h"
+#include "io/output/clutter_file.h"
+#include "io/output/tracks_output.h"
+#include "io/scans/frame_reader.h"
+#include "io/scans/inputs.h"
+#include "io/scans/scan_reader.h"
+#include "pipeline/bearings_batch.h"
+#include "pipeline/learned.h"
+#include "pipeline/pipeline.h"
+#include "settings/method.h"
 
 struct tracking {
-    struct chain chain;
+    struct pipeline pipeline;
     struct clutter_file clutter;
     int64_t sum_us, max_us;
 };
@@ -31,7 +31,7 @@ struct tracking {
 /* What is known of the sensor goes before its scan; it may have moved. */
 static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
 {
-    enum rho_status status = rho_tracker_set_sensor(tracking->chain.tracker, sensor);
+    enum rho_status status = rho_tracker_set_sensor(tracking->pipeline.tracker, sensor);
 
     if (status == RHO_ERROR_CAPACITY) {
         fail(EXIT_USAGE, "more than %d sensors with places or limits of their own",
@@ -51,7 +51,7 @@ static void describe_passive(struct tracking *tracking, const struct inputs *inp
         struct parameters customary = *parameters;
 
         method_suggest(METHOD_PASSIVE, &customary);
-        bearings_check_sensors(sensors, count, &tracking->chain.passive->batch, &customary);
+        bearings_check_sensors(sensors, count, &tracking->pipeline.passive->batch, &customary);
     }
     for (size_t i = 0; i < count; i++) {
         struct rho_sensor sensor;
@@ -74,9 +74,9 @@ static void step(struct tracking *tracking, const struct input *input)
     }
     start_us = clock_us();
     if (input->scan) {
-        chain_step(&tracking->chain, input->scan);
+        pipeline_step(&tracking->pipeline, input->scan);
     } else {
-        chain_step_frame(&tracking->chain, input->frame);
+        pipeline_step_frame(&tracking->pipeline, input->frame);
     }
     took_us = clock_us() - start_us;
     tracking->sum_us += took_us;
@@ -90,7 +90,7 @@ static void step_and_report(struct tracking *tracking, const struct input *input
 {
     step(tracking, input);
     if (tracks) {
-        tracks_output_report(tracks, tracking->chain.report);
+        tracks_output_report(tracks, tracking->pipeline.report);
     }
 }
 
@@ -159,7 +159,7 @@ static const char *follow_until_over(struct tracking *tracking, struct inputs *i
     const char *why = NULL;
 
     while (!is_stopped) {
-        (void)clutter_file_keep(&tracking->clutter, &tracking->chain.tracker->clutter_map);
+        (void)clutter_file_keep(&tracking->clutter, &tracking->pipeline.tracker->clutter_map);
         why = scan_reader_why_over(reader); /* what was added before that is still read */
         if (follow_scans(tracking, inputs, tracks) || position != inputs_position(inputs) ||
             scan_reader_is_mid_row(reader)) {
@@ -229,8 +229,8 @@ static const char *advice_on_late(const struct parameters *parameters, uint32_t 
 static void print_summary(const struct tracking *tracking, const struct inputs_counts *counts,
                           const struct parameters *parameters)
 {
-    const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
-    const struct rho_tracker_work *work = &tracking->chain.tracker->work;
+    const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
+    const struct rho_tracker_work *work = &tracking->pipeline.tracker->work;
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots, %" PRIu32 " tracks confirmed; lost: "
@@ -250,13 +250,13 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
-    for (uint32_t i = 0; i < tracking->chain.tracker->num_looks; i++) {
-        if (tracking->chain.tracker->looks[i].is_doubted) {
+    for (uint32_t i = 0; i < tracking->pipeline.tracker->num_looks; i++) {
+        if (tracking->pipeline.tracker->looks[i].is_doubted) {
             fprintf(stderr, ", sensor %" PRId32 " contradicts the others",
-                    tracking->chain.tracker->looks[i].sensor_id);
+                    tracking->pipeline.tracker->looks[i].sensor_id);
         }
     }
-    learned_print(tracking->chain.tracker, stderr);
+    learned_print(tracking->pipeline.tracker, stderr);
     if (work->partial_steps > 0) {
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
@@ -334,11 +334,11 @@ static cJSON *origin_json(const struct parameters *parameters)
 
 static size_t count_bytes(const struct tracking *tracking, const struct inputs *inputs)
 {
-    return sizeof *tracking->chain.tracker +
+    return sizeof *tracking->pipeline.tracker +
            (inputs_have_plots(inputs)
-                ? tracking->chain.num_initiators * sizeof *tracking->chain.initiator
+                ? tracking->pipeline.num_initiators * sizeof *tracking->pipeline.initiator
                 : 0) +
-           (inputs_have_bearings(inputs) ? sizeof *tracking->chain.passive : 0);
+           (inputs_have_bearings(inputs) ? sizeof *tracking->pipeline.passive : 0);
 }
 
 /* Echoes of the clutter map that are known. */
@@ -356,7 +356,7 @@ static double echoes_known(const struct rho_clutter_map *map)
 static void print_json(const struct tracking *tracking, const struct inputs *inputs,
                        const struct inputs_counts *counts, const struct parameters *parameters)
 {
-    const struct rho_tracker_counters *counters = &tracking->chain.tracker->counters;
+    const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddNumberToObject(object, "scans", (double)counts->steps);
@@ -369,12 +369,12 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
     cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
-    json_add_work(object, &tracking->chain.tracker->work);
-    cJSON_AddItemToObject(object, "counters", counters_json(tracking->chain.tracker));
+    json_add_work(object, &tracking->pipeline.tracker->work);
+    cJSON_AddItemToObject(object, "counters", counters_json(tracking->pipeline.tracker));
     cJSON_AddNumberToObject(object, "echoes_known",
-                            echoes_known(&tracking->chain.tracker->clutter_map));
-    cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->chain.tracker));
-    cJSON_AddItemToObject(object, "learned", learned_json(tracking->chain.tracker));
+                            echoes_known(&tracking->pipeline.tracker->clutter_map));
+    cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->pipeline.tracker));
+    cJSON_AddItemToObject(object, "learned", learned_json(tracking->pipeline.tracker));
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
     json_print(object);
 }
@@ -386,9 +386,9 @@ static void open_chain(struct tracking *tracking, const struct inputs *inputs,
     if (!inputs_have_plots(inputs)) {
         method_suggest(METHOD_PASSIVE, parameters);
     }
-    chain_open(&tracking->chain, parameters);
+    pipeline_open(&tracking->pipeline, parameters);
     if (inputs_have_bearings(inputs)) {
-        chain_open_passive(&tracking->chain, parameters);
+        pipeline_open_passive(&tracking->pipeline, parameters);
     }
     describe_passive(tracking, inputs, parameters);
 }
@@ -439,18 +439,18 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 
 int command_track(struct command_line *line)
 {
-    struct tracking tracking = {.chain = chain_start()};
+    struct tracking tracking = {.pipeline = pipeline_start()};
     struct inputs *inputs;
     struct tracks_output *tracks;
     const char *why = NULL;
     bool is_saved;
 
-    chain_set_gate(&line->parameters, line->gate);
+    pipeline_set_gate(&line->parameters, line->gate);
     check_clutter_map(line);
     inputs = open_inputs(line);
     open_chain(&tracking, inputs, &line->parameters);
     tracking.clutter = clutter_file_open(line->clutter_map, &line->parameters,
-                                         &tracking.chain.tracker->clutter_map);
+                                         &tracking.pipeline.tracker->clutter_map);
     tracks = open_tracks(line);
     if (line->follow) {
         why = follow(&tracking, inputs, tracks, &line->parameters);
@@ -458,10 +458,10 @@ int command_track(struct command_line *line)
         step_all(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
     }
     tracks_output_close(tracks);
-    is_saved = clutter_file_save(&tracking.clutter, &tracking.chain.tracker->clutter_map);
+    is_saved = clutter_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
     print_results(&tracking, inputs, line);
     inputs_close(inputs);
-    chain_free(&tracking.chain);
+    pipeline_free(&tracking.pipeline);
     if (why) {
         fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);
     }

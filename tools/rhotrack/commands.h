@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* commands: one function a command of the program, called by main with what the command line said. */
+/*
+ * commands: one function a command of the program, called by main with what the command line said.
+ */
 #ifndef RHOTRACK_TOOL_COMMANDS_H
 #define RHOTRACK_TOOL_COMMANDS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
-#include "parameters.h"
+#include "settings/parameters.h"
 
 struct command_line {
     char **arguments; /* beside the options, without the command's own name */
@@ -40,9 +43,7 @@ int command_initiate(struct command_line *line);
 int command_maintain(struct command_line *line);
 int command_simulate(struct command_line *line);
 int command_evaluate(struct command_line *line);
-int command_experiment(struct command_line *line);
 int command_plot(struct command_line *line);
-int command_bench(struct command_line *line);
 int command_convert(struct command_line *line);
 
 /* What no origin helps: before one is looked for, and told. Exit 2. */
@@ -53,5 +54,14 @@ int command_publish(struct command_line *line);
 int command_register(struct command_line *line);
 int command_calibrate(struct command_line *line);
 int command_config(struct command_line *line);
+
+/*
+ * experiment and bench are a program of their own, rhotrack-lab, beside this one: what ships needs
+ * nothing of what measures. command_lab_name: NULL past the last one. command_lab runs it with the
+ * same arguments and does not return; exit 1 where it is not there.
+ */
+const char *command_lab_name(size_t index);
+bool command_lab_has(const char *name);
+_Noreturn void command_lab(char **argv);
 
 #endif

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/common.h"
+#include "base/hint.h"
 #include "command_line.h"
 #include "commands.h"
-#include "common.h"
-#include "hint.h"
 
 #ifndef RHOTRACK_VERSION
 #define RHOTRACK_VERSION "0.1.0"
@@ -89,26 +89,11 @@ static const struct command commands[] = {
      "over time; -o FILE.csv writes these figures, a row a time. --json has them, too (over_time), "
      "and\n"
      "every target's (by_target).\n"},
-    {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
-     "orSmj", "a Monte Carlo experiment with tables and figures",
-     "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
-     "(default\n"
-     "build/experiment/NAME). Experiments: initiation, polar, doppler, rotating, two-radars,\n"
-     "false-alarms, passive, maneuver, air-traffic; initiation takes --method kernel, ht, mht, iht "
-     "or nht, passive "
-     "takes passive "
-     "or\n"
-     "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "
-     "rivals;\n"
-     "without it they run all. real-skies is a script: tools/lab/real_skies.py, `make "
-     "experiments`.\n"},
     {"plot", command_plot, "scans|tracks|parameter-space|errors|clutter-map FILES... -o FILE.svg",
      2, INT_MAX, "osC", "pictures",
      "Draws plots or bearings, tracks, the parameter space of lines, errors, or a clutter map (and "
      "the\n"
      "plots of further files beneath), as SVG.\n"},
-    {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
-     "Measures speed and memory; without a name everything there is.\n"},
     {"convert", command_convert, "IN OUT [--kind plots|polar|bearings|truth|tracks]", 2, 2, "KcksC",
      "CSV files, LCM logs and ASTERIX to one another",
      "Writes a CSV file (plots, polar plots, bearings, truth or tracks) as an LCM log, or the\n"
@@ -185,7 +170,7 @@ enum { NUM_COMMANDS = sizeof commands / sizeof *commands };
 
 static const char *command_name(size_t index)
 {
-    return index < NUM_COMMANDS ? commands[index].name : NULL;
+    return index < NUM_COMMANDS ? commands[index].name : command_lab_name(index - NUM_COMMANDS);
 }
 
 static void print_help(void)
@@ -194,9 +179,12 @@ static void print_help(void)
 
     fputs("rhotrack: from radar plots to tracks.\n\nUsage: rhotrack COMMAND ...\n\nCommands:\n",
           output.file);
-    for (size_t i = 0; command_name(i); i++) {
+    for (size_t i = 0; i < NUM_COMMANDS; i++) {
         fprintf(output.file, "  %-11s %s\n", commands[i].name, commands[i].summary);
     }
+    fputs("  experiment  a Monte Carlo experiment with tables and figures (the lab)\n"
+          "  bench       speed, memory, cost a scan (the lab)\n",
+          output.file);
     fputs("\n`rhotrack COMMAND --help` says more; `rhotrack --version` prints the version.\n\n"
           "Exit codes: 0 success, 1 a failure at run time, 2 bad usage or bad input.\n",
           output.file);
@@ -247,6 +235,9 @@ int main(int argc, char **argv)
     if (!strcmp(argv[1], "--version")) {
         print_version();
         return 0;
+    }
+    if (command_lab_has(argv[1])) {
+        command_lab(argv);
     }
     command = find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * board: what the radar node asks of the hardware. To bring it to another processor, write these functions; nothing
- * else of the node knows where it runs. All are called from one thread.
+ * board: what the radar node asks of the hardware. To bring it to another processor, write these
+ * functions; nothing else of the node knows where it runs. All are called from one thread.
  */
 #ifndef BOARD_H
 #define BOARD_H
@@ -12,7 +12,10 @@
 /* Opens network and clock. Returns 0 where the hardware does not answer. */
 int board_open(void);
 
-/* Microseconds since the start; goes on as long as it is called, or board_wait, at least once a minute. */
+/*
+ * Microseconds since the start; goes on as long as it is called, or board_wait, at least once a
+ * minute.
+ */
 int64_t board_time_us(void);
 
 /*

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * files: what the replay asks of the machine that it runs on: files, arguments, a count of work. In host/ with stdio,
- * in mps2/ through the debugger (semihosting).
+ * files: what the replay asks of the machine that it runs on: files, arguments, a count of work. In
+ * host/ with stdio, in mps2/ through the debugger (semihosting).
  */
 #ifndef FILES_H
 #define FILES_H
@@ -24,8 +24,8 @@ int files_close(int file);
 void files_say(const char *text);
 
 /*
- * The processor's instructions so far, where they can be counted (0 else). Wraps at 2^32 - 1, so that what lies between two
- * calls can be told up to 2.6e9.
+ * The processor's instructions so far, where they can be counted (0 else). Wraps at 2^32 - 1, so
+ * that what lies between two calls can be told up to 2.6e9.
  */
 uint32_t files_instructions(void);
 uint32_t files_instructions_between(uint32_t from, uint32_t to);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * memory: what compilers call without being asked, so that the node needs no C library. Words where both sides are on
- * word boundaries, as the library's objects are. A tenth of newlib's size. Compiled with -fno-builtin, and without
- * -flto: a compiler would make calls of themselves of these loops.
+ * memory: what compilers call without being asked, so that the node needs no C library. Words where
+ * both sides are on word boundaries, as the library's objects are. A tenth of newlib's size.
+ * Compiled with -fno-builtin, and without -flto: a compiler would make calls of themselves of these
+ * loops.
  */
 #include <stddef.h>
 #include <stdint.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * udp_frame: Ethernet frames with an IPv4 UDP datagram to LCM's multicast group, and the IGMP report by which switches
- * learn that this host wants it. No ARP, no fragments, no IP options in what is sent.
+ * udp_frame: Ethernet frames with an IPv4 UDP datagram to LCM's multicast group, and the IGMP
+ * report by which switches learn that this host wants it. No ARP, no fragments, no IP options in
+ * what is sent.
  */
 #ifndef UDP_FRAME_H
 #define UDP_FRAME_H
@@ -19,15 +20,15 @@ struct udp_frame_host {
 };
 
 /*
- * Writes the head of a frame before payload_size bytes of payload (1472 at most) that stand at frame + UDP_FRAME_HEAD.
- * number: the datagram's, any. Returns the frame's bytes.
+ * Writes the head of a frame before payload_size bytes of payload (1472 at most) that stand at
+ * frame + UDP_FRAME_HEAD. number: the datagram's, any. Returns the frame's bytes.
  */
 size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16_t number,
                        size_t payload_size);
 
 /*
- * Opens a frame of any bytes. Returns the payload's bytes and where it begins; 0 where it is no whole datagram to the
- * group and port, or its checksums are wrong.
+ * Opens a frame of any bytes. Returns the payload's bytes and where it begins; 0 where it is no
+ * whole datagram to the group and port, or its checksums are wrong.
  */
 size_t udp_frame_open(const uint8_t *frame, size_t size, const uint8_t **payload);
 

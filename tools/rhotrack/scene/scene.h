@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene: what a JSON file says of sensors, targets, clutter and events (tools/scenes/README.md has the format).
+ * scene: what a JSON file says of sensors, targets, clutter and events (tools/scenes/README.md has
+ * the format).
  *
- * Places are in metres, x east, y north; angles counter-clockwise from +x; times in seconds from the scene's start.
- * Everything has a stream of random numbers of its own (scene_stream.h): other clutter does not change the targets, nor
- * another target the rest.
+ * Places are in metres, x east, y north; angles counter-clockwise from +x; times in seconds from
+ * the scene's start. Everything has a stream of random numbers of its own (scene_stream.h): other
+ * clutter does not change the targets, nor another target the rest.
  */
 #ifndef RHOTRACK_TOOL_SCENE_H
 #define RHOTRACK_TOOL_SCENE_H
@@ -13,9 +14,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "../parameters.h"
-#include "scene_json.h"
-#include "scene_path.h"
+#include "scene/scene_json.h"
+#include "scene/scene_path.h"
+#include "settings/parameters.h"
 
 #define SCENE_SENSORS_MAX 16 /* radars, and as many passive sensors */
 #define SCENE_ITEMS_MAX 32   /* sources of clutter, and as many events */
@@ -140,19 +141,27 @@ struct scene {
     struct scene_event events[SCENE_ITEMS_MAX];
 };
 
-/* The file's scene, checked: exit 2 with file, line and place where something is wrong. Frees the text. Each of the sets,
- * `radars[0].pd=0.7`, puts a value in the place of what stands there. */
+/*
+ * The file's scene, checked: exit 2 with file, line and place where something is wrong. Frees the
+ * text. Each of the sets, `radars[0].pd=0.7`, puts a value in the place of what stands there.
+ */
 struct scene *scene_read(const char *name, char *text, size_t length, const char *const *sets,
                          size_t num_sets);
 void scene_free(struct scene *scene);
 
-/* The scene of a file, where the name has a slash or ends with .json, or one that ships with the program; NULL where it is none. */
+/*
+ * The scene of a file, where the name has a slash or ends with .json, or one that ships with the
+ * program; NULL where it is none.
+ */
 struct scene *scene_find(const char *name, const char *const *sets, size_t num_sets);
 
 /* Names of the scenes that ship; NULL past the last. */
 const char *scene_shipped_name(size_t index);
 
-/* One run as files: plots.csv, bearings.csv where there are passive sensors, truth.csv, paths.csv, scenario.ini. */
+/*
+ * One run as files: plots.csv, bearings.csv where there are passive sensors, truth.csv, paths.csv,
+ * scenario.ini.
+ */
 void scene_simulate(const struct scene *scene, const char *name, const char *folder, uint64_t seed,
                     uint64_t run);
 

@@ -2,11 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../common.h"
-#include "scene.h"
-#include "scene_watch.h"
+#include "base/common.h"
+#include "scene/scene.h"
+#include "scene/scene_watch.h"
 
-/* ---- plots and bearings ------------------------------------------------------------------------------ */
+/* ---- plots and bearings ---- */
 
 static bool measures_range_rate(const struct scene *scene)
 {
@@ -186,7 +186,7 @@ static void write_bearings(const struct scene_run *run, const char *folder)
     free(path);
 }
 
-/* ---- truth --------------------------------------------------------------------------------------------- */
+/* ---- truth ---- */
 
 static int by_number(const void *a, const void *b)
 {
@@ -260,7 +260,7 @@ static void write_truth(const struct scene_run *run, const char *folder)
     free(all_path);
 }
 
-/* ---- what a tracker is told -------------------------------------------------------------------------------- */
+/* ---- what a tracker is told ---- */
 
 static void write_sensor(const struct scene_sensor *sensor, FILE *file)
 {

@@ -2,15 +2,16 @@
 /*
  * scene_flights: aircraft over an area, always as many in the air: where one ends another begins.
  *
- * A flight enters over the border or takes off inside and climbs; it flies straight, turns, holds, changes its speed,
- * and leaves over the border or descends and lands. Some take-offs are such that they meet another flight at an angle.
+ * A flight enters over the border or takes off inside and climbs; it flies straight, turns, holds,
+ * changes its speed, and leaves over the border or descends and lands. Some take-offs are such that
+ * they meet another flight at an angle.
  */
 #include <math.h>
 #include <stdlib.h>
 
-#include "../common.h"
-#include "portable_math.h"
-#include "scene_path.h"
+#include "base/common.h"
+#include "base/portable_math.h"
+#include "scene/scene_path.h"
 
 #define DEG_RAD (PORTABLE_PI / 180.0)
 #define DRAFTS_MAX 1000 /* flights drawn anew until one lasts long enough */
@@ -58,7 +59,7 @@ static bool is_inside_at(const struct sky *sky, double t_s)
     return is_inside(sky, at.x_m, at.y_m);
 }
 
-/* ---- one flight by chance --------------------------------------------------------------------- */
+/* ---- one flight by chance ---- */
 
 static void open_flight(struct sky *sky, double start_s, double x_m, double y_m, double speed_mps,
                         double heading_rad)
@@ -69,7 +70,10 @@ static void open_flight(struct sky *sky, double start_s, double x_m, double y_m,
     sky->is_over = false;
 }
 
-/* One leg more, as far as the border. The area is convex: a straight leg that ends inside is inside. */
+/*
+ * One leg more, as far as the border. The area is convex: a straight leg that ends inside is
+ * inside.
+ */
 static void fly(struct sky *sky, double duration_s, double turn_radps, double accel_mps2)
 {
     double from_s = sky->draft.until_s, end_s = from_s + duration_s;
@@ -160,7 +164,7 @@ static void fly_on(struct sky *sky)
     }
 }
 
-/* ---- how flights begin ------------------------------------------------------------------------ */
+/* ---- how flights begin ---- */
 
 /* Anywhere on the border, within 60 degrees of straight in. */
 static void enter(struct sky *sky, double start_s)
@@ -196,8 +200,8 @@ static void take_off(struct sky *sky, double start_s)
 }
 
 /*
- * A take-off that comes close to another flight at 10 to 90 degrees: backwards along its own straight path from there.
- * False where that would begin outside, or the other is not there then.
+ * A take-off that comes close to another flight at 10 to 90 degrees: backwards along its own
+ * straight path from there. False where that would begin outside, or the other is not there then.
  */
 static bool take_off_towards(struct sky *sky, double start_s, const struct scene_path *other)
 {
@@ -225,7 +229,7 @@ static bool take_off_towards(struct sky *sky, double start_s, const struct scene
     return true;
 }
 
-/* ---- all flights ------------------------------------------------------------------------------ */
+/* ---- all flights ---- */
 
 static void begin(struct sky *sky, double start_s)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_json.h"
+#include "scene/scene_json.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -8,15 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common.h"
-#include "../hint.h"
+#include "base/common.h"
+#include "base/hint.h"
 
 #define PLACE_BYTES 256
 #define DEPTH_MAX 16
 #define WHAT_BYTES 512
 #define KEY_BYTES 64
 
-/* ---- where a value stands in the text ---------------------------------------------------------- */
+/* ---- where a value stands in the text ---- */
 
 /* The text is known to be JSON here. */
 static const char *skip_space(const char *at)
@@ -77,7 +77,10 @@ static size_t chain_to(const struct json_place *place, const struct json_place *
     return count;
 }
 
-/* A member of the object or list that begins here: a key's place is that of the key. NULL: there is none. */
+/*
+ * A member of the object or list that begins here: a key's place is that of the key. NULL: there is
+ * none.
+ */
 static const char *find_member(const char *at, const struct json_place *place)
 {
     size_t index = 0;
@@ -136,7 +139,7 @@ static size_t line_of(const char *text, const char *at)
     return line;
 }
 
-/* ---- what is wrong ------------------------------------------------------------------------------ */
+/* ---- what is wrong ---- */
 
 static void write_place(const struct json_place *place, char text[PLACE_BYTES])
 {
@@ -191,7 +194,7 @@ void json_fail_key(const struct json_object *object, const char *key, const char
     fail_at(&place, what);
 }
 
-/* ---- the file ----------------------------------------------------------------------------------- */
+/* ---- the file ---- */
 
 struct json_file json_open(const char *name, const char *text, size_t length)
 {
@@ -226,7 +229,7 @@ void json_close(struct json_file *file)
     file->root = NULL;
 }
 
-/* ---- changes ------------------------------------------------------------------------------------ */
+/* ---- changes ---- */
 
 /* One step of a path: `key`, `[3]` or `3`; moves *path behind it. False: it is none of them. */
 static bool take_step(const char **path, char key[KEY_BYTES], int *index)
@@ -324,7 +327,7 @@ void json_assign(struct json_file *file, const char *assignment)
     }
 }
 
-/* ---- objects ------------------------------------------------------------------------------------ */
+/* ---- objects ---- */
 
 static const char *kind_of(const cJSON *item)
 {
@@ -561,7 +564,7 @@ double json_element_number(const struct json_list *list, size_t index, double mi
     return checked(&place, cJSON_GetArrayItem(list->item, (int)index), min, max);
 }
 
-/* ---- keys that nobody knows ---------------------------------------------------------------------- */
+/* ---- keys that nobody knows ---- */
 
 /* For hint_nearest, which takes names by index alone. */
 static const struct json_object *hinted;

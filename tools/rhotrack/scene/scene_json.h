@@ -2,9 +2,9 @@
 /*
  * scene_json: a JSON file's values, checked while they are read.
  *
- * Whatever is wrong ends the program with exit 2 and one line that names the file, its line and the place,
- * `rhotrack: FILE:12: radars[0].turn_s: -4 is outside 0.001 .. 3600`. Keys that nobody asked for are wrong, too: after its
- * last key is read, an object is closed.
+ * Whatever is wrong ends the program with exit 2 and one line that names the file, its line and the
+ * place, `rhotrack: FILE:12: radars[0].turn_s: -4 is outside 0.001 .. 3600`. Keys that nobody asked
+ * for are wrong, too: after its last key is read, an object is closed.
  */
 #ifndef RHOTRACK_TOOL_SCENE_JSON_H
 #define RHOTRACK_TOOL_SCENE_JSON_H
@@ -48,10 +48,16 @@ struct json_span {
     double lo, hi;
 };
 
-/* The text stays the caller's, and must live as long as the file. Exit 2 with the line where it is no JSON object. */
+/*
+ * The text stays the caller's, and must live as long as the file. Exit 2 with the line where it is
+ * no JSON object.
+ */
 struct json_file json_open(const char *name, const char *text, size_t length);
-/* `radars.0.pd=0.7` or `radars[0].pd=0.7`: the value, JSON or a text, takes the place of what stands there, or is added;
- * behind the last element of a list, too. Exit 2, with the nearest, where there is no such place. */
+/*
+ * `radars.0.pd=0.7` or `radars[0].pd=0.7`: the value, JSON or a text, takes the place of what
+ * stands there, or is added; behind the last element of a list, too. Exit 2, with the nearest,
+ * where there is no such place.
+ */
 void json_assign(struct json_file *file, const char *assignment);
 
 void json_close(struct json_file *file);
@@ -90,7 +96,10 @@ void json_require(struct json_object *object, const char *key);
 /* Of two keys that exclude each other: exit 2 where both are there. */
 void json_exclude(struct json_object *object, const char *key, const char *other);
 
-/* A list of objects or numbers, empty where it is not there; an object below a key, false where it is not there. */
+/*
+ * A list of objects or numbers, empty where it is not there; an object below a key, false where it
+ * is not there.
+ */
 struct json_list json_list_of(struct json_object *object, const char *key, size_t max);
 bool json_below(struct json_object *object, const char *key, struct json_object *below);
 struct json_object json_element(const struct json_list *list, size_t index);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_mover.h"
+#include "scene/scene_mover.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "../common.h"
-#include "portable_math.h"
+#include "base/common.h"
+#include "base/portable_math.h"
 
 bool mover_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
               struct motion *at)
@@ -47,7 +47,7 @@ bool mover_at(const struct scene_mover *mover, const struct scene_sensor *sensor
     return range_m < 2.0 * mover->unambiguous_m;
 }
 
-/* ---- clutter that lasts ------------------------------------------------------------------------------ */
+/* ---- clutter that lasts ---- */
 
 static const struct scene_sensor *first_sensor(const struct scene *scene, uint32_t sensors)
 {
@@ -96,7 +96,10 @@ static void draw_standing(const struct scene *scene, const struct scene_clutter 
     }
 }
 
-/* A bird goes round a circle of its own, at its own speed against the flock's; their middles are Gaussian. */
+/*
+ * A bird goes round a circle of its own, at its own speed against the flock's; their middles are
+ * Gaussian.
+ */
 static void draw_bird(const struct scene_clutter *clutter, struct random *random,
                       struct scene_mover *mover)
 {

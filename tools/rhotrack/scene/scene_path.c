@@ -1,27 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_path.h"
+#include "scene/scene_path.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "../common.h"
-#include "portable_math.h"
+#include "base/common.h"
+#include "base/portable_math.h"
 
-#define PLACE_MAX_M 2e6
-#define SPEED_MAX_MPS 2e4
-#define ACCEL_MAX_MPS2 1000.0
-#define LEGS_MAX 1000
-#define ITEMS_MAX 1000
-#define GROUP_MAX 10000
-#define DRAFTS_MAX 10000
-#define KEEP_STEP_S 1.0    /* between places that are looked at */
-#define TURN_BACK_SHARE .6 /* of the farthest range that is kept: from there on turns lead back */
-#define STANDS_MPS 1e-3
 #define STRAIGHT_RADPS 1e-6
 
-/* ---- motion ------------------------------------------------------------------------------------- */
+/* ---- motion ---- */
 
 static bool is_pulled(const struct path_leg *leg)
 {
@@ -34,7 +22,7 @@ static void pulled_velocity(const struct path_leg *leg, double dt_s, double *vx_
     *vy_mps = leg->speed_mps * portable_sin(leg->heading_rad) + leg->accel_mps2[1] * dt_s;
 }
 
-static double leg_speed_mps(const struct path_leg *leg, double t_s)
+double path_leg_speed_mps(const struct path_leg *leg, double t_s)
 {
     double vx_mps, vy_mps;
 
@@ -43,7 +31,7 @@ static double leg_speed_mps(const struct path_leg *leg, double t_s)
                           : leg->speed_mps + leg->along_mps2 * (t_s - leg->t_s);
 }
 
-static double leg_heading_rad(const struct path_leg *leg, double t_s)
+double path_leg_heading_rad(const struct path_leg *leg, double t_s)
 {
     double vx_mps, vy_mps;
 
@@ -55,7 +43,7 @@ static double leg_heading_rad(const struct path_leg *leg, double t_s)
 static struct motion leg_at(const struct path_leg *leg, double t_s)
 {
     double dt_s = t_s - leg->t_s, turn = leg->turn_radps, along = leg->along_mps2;
-    double speed_mps = leg_speed_mps(leg, t_s), heading_rad = leg_heading_rad(leg, t_s);
+    double speed_mps = path_leg_speed_mps(leg, t_s), heading_rad = path_leg_heading_rad(leg, t_s);
     double c = portable_cos(heading_rad), s = portable_sin(heading_rad);
     const double *accel_mps2 = leg->accel_mps2;
     struct motion at = {.x_m = leg->x_m,
@@ -84,7 +72,7 @@ static struct motion leg_at(const struct path_leg *leg, double t_s)
     return at;
 }
 
-static const struct path_leg *leg_of(const struct scene_path *path, double t_s)
+const struct path_leg *path_leg_of(const struct scene_path *path, double t_s)
 {
     size_t first = 0, last = path->num_legs;
 
@@ -119,7 +107,7 @@ static void add_shake(const struct scene_path *path, double t_s, struct motion *
 
 struct motion path_at(const struct scene_path *path, double t_s)
 {
-    struct motion at = leg_at(leg_of(path, t_s), t_s);
+    struct motion at = leg_at(path_leg_of(path, t_s), t_s);
 
     if (path->num_shakes > 0) {
         add_shake(path, t_s, &at);
@@ -135,7 +123,7 @@ void path_free(struct scene_path *path)
     path->shakes = NULL;
 }
 
-static void add_leg(struct scene_path *path, struct path_leg leg)
+void path_add_leg(struct scene_path *path, struct path_leg leg)
 {
     path->legs = must_grow(path->legs, path->num_legs, &path->room, sizeof *path->legs);
     path->legs[path->num_legs++] = leg;
@@ -144,11 +132,11 @@ static void add_leg(struct scene_path *path, struct path_leg leg)
 void path_begin(struct scene_path *path, double x_m, double y_m, double speed_mps,
                 double heading_rad)
 {
-    add_leg(path, (struct path_leg){.t_s = path->from_s,
-                                    .x_m = x_m,
-                                    .y_m = y_m,
-                                    .speed_mps = speed_mps,
-                                    .heading_rad = heading_rad});
+    path_add_leg(path, (struct path_leg){.t_s = path->from_s,
+                                         .x_m = x_m,
+                                         .y_m = y_m,
+                                         .speed_mps = speed_mps,
+                                         .heading_rad = heading_rad});
 }
 
 void path_go_on(struct scene_path *path, double t_s, double along_mps2, double turn_radps)
@@ -158,18 +146,18 @@ void path_go_on(struct scene_path *path, double t_s, double along_mps2, double t
     struct path_leg next = {.t_s = t_s,
                             .x_m = at.x_m,
                             .y_m = at.y_m,
-                            .speed_mps = leg_speed_mps(last, t_s),
-                            .heading_rad = leg_heading_rad(last, t_s),
+                            .speed_mps = path_leg_speed_mps(last, t_s),
+                            .heading_rad = path_leg_heading_rad(last, t_s),
                             .along_mps2 = along_mps2,
                             .turn_radps = turn_radps,
                             .z_m = at.z_m,
                             .vz_mps = at.vz_mps};
 
-    if (fabs(next.speed_mps) < STANDS_MPS * 1e-3) {
+    if (fabs(next.speed_mps) < PATH_STANDS_MPS * 1e-3) {
         next.speed_mps = 0.0;
     }
     if (t_s > last->t_s) {
-        add_leg(path, next);
+        path_add_leg(path, next);
     } else {
         *last = next;
     }
@@ -177,764 +165,11 @@ void path_go_on(struct scene_path *path, double t_s, double along_mps2, double t
 
 double path_speed_mps(const struct scene_path *path, double t_s)
 {
-    return leg_speed_mps(&path->legs[path->num_legs - 1], t_s);
+    return path_leg_speed_mps(&path->legs[path->num_legs - 1], t_s);
 }
-
-/* Until the speed is another; returns when. */
-static double change_speed(struct scene_path *path, double t_s, double to_mps, double along_mps2)
-{
-    double change_mps = to_mps - path_speed_mps(path, t_s), for_s = fabs(change_mps) / along_mps2;
-
-    if (for_s > 0.0) {
-        path_go_on(path, t_s, change_mps > 0.0 ? along_mps2 : -along_mps2, 0.0);
-        path_go_on(path, t_s + for_s, 0.0, 0.0);
-        path->legs[path->num_legs - 1].speed_mps = to_mps;
-    }
-    return t_s + for_s;
-}
-
-/* ---- described paths ------------------------------------------------------------------------------ */
-
-/* A turn at so many m/s^2 while the speed changes: in parts, each of which turns as its middle speed has it. */
-#define PART_S 1.0
-
-static double follow_step(struct scene_path *path, double t_s, const struct path_step *step)
-{
-    double speed_mps = path_speed_mps(path, t_s), turn_radps = step->turn_radps,
-           for_s = step->for_s;
-    double along_mps2 = step->along_mps2;
-
-    if (step->has_speed) {
-        double change_mps = step->to_speed_mps - speed_mps;
-
-        along_mps2 = change_mps < 0.0 ? -fabs(along_mps2) : fabs(along_mps2);
-        for_s = fabs(change_mps) / fabs(along_mps2);
-    }
-    if (fabs(step->across_mps2) > 0.0) {
-        turn_radps = speed_mps > STANDS_MPS ? step->across_mps2 / speed_mps : 0.0;
-    }
-    if (fabs(step->turn_rad) > 0.0) {
-        turn_radps = step->turn_rad > 0.0 ? fabs(turn_radps) : -fabs(turn_radps);
-        for_s = fabs(turn_radps) > 0.0 ? fabs(step->turn_rad / turn_radps) : 0.0;
-    }
-    if (along_mps2 < 0.0 && for_s > speed_mps / -along_mps2) {
-        for_s = speed_mps / -along_mps2; /* it stands then */
-    }
-    if (fabs(step->across_mps2) > 0.0 && fabs(along_mps2) > 0.0) {
-        size_t parts = (size_t)ceil(for_s / PART_S);
-
-        for (size_t i = 0; i < parts; i++) {
-            double part_s = for_s / (double)parts;
-            double middle_mps = speed_mps + along_mps2 * part_s * ((double)i + 0.5);
-
-            path_go_on(path, t_s + part_s * (double)i, along_mps2,
-                       middle_mps > STANDS_MPS ? step->across_mps2 / middle_mps : 0.0);
-        }
-    } else {
-        path_go_on(path, t_s, along_mps2, turn_radps);
-        memcpy(path->legs[path->num_legs - 1].accel_mps2, step->accel_mps2,
-               sizeof step->accel_mps2);
-    }
-    path_go_on(path, t_s + for_s, 0.0, 0.0);
-    if (step->has_speed) {
-        path->legs[path->num_legs - 1].speed_mps = step->to_speed_mps;
-    }
-    return t_s + for_s;
-}
-
-static void follow_steps(struct scene_path *path, const struct target_item *item)
-{
-    double t_s = path->from_s;
-
-    for (size_t i = 0; i < item->num_steps; i++) {
-        t_s = follow_step(path, t_s, &item->steps[i]);
-    }
-}
-
-static void follow_points(struct scene_path *path, const struct target_item *item)
-{
-    for (size_t i = 0; i + 1 < item->num_points; i++) {
-        const double *from = item->points[i], *to = item->points[i + 1];
-        double dx_m = to[1] - from[1], dy_m = to[2] - from[2];
-
-        add_leg(path, (struct path_leg){.t_s = from[0],
-                                        .x_m = from[1],
-                                        .y_m = from[2],
-                                        .speed_mps = portable_hypot(dx_m, dy_m) / (to[0] - from[0]),
-                                        .heading_rad = portable_atan2(dy_m, dx_m)});
-    }
-}
-
-static void draw_shakes(struct scene_path *path, const struct target_item *item, double duration_s,
-                        struct random *random)
-{
-    double last_s = fmin(path->until_s, duration_s), t_s = item->shake_s;
-
-    path->num_shakes = last_s > path->from_s ? (size_t)((last_s - path->from_s) / t_s) + 2 : 1;
-    path->shake_s = t_s;
-    path->shakes = must_calloc(path->num_shakes, sizeof *path->shakes);
-    for (size_t i = 1; i < path->num_shakes; i++) {
-        struct motion *to = &path->shakes[i];
-
-        *to = path->shakes[i - 1];
-        to->vx_mps += t_s * item->shake_mps2 * random_normal(random);
-        to->vy_mps += t_s * item->shake_mps2 * random_normal(random);
-        to->vz_mps += item->has_height ? t_s * item->shake_mps2 * random_normal(random) : 0.0;
-        to->x_m += 0.5 * t_s * (path->shakes[i - 1].vx_mps + to->vx_mps);
-        to->y_m += 0.5 * t_s * (path->shakes[i - 1].vy_mps + to->vy_mps);
-        to->z_m += 0.5 * t_s * (path->shakes[i - 1].vz_mps + to->vz_mps);
-    }
-}
-
-static struct scene_path described_path(const struct target_item *item, size_t index,
-                                        const struct scene_path *parent)
-{
-    struct scene_path path = {.from_s = item->from_s, .until_s = item->until_s, .item = index};
-
-    if (item->num_points > 0) {
-        follow_points(&path, item);
-        return path;
-    }
-    if (parent) {
-        const struct path_leg *leg = leg_of(parent, item->from_s);
-        struct motion at = path_at(parent, item->from_s);
-
-        path_begin(&path, at.x_m, at.y_m,
-                   fmax(0.0, leg_speed_mps(leg, item->from_s) + item->speed_change_mps),
-                   leg_heading_rad(leg, item->from_s) + item->heading_change_rad);
-        path.legs[0].z_m = at.z_m;
-        path.legs[0].vz_mps = at.vz_mps;
-    } else {
-        path_begin(&path, item->x_m, item->y_m, item->speed_mps, item->heading_rad);
-        path.legs[0].z_m = item->z_m;
-        path.legs[0].vz_mps = item->vz_mps;
-    }
-    follow_steps(&path, item);
-    return path;
-}
-
-/* ---- random paths --------------------------------------------------------------------------------- */
-
-static void draw_start(const struct target_item *item, struct scene_path *path,
-                       struct random *random)
-{
-    double x_m, y_m, heading_rad, speed_mps = draw_between(random, item->speed);
-
-    if (item->has_box) {
-        x_m = random_between(random, item->box_m[0], item->box_m[1]);
-        y_m = random_between(random, item->box_m[2], item->box_m[3]);
-    } else {
-        double lo = item->range.lo, hi = item->range.hi; /* even over the area */
-        double range_m = sqrt(random_between(random, lo * lo, hi * hi));
-        double azimuth_rad = draw_between(random, item->azimuth);
-
-        x_m = item->about_x_m + range_m * portable_cos(azimuth_rad);
-        y_m = item->about_y_m + range_m * portable_sin(azimuth_rad);
-    }
-    heading_rad = draw_between(random, item->heading);
-    if (item->is_either && random_uniform(random) < 0.5) {
-        heading_rad = -heading_rad;
-    }
-    if (item->is_relative) {
-        heading_rad += portable_atan2(item->about_y_m - y_m, item->about_x_m - x_m);
-    }
-    path_begin(path, x_m, y_m, speed_mps, portable_wrap(heading_rad));
-}
-
-/* To which side a turn goes: far out back to the centre, else to either. */
-static double draw_side(const struct target_item *item, const struct scene_path *path, double t_s,
-                        struct random *random)
-{
-    double side = random_uniform(random) < 0.5 ? 1.0 : -1.0;
-    struct motion at = path_at(path, t_s);
-    double x_m = item->about_x_m - at.x_m, y_m = item->about_y_m - at.y_m;
-
-    if (item->has_keep && portable_hypot(x_m, y_m) > TURN_BACK_SHARE * item->keep.hi) {
-        side = at.vx_mps * y_m - at.vy_mps * x_m > 0.0 ? 1.0 : -1.0;
-    }
-    return side;
-}
-
-static double draw_turn(const struct target_item *item, struct scene_path *path, double t_s,
-                        struct random *random)
-{
-    double across_mps2 = draw_between(random, item->turn_across),
-           speed_mps = path_speed_mps(path, t_s);
-    double side = draw_side(item, path, t_s, random), for_s;
-    double turn_radps = speed_mps > STANDS_MPS ? across_mps2 / speed_mps : 0.0;
-
-    if (item->has_turn_for) {
-        for_s = draw_between(random, item->turn_for);
-    } else {
-        for_s = turn_radps > 0.0 ? draw_between(random, item->turn_rad) / turn_radps : 0.0;
-    }
-    path_go_on(path, t_s, 0.0, side * turn_radps);
-    path_go_on(path, t_s + for_s, 0.0, 0.0);
-    return t_s + for_s;
-}
-
-static double draw_stop(const struct target_item *item, struct scene_path *path, double t_s,
-                        struct random *random)
-{
-    double speed_mps = path_speed_mps(path, t_s),
-           along_mps2 = draw_between(random, item->stop_along);
-
-    t_s = change_speed(path, t_s, 0.0, along_mps2) + draw_between(random, item->stop_for);
-    return change_speed(path, t_s, speed_mps, along_mps2);
-}
-
-/* Manoeuvres one after the other, each kind so long after the last one of its kind. */
-static void draw_manoeuvres(const struct target_item *item, struct scene_path *path, double end_s,
-                            struct random *random)
-{
-    double t_s = path->from_s;
-    double turn_s = item->has_turns ? t_s + draw_between(random, item->turn_every) : INFINITY;
-    double change_s = item->has_changes ? t_s + draw_between(random, item->change_every) : INFINITY;
-    double stop_s = item->has_stops ? t_s + draw_between(random, item->stop_every) : INFINITY;
-
-    for (;;) {
-        double next_s = fmin(turn_s, fmin(change_s, stop_s));
-
-        t_s = fmax(t_s, next_s);
-        if (!(t_s < end_s)) {
-            return;
-        }
-        if (turn_s <= next_s) {
-            t_s = draw_turn(item, path, t_s, random);
-            turn_s = t_s + draw_between(random, item->turn_every);
-        } else if (change_s <= next_s) {
-            double to_mps = draw_between(random, item->change_speed);
-
-            t_s = change_speed(path, t_s, to_mps, draw_between(random, item->change_along));
-            change_s = t_s + draw_between(random, item->change_every);
-        } else {
-            t_s = draw_stop(item, path, t_s, random);
-            stop_s = t_s + draw_between(random, item->stop_every);
-        }
-    }
-}
-
-static bool is_in_span(double number, double lo, double hi)
-{
-    return number >= lo && number <= hi;
-}
-
-/* In how many of the rings a place is. */
-static size_t count_discs(const struct target_item *item, const struct motion *at)
-{
-    size_t count = 0;
-
-    for (size_t i = 0; i < item->num_keep_discs; i++) {
-        const double *disc_m = item->keep_discs_m[i];
-        double range_m = portable_hypot(at->x_m - disc_m[0], at->y_m - disc_m[1]);
-
-        count += is_in_span(range_m, disc_m[2], disc_m[3]);
-    }
-    return count;
-}
-
-static bool keeps_at(const struct target_item *item, const struct motion *at)
-{
-    const double *box_m = item->keep_box_m;
-    double range_m = portable_hypot(at->x_m - item->about_x_m, at->y_m - item->about_y_m);
-
-    return (!item->has_keep || is_in_span(range_m, item->keep.lo, item->keep.hi)) &&
-           (!item->has_keep_box ||
-            (is_in_span(at->x_m, box_m[0], box_m[1]) && is_in_span(at->y_m, box_m[2], box_m[3])));
-}
-
-/* Never nearer than spacing_m to those that are there already. */
-static bool is_apart(const struct target_item *item, const struct motion *at, double t_s,
-                     const struct scene_paths *others)
-{
-    for (size_t i = 0; item->spacing_m > 0.0 && i < others->count; i++) {
-        const struct scene_path *other = &others->paths[i];
-
-        if (t_s >= other->from_s && t_s < other->until_s) {
-            struct motion its = path_at(other, t_s);
-
-            if (portable_hypot(at->x_m - its.x_m, at->y_m - its.y_m) < item->spacing_m) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-static bool keeps_within(const struct target_item *item, const struct scene_path *path,
-                         double end_s, const struct scene_paths *others)
-{
-    double first_s = fmax(0.0, path->from_s);
-    bool is_kept =
-        item->has_keep || item->has_keep_box || item->num_keep_discs > 0 || item->spacing_m > 0.0;
-    size_t count = is_kept && end_s >= first_s ? (size_t)((end_s - first_s) / KEEP_STEP_S) + 1 : 0;
-    size_t in_all = 0;
-
-    for (size_t i = 0; i < count; i++) {
-        double t_s = first_s + (double)i * KEEP_STEP_S;
-        struct motion at = path_at(path, t_s);
-        size_t discs = count_discs(item, &at);
-
-        if (!keeps_at(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
-            !is_apart(item, &at, t_s, others)) {
-            return false;
-        }
-        in_all += discs == item->num_keep_discs;
-    }
-    return (double)in_all >= item->keep_all_share * (double)count;
-}
-
-static const char *kept_by(const struct target_item *item)
-{
-    return item->spacing_m > 0.0      ? "its place, spacing_m from others"
-           : item->num_keep_discs > 0 ? "keep_discs_m"
-           : item->has_keep_box       ? "keep_box_m"
-                                      : "keep_range_m";
-}
-
-static struct scene_path random_path(const struct target_draft *draft, double from_s,
-                                     double until_s, const struct scene_paths *others,
-                                     struct random *random)
-{
-    double end_s = fmin(until_s, draft->duration_s);
-
-    for (int i = 0; i < DRAFTS_MAX; i++) {
-        struct scene_path path = {.from_s = from_s, .until_s = until_s, .item = draft->index};
-
-        draw_start(draft->item, &path, random);
-        draw_manoeuvres(draft->item, &path, end_s, random);
-        if (keeps_within(draft->item, &path, end_s, others)) {
-            return path;
-        }
-        path_free(&path);
-    }
-    fail(EXIT_USAGE,
-         "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
-         "less speed, or turns, which lead back",
-         draft->file, draft->index, DRAFTS_MAX, kept_by(draft->item));
-}
-
-/* ---- all paths ------------------------------------------------------------------------------------ */
 
 void paths_keep(struct scene_paths *paths, struct scene_path path)
 {
     paths->paths = must_grow(paths->paths, paths->count, &paths->room, sizeof *paths->paths);
     paths->paths[paths->count++] = path;
-}
-
-/* Where one ends, after a pause, the next one begins. The first one is somewhere in its life. */
-static void draw_member(struct scene_paths *paths, const struct target_draft *draft,
-                        struct random *random)
-{
-    const struct target_item *item = draft->item;
-    double life_s = item->has_life ? draw_between(random, item->life) : INFINITY;
-    double from_s = draw_between(random, item->from);
-
-    if (item->is_replaced) {
-        from_s -= life_s * random_uniform(random);
-    }
-    for (;;) {
-        double until_s = from_s + life_s;
-
-        if (until_s > 0.0) {
-            paths_keep(paths, random_path(draft, from_s, until_s, paths, random));
-        }
-        from_s = until_s;
-        if (!item->is_replaced) {
-            return;
-        }
-        from_s += draw_between(random, item->pause);
-        life_s = draw_between(random, item->life);
-        if (!(from_s < draft->duration_s)) {
-            return;
-        }
-    }
-}
-
-struct scene_path *targets_draw(const struct scene_targets *targets, const char *file,
-                                double duration_s, uint64_t seed, uint64_t run, uint64_t source,
-                                size_t *count)
-{
-    struct scene_paths paths = {.count = 0};
-    size_t *first = must_calloc(targets->count + 1, sizeof *first);
-
-    for (size_t i = 0; i < targets->count; i++) {
-        const struct target_item *item = &targets->items[i];
-        const struct target_draft draft = {file, item, i, duration_s};
-
-        first[i] = paths.count;
-        if (item->flights > 0) {
-            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, 0);
-
-            flights_draw(&draft, &paths, &random);
-        } else if (item->count == 0) {
-            const struct scene_path *parent =
-                item->has_parent ? &paths.paths[first[item->parent]] : NULL;
-            struct scene_path path = described_path(item, i, parent);
-            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, 0);
-
-            if (item->shake_s > 0.0) {
-                draw_shakes(&path, item, duration_s, &random);
-            }
-            paths_keep(&paths, path);
-        }
-        for (size_t k = 0; k < item->count; k++) {
-            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, k);
-
-            draw_member(&paths, &draft, &random);
-        }
-        if (paths.count > 100000) {
-            fail(EXIT_USAGE, "%s: targets: more than 100000 of them", file);
-        }
-    }
-    free(first);
-    *count = paths.count;
-    return paths.paths;
-}
-
-/* ---- reading -------------------------------------------------------------------------------------- */
-
-/* x, y and, where there is a third number, z. */
-static bool read_vector(struct json_object *object, const char *key, double max, double vector[3],
-                        bool *has_height)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object->item, key);
-    size_t count = cJSON_GetArraySize(item) == 3 ? 3 : 2;
-
-    *has_height = *has_height || count == 3;
-    return json_numbers(object, key, count, -max, max, vector);
-}
-
-static void read_place(struct json_object *object, const char *key, double *x_m, double *y_m)
-{
-    double place_m[2] = {*x_m, *y_m};
-
-    json_numbers(object, key, 2, -PLACE_MAX_M, PLACE_MAX_M, place_m);
-    *x_m = place_m[0];
-    *y_m = place_m[1];
-}
-
-static struct path_step read_step(struct json_object object, bool *has_height)
-{
-    static const char *const others[] = {"along_mps2", "across_mps2", "turn_degps", "turn_deg",
-                                         "to_speed_mps"};
-    struct path_step step = {0};
-
-    step.for_s = json_number(&object, "for_s", 0, 1e6, 0);
-    step.along_mps2 = json_number(&object, "along_mps2", -ACCEL_MAX_MPS2, ACCEL_MAX_MPS2, 0);
-    step.across_mps2 = json_number(&object, "across_mps2", -ACCEL_MAX_MPS2, ACCEL_MAX_MPS2, 0);
-    step.turn_radps = json_number(&object, "turn_degps", -360, 360, 0) * PORTABLE_PI / 180.0;
-    step.turn_rad = json_number(&object, "turn_deg", -36000, 36000, 0) * PORTABLE_PI / 180.0;
-    step.has_speed = json_has(&object, "to_speed_mps");
-    step.to_speed_mps = json_number(&object, "to_speed_mps", 0, SPEED_MAX_MPS, 0);
-    if (read_vector(&object, "accel_mps2", ACCEL_MAX_MPS2, step.accel_mps2, has_height)) {
-        for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-            json_exclude(&object, "accel_mps2", others[i]);
-        }
-    }
-    json_exclude(&object, "across_mps2", "turn_degps");
-    json_exclude(&object, "for_s", "to_speed_mps");
-    json_exclude(&object, "for_s", "turn_deg");
-    json_exclude(&object, "to_speed_mps", "turn_deg");
-    if (step.has_speed && !(fabs(step.along_mps2) > 0.0)) {
-        json_fail_key(&object, "to_speed_mps", "needs along_mps2, other than 0");
-    }
-    if (fabs(step.turn_rad) > 0.0 && !(fabs(step.across_mps2) + fabs(step.turn_radps) > 0.0)) {
-        json_fail_key(&object, "turn_deg", "needs across_mps2 or turn_degps, other than 0");
-    }
-    if (!json_has(&object, "for_s") && !step.has_speed && !json_has(&object, "turn_deg")) {
-        json_fail(&object.place, "says no end: for_s, to_speed_mps or turn_deg");
-    }
-    json_end(&object);
-    return step;
-}
-
-static void read_steps(struct json_object *object, struct target_item *item)
-{
-    struct json_list list = json_list_of(object, "legs", LEGS_MAX);
-
-    item->num_steps = list.count;
-    item->steps = must_calloc(list.count + 1, sizeof *item->steps);
-    for (size_t i = 0; i < list.count; i++) {
-        item->steps[i] = read_step(json_element(&list, i), &item->has_height);
-    }
-}
-
-static void read_velocity(struct json_object *object, struct target_item *item)
-{
-    double velocity_mps[3] = {0};
-
-    json_exclude(object, "velocity_mps", "speed_mps");
-    json_exclude(object, "velocity_mps", "heading_rad");
-    item->speed_mps = json_number(object, "speed_mps", 0, SPEED_MAX_MPS, 0);
-    item->heading_rad = json_number(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
-    if (read_vector(object, "velocity_mps", SPEED_MAX_MPS, velocity_mps, &item->has_height)) {
-        item->vz_mps = velocity_mps[2];
-        item->speed_mps = portable_hypot(velocity_mps[0], velocity_mps[1]);
-        item->heading_rad = portable_atan2(velocity_mps[1], velocity_mps[0]);
-    } else {
-        json_require(object, "speed_mps");
-        json_require(object, "heading_rad");
-    }
-}
-
-static void read_parent(struct json_object *object, struct target_item *item,
-                        const struct scene_targets *before)
-{
-    const struct target_item *parent;
-
-    item->has_parent = true;
-    item->parent = json_count(object, "parent", 0, ITEMS_MAX, 0);
-    if (item->parent >= before->count || before->items[item->parent].count > 0 ||
-        before->items[item->parent].flights > 0) {
-        json_fail_key(object, "parent", "targets[%zu] is no path before this one", item->parent);
-    }
-    parent = &before->items[item->parent];
-    json_require(object, "from_s");
-    if (item->from_s < parent->from_s || item->from_s > parent->until_s) {
-        json_fail_key(object, "from_s", "the parent is not there then");
-    }
-    item->speed_change_mps =
-        json_number(object, "speed_change_mps", -SPEED_MAX_MPS, SPEED_MAX_MPS, 0);
-    item->heading_change_rad =
-        json_number(object, "heading_change_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
-}
-
-static void read_points(struct json_object *object, struct target_item *item)
-{
-    static const char *const others[] = {"at_m",   "velocity_mps", "speed_mps", "heading_rad",
-                                         "from_s", "parent",       "legs"};
-    struct json_list list = json_list_of(object, "points", LEGS_MAX);
-
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        json_exclude(object, "points", others[i]);
-    }
-    if (list.count < 2) {
-        json_fail(&list.place, "must be two or more, each [t_s, x_m, y_m]");
-    }
-    item->num_points = list.count;
-    item->points = must_calloc(list.count, sizeof *item->points);
-    for (size_t i = 0; i < list.count; i++) {
-        json_element_numbers(&list, i, 3, -PLACE_MAX_M, PLACE_MAX_M, item->points[i]);
-        if (i > 0 && item->points[i][0] <= item->points[i - 1][0]) {
-            json_fail(&list.place, "times must grow");
-        }
-    }
-    item->from_s = item->points[0][0];
-}
-
-static void read_shake(struct json_object *object, struct target_item *item)
-{
-    struct json_object shake;
-
-    if (json_below(object, "shake", &shake)) {
-        json_require(&shake, "every_s");
-        json_require(&shake, "sigma_mps2");
-        item->shake_s = json_number(&shake, "every_s", 0.01, 1e6, 0);
-        item->shake_mps2 = json_number(&shake, "sigma_mps2", 0, ACCEL_MAX_MPS2, 0);
-        json_end(&shake);
-    }
-}
-
-static void read_path(struct json_object *object, struct target_item *item,
-                      const struct scene_targets *before)
-{
-    double place_m[3] = {0};
-
-    item->from_s = json_number(object, "from_s", -1e6, 1e6, 0);
-    item->until_s = json_number(object, "until_s", -1e6, 1e6, INFINITY);
-    read_shake(object, item);
-    if (json_has(object, "points")) {
-        read_points(object, item);
-    }
-    if (item->until_s <= item->from_s) {
-        json_fail_key(object, "until_s", "is not after from_s");
-    }
-    if (item->num_points > 0) {
-        return;
-    }
-    if (json_has(object, "parent")) {
-        read_parent(object, item, before);
-    } else {
-        json_require(object, "at_m");
-        read_vector(object, "at_m", PLACE_MAX_M, place_m, &item->has_height);
-        item->x_m = place_m[0];
-        item->y_m = place_m[1];
-        item->z_m = place_m[2];
-        read_velocity(object, item);
-    }
-    read_steps(object, item);
-}
-
-static void read_turns(struct json_object *object, struct target_item *item)
-{
-    struct json_object turns;
-
-    item->has_turns = json_below(object, "turns", &turns);
-    if (item->has_turns) {
-        json_require(&turns, "every_s");
-        json_require(&turns, "across_mps2");
-        item->turn_every = json_between(&turns, "every_s", 0.1, 1e6, (struct json_span){0});
-        item->turn_across =
-            json_between(&turns, "across_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
-        item->has_turn_for = json_has(&turns, "for_s");
-        item->turn_for = json_between(&turns, "for_s", 0.1, 1e6, (struct json_span){0});
-        item->turn_rad = json_between(&turns, "turn_deg", 0.1, 3600, (struct json_span){20, 90});
-        item->turn_rad.lo *= PORTABLE_PI / 180.0;
-        item->turn_rad.hi *= PORTABLE_PI / 180.0;
-        json_exclude(&turns, "for_s", "turn_deg");
-        json_end(&turns);
-    }
-}
-
-static void read_changes(struct json_object *object, struct target_item *item)
-{
-    struct json_object changes;
-
-    item->has_changes = json_below(object, "speed_changes", &changes);
-    if (item->has_changes) {
-        json_require(&changes, "every_s");
-        json_require(&changes, "along_mps2");
-        item->change_every = json_between(&changes, "every_s", 0.1, 1e6, (struct json_span){0});
-        item->change_speed = json_between(&changes, "to_speed_mps", 0, SPEED_MAX_MPS, item->speed);
-        item->change_along =
-            json_between(&changes, "along_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
-        json_end(&changes);
-    }
-}
-
-static void read_stops(struct json_object *object, struct target_item *item)
-{
-    struct json_object stops;
-
-    item->has_stops = json_below(object, "stops", &stops);
-    if (item->has_stops) {
-        json_require(&stops, "every_s");
-        json_require(&stops, "for_s");
-        json_require(&stops, "along_mps2");
-        item->stop_every = json_between(&stops, "every_s", 0.1, 1e6, (struct json_span){0});
-        item->stop_for = json_between(&stops, "for_s", 0, 1e6, (struct json_span){0});
-        item->stop_along =
-            json_between(&stops, "along_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
-        json_end(&stops);
-    }
-}
-
-static void read_lives(struct json_object *object, struct target_item *item)
-{
-    item->from = json_between(object, "from_s", -1e6, 1e6, (struct json_span){0, 0});
-    item->has_life = json_has(object, "life_s");
-    item->life = json_between(object, "life_s", 1e-3, 1e6, (struct json_span){0, 0});
-    item->is_replaced = json_flag(object, "is_replaced", false);
-    item->pause = json_between(object, "pause_s", 0, 1e6, (struct json_span){0, 0});
-    if (item->is_replaced) {
-        json_require(object, "life_s");
-    }
-    if (json_has(object, "pause_s") && !item->is_replaced) {
-        json_fail_key(object, "pause_s", "needs is_replaced");
-    }
-}
-
-static void read_box(struct json_object *object, struct target_item *item)
-{
-    const double *box_m = item->box_m;
-
-    item->has_box = json_numbers(object, "box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->box_m);
-    if (item->has_box && (box_m[0] > box_m[1] || box_m[2] > box_m[3])) {
-        json_fail_key(object, "box_m", "must be [x_min, x_max, y_min, y_max]");
-    }
-}
-
-static void read_discs(struct json_object *object, struct target_item *item)
-{
-    struct json_list list = json_list_of(object, "keep_discs_m", KEEP_DISCS_MAX);
-
-    for (size_t i = 0; i < list.count; i++) {
-        double *disc_m = item->keep_discs_m[i];
-
-        json_element_numbers(&list, i, 4, -PLACE_MAX_M, PLACE_MAX_M, disc_m);
-        if (disc_m[2] > disc_m[3] || disc_m[3] < 0.0) {
-            json_fail(&list.place, "must be [x, y, from, to]");
-        }
-    }
-    item->num_keep_discs = list.count;
-    if (json_has(object, "keep_all_share") && list.count == 0) {
-        json_fail_key(object, "keep_all_share", "needs keep_discs_m");
-    }
-    item->keep_all_share = json_number(object, "keep_all_share", 0, 1, 0);
-}
-
-static void read_group(struct json_object *object, struct target_item *item)
-{
-    static const struct json_span all_round = {-PORTABLE_PI, PORTABLE_PI};
-
-    item->count = json_count(object, "count", 1, GROUP_MAX, 0);
-    read_lives(object, item);
-    read_place(object, "about_m", &item->about_x_m, &item->about_y_m);
-    read_box(object, item);
-    item->range = json_between(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
-    item->azimuth = json_between(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
-    json_exclude(object, "box_m", "range_m");
-    json_exclude(object, "box_m", "azimuth_rad");
-    if (!item->has_box) {
-        json_require(object, "range_m");
-    }
-    json_require(object, "speed_mps");
-    item->speed = json_between(object, "speed_mps", 0, SPEED_MAX_MPS, (struct json_span){0});
-    json_exclude(object, "heading_rad", "inbound_rad");
-    item->heading = json_between(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
-    item->is_relative = item->is_either = json_has(object, "inbound_rad");
-    item->heading = json_between(object, "inbound_rad", 0, PORTABLE_PI, item->heading);
-    item->has_keep = json_has(object, "keep_range_m");
-    item->keep = json_between(object, "keep_range_m", 0, PLACE_MAX_M, (struct json_span){0});
-    item->has_keep_box =
-        json_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
-    read_discs(object, item);
-    item->spacing_m = json_number(object, "spacing_m", 0, PLACE_MAX_M, 0);
-    read_turns(object, item);
-    read_changes(object, item);
-    read_stops(object, item);
-}
-
-static void read_flights(struct json_object *object, struct target_item *item)
-{
-    item->flights = json_count(object, "flights", 1, GROUP_MAX, 0);
-    json_require(object, "box_m");
-    read_box(object, item);
-    json_require(object, "least_s");
-    item->flights_least = json_number(object, "least_s", 1, 1e5, 0);
-    item->crossing_share = json_number(object, "crossing_share", 0, 1, 0);
-}
-
-struct scene_targets targets_read(struct json_object *object, const char *key)
-{
-    struct json_list list = json_list_of(object, key, ITEMS_MAX);
-    struct scene_targets targets = {.items = must_calloc(list.count + 1, sizeof *targets.items)};
-
-    for (; targets.count < list.count; targets.count++) {
-        struct json_object one = json_element(&list, targets.count);
-        struct target_item *item = &targets.items[targets.count];
-
-        json_text(&one, "text", NULL);
-        json_exclude(&one, "count", "flights");
-        if (json_has(&one, "flights")) {
-            read_flights(&one, item);
-        } else if (json_has(&one, "count")) {
-            read_group(&one, item);
-        } else {
-            read_path(&one, item, &targets);
-        }
-        json_end(&one);
-    }
-    return targets;
-}
-
-void targets_free(struct scene_targets *targets)
-{
-    for (size_t i = 0; i < targets->count; i++) {
-        free(targets->items[i].steps);
-        free(targets->items[i].points);
-    }
-    free(targets->items);
-    *targets = (struct scene_targets){.count = 0};
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_path: where targets are: legs of constant acceleration along and constant rate of turn, or of one acceleration whatever the
- * heading, and groups of random ones.
+ * scene_path: where targets are: legs of constant acceleration along and constant rate of turn, or
+ * of one acceleration whatever the heading, and groups of random ones.
  */
 #ifndef RHOTRACK_TOOL_SCENE_PATH_H
 #define RHOTRACK_TOOL_SCENE_PATH_H
@@ -10,8 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene_json.h"
-#include "scene_stream.h"
+#include "scene/scene_json.h"
+#include "scene/scene_stream.h"
 
 struct motion {
     double x_m, y_m, vx_mps, vy_mps, z_m, vz_mps;
@@ -45,12 +45,24 @@ struct motion path_at(const struct scene_path *path, double t_s);
 void path_free(struct scene_path *path);
 void paths_keep(struct scene_paths *paths, struct scene_path path);
 
-/* The first leg, from from_s on; and another one from t_s on, as fast and in the direction as the last one is then. A leg
- * that would begin where the last one does takes its place. */
+/*
+ * The first leg, from from_s on; and another one from t_s on, as fast and in the direction as the
+ * last one is then. A leg that would begin where the last one does takes its place.
+ */
 void path_begin(struct scene_path *path, double x_m, double y_m, double speed_mps,
                 double heading_rad);
 void path_go_on(struct scene_path *path, double t_s, double along_mps2, double turn_radps);
 double path_speed_mps(const struct scene_path *path, double t_s); /* in the last leg */
+void path_add_leg(struct scene_path *path, struct path_leg leg);
+
+/*
+ * The leg that a time is in; its speed and heading then. Below PATH_STANDS_MPS a target has no
+ * heading to turn.
+ */
+#define PATH_STANDS_MPS 1e-3
+const struct path_leg *path_leg_of(const struct scene_path *path, double t_s);
+double path_leg_speed_mps(const struct path_leg *leg, double t_s);
+double path_leg_heading_rad(const struct path_leg *leg, double t_s);
 
 /* One leg of a described path. */
 struct path_step {
@@ -126,10 +138,14 @@ struct target_draft {
 void flights_draw(const struct target_draft *draft, struct scene_paths *paths,
                   struct random *random);
 
+/* scene_targets.c */
 struct scene_targets targets_read(struct json_object *object, const char *key);
 void targets_free(struct scene_targets *targets);
 
-/* All paths of a run, in new memory. Exit 2 where no random path keeps within keep_range_m and keep_box_m. */
+/*
+ * All paths of a run, in new memory. Exit 2 where no random path keeps within keep_range_m and
+ * keep_box_m.
+ */
 struct scene_path *targets_draw(const struct scene_targets *targets, const char *file,
                                 double duration_s, uint64_t seed, uint64_t run, uint64_t source,
                                 size_t *count);

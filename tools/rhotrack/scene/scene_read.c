@@ -6,9 +6,9 @@
 
 #include <cjson/cJSON.h>
 
-#include "../common.h"
-#include "portable_math.h"
-#include "scene.h"
+#include "base/common.h"
+#include "base/portable_math.h"
+#include "scene/scene.h"
 
 #define VERSION 1
 #define PLACE_MAX_M 2e6
@@ -16,7 +16,7 @@
 #define DURATION_MAX_S 1e6
 #define PLOTS_MAX 1e5
 
-/* ---- parts that several things have ----------------------------------------------------------------- */
+/* ---- parts that several things have ---- */
 
 static struct scene_coverage read_coverage(struct json_object *object,
                                            struct scene_coverage otherwise)
@@ -103,7 +103,7 @@ static struct scene_curve read_curve(struct json_object *object, const char *key
     return curve;
 }
 
-/* ---- sensors ---------------------------------------------------------------------------------------- */
+/* ---- sensors ---- */
 
 /* What a tracker is told is the truth but for its biases, where nothing else is said. */
 static void read_told(struct json_object *object, struct scene_sensor *sensor)
@@ -282,7 +282,7 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
     }
 }
 
-/* ---- clutter ---------------------------------------------------------------------------------------- */
+/* ---- clutter ---- */
 
 static const struct scene_coverage anywhere = {.range_m = {0, 4 * RANGE_MAX_M}};
 
@@ -443,7 +443,7 @@ static void read_clutter(struct scene *scene, struct json_object *object)
     scene->num_clutter++;
 }
 
-/* ---- events ----------------------------------------------------------------------------------------- */
+/* ---- events ---- */
 
 static void read_outage(struct json_object *object, struct scene_event *event)
 {
@@ -507,7 +507,7 @@ static void read_event(struct scene *scene, struct json_object *object)
     scene->num_events++;
 }
 
-/* ---- what trackers are told, and what only the lab reads ----------------------------------------------- */
+/* ---- what trackers are told, and what only the lab reads ---- */
 
 /* Parameters by their names, as `rhotrack config` has them. */
 static void read_settings(struct scene *scene, struct json_object *root)
@@ -575,7 +575,7 @@ static void check_lab(struct json_object *root)
     }
 }
 
-/* ---- the whole -------------------------------------------------------------------------------------- */
+/* ---- the whole ---- */
 
 static void read_area(struct scene *scene, struct json_object *root)
 {

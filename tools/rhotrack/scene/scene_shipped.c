@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_shipped.h"
+#include "scene/scene_shipped.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common.h"
-#include "scene.h"
+#include "base/common.h"
+#include "scene/scene.h"
 
 #define SCENE_BYTES_MAX (16u << 20)
 

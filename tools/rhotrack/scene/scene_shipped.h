@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* scene_shipped: the files of tools/scenes, compiled into the program (the Makefile writes the table from them). */
+/*
+ * scene_shipped: the files of tools/scenes, compiled into the program (the Makefile writes the
+ * table from them).
+ */
 #ifndef RHOTRACK_TOOL_SCENE_SHIPPED_H
 #define RHOTRACK_TOOL_SCENE_SHIPPED_H
 

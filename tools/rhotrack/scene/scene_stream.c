@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_stream.h"
+#include "scene/scene_stream.h"
 
 struct random scene_stream(uint64_t seed, uint64_t run, enum stream_kind kind, uint64_t source,
                            uint64_t item, uint64_t part)

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_stream: a generator of random numbers of its own for each thing in a scene: one target's path, what one radar sees
- * of it in one turn, one source of clutter in one turn. What is drawn for one thing does not depend on what else there is.
+ * scene_stream: a generator of random numbers of its own for each thing in a scene: one target's
+ * path, what one radar sees of it in one turn, one source of clutter in one turn. What is drawn for
+ * one thing does not depend on what else there is.
  */
 #ifndef RHOTRACK_TOOL_SCENE_STREAM_H
 #define RHOTRACK_TOOL_SCENE_STREAM_H
 
-#include "../random.h"
-#include "scene_json.h"
+#include "base/random.h"
+#include "scene/scene_json.h"
 
 enum stream_kind {
     STREAM_PATH = 1, /* targets of which source, element of targets[], which of its paths */

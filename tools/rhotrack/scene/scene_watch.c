@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene_watch.h"
+#include "scene/scene_watch.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "../common.h"
-#include "portable_math.h"
-#include "scene_mover.h"
+#include "base/common.h"
+#include "base/portable_math.h"
+#include "scene/scene_mover.h"
 
 #define RANGE_LEAST_M 0.01 /* a file's last digit */
 #define MEETING_STEPS                                                                              \
     16                  /* each leaves the ratio of the angular speeds: 1e-2 at worst in practice */
 #define AGAIN_TURNS 0.5 /* what has just been met is not met again before */
 
-/* ---- where sensors look ------------------------------------------------------------------------------ */
+/* ---- where sensors look ---- */
 
 static double direction(const struct scene_sensor *sensor)
 {
@@ -29,7 +29,9 @@ static size_t num_turns(const struct scene *scene, const struct scene_sensor *se
     return turns > 0.0 ? (size_t)turns : 0;
 }
 
-/* The share of a turn that is left until the antenna says this azimuth, 0 .. below 1, at the time. */
+/*
+ * The share of a turn that is left until the antenna says this azimuth, 0 .. below 1, at the time.
+ */
 static double turns_until(const struct scene_sensor *sensor, double azimuth_rad, double t_s)
 {
     double turns = (t_s - sensor->start_s) / sensor->turn_s;
@@ -82,7 +84,7 @@ bool scene_covers(const struct scene *scene, double x_m, double y_m)
     return false;
 }
 
-/* ---- what happens ------------------------------------------------------------------------------------- */
+/* ---- what happens ---- */
 
 static bool happens(const struct scene_event *event, size_t sensor, double t_s)
 {
@@ -119,7 +121,7 @@ static bool is_lost(const struct scene *scene, size_t sensor, double start_s, do
     return false;
 }
 
-/* ---- one sensor at work ---------------------------------------------------------------------------------- */
+/* ---- one sensor at work ---- */
 
 /* What the sensor meets when it passes a target. */
 struct sighting {
@@ -220,7 +222,7 @@ static struct scene_plot measure(const struct scene_sensor *sensor, const struct
     return plot;
 }
 
-/* ---- things that are seen again and again ---------------------------------------------------------------- */
+/* ---- things that are seen again and again ---- */
 
 /* When the antenna next points to it, after after_s. False: it is not there then. */
 static bool meet(const struct watch *watch, const struct scene_mover *mover, double after_s,
@@ -283,7 +285,7 @@ static void watch_mover(struct watch *watch, const struct scene_mover *mover,
     }
 }
 
-/* ---- targets ----------------------------------------------------------------------------------------------- */
+/* ---- targets ---- */
 
 static struct target_fades draw_fades(const struct scene *scene, const struct scene_path *path,
                                       uint64_t target, uint64_t seed, uint64_t run)
@@ -506,7 +508,7 @@ static void watch_targets(struct watch *watch, const struct scene_run *run,
     }
 }
 
-/* ---- clutter ------------------------------------------------------------------------------------------------ */
+/* ---- clutter ---- */
 
 static void take_echo(struct watch *watch, const struct scene_mover *mover,
                       struct sighting *sighting, uint64_t item)
@@ -646,7 +648,9 @@ static void draw_strobe(struct watch *watch, const struct scene_clutter *clutter
                  sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
 }
 
-/* Even in the ball (without heights, the disc) about the target that fills the beam's width there. */
+/*
+ * Even in the ball (without heights, the disc) about the target that fills the beam's width there.
+ */
 static void draw_about(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
                        const struct scene_path *path, struct random *random)
 {
@@ -752,7 +756,7 @@ static void watch_false_bearings(struct watch *watch)
     }
 }
 
-/* ---- all sensors ---------------------------------------------------------------------------------------------- */
+/* ---- all sensors ---- */
 
 static int by_scan(const void *a, const void *b)
 {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_watch: what the sensors of a scene see in one run: scans in the order of their arrival, each with its plots.
+ * scene_watch: what the sensors of a scene see in one run: scans in the order of their arrival,
+ * each with its plots.
  *
  * Times are the true ones; a sensor's own clock is its time_bias_s ahead.
  */
 #ifndef RHOTRACK_TOOL_SCENE_WATCH_H
 #define RHOTRACK_TOOL_SCENE_WATCH_H
 
-#include "scene.h"
+#include "scene/scene.h"
 
 struct scene_plot {
     size_t scan; /* of its sensor, from 0 on */

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* library_console: newlib's standard output through the debugger (rdimon), for the jobs of tools/instructions. */
+/*
+ * library_console: newlib's standard output through the debugger (rdimon), for the jobs of
+ * tools/instructions.
+ */
 #include <stdio.h>
 
 #include "mps2.h"

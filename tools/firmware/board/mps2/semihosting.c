@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * semihosting: files.h, arguments and exit through the debugger or QEMU: a breakpoint with the operation in r0 and its
- * operands in r1. Without either a breakpoint is a fault, so no product has this part.
+ * semihosting: files.h, arguments and exit through the debugger or QEMU: a breakpoint with the
+ * operation in r0 and its operands in r1. Without either a breakpoint is a fault, so no product has
+ * this part.
  */
 #include <stddef.h>
 #include <stdint.h>
@@ -90,7 +91,10 @@ size_t files_stack_used(void)
 
 /* ---- Instructions ---- */
 
-/* QEMU with -icount shift=6 takes 64 ns of its own time for each instruction; a tick of the timer is 40 ns. */
+/*
+ * QEMU with -icount shift=6 takes 64 ns of its own time for each instruction; a tick of the timer
+ * is 40 ns.
+ */
 uint32_t files_instructions(void)
 {
     return UINT32_MAX - TIMER0_VALUE;

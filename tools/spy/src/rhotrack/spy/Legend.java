@@ -8,6 +8,9 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.TreeMap;
 
+import rhotrack.spy.scene.Scene;
+import rhotrack.spy.scene.TrackMark;
+
 /** One row at the foot of the plan view that says what its marks mean; of sensors, truth and clutter those that there are. */
 final class Legend {
     static final int HEIGHT = 26;

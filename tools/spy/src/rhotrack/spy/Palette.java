@@ -8,6 +8,8 @@ import java.awt.Graphics2D;
 import java.awt.RenderingHints;
 import java.awt.Stroke;
 
+import rhotrack.spy.scene.TrackMark;
+
 /** Colours, strokes and fonts: bright is what the tracker says, muted what it was told, faint what helps to read. */
 final class Palette {
     static final Color BACKGROUND = new Color(0x0c1117);

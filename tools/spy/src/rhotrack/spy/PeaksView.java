@@ -13,6 +13,11 @@ import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
+import rhotrack.spy.scene.Geometry;
+import rhotrack.spy.scene.LookHistory;
+import rhotrack.spy.scene.Scene;
+import rhotrack.spy.scene.TrackMark;
+
 /** The parameter space: the candidates of the last searches, theta against rho, and the lines of the tracks. */
 @SuppressWarnings("serial") // nobody stores views
 final class PeaksView extends JComponent {

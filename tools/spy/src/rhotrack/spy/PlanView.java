@@ -10,6 +10,11 @@ import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
+import rhotrack.spy.scene.Bounds;
+import rhotrack.spy.scene.Geometry;
+import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.Scene;
+
 /** The plan view: north is up, east is right. */
 @SuppressWarnings("serial") // nobody stores views
 final class PlanView extends JComponent {

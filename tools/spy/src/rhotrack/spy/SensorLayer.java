@@ -7,6 +7,11 @@ import java.awt.geom.Line2D;
 import java.awt.geom.Rectangle2D;
 import java.util.Map;
 
+import rhotrack.spy.scene.Bounds;
+import rhotrack.spy.scene.LookHistory;
+import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.Scene;
+
 /** What the sensors saw: plots and bearings that fade, clutter that comes back, and where the sensors stand. */
 final class SensorLayer {
     private SensorLayer() {

@@ -10,6 +10,11 @@ import javax.swing.JOptionPane;
 import lcm.spy.ChannelData;
 import lcm.spy.SpyPlugin;
 
+import rhotrack.spy.scene.Decoder;
+import rhotrack.spy.scene.Feed;
+import rhotrack.spy.scene.LcmUrl;
+import rhotrack.spy.scene.Model;
+
 /** The plug-in that lcm-spy finds on its class path: any channel of rhotrack opens the one window that shows all. */
 public final class SpyView implements SpyPlugin {
     private ViewerWindow window;

@@ -9,6 +9,9 @@ import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
+import rhotrack.spy.scene.Scene;
+import rhotrack.spy.scene.TrackMark;
+
 /** The foot of the window: how the tracker is doing, and how fresh what is shown is. */
 @SuppressWarnings("serial") // nobody stores views
 final class StatusLine extends JComponent {

@@ -8,6 +8,8 @@ import java.awt.geom.Line2D;
 import java.awt.geom.Path2D;
 import java.awt.geom.Rectangle2D;
 
+import rhotrack.spy.scene.TrackMark;
+
 /** The marks of the views, the same in pictures, tables and legends. Shapes differ too, not colours alone. */
 final class Symbols {
     private Symbols() {

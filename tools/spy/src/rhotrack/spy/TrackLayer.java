@@ -13,6 +13,11 @@ import java.awt.geom.Rectangle2D;
 import java.util.List;
 import java.util.Locale;
 
+import rhotrack.spy.scene.Ellipse;
+import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.Scene;
+import rhotrack.spy.scene.TrackMark;
+
 /** The tracks, and the truth where there is one. */
 final class TrackLayer {
     private static final double SIGMAS = 3;

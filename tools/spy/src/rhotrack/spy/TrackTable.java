@@ -8,6 +8,10 @@ import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
+import rhotrack.spy.scene.Geometry;
+import rhotrack.spy.scene.Scene;
+import rhotrack.spy.scene.TrackMark;
+
 /** The tracks as rows, as many as there is room for: confirmed and coasting ones first. */
 @SuppressWarnings("serial") // nobody stores views
 final class TrackTable extends JComponent {

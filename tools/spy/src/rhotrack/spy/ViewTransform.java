@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 package rhotrack.spy;
 
+import rhotrack.spy.scene.Bounds;
+
 /** Between the local frame (metres, y up) and the screen (pixels, y down); one scale for both axes. */
 final class ViewTransform {
     private static final double MIN_METRES_PER_PIXEL = 0.01;

@@ -11,6 +11,10 @@ import java.nio.file.Files;
 import javax.imageio.ImageIO;
 import javax.swing.SwingUtilities;
 
+import rhotrack.spy.scene.Feed;
+import rhotrack.spy.scene.LcmUrl;
+import rhotrack.spy.scene.Model;
+
 /** The same view without lcm-spy, in a window or as a picture. */
 public final class Viewer {
     static final int WIDTH = 1280;

@@ -13,6 +13,9 @@ import javax.swing.JSplitPane;
 import javax.swing.Timer;
 import javax.swing.plaf.basic.BasicSplitPaneUI;
 
+import rhotrack.spy.scene.Model;
+import rhotrack.spy.scene.Scene;
+
 /** All views of one model, with their buttons and keys. Needs no window to paint itself. */
 @SuppressWarnings("serial") // nobody stores views
 final class ViewerPanel extends JPanel {

@@ -6,6 +6,9 @@ import java.awt.event.WindowEvent;
 import javax.swing.JFrame;
 import javax.swing.WindowConstants;
 
+import rhotrack.spy.scene.Feed;
+import rhotrack.spy.scene.Model;
+
 /** The window; the subscription that feeds it ends with it. */
 final class ViewerWindow {
     private final JFrame frame = new JFrame("rhotrack");

@@ -22,6 +22,11 @@ import rhotrack.status_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
 import rhotrack.work_t;
+import rhotrack.spy.scene.Decoder;
+import rhotrack.spy.scene.Model;
+import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.Scene;
+import rhotrack.spy.scene.TrackMark;
 
 /** From messages, good and bad, to what is painted. */
 final class MessageTest {

@@ -6,6 +6,16 @@ import java.awt.image.BufferedImage;
 import java.util.ArrayList;
 import java.util.List;
 
+import rhotrack.spy.scene.Bounds;
+import rhotrack.spy.scene.Ellipse;
+import rhotrack.spy.scene.Geometry;
+import rhotrack.spy.scene.LcmUrl;
+import rhotrack.spy.scene.ListAssembler;
+import rhotrack.spy.scene.LookHistory;
+import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.TrackMark;
+import rhotrack.spy.scene.TrackStore;
+
 /** The viewer's parts without a display or a network: `make spy-test`. */
 public final class SelfTest {
     private static final Checks CHECK = new Checks();

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * approx: elementary functions in float32.
+ *
+ * The library has its own functions so that every target decides alike: libm differs between newlib
+ * and glibc, and newlib's versions need errno. Only +, -, *, / and the square root of IEEE
+ * binary32, and integer operations: the same bits on every machine. No state, no loops over data,
+ * constant cost. Errors below are against exact arithmetic over the whole stated range, checked by
+ * tests/unit/base/test_approx.c. NaN in gives NaN out. Stack: 32 bytes at most.
+ */
+#ifndef RHOTRACK_APPROX_H
+#define RHOTRACK_APPROX_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RHO_PI 3.14159274f
+#define RHO_TWO_PI 6.28318548f
+#define RHO_HALF_PI 1.57079637f
+
+/*
+ * The bits of a float, and the float of these bits. A union: where there is no standard library to
+ * know about (-ffreestanding), a memcpy of four bytes would be called. No stack.
+ */
+union rho_binary32 {
+    float v;
+    uint32_t bits;
+};
+
+static inline uint32_t rho_float_bits(float v)
+{
+    union rho_binary32 binary;
+    binary.v = v;
+    return binary.bits;
+}
+
+static inline float rho_float_of(uint32_t bits)
+{
+    union rho_binary32 binary;
+    binary.bits = bits;
+    return binary.v;
+}
+
+/*
+ * Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 1e-7.
+ */
+float rho_sin(float angle_rad);
+float rho_cos(float angle_rad);
+
+/*
+ * Angle of the point (x, y) in radians, -pi .. pi, counter-clockwise from +x. Absolute error <=
+ * 3e-7. (0, 0) gives 0; -0 counts as 0. Infinite arguments give NaN.
+ */
+float rho_atan2(float y, float x);
+
+/* e^v. Relative error <= 1e-7 for -87 <= v <= 88; 0 below, +infinity above. */
+float rho_exp(float v);
+
+/*
+ * Natural logarithm of v > 0, subnormal v included. Relative error <= 1e-7 + 1e-7 absolute. 0:
+ * -infinity; v < 0: NaN; +infinity: +infinity.
+ */
+float rho_log(float v);
+
+/*
+ * ln(1 + v) for 0 <= v <= 1: absolute error <= 2e-7. Other values give no sensible result. A third
+ * of rho_log's cost.
+ */
+float rho_log_one_plus(float v);
+
+/*
+ * Square root of v >= 0, correctly rounded (the bits of IEEE 754). v < 0: NaN. +infinity:
+ * +infinity. The processor's own instruction where gcc or clang know one, else some 40
+ * instructions.
+ */
+float rho_sqrt(float v);
+
+/*
+ * 1 / sqrt(v) of a normal v, FLT_MIN .. FLT_MAX: relative error <= 3e-7. Other values give no
+ * sensible result. Some 20 instructions: for densities, where rho_sqrt would be a waste.
+ */
+float rho_inverse_sqrt(float v);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

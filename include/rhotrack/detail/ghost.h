@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * ghost: which crossings of two sensors' bearings can be targets, and which are ghosts.
+ *
+ * Sensors a and b with m and n bearings have m n crossings, of which at most min(m, n) are targets.
+ * The ghost matrix holds one element a crossing, M(i, j) = delta_ij, the angle between the
+ * bearings; 0: no target.
+ *
+ *            b0    b1    b2         elimination: 0 if the bearings do not meet within range_max
+ *      a0  [ .     .31   0   ]  <-  pruning: if every beam has a target, the only
+ *      a1  [ .22   .35   .07 ]      crossing of a beam is one, and the other beam has no
+ *      a2  [ 0     .29   .04 ]      further target: a0 removes b1 from a1 and a2
+ *
+ * The literal rule assumes one target on a beam at most, and is right if both sensors see every
+ * target and nothing else. After a false alarm or a miss, the only crossing of a beam may be a
+ * ghost, which then removes a target. The safe rule keeps the literal result only if it is
+ * consistent: as many bearings from a as from b, and a crossing left for each.
+ *
+ * Source: passive Hough transform paper (see crossing.h), section 3, steps 1 to 2.6.
+ *
+ * Stack: 32 bytes at most where nothing else is said.
+ */
+#ifndef RHOTRACK_GHOST_H
+#define RHOTRACK_GHOST_H
+
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/detail/crossing.h"
+#include "rhotrack/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Fate of a crossing. */
+enum rho_ghost_reason {
+    RHO_GHOST_KEPT = 0,
+    RHO_GHOST_SIDES,  /* the bearings look to different sides of the base */
+    RHO_GHOST_APART,  /* they diverge: delta <= 0 (step 1.1) */
+    RHO_GHOST_RANGE,  /* they meet beyond range_max (step 1.2.1) */
+    RHO_GHOST_ROW,    /* the bearing of b is another bearing of a's only one (step 2.3) */
+    RHO_GHOST_COLUMN, /* the bearing of a is another bearing of b's only one (step 2.5) */
+    RHO_NUM_GHOST_REASONS
+};
+
+enum rho_ghost_rule {
+    RHO_GHOST_NO_RULE, /* elimination by side and range alone */
+    RHO_GHOST_LITERAL, /* steps 2 to 2.6 of the paper */
+    RHO_GHOST_SAFE     /* the same, where nothing contradicts it */
+};
+
+struct rho_ghost_matrix {
+    uint16_t rows, columns;                              /* bearings of a and of b */
+    float delta_rad[RHO_MAX_BEARINGS][RHO_MAX_BEARINGS]; /* M(i, j); 0 for ghosts */
+    uint8_t reason[RHO_MAX_BEARINGS][RHO_MAX_BEARINGS];  /* enum rho_ghost_reason */
+};
+
+/*
+ * Fills the matrix and eliminates by side and range.
+ *   bearings_a_rad, bearings_b_rad  num_a and num_b of them, one scan of each sensor
+ *   range_max_m  > 0: neither sensor sees farther
+ * Errors: NULL, CAPACITY (more than RHO_MAX_BEARINGS), VALUE (a bearing not finite, range_max_m not
+ * positive); *matrix is unchanged. Cost: num_a num_b crossings. Stack: 190 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
+                                              const struct rho_crossing_base *base,
+                                              const float *bearings_a_rad, unsigned num_a,
+                                              const float *bearings_b_rad, unsigned num_b,
+                                              float range_max_m);
+
+/*
+ * Prunes a filled matrix. Returns how many crossings that removed.
+ * Cost: RHO_MAX_BEARINGS^3 at most. Stack: 530 bytes: a matrix, and 210.
+ */
+unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule);
+
+/* Name of a reason in lower case ("kept", "sides", ...); "unknown" for any other value. */
+const char *rho_ghost_reason_name(enum rho_ghost_reason reason);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

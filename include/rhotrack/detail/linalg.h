@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * linalg: small symmetric matrices, sized by their use.
+ *
+ * A symmetric n x n matrix is its lower triangle row by row: element (i, j <= i) at i (i + 1) / 2 +
+ * j, n (n + 1) / 2 floats. n <= RHO_LINALG_MAX. Every routine checks positive definiteness where it
+ * divides (a comparison that NaN fails), and returns an error without touching its operands;
+ * rho_linalg_cholesky alone may have changed l.
+ *
+ * Stack: 100 bytes at most where nothing else is said.
+ */
+#ifndef RHOTRACK_LINALG_H
+#define RHOTRACK_LINALG_H
+
+#include "rhotrack/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RHO_LINALG_MAX 12
+#define RHO_TRIANGLE(n) ((n) * ((n) + 1) / 2)
+#define RHO_AT(i, j) ((i) >= (j) ? (i) * ((i) + 1) / 2 + (j) : (j) * ((j) + 1) / 2 + (i))
+
+/*
+ * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a
+ * itself). RHO_ERROR_SINGULAR: a pivot is not a positive finite number; l is undefined. Also
+ * NULL, CAPACITY (n). Cost: n^3 / 6 multiplications, n square roots. Stack: 120 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
+
+/* b := L^-1 b for a factor from rho_linalg_cholesky. Cost: n^2 / 2. */
+void rho_linalg_forward(int n, const float *l, float *b);
+
+/* b := L^-T b. After rho_linalg_forward b solves a x = b. Cost: n^2 / 2. */
+void rho_linalg_backward(int n, const float *l, float *b);
+
+/* ln det(L L^T) = 2 sum ln L_ii. Cost: n logarithms. */
+float rho_linalg_log_determinant(int n, const float *l);
+
+/*
+ * Squared Mahalanobis distance d^T S^-1 d and ln det S for 2 x 2 (s: 3 floats) and 3 x 3 (s: 6
+ * floats). RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs
+ * untouched. Also NULL. Cost: 25 and 60 operations and a logarithm.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_gate2(const float s[3], const float d[2],
+                                                float *distance2, float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[3],
+                                                float *distance2, float *log_det);
+
+/*
+ * One scalar Kalman update of a six-element state x with covariance p (21 floats): element `index`
+ * was measured, `innovation` is its measured minus predicted value, `variance` the measurement's
+ * noise. *nis (may be NULL) gets innovation^2 / (p_ii + variance). No variance grows by more than
+ * 2^-20 of itself, and a positive definite p stays so in spite of rounding, unless it is singular
+ * to within 10^-6 already.
+ * Errors: NULL, VALUE (index, innovation or a result not finite), SINGULAR (variance not positive,
+ * p_ii negative, or their sum not a number one can divide by); x, p and *nis untouched. Cost: about
+ * 240 instructions. Stack: 112 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index,
+                                                  float innovation, float variance, float *nis);
+
+/*
+ * The same for a measurement of row . x, with row any vector of 6 floats; `innovation`
+ * is the measured minus the predicted value. Errors as above. Cost: about 530 instructions.
+ * Stack: 144 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
+                                                      float innovation, float variance, float *nis);
+
+/*
+ * projected := p row for a symmetric 6 x 6 p; returns row . p row, the variance of row . x. Cost:
+ * about 90 instructions.
+ */
+float rho_linalg_project6(const float p[21], const float row[6], float projected[6]);
+
+/*
+ * The same updates for a state of n <= RHO_LINALG_MAX elements and its triangle p: of element
+ * `index`, and of a row whose elements beyond the first num are 0. Errors: also CAPACITY (n, num).
+ * Cost: about 4 n^2 and 6 n^2 instructions.
+ * Stack: 250 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index,
+                                                    float innovation, float variance);
+RHO_MUST_CHECK enum rho_status rho_linalg_update_along(int n, float *x, float *p, int num,
+                                                       const float *row, float innovation,
+                                                       float variance);
+
+/*
+ * d^T S^-1 d and ln det S for any n <= RHO_LINALG_MAX, S (its triangle) and d spoiled. 0 where S is
+ * not positive definite, a result is not finite, or the distance beyond distance2_max: then nothing
+ * else is filled. Cost: n^3 / 3 operations, n divisions and a logarithm for each three dimensions.
+ */
+int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *distance2,
+                     float *log_det);
+
+/*
+ * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p
+ * G^T with new a = c a + s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by
+ * 2^-22 of the larger one, more than rounding takes, so that a positive definite p stays so, unless
+ * it is singular to within 10^-6 already. a, b: 0 .. 5, not the same; not checked.
+ * Cost: about 90 instructions.
+ */
+void rho_linalg_turn6(float p[21], int a, int b, float c, float s);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

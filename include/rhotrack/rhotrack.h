@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * rhotrack: all that programs call, in one include.
+ *
+ *     #include "rhotrack/rhotrack.h"
+ *
+ * Scans of plots or bearings go in, tracks come out. Each header below is the manual of its part;
+ * types.h states the conventions, settings.h what is to be said of a radar, tracker.h the step.
+ * Including all costs nothing: functions that a program does not call are not linked. All headers
+ * are C99, and C++17 through extern "C".
+ */
+#ifndef RHOTRACK_RHOTRACK_H
+#define RHOTRACK_RHOTRACK_H
+
+#include "rhotrack/config.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+/* tracking */
+#include "rhotrack/initiator.h"
+#include "rhotrack/measurement.h"
+#include "rhotrack/passive.h"
+#include "rhotrack/settings.h"
+#include "rhotrack/snapshot.h"
+#include "rhotrack/tracker.h"
+
+/* scans and tracks as messages */
+#include "rhotrack/frames.h"
+#include "rhotrack/message.h"
+#include "rhotrack/node.h"
+#include "rhotrack/publish.h"
+#include "rhotrack/scan_assembler.h"
+#include "rhotrack/udpm.h"
+
+/* parts of a tracker, for programs that build their own */
+#include "rhotrack/clutter_map.h"
+#include "rhotrack/kalman.h"
+#include "rhotrack/track.h"
+
+/* the methods of the papers, to compare with */
+#include "rhotrack/classic.h"
+#include "rhotrack/passive_paper.h"
+
+#endif

@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scan_assembler: messages of sensors in, whole scans out, in the order of time. Scans that are
+ * lost, out of sequence, duplicate or faulty are counted.
+ *
+ *     while (a message has come) {
+ *         while (rho_scan_assembler_take(&assembler, channel, data, size, now_us) ==
+ *                RHO_ERROR_CAPACITY) {
+ *             step what rho_scan_assembler_next gives, once, and try again
+ *         }
+ *         while (rho_scan_assembler_next(&assembler, now_us, &item)) {
+ *             step item
+ *         }
+ *     }
+ *
+ * LCM does not say who sent a message, so no sender is trusted. The effect of a message is bounded,
+ * and one sensor that fails or lies leaves the scans of the others as they are. A sender that uses
+ * another sensor's number can do harm to that sensor.
+ *
+ * Parts      A scan is complete when all its parts are here. It goes out incomplete, and is
+ *            counted, when a newer scan of its sensor begins, when hold_us has passed since its
+ *            last part, or when a later scan of another sensor has been held that long (unless
+ *            hold_us is 0). Plots are in the order of the parts. The part that comes first counts:
+ *            parts that contradict it are refused.
+ * Order      A complete scan waits until every other live sensor has sent one that is not older,
+ *            hold_us at most: scans of different sensors go out in the order of time. A scan behind
+ *            a skipped number waits for that number, not for those before it, hold_us at most, too;
+ *            so does a scan that comes less than an interval before it. A single sensor's scans
+ *            wait for nothing else. A sensor is live for jump_max_us after its last scan.
+ * Out of     A skipped number may come after all, behind newer ones. Where nothing newer has gone
+ * sequence   out, its scan takes its place in the order of time. Otherwise it goes out behind the
+ *            newer scans, late_max_us at most, for a tracker that takes out-of-sequence scans;
+ *            bearings do not, as their frames are over. Such a scan does not move its sensor on. No
+ *            other scan waits for it, except while its parts are coming or for the number before
+ *            it. It only takes free room, for one scan of a sensor at a time while parts are
+ *            missing, and gives way to every scan in sequence: then it is dropped.
+ * Numbers    A scan is the next one of its sensor where its number is higher by 1 ..
+ *            RHO_SCAN_ASSEMBLER_SKIP_MAX (numbers wrap), its time is later, and both fit: it took
+ *            at most 3/2 of the time that its numbers usually take, or that the sensor was silent;
+ *            and, where it skips numbers, at least 3/4 of the first. Skipped numbers are lost. A
+ *            number that is 0 to 31 lower is a duplicate or out of sequence. An out-of-sequence
+ *            scan is taken where its number was skipped and its time lies before the newest by 3/4
+ *            to 3/2 of what its numbers usually take. Any other scan, and another epoch, is refused
+ *            until follow_scans such scans agree with one another: the sensor has restarted, or has
+ *            another interval. So one damaged or foreign message does not make the scans that
+ *            follow it look old.
+ * Newcomers  A newcomer is a sensor that was heard for less than half as long as another one that
+ *            still sends and was heard for a minute. A sensor that is silent for three intervals
+ *            (an eighth to half of jump_max_us) makes no other one a newcomer. Times count up to
+ *            ten minutes, so a sensor is a newcomer for five at most. A single sensor is none, and
+ *            there is none in the first minute, nor in a record (is_record).
+ *            A newcomer has no vote on the clock. Its scan waits until an established sensor has
+ *            sent one that is not older, or is by its own clock hold_us beyond that time; and until
+ *            no part of an older scan of an established sensor is missing. It gives way to scans of
+ *            established sensors, and is lost then (sensors_no_room).
+ *            All newcomers that are neither `allowed` nor described (rho_scan_assembler_set_sensor)
+ *            share one scan between two of the others, because empty scans in a row would end
+ *            tracks, and share stranger_plots_per_s: messages beyond that are dropped
+ *            (messages_flooded). Their sigmas are not below those of `other`.
+ * Allowed    Where `allowed` holds a sensor_id, messages of any other sensor are dropped.
+ * Twins      The first part of a sensor's newest scan that comes again with other contents is
+ *            counted (scans_other), and has_twin stays 1 in its source: two senders use its number.
+ *            The scan that came first counts.
+ * Clock      A scan is refused where most other live sensors say that its time is another one: more
+ *            than an eighth of jump_max_us and hold_us, or two of their intervals, ahead of the
+ *            time that follows from their last scans and the reception clock; or an eighth of
+ *            jump_max_us and hold_us before their last scans. Beside a sensor that has sent one
+ *            scan so far, jump_max_us counts instead of its eighth. A scan more than jump_max_us
+ *            off the last accepted one is refused, too. So one wrong clock does not make the other
+ *            sensors' scans out of sequence. When more sensors, without newcomers, agree on another
+ *            time than on the present one, the assembler follows that time: is_restart tells, and
+ *            tracks of earlier scans do not go on. Where as many sensors say the one as the other,
+ *            the reception clock decides if it is near one of them alone, and else the sensor that
+ *            came first. An established sensor's clock that is ahead by less makes the other
+ *            sensors' scans out of sequence in the tracker for as long as it goes on.
+ * Flood      More than flood_per_s messages of one sensor in a second are dropped. Unknown sensors
+ *            and newcomers share one such limit. A new sensor takes the place of the one that was
+ *            not heard for longest, but never that of a sensor that is heard, tells the common time
+ *            and has sent follow_scans scans. For want of room, neither a new sensor nor a newcomer
+ *            cuts short a scan of such an established sensor, nor makes it out of sequence while
+ *            its parts are still coming.
+ *
+ * The channel tells which sensor sent a message: RHO_PLOTS_<n>, RHO_POLAR_<n>, RHO_BEARINGS_<n>,
+ * with n the message's sensor_id. The reception clock counts microseconds from any epoch. It must
+ * go on, and should run as fast as the sensors' clocks do: a replay gives the times at which the
+ * record was made.
+ * The object holds no pointers: a memcpy is a snapshot.
+ *
+ * Stack: 100 bytes at most where nothing else is said.
+ */
+#ifndef RHOTRACK_SCAN_ASSEMBLER_H
+#define RHOTRACK_SCAN_ASSEMBLER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/status.h"
+#include "rhotrack/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Numbers that a sensor may skip and still be accepted at once. */
+#define RHO_SCAN_ASSEMBLER_SKIP_MAX 64
+
+/* Series of refused scans that are remembered for each sensor. */
+#define RHO_SCAN_ASSEMBLER_STRAYS 4
+
+/*
+ * Longest time for which a sensor counts as heard, and the time that another one must have been
+ * heard for before any sensor is a newcomer.
+ */
+#define RHO_SCAN_ASSEMBLER_TRUST_US 600000000u
+#define RHO_SCAN_ASSEMBLER_EQUALS_US 60000000u
+
+/* Noise where the messages say 0; each above 0 and within the limits of types.h. */
+struct rho_scan_assembler_noise {
+    float sigma_m, sigma_mps; /* of plots */
+    float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps; /* polar */
+    float sigma_rad; /* bearings */
+};
+
+/*
+ * What is known of a sensor beforehand. A polar message or bearing says the sensor's place itself;
+ * the place here counts for plots, and for polar messages that say 0, 0, 0. Biases of range and
+ * azimuth are taken off polar plots and bearings. time_bias_s is taken off each scan's time before
+ * it is looked at in any way: order, numbers, clock; plots keep their time after their scan's. One
+ * that is changed while the sensor sends looks as if its clock was set.
+ */
+struct rho_scan_assembler_sensor {
+    struct rho_sensor sensor;
+    struct rho_scan_assembler_noise noise;
+};
+
+struct rho_scan_assembler_config {
+    /* 0 .. 10 s; 0: nothing waits for other sensors, and parts wait for a newer scan alone */
+    int64_t hold_us;
+    /* 0 .. 60 s; 0: a scan behind a newer one that has gone out is dropped */
+    int64_t late_max_us;
+    int64_t jump_max_us;   /* 1 s .. 1 h */
+    uint32_t flood_per_s;  /* 1 .. 1e6 */
+    uint32_t follow_scans; /* 2 .. 255 */
+    uint16_t is_told;   /* 1: items have a sensor also where `other` is all that is known of it */
+    uint16_t is_record; /* 1: no sensor is a newcomer: for files */
+    uint32_t stranger_plots_per_s; /* 1 .. 1e6: of all newcomers that are not named, together */
+    uint32_t num_allowed;          /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
+    /* sensor_ids; messages of any other are dropped; an even count leaves no padding */
+    int16_t allowed[(RHO_MAX_SENSORS + 1) / 2 * 2];
+    /* of sensors that are not described; its sensor_id is not used */
+    struct rho_scan_assembler_sensor other;
+};
+
+/* Since init; all saturate. */
+struct rho_scan_assembler_counters {
+    uint32_t messages_bad;        /* length, count, a value, the sensor's number */
+    uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
+    /* and those of newcomers beyond stranger_plots_per_s, or their turn */
+    uint32_t messages_flooded;
+    uint32_t messages_not_allowed; /* of a sensor that is not in `allowed` */
+    uint32_t scans_accepted;       /* of which a first part came */
+    /*
+     * older than one of the same sensor that was accepted, whatever becomes of them (those that
+     * found room are accepted, too), but for those of newcomers without a turn; and those of a
+     * clock that was given up
+     */
+    uint32_t scans_late;
+    /* scans, or parts of one, that were there before; parts that come when the scan is closed */
+    uint32_t scans_duplicate;
+    /*
+     * of those, not counted there: with another content, so that two senders use one sensor_id (or
+     * damage)
+     */
+    uint32_t scans_other;
+    uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
+    uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers */
+    uint32_t scans_incomplete; /* went out without some of their parts */
+    /* refused for their time: far off the sensor's own, or the common clock */
+    uint32_t clock_jumps;
+    uint32_t sensor_restarts; /* new numbers or times followed */
+    uint32_t sensors_no_room; /* messages of sensors beyond RHO_MAX_SENSORS or RHO_MAX_OPEN_SCANS */
+    uint32_t bearings_in;     /* of accepted scans */
+    /* of accepted scans beyond RHO_MAX_PLOTS or RHO_MAX_BEARINGS: the last ones */
+    uint32_t plots_no_room;
+};
+
+enum rho_scan_assembler_kind {
+    RHO_SCAN_ASSEMBLER_PLOTS = 0,
+    RHO_SCAN_ASSEMBLER_POLAR,
+    RHO_SCAN_ASSEMBLER_BEARINGS,
+    RHO_NUM_FEED_KINDS
+};
+
+/* True of kinds that the library is built with. */
+#define RHO_SCAN_ASSEMBLER_HAS(kind) (((RHO_SCAN_KINDS) >> (kind)&1) != 0)
+
+/* True of that kind: known to the compiler where there is no such, or no other. */
+#define RHO_SCAN_ASSEMBLER_IS(kind, which)                                                         \
+    ((RHO_SCAN_KINDS) == 1 << (which) || (RHO_SCAN_ASSEMBLER_HAS(which) && (kind) == (which)))
+
+/* Position in a sensor's sequence of scans. */
+struct rho_scan_assembler_place {
+    int64_t time_us;
+    int32_t scan, epoch;
+};
+
+/* Scans that were refused for their number or time, and agree with one another. */
+struct rho_scan_assembler_stray {
+    struct rho_scan_assembler_place place; /* the newest of them */
+    uint32_t scans;                        /* how many; 0: none */
+    uint32_t reserved;                     /* 0 */
+};
+
+/* Rate limit: what is left until it is filled again, once a second. */
+struct rho_scan_assembler_bucket {
+    int64_t full_us; /* reception clock: when it was full */
+    uint32_t left;
+    uint32_t reserved; /* 0 */
+};
+
+/* One sensor's stream of messages. */
+struct rho_scan_assembler_source {
+    struct rho_scan_assembler_place place; /* its newest accepted scan */
+    struct rho_scan_assembler_stray strays[RHO_SCAN_ASSEMBLER_STRAYS]; /* the last one first */
+    int64_t heard_us; /* reception clock: its last accepted scan */
+    struct rho_scan_assembler_bucket messages;
+    uint32_t seen;        /* bit i: number place.scan - i was there */
+    uint32_t skipped;     /* bit i: it was not, and may still come */
+    uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
+    /* reception clock: for how long it was heard; up to RHO_SCAN_ASSEMBLER_TRUST_US */
+    uint32_t known_us;
+    uint32_t check;    /* private; of the newest scan's first part, as it came first */
+    uint16_t scans;    /* accepted; saturates */
+    uint8_t off_clock; /* scans in a row; saturates; 0: it tells the common time */
+    uint8_t has_twin;  /* 1: a scan came twice, with different contents */
+    int16_t sensor_id;
+    uint8_t kind; /* enum rho_scan_assembler_kind */
+    uint8_t is_used;
+};
+
+/* A scan that is assembled of its parts. */
+struct rho_scan_assembler_slot {
+    struct rho_scan_assembler_place place;
+    int64_t heard_us; /* reception clock: its last part */
+    uint32_t measures;
+    float sector_from_rad, sector_to_rad;
+    struct rho_sensor sensor;
+    uint16_t source; /* index */
+    uint16_t num_parts, parts_here;
+    uint16_t num_inputs; /* plots or bearings that are kept */
+    uint8_t state;       /* private */
+    uint8_t kind;        /* enum rho_scan_assembler_kind */
+    uint8_t has_sensor;
+    uint8_t order; /* private */
+    /* of each part that is here, 1 more than its inputs; 0: missing */
+    uint16_t parts[RHO_MAX_PARTS];
+    struct rho_bearing bearings[RHO_MAX_BEARINGS];
+    struct rho_plot plots[RHO_MAX_PLOTS];
+};
+
+struct rho_scan_assembler {
+    uint32_t magic;
+    uint16_t num_known;
+    uint16_t is_pressed; /* a scan found no room: the oldest goes out at the next call */
+    int64_t clock_us;    /* of the newest accepted scan */
+    int64_t out_us;      /* of the newest one that went out; INT64_MIN: none */
+    uint16_t has_clock;
+    uint16_t is_restart; /* the next scan that goes out is the first on another clock */
+    uint32_t newcomers;  /* scans, since the last one of a sensor that is none */
+    struct rho_scan_assembler_config config;
+    struct rho_scan_assembler_counters counters;
+    struct rho_scan_assembler_bucket strangers; /* messages of sensors that are new or unknown */
+    struct rho_scan_assembler_bucket stranger_plots;
+    struct rho_scan_assembler_source sources[RHO_MAX_SENSORS];
+    struct rho_scan_assembler_sensor known[RHO_MAX_SENSORS];
+    struct rho_scan_assembler_slot slots[RHO_MAX_OPEN_SCANS];
+};
+
+/* A scan to step. It points into the object. */
+struct rho_scan_assembler_item {
+    enum rho_scan_assembler_kind kind;
+    struct rho_scan scan;             /* PLOTS, POLAR */
+    struct rho_bearing_scan bearings; /* BEARINGS */
+    /* who saw it, for rho_tracker_set_sensor; has_sensor 0: nothing is known but the defaults */
+    struct rho_sensor sensor;
+    int has_sensor;
+    /* the common clock was set anew: trackers start anew as well, before this scan */
+    int is_restart;
+    uint16_t parts_missing;
+    int64_t heard_us; /* reception clock: its last part */
+};
+
+/*
+ * hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30 s, flood
+ * 10 000 a second, follow_scans 3, stranger_plots 256 a second (embedded: 64), all sensors allowed;
+ * other sensors: at the origin, looking everywhere, pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3
+ * mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0, is_record 0. Constant cost.
+ */
+void rho_scan_assembler_config_default(struct rho_scan_assembler_config *config);
+
+/*
+ * Prepares an empty assembler; the config is copied.
+ *   size   sizeof(struct rho_scan_assembler) of the caller
+ * Errors: NULL, SIZE, CONFIG. Cost: sizeof(assembler) bytes cleared.
+ */
+RHO_MUST_CHECK enum rho_status
+rho_scan_assembler_init(struct rho_scan_assembler *assembler, size_t size,
+                        const struct rho_scan_assembler_config *config);
+
+/*
+ * Describes a sensor, or replaces the description of the same sensor_id: noise, biases, range.
+ * Errors: NULL, STATE (not initialised), CONFIG (noise, a place or a bias outside its
+ * limits), CAPACITY (RHO_MAX_SENSORS); nothing is changed. Cost: RHO_MAX_SENSORS.
+ */
+RHO_MUST_CHECK enum rho_status
+rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembler,
+                              const struct rho_scan_assembler_sensor *sensor);
+
+/*
+ * Takes one message; any bytes may be given. RHO_OK also where it was refused: a counter has moved.
+ *   channel  ends with NUL
+ *   now_us   reception clock
+ * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel, or of a kind that is none of
+ * RHO_SCAN_KINDS), CAPACITY (no room for another open scan: call
+ * rho_scan_assembler_next once, step what it gives, if anything, and take the message again; two
+ * such calls make room); nothing
+ * is changed but for that call.
+ * Cost: the message's bytes, twice, RHO_MAX_SENSORS, and where parts come out of order the scan's
+ * plots moved.
+ * Stack: 2 KB: the message as a struct.
+ */
+RHO_MUST_CHECK enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler,
+                                                       const char *channel, const uint8_t *data,
+                                                       size_t size, int64_t now_us);
+
+/*
+ * The next scan that is due, if there is one; it is valid until the next call of this function.
+ * now_us INT64_MAX: all that is there goes out.
+ * Returns 0 where nothing is due, or assembler is not initialised. Cost: RHO_MAX_OPEN_SCANS times
+ * RHO_MAX_SENSORS.
+ * Stack: 280 bytes.
+ */
+int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
+                            struct rho_scan_assembler_item *item);
+
+/*
+ * When rho_scan_assembler_next should be called though no message comes; INT64_MAX: not before one
+ * does.
+ * Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 170 bytes.
+ */
+int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/detail/assignment.h"
+
+#include <string.h>
+
+#define ASSIGNMENT_MAGIC 0x41534e31u /* "ASN1" */
+#define DISTANCE_NONE INT32_MAX
+
+/*
+ * One row's search: Dijkstra's shortest path over the costs reduced by the columns' prices
+ * (Jonker and Volgenant 1987). A path ends at a free column, or at a row that gives
+ * up its column: a column of its own at cost and price 0 that needs no place in the tables,
+ * because a row in it is reached by no later search.
+ *
+ * Prices stay within -COST_MAX .. 0 and distances within twice that: a row in a column gains by
+ * it, so that cost - price <= 0, and no path dearer than staying without is followed. int32_t
+ * is enough.
+ */
+struct search {
+    int32_t end_distance; /* of the nearest row that may give up its column; later of the end */
+    int16_t end_row;
+    int16_t end_column;
+    int num_scanned;  /* columns at the head of the queue whose rows were asked */
+    int num_labelled; /* columns in the queue */
+};
+
+int rho_assignment_is_ready(const struct rho_assignment *assignment)
+{
+    return assignment != NULL && assignment->magic == ASSIGNMENT_MAGIC;
+}
+
+/* True where the pair is the worse one to keep; equal costs: the higher column. */
+static int is_dearer(const struct rho_assignment_pair *one, const struct rho_assignment_pair *other)
+{
+    return one->cost > other->cost || (one->cost == other->cost && one->column > other->column);
+}
+
+/* Place of a column among a row's pairs, or their number. */
+static int find_pair(const struct rho_assignment *a, int row, int column)
+{
+    const int num_pairs = a->num_pairs[row];
+    int i;
+
+    for (i = 0; i < num_pairs; ++i) {
+        if (a->pairs[row][i].column == column) {
+            break;
+        }
+    }
+    return i;
+}
+
+static int find_dearest(const struct rho_assignment_pair *pairs)
+{
+    int i, dearest = 0;
+
+    for (i = 1; i < RHO_MAX_GATE_PLOTS; ++i) {
+        if (is_dearer(&pairs[i], &pairs[dearest])) {
+            dearest = i;
+        }
+    }
+    return dearest;
+}
+
+/* A full row: the dearest of its pairs and the new one is dropped. */
+static void replace_dearest(struct rho_assignment *a, int row, struct rho_assignment_pair pair)
+{
+    struct rho_assignment_pair *dearest = &a->pairs[row][find_dearest(a->pairs[row])];
+
+    if (is_dearer(dearest, &pair)) {
+        *dearest = pair;
+    }
+    if (a->pairs_dropped < UINT32_MAX) {
+        ++a->pairs_dropped;
+    }
+}
+
+static void label_column(struct rho_assignment *a, struct search *s, int column, int row,
+                         int32_t distance)
+{
+    if (a->column_distance[column] == DISTANCE_NONE) {
+        a->column_queue[s->num_labelled++] = (int16_t)column;
+    }
+    a->column_distance[column] = distance;
+    a->column_from[column] = (int16_t)row;
+}
+
+/*
+ * Offers the ways that go on from a row: its columns, or none. base: the row's price less its
+ * distance.
+ */
+static void label_row(struct rho_assignment *a, struct search *s, int row, int32_t base)
+{
+    const int num_pairs = a->num_pairs[row];
+    int i;
+
+    if (-base < s->end_distance) {
+        s->end_distance = -base;
+        s->end_row = (int16_t)row;
+    }
+    for (i = 0; i < num_pairs; ++i) {
+        const int column = a->pairs[row][i].column;
+        const int32_t distance = a->pairs[row][i].cost - a->column_price[column] - base;
+
+        /* Columns no nearer than the end never become part of the path. */
+        if (distance < a->column_distance[column] && distance < s->end_distance) {
+            label_column(a, s, column, row, distance);
+        }
+    }
+}
+
+/*
+ * Brings the nearest open column, the lowest of equals, to the head of the queue's open part;
+ * false: none in reach.
+ */
+static int find_nearest(struct rho_assignment *a, const struct search *s)
+{
+    int16_t *queue = a->column_queue;
+    int32_t least = s->end_distance;
+    int i, nearest = -1;
+    int16_t column;
+
+    for (i = s->num_scanned; i < s->num_labelled; ++i) {
+        const int32_t distance = a->column_distance[queue[i]];
+
+        if (distance < least || (nearest >= 0 && distance == least && queue[i] < queue[nearest])) {
+            least = distance;
+            nearest = i;
+        }
+    }
+    if (nearest < 0) {
+        return 0;
+    }
+    column = queue[nearest];
+    queue[nearest] = queue[s->num_scanned];
+    queue[s->num_scanned] = column;
+    return 1;
+}
+
+/*
+ * Finds the end of the shortest path from a row: s->end_column, or where that is NONE
+ * s->end_row.
+ */
+static void search_path(struct rho_assignment *a, struct search *s, int row)
+{
+    label_row(a, s, row, 0);
+    while (find_nearest(a, s)) { /* at most num_columns times: each is scanned once */
+        const int16_t column = a->column_queue[s->num_scanned];
+        const int16_t owner = a->column_row[column];
+        int32_t price;
+
+        if (owner == RHO_ASSIGNMENT_NONE) {
+            s->end_column = column;
+            s->end_distance = a->column_distance[column];
+            return;
+        }
+        ++s->num_scanned;
+        price = a->pairs[owner][find_pair(a, owner, column)].cost - a->column_price[column];
+        label_row(a, s, owner, price - a->column_distance[column]);
+    }
+}
+
+/* Keeps the reduced costs of the scanned columns' rows at least zero; leaves the labels clean. */
+static void update_prices(struct rho_assignment *a, const struct search *s)
+{
+    int i;
+
+    for (i = 0; i < s->num_labelled; ++i) {
+        const int16_t column = a->column_queue[i];
+
+        if (i < s->num_scanned) {
+            a->column_price[column] += a->column_distance[column] - s->end_distance;
+        }
+        a->column_distance[column] = DISTANCE_NONE;
+    }
+}
+
+/*
+ * Walks back from the end to the row that was searched for, each row on the way taking the
+ * column it reached.
+ */
+static void augment(struct rho_assignment *a, const struct search *s, int first_row)
+{
+    int16_t column = s->end_column;
+    int16_t row = s->end_row;
+
+    if (column == RHO_ASSIGNMENT_NONE) {
+        column = a->row_column[row];
+        a->row_column[row] = RHO_ASSIGNMENT_NONE;
+        if (row == first_row) {
+            return;
+        }
+    }
+    do { /* a shortest path meets a row once */
+        const int16_t freed = a->row_column[a->column_from[column]];
+
+        row = a->column_from[column];
+        a->row_column[row] = column;
+        a->column_row[column] = row;
+        column = freed;
+    } while (row != first_row);
+}
+
+static void clear_answer(struct rho_assignment *a)
+{
+    int i;
+
+    for (i = 0; i < a->num_rows; ++i) {
+        a->row_column[i] = RHO_ASSIGNMENT_NONE;
+    }
+    for (i = 0; i < a->num_columns; ++i) {
+        a->column_row[i] = RHO_ASSIGNMENT_NONE;
+        a->column_price[i] = 0;
+        a->column_distance[i] = DISTANCE_NONE;
+    }
+}
+
+enum rho_status rho_assignment_init(struct rho_assignment *assignment, size_t size)
+{
+    if (assignment == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *assignment) {
+        return RHO_ERROR_SIZE;
+    }
+    memset(assignment, 0, sizeof *assignment);
+    assignment->magic = ASSIGNMENT_MAGIC;
+    return RHO_OK;
+}
+
+enum rho_status rho_assignment_begin(struct rho_assignment *assignment, unsigned num_rows,
+                                     unsigned num_columns)
+{
+    if (assignment == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_assignment_is_ready(assignment)) {
+        return RHO_ERROR_STATE;
+    }
+    if (num_rows > RHO_MAX_TRACKS || num_columns > RHO_MAX_PLOTS) {
+        return RHO_ERROR_CAPACITY;
+    }
+    assignment->num_rows = (uint16_t)num_rows;
+    assignment->num_columns = (uint16_t)num_columns;
+    assignment->pairs_dropped = 0;
+    memset(assignment->num_pairs, 0, num_rows * sizeof assignment->num_pairs[0]);
+    clear_answer(assignment);
+    return RHO_OK;
+}
+
+enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned row, unsigned column,
+                                   int32_t cost)
+{
+    const struct rho_assignment_pair pair = {.cost = cost, .column = (int16_t)column};
+    uint16_t *num_pairs;
+
+    if (assignment == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_assignment_is_ready(assignment)) {
+        return RHO_ERROR_STATE;
+    }
+    if (row >= assignment->num_rows || column >= assignment->num_columns ||
+        cost < -RHO_ASSIGNMENT_COST_MAX || cost > RHO_ASSIGNMENT_COST_MAX) {
+        return RHO_ERROR_VALUE;
+    }
+    num_pairs = &assignment->num_pairs[row];
+    if (find_pair(assignment, (int)row, (int)column) < *num_pairs) {
+        return RHO_ERROR_VALUE;
+    }
+    if (cost >= 0) {
+        return RHO_OK;
+    }
+    if (*num_pairs < RHO_MAX_GATE_PLOTS) {
+        assignment->pairs[row][(*num_pairs)++] = pair;
+    } else {
+        replace_dearest(assignment, (int)row, pair);
+    }
+    return RHO_OK;
+}
+
+void rho_assignment_solve(struct rho_assignment *assignment)
+{
+    int row;
+
+    if (!rho_assignment_is_ready(assignment)) {
+        return;
+    }
+    clear_answer(assignment);
+    for (row = 0; row < assignment->num_rows; ++row) {
+        struct search s = {.end_distance = DISTANCE_NONE, .end_column = RHO_ASSIGNMENT_NONE};
+
+        search_path(assignment, &s, row);
+        update_prices(assignment, &s);
+        augment(assignment, &s, row);
+    }
+}
+
+int rho_assignment_column(const struct rho_assignment *assignment, unsigned row)
+{
+    if (!rho_assignment_is_ready(assignment) || row >= assignment->num_rows) {
+        return RHO_ASSIGNMENT_NONE;
+    }
+    return assignment->row_column[row];
+}

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/detail/gate.h"
+
+#include <float.h>
+
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/linalg.h"
+
+#define DIMENSIONS_MAX 4
+#define BOX_MARGIN 1.001f /* more than rounding is wrong by */
+
+/* The expected range rate: the same for all plots without an own time. */
+static void expect_rate(const struct rho_kalman *at, const struct rho_sensor *sensor, int has_z,
+                        struct rho_gate_rate *rate)
+{
+    float row[RHO_KALMAN_STATES], projected[RHO_KALMAN_STATES];
+    rate->is_known = rho_measurement_range_rate(at->state, sensor, has_z, row, &rate->rate_mps);
+    if (rate->is_known) {
+        rate->variance = rho_linalg_project6(at->covariance, row, projected);
+        for (int i = 0; i < 3; i++) {
+            rate->covariance[i] = projected[i];
+        }
+    }
+}
+
+void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, float noise_density,
+                   const struct rho_sensor *sensor, uint32_t measures)
+{
+    gate->predicted = *predicted;
+    gate->noise_density = noise_density;
+    gate->sensor = sensor;
+    gate->has_z = rho_kalman_is_open(predicted, 2);
+    gate->measures = measures;
+    if (measures & RHO_MEASURES_RANGE_RATE) {
+        expect_rate(predicted, sensor, gate->has_z, &gate->rate);
+    }
+}
+
+void rho_gate_box(const struct rho_gate *gate, float sigma_m, float offset_s, float half_m[2])
+{
+    const struct rho_kalman *at = &gate->predicted;
+    const float *p = at->covariance;
+    float noise = gate->noise_density * offset_s;
+    for (int axis = 0; axis < 2; axis++) {
+        float mixed = p[RHO_AT(axis + 3, axis)], speed_mps = at->state[axis + 3];
+        float spread_m2 =
+            p[RHO_AT(axis, axis)] + 2.0f * offset_s * (mixed < 0.0f ? -mixed : mixed) +
+            offset_s * offset_s * (p[RHO_AT(axis + 3, axis + 3)] + noise * (1.0f / 3.0f));
+        half_m[axis] = BOX_MARGIN * rho_sqrt(RHO_GATE_CHI2_4D * (spread_m2 + sigma_m * sigma_m)) +
+                       offset_s * (speed_mps < 0.0f ? -speed_mps : speed_mps);
+    }
+}
+
+/*
+ * Outside the gate along one axis alone, at the plot's own time: most plots end here, without a
+ * division. NaN ends here too.
+ */
+static int is_far(const struct rho_gate *gate, int axis, float place_m, float offset_s,
+                  float variance_m2)
+{
+    const struct rho_kalman *at = &gate->predicted;
+    const float *p = at->covariance;
+    float d_m = place_m - at->state[axis], spread_m2 = p[RHO_AT(axis, axis)];
+    if (offset_s > 0.0f || offset_s < 0.0f) {
+        float noise = offset_s > 0.0f ? gate->noise_density * offset_s : 0.0f;
+        d_m -= at->state[axis + 3] * offset_s;
+        spread_m2 = spread_m2 + 2.0f * offset_s * p[RHO_AT(axis + 3, axis)] +
+                    offset_s * offset_s * (p[RHO_AT(axis + 3, axis + 3)] + noise * (1.0f / 3.0f));
+    }
+    return !(d_m * d_m <= RHO_GATE_CHI2_4D * (spread_m2 + variance_m2));
+}
+
+/* Innovation and its covariance: x, y, then z and the range rate where they count. */
+struct innovation {
+    int num;
+    float d[DIMENSIONS_MAX];
+    float s[RHO_TRIANGLE(DIMENSIONS_MAX)];
+};
+
+static void add_position(const struct rho_kalman *at, const struct rho_measurement *seen, int num,
+                         struct innovation *innovation)
+{
+    float noise[RHO_TRIANGLE(3)];
+    rho_measurement_covariance(seen, noise);
+    innovation->num = num;
+    for (int i = 0; i < num; i++) {
+        innovation->d[i] = seen->place_m[i] - at->state[i];
+    }
+    /* the first rows of the packed triangle are the position's covariance */
+    for (int k = 0; k < RHO_TRIANGLE(num); k++) {
+        innovation->s[k] = at->covariance[k] + noise[k];
+    }
+}
+
+/* The innovations of a range rate and a position are correlated. */
+static int add_range_rate(const struct rho_gate_rate *rate, const struct rho_plot *plot,
+                          struct innovation *innovation)
+{
+    int n = innovation->num;
+    if (!rate->is_known) {
+        return 0;
+    }
+    for (int i = 0; i < n; i++) {
+        innovation->s[RHO_AT(n, i)] = rate->covariance[i];
+    }
+    innovation->s[RHO_AT(n, n)] =
+        rate->variance + plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
+    innovation->d[n] = plot->range_rate_mps - rate->rate_mps;
+    innovation->num = n + 1;
+    return 1;
+}
+
+/* Four dimensions: by the Cholesky factor. */
+static int measure_four(struct innovation *innovation, struct rho_gate_result *result)
+{
+    if (rho_linalg_cholesky(4, innovation->s, innovation->s) != RHO_OK) {
+        return 0;
+    }
+    rho_linalg_forward(4, innovation->s, innovation->d);
+    result->distance2 = 0.0f;
+    for (int i = 0; i < 4; i++) {
+        result->distance2 += innovation->d[i] * innovation->d[i];
+    }
+    result->log_det = rho_linalg_log_determinant(4, innovation->s);
+    return result->distance2 <= RHO_GATE_CHI2_4D;
+}
+
+static int is_inside(struct innovation *innovation, struct rho_gate_result *result)
+{
+    const float *s = innovation->s, *d = innovation->d;
+    if (innovation->num == 4) {
+        return measure_four(innovation, result);
+    }
+    if (innovation->num == 3) {
+        return rho_linalg_gate3(s, d, &result->distance2, &result->log_det) == RHO_OK &&
+               result->distance2 <= RHO_GATE_CHI2_3D;
+    }
+    return rho_linalg_gate2(s, d, &result->distance2, &result->log_det) == RHO_OK &&
+           result->distance2 <= RHO_GATE_CHI2_2D;
+}
+
+static int test_closely(const struct rho_gate *gate, const struct rho_kalman *at,
+                        const struct rho_gate_rate *rate, const struct rho_plot *plot,
+                        struct rho_gate_result *result)
+{
+    struct rho_measurement seen;
+    struct innovation innovation;
+    rho_measurement_open(plot, gate->measures, gate->sensor, &seen);
+    result->has_z = gate->has_z && seen.has_z;
+    add_position(at, &seen, result->has_z ? 3 : 2, &innovation);
+    result->has_range_rate =
+        (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 && add_range_rate(rate, plot, &innovation);
+    if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
+                                                                     innovation.s, innovation.d)) {
+        result->has_range_rate = 0;
+        innovation.num--;
+    }
+    return is_inside(&innovation, result);
+}
+
+/* At the plot's own time. */
+static int test_later(const struct rho_gate *gate, float offset_s, const struct rho_plot *plot,
+                      struct rho_gate_result *result)
+{
+    struct rho_kalman at = gate->predicted;
+    struct rho_gate_rate rate;
+    if (rho_kalman_predict(&at, offset_s, gate->noise_density) != RHO_OK) {
+        return 0;
+    }
+    if (gate->measures & RHO_MEASURES_RANGE_RATE) {
+        expect_rate(&at, gate->sensor, gate->has_z, &rate);
+    }
+    return test_closely(gate, &at, &rate, plot, result);
+}
+
+int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
+                  struct rho_gate_result *result)
+{
+    /* a high line of sight brings the height's noise down */
+    float offset_s = (float)plot->offset_us * 1e-6f, sigma_m = plot->sigma_range_m;
+    if (plot->sigma_cross_m > sigma_m) {
+        sigma_m = plot->sigma_cross_m;
+    }
+    if ((gate->measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
+        sigma_m = plot->sigma_up_m;
+    }
+    sigma_m *= rho_measurement_widest_factor(gate->sensor);
+    if (is_far(gate, 0, plot->x_m, offset_s, sigma_m * sigma_m) ||
+        is_far(gate, 1, plot->y_m, offset_s, sigma_m * sigma_m)) {
+        return 0;
+    }
+    return plot->offset_us == 0 ? test_closely(gate, &gate->predicted, &gate->rate, plot, result)
+                                : test_later(gate, offset_s, plot, result);
+}
+
+static int test_bearing(const struct rho_kalman *at, const struct rho_bearing *bearing, float x_m,
+                        float y_m, struct rho_gate_result *result)
+{
+    struct rho_kalman_bearing seen;
+    float projected[RHO_KALMAN_STATES];
+    if (!rho_kalman_linearise_bearing(at, x_m, y_m, bearing->bearing_rad, bearing->sigma_rad,
+                                      &seen)) {
+        return 0;
+    }
+    float variance_m2 = rho_linalg_project6(at->covariance, seen.row, projected) + seen.variance_m2;
+    if (!(seen.off_m * seen.off_m <= RHO_GATE_CHI2_1D * variance_m2) || !(variance_m2 <= FLT_MAX)) {
+        return 0;
+    }
+    *result =
+        (struct rho_gate_result){.distance2 = seen.off_m * seen.off_m / variance_m2,
+                                 .log_det = rho_log(variance_m2) - 2.0f * rho_log(seen.range_m)};
+    return 1;
+}
+
+int rho_gate_test_bearing(const struct rho_gate *gate, const struct rho_bearing *bearing, float x_m,
+                          float y_m, struct rho_gate_result *result)
+{
+    if (bearing->offset_us == 0) {
+        return test_bearing(&gate->predicted, bearing, x_m, y_m, result);
+    }
+    struct rho_kalman at = gate->predicted;
+    return rho_kalman_predict(&at, (float)bearing->offset_us * 1e-6f, gate->noise_density) ==
+               RHO_OK &&
+           test_bearing(&at, bearing, x_m, y_m, result);
+}

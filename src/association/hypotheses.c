@@ -1,0 +1,465 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * hypotheses: the pool, its slots, prediction, and the mean over a slot. hypotheses_scan.c extends
+ * them by a scan's plots.
+ */
+#include "rhotrack/detail/hypotheses.h"
+
+#include <string.h>
+
+#include "hypotheses_pool.h"
+#include "rhotrack/detail/approx.h"
+
+/* Less likely ones, e^-9 beside the best one, do not show in the mean. */
+#define SHARE_SHOWN_MIN 1.2340980e-4f
+
+/* ---- the pool -------------------------------------------------------------------------------- */
+
+static int is_ready(const struct rho_hypotheses *pool)
+{
+    return pool->magic == RHO_HYPOTHESES_MAGIC;
+}
+
+int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    return is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
+}
+
+uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool)
+{
+    return pool->spare[--pool->num_free];
+}
+
+void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node)
+{
+    pool->spare[pool->num_free++] = node;
+}
+
+/* The slot with the most hypotheses, of equals the first, but for one. */
+static uint16_t richest(const struct rho_hypotheses *pool, uint16_t but)
+{
+    uint16_t found = but;
+    for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
+        if (slot != but && pool->num_of[slot] > (found == but ? 0 : pool->num_of[found])) {
+            found = slot;
+        }
+    }
+    return found;
+}
+
+unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted)
+{
+    unsigned own = slot < RHO_HYPOTHESES_SLOTS ? pool->num_of[slot] : 0;
+    while (own + pool->num_free < wanted) {
+        uint16_t giver = richest(pool, slot);
+        unsigned most = giver == slot ? 0 : pool->num_of[giver];
+        if (most < 2 || most <= own + pool->num_free) {
+            pool->hypotheses_cut = rho_count(pool->hypotheses_cut, wanted - own - pool->num_free);
+            return own + pool->num_free;
+        }
+        pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
+        pool->num_of[giver]--;
+        rho_hypotheses_release(pool, pool->node_of[giver][pool->num_of[giver]]);
+    }
+    return wanted;
+}
+
+enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
+                                    const struct rho_imm_model *model)
+{
+    if (!pool || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *pool) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!rho_imm_model_is_usable(model)) {
+        return RHO_ERROR_CONFIG;
+    }
+    struct rho_imm_model copy = *model;
+    memset(pool, 0, sizeof *pool);
+    pool->model = copy;
+    pool->num_free = RHO_MAX_HYPOTHESES;
+    for (unsigned i = 0; i < RHO_MAX_HYPOTHESES; i++) {
+        pool->spare[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
+    }
+    rho_imm_step_open(&pool->step, model, 0.0f);
+    pool->magic = RHO_HYPOTHESES_MAGIC;
+    return RHO_OK;
+}
+
+void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s)
+{
+    if (pool->model.calm_s > 0.0f && (calm_s < pool->model.calm_s || calm_s > pool->model.calm_s)) {
+        pool->model.calm_s = calm_s;
+        rho_imm_step_open(&pool->step, &pool->model, pool->step.dt_s);
+    }
+}
+
+/* ---- slots ----------------------------------------------------------------------------------- */
+
+static int find_slot(const struct rho_hypotheses *pool, uint16_t *slot)
+{
+    for (uint16_t i = 0; i < RHO_HYPOTHESES_SLOTS; i++) {
+        if (pool->num_of[i] == 0) {
+            *slot = i;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rho_kalman *estimate,
+                                    int64_t time_us, uint16_t *slot)
+{
+    if (!pool || !estimate || !slot) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_ready(pool)) {
+        return RHO_ERROR_STATE;
+    }
+    uint16_t found = 0;
+    if (!find_slot(pool, &found) || rho_hypotheses_make_room(pool, found, 1) < 1) {
+        return RHO_ERROR_CAPACITY;
+    }
+    uint16_t node = rho_hypotheses_allot(pool);
+    struct rho_hypothesis *first = &pool->nodes[node];
+    memset(first, 0, sizeof *first);
+    rho_imm_start(&first->imm, &pool->model, estimate);
+    first->time_us = time_us;
+    first->share = 1.0f;
+    for (int i = 0; i < RHO_HYPOTHESES_MEMORY; i++) {
+        first->picks[i] = RHO_HYPOTHESES_MISS;
+    }
+    pool->node_of[found][0] = node;
+    pool->num_of[found] = 1;
+    *slot = found;
+    return RHO_OK;
+}
+
+void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
+{
+    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+        return;
+    }
+    for (unsigned i = pool->num_of[slot]; i > 0; i--) {
+        rho_hypotheses_release(pool, pool->node_of[slot][i - 1]);
+    }
+    pool->num_of[slot] = 0;
+}
+
+unsigned rho_hypotheses_count(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    return pool && rho_hypotheses_is_open(pool, slot) ? pool->num_of[slot] : 0;
+}
+
+const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool, uint16_t slot,
+                                               unsigned index)
+{
+    return index < rho_hypotheses_count(pool, slot) ? &pool->nodes[pool->node_of[slot][index]] : 0;
+}
+
+/* ---- predict --------------------------------------------------------------------------------- */
+
+/* The step of an interval, kept until another one is asked for. */
+static const struct rho_imm_step *find_step(struct rho_hypotheses *pool, int64_t from_us,
+                                            int64_t to_us)
+{
+    float dt_s = rho_seconds_between(from_us, to_us);
+    if (dt_s < pool->step.dt_s || dt_s > pool->step.dt_s) {
+        rho_imm_step_open(&pool->step, &pool->model, dt_s);
+    }
+    return &pool->step;
+}
+
+enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, struct rho_imm *imm,
+                                    int64_t from_us, int64_t to_us)
+{
+    return from_us == to_us ? RHO_OK
+                            : rho_imm_predict_unmixed(imm, find_step(pool, from_us, to_us));
+}
+
+const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
+                                               const struct rho_hypothesis *at, int64_t time_us)
+{
+    if (at->time_us == time_us) {
+        return &at->imm;
+    }
+    pool->scratch = at->imm;
+    return rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
+               ? &pool->scratch
+               : 0;
+}
+
+float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot)
+{
+    const float best = pool->nodes[pool->node_of[slot][0]].weight_nat;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        at->weight_nat -= best;
+        at->share = rho_exp(at->weight_nat);
+    }
+    return best;
+}
+
+static enum rho_status move_quietly(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                    int64_t time_us)
+{
+    struct rho_imm_step step = *find_step(pool, at->time_us, time_us);
+    memset(step.noise, 0, sizeof step.noise);
+    memset(step.quiet_noise, 0, sizeof step.quiet_noise);
+    return rho_imm_predict_unmixed(&at->imm, &step);
+}
+
+static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                                int is_quiet)
+{
+    if (!pool) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_open(pool, slot)) {
+        return RHO_ERROR_STATE;
+    }
+    unsigned left = 0;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        uint16_t node = pool->node_of[slot][i];
+        struct rho_hypothesis *at = &pool->nodes[node];
+        if (at->time_us != time_us &&
+            (is_quiet
+                 ? move_quietly(pool, at, time_us)
+                 : rho_imm_predict(&at->imm, find_step(pool, at->time_us, time_us))) != RHO_OK) {
+            rho_hypotheses_release(pool, node);
+            continue;
+        }
+        at->time_us = time_us;
+        pool->node_of[slot][left++] = node;
+    }
+    pool->num_of[slot] = (uint8_t)left;
+    if (left == 0) {
+        return RHO_ERROR_VALUE;
+    }
+    if (pool->nodes[pool->node_of[slot][0]].weight_nat < 0.0f) {
+        (void)rho_hypotheses_rebase(pool, slot); /* the best one is gone */
+    }
+    return RHO_OK;
+}
+
+enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
+{
+    return move_all(pool, slot, time_us, 0);
+}
+
+enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
+{
+    return move_all(pool, slot, time_us, 1);
+}
+
+/* ---- the mean -------------------------------------------------------------------------------- */
+
+float rho_hypotheses_sum(const struct rho_hypotheses *pool, uint16_t slot)
+{
+    float sum = 0.0f;
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        sum += pool->nodes[pool->node_of[slot][i]].share;
+    }
+    return sum;
+}
+
+/*
+ * Sums over models of hypotheses, each with its share: about a place near all of them, so that one
+ * pass will do and nothing cancels.
+ */
+struct sums {
+    float about[RHO_KALMAN_STATES];
+    int has_height; /* of any of them; else what belongs to z is 0 */
+    float share, maneuver;
+    float way[RHO_KALMAN_STATES]; /* from there */
+    float accel_mps2[3];
+    float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
+};
+
+/* A model's way from there, and that times its share. */
+struct way {
+    float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
+};
+
+static inline void find_way(struct sums *sums, const struct rho_imm *imm, float s, float m,
+                            struct way *steady, struct way *manoeuvre, int i)
+{
+    steady->way[i] = imm->steady.state[i] - sums->about[i];
+    manoeuvre->way[i] = imm->state[i] - sums->about[i];
+    steady->scaled[i] = s * steady->way[i];
+    manoeuvre->scaled[i] = m * manoeuvre->way[i];
+    sums->way[i] += steady->scaled[i] + manoeuvre->scaled[i];
+}
+
+static inline void add_square(float *restrict out, const struct way *restrict s,
+                              const struct way *restrict m, int i, int j)
+{
+    out[RHO_AT(i, j)] += s->scaled[i] * s->way[j] + m->scaled[i] * m->way[j];
+}
+
+/*
+ * The squares of both ways, in the plane. Written out, as the functions below: a loop would take
+ * three times as long.
+ */
+static inline void add_plane_squares(float *restrict out, const struct way *restrict s,
+                                     const struct way *restrict m)
+{
+    add_square(out, s, m, 0, 0);
+    add_square(out, s, m, 1, 0);
+    add_square(out, s, m, 1, 1);
+    add_square(out, s, m, 3, 0);
+    add_square(out, s, m, 3, 1);
+    add_square(out, s, m, 3, 3);
+    add_square(out, s, m, 4, 0);
+    add_square(out, s, m, 4, 1);
+    add_square(out, s, m, 4, 3);
+    add_square(out, s, m, 4, 4);
+}
+
+static inline void add_height_squares(float *restrict out, const struct way *restrict s,
+                                      const struct way *restrict m)
+{
+    add_square(out, s, m, 2, 0);
+    add_square(out, s, m, 2, 1);
+    add_square(out, s, m, 2, 2);
+    add_square(out, s, m, 3, 2);
+    add_square(out, s, m, 4, 2);
+    add_square(out, s, m, 5, 0);
+    add_square(out, s, m, 5, 1);
+    add_square(out, s, m, 5, 2);
+    add_square(out, s, m, 5, 3);
+    add_square(out, s, m, 5, 4);
+    add_square(out, s, m, 5, 5);
+}
+
+static inline void add_covariance(float *restrict out, const struct rho_imm *restrict imm,
+                                  int place, float s, float m)
+{
+    out[place] += s * imm->steady.covariance[place] + m * imm->covariance[place];
+}
+
+/* Terms that couple the axes of the plane, beside add_axes. */
+static void add_plane_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
+                                  float m)
+{
+    add_covariance(out, imm, RHO_AT(1, 0), s, m);
+    add_covariance(out, imm, RHO_AT(3, 1), s, m);
+    add_covariance(out, imm, RHO_AT(4, 0), s, m);
+    add_covariance(out, imm, RHO_AT(4, 3), s, m);
+}
+
+/* Terms that couple them with the height. */
+static void add_height_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
+                                   float m)
+{
+    add_covariance(out, imm, RHO_AT(2, 0), s, m);
+    add_covariance(out, imm, RHO_AT(2, 1), s, m);
+    add_covariance(out, imm, RHO_AT(3, 2), s, m);
+    add_covariance(out, imm, RHO_AT(4, 2), s, m);
+    add_covariance(out, imm, RHO_AT(5, 0), s, m);
+    add_covariance(out, imm, RHO_AT(5, 1), s, m);
+    add_covariance(out, imm, RHO_AT(5, 3), s, m);
+    add_covariance(out, imm, RHO_AT(5, 4), s, m);
+}
+
+static void add_axes(float *restrict out, const struct rho_imm *restrict imm, int has_height,
+                     float s, float m)
+{
+    add_covariance(out, imm, RHO_AT(0, 0), s, m);
+    add_covariance(out, imm, RHO_AT(1, 1), s, m);
+    add_covariance(out, imm, RHO_AT(3, 0), s, m);
+    add_covariance(out, imm, RHO_AT(3, 3), s, m);
+    add_covariance(out, imm, RHO_AT(4, 1), s, m);
+    add_covariance(out, imm, RHO_AT(4, 4), s, m);
+    if (has_height) {
+        add_covariance(out, imm, RHO_AT(2, 2), s, m);
+        add_covariance(out, imm, RHO_AT(5, 2), s, m);
+        add_covariance(out, imm, RHO_AT(5, 5), s, m);
+    }
+}
+
+static void add_hypothesis(struct sums *sums, const struct rho_imm *imm, float share)
+{
+    const float m = share * imm->probability, s = share - m;
+    const int has_height = sums->has_height;
+    struct way steady, manoeuvre;
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 0);
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 1);
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 3);
+    find_way(sums, imm, s, m, &steady, &manoeuvre, 4);
+    add_plane_squares(sums->covariance, &steady, &manoeuvre);
+    if (has_height) {
+        find_way(sums, imm, s, m, &steady, &manoeuvre, 2);
+        find_way(sums, imm, s, m, &steady, &manoeuvre, 5);
+        add_height_squares(sums->covariance, &steady, &manoeuvre);
+    }
+    add_axes(sums->covariance, imm, has_height, s, m);
+    if (imm->is_coupled) {
+        add_plane_covariances(sums->covariance, imm, s, m);
+    }
+    if (imm->is_coupled && has_height) {
+        add_height_covariances(sums->covariance, imm, s, m);
+    }
+    sums->share += share;
+    sums->maneuver += m;
+    for (int axis = 0; axis < 3; axis++) {
+        sums->accel_mps2[axis] += m * imm->state[RHO_KALMAN_STATES + axis];
+    }
+}
+
+/* Of the slot's hypotheses that can be moved there. */
+static void sum_up(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us, struct sums *sums)
+{
+    int is_first = 1;
+    memset(sums, 0, sizeof *sums);
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
+        sums->has_height |= imm->covariance[RHO_AT(2, 2)] > 0.0f;
+    }
+    for (unsigned i = 0; i < pool->num_of[slot]; i++) {
+        const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
+        const struct rho_imm *imm =
+            at->share < SHARE_SHOWN_MIN ? 0 : rho_hypotheses_filter_at(pool, at, time_us);
+        if (imm && is_first) {
+            memcpy(sums->about, imm->probability > 0.5f ? imm->state : imm->steady.state,
+                   sizeof sums->about);
+            is_first = 0;
+        }
+        if (imm) {
+            add_hypothesis(sums, imm, at->share);
+        }
+    }
+}
+
+enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                                        struct rho_hypotheses_estimate *estimate)
+{
+    struct sums sums;
+    if (!pool || !estimate) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_hypotheses_is_open(pool, slot)) {
+        return RHO_ERROR_STATE;
+    }
+    sum_up(pool, slot, time_us, &sums);
+    if (!(sums.share > 0.0f)) {
+        return RHO_ERROR_VALUE;
+    }
+    const float inverse = 1.0f / sums.share;
+    int place = 0;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        sums.way[i] *= inverse;
+        estimate->kalman.state[i] = sums.about[i] + sums.way[i];
+        for (int j = 0; j <= i; j++, place++) {
+            estimate->kalman.covariance[place] =
+                sums.covariance[place] * inverse - sums.way[i] * sums.way[j];
+        }
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        estimate->accel_mps2[axis] = sums.accel_mps2[axis] * inverse;
+    }
+    estimate->maneuver_probability = sums.maneuver * inverse;
+    return RHO_OK;
+}

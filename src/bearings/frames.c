@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/frames.h"
+
+#include <string.h>
+
+#define FRAMES_MAGIC 0x46524d53u /* "FRMS" */
+
+#define SECOND_US INT64_C(1000000)
+#define TOLERANCE_MAX_US (10 * SECOND_US)
+#define JUMP_MAX_US (3600 * SECOND_US)
+#define TURN_RAD 6.28318548f
+#define APART_MIN_M 1.0f /* below, bearings do not cross (crossing.h) */
+
+/* ---- setting up ------------------------------------------------------------------------------ */
+
+void rho_frames_config_default(struct rho_frames_config *config)
+{
+    *config = (struct rho_frames_config){.tolerance_us = 50000,
+                                         .jump_max_us = 30 * SECOND_US,
+                                         .follow_scans = 4,
+                                         .silent_frames = 3,
+                                         .sensors_min = 2};
+}
+
+static int is_usable(const struct rho_frames_config *config)
+{
+    return config->tolerance_us >= 0 && config->tolerance_us <= TOLERANCE_MAX_US &&
+           config->jump_max_us > config->tolerance_us && config->jump_max_us <= JUMP_MAX_US &&
+           config->follow_scans >= 2 && config->follow_scans <= UINT8_MAX &&
+           config->silent_frames >= 1 && config->silent_frames <= UINT8_MAX &&
+           config->sensors_min >= 2 && config->sensors_min <= RHO_MAX_PASSIVE_SENSORS;
+}
+
+enum rho_status rho_frames_init(struct rho_frames *frames, size_t size,
+                                const struct rho_frames_config *config)
+{
+    if (!frames || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *frames) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    struct rho_frames_config kept = *config; /* it may lie within *frames */
+    memset(frames, 0, sizeof *frames);
+    frames->magic = FRAMES_MAGIC;
+    frames->config.tolerance_us = kept.tolerance_us;
+    frames->config.jump_max_us = kept.jump_max_us;
+    frames->config.follow_scans = kept.follow_scans;
+    frames->config.silent_frames = kept.silent_frames;
+    frames->config.sensors_min = kept.sensors_min;
+    frames->closed_us = INT64_MIN;
+    return RHO_OK;
+}
+
+/* ---- sensors --------------------------------------------------------------------------------- */
+
+/* The known sensor of this identity, or num_sensors. */
+static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
+{
+    unsigned i = 0;
+    while (i < frames->num_sensors && frames->sensors[i].sensor_id != sensor_id) {
+        i++;
+    }
+    return i;
+}
+
+static unsigned find_or_add_sensor(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+{
+    unsigned i = find_sensor(frames, scan->sensor_id);
+    if (i == frames->num_sensors) {
+        frames->sensors[frames->num_sensors++] = (struct rho_frames_sensor){
+            .sensor_id = scan->sensor_id, .x_m = scan->x_m, .y_m = scan->y_m};
+    }
+    frames->sensors[i].silent = 0;
+    return i;
+}
+
+/* A known sensor has not moved; a new one is far enough from the known ones. */
+static int is_same_position(const struct rho_frames *frames, const struct rho_bearing_scan *scan)
+{
+    if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < frames->num_sensors; i++) {
+        const struct rho_frames_sensor *sensor = &frames->sensors[i];
+        float dx_m = scan->x_m - sensor->x_m, dy_m = scan->y_m - sensor->y_m;
+        float apart2_m2 = dx_m * dx_m + dy_m * dy_m;
+        if (sensor->sensor_id == scan->sensor_id ? apart2_m2 > 0.0f
+                                                 : apart2_m2 < APART_MIN_M * APART_MIN_M) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static enum rho_status check_scan(const struct rho_frames *frames,
+                                  const struct rho_bearing_scan *scan)
+{
+    if (scan->num_bearings > 0 && !scan->bearings) {
+        return RHO_ERROR_NULL;
+    }
+    if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
+        !rho_is_within(scan->sector_from_rad, -TURN_RAD, TURN_RAD) ||
+        !rho_is_within(scan->sector_to_rad, -TURN_RAD, TURN_RAD) ||
+        !is_same_position(frames, scan)) {
+        return RHO_ERROR_VALUE;
+    }
+    return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
+                                                                          : RHO_ERROR_CAPACITY;
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+static int is_in(const struct rho_frames_slot *slot, unsigned sensor)
+{
+    for (unsigned i = 0; i < slot->num_scans; i++) {
+        if (slot->scans[i].sensor == sensor) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The frame has a scan of every sensor that is expected. */
+static int is_complete(const struct rho_frames *frames, const struct rho_frames_slot *slot)
+{
+    for (unsigned i = 0; i < frames->num_sensors; i++) {
+        if (frames->sensors[i].silent < frames->config.silent_frames && !is_in(slot, i)) {
+            return 0;
+        }
+    }
+    return slot->num_scans >= frames->config.sensors_min;
+}
+
+static void count_missing(struct rho_frames *frames, const struct rho_frames_slot *slot)
+{
+    for (unsigned i = 0; i < frames->num_sensors; i++) {
+        struct rho_frames_sensor *sensor = &frames->sensors[i];
+        if (!is_in(slot, i)) {
+            sensor->missing = rho_count(sensor->missing, 1);
+            sensor->silent = rho_count(sensor->silent, 1);
+        }
+    }
+    frames->counters.frames_incomplete =
+        rho_count(frames->counters.frames_incomplete, slot->num_scans < frames->num_sensors);
+    frames->counters.frames = rho_count(frames->counters.frames, 1);
+}
+
+/* The open frame, if there is one, becomes the closed one. */
+static void close_open_frame(struct rho_frames *frames)
+{
+    const struct rho_frames_slot *slot = &frames->slots[frames->open];
+    if (slot->num_scans == 0) {
+        return;
+    }
+    count_missing(frames, slot);
+    frames->closed_us = slot->time_us;
+    frames->has_closed = 1;
+    frames->open = frames->open ^ 1u;
+    memset(&frames->slots[frames->open], 0, sizeof frames->slots[0]);
+}
+
+static void copy_scan(struct rho_frames *frames, struct rho_frames_scan *to, unsigned sensor,
+                      const struct rho_bearing_scan *scan)
+{
+    uint32_t count = scan->num_bearings < RHO_MAX_BEARINGS ? scan->num_bearings : RHO_MAX_BEARINGS;
+    to->time_us = scan->time_us;
+    to->sector_from_rad = scan->sector_from_rad;
+    to->sector_to_rad = scan->sector_to_rad;
+    to->sensor = (uint16_t)sensor;
+    to->num_bearings = (uint16_t)count;
+    if (count > 0) {
+        memcpy(to->bearings, scan->bearings, count * sizeof to->bearings[0]);
+    }
+    frames->counters.bearings_no_room =
+        rho_count(frames->counters.bearings_no_room, scan->num_bearings - count);
+}
+
+/* Adds the scan to the open frame, and closes the frame if no other sensor is expected. */
+static void add_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+{
+    struct rho_frames_slot *slot = &frames->slots[frames->open];
+    int is_first = slot->num_scans == 0;
+    copy_scan(frames, &slot->scans[slot->num_scans++], find_or_add_sensor(frames, scan), scan);
+    slot->time_us = is_first || scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
+    slot->last_us = is_first || scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
+    frames->clock_us = scan->time_us;
+    frames->counters.scans_taken = rho_count(frames->counters.scans_taken, 1);
+    if (is_complete(frames, slot)) {
+        close_open_frame(frames);
+    }
+}
+
+/* Whether the scans of the open frame and this one lie within the tolerance. */
+static int is_within_tolerance(const struct rho_frames *frames, const struct rho_bearing_scan *scan)
+{
+    const struct rho_frames_slot *slot = &frames->slots[frames->open];
+    int64_t first_us = scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
+    int64_t last_us = scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
+    return last_us - first_us <= frames->config.tolerance_us &&
+           !is_in(slot, find_sensor(frames, scan->sensor_id));
+}
+
+static void add_or_count(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+{
+    const struct rho_frames_slot *slot = &frames->slots[frames->open];
+    int is_joining = slot->num_scans > 0 && is_within_tolerance(frames, scan);
+    int is_newer = slot->num_scans == 0 || scan->time_us > slot->time_us;
+    if (scan->time_us <= frames->closed_us || (!is_joining && !is_newer)) {
+        find_or_add_sensor(frames, scan);
+        frames->counters.scans_late = rho_count(frames->counters.scans_late, 1);
+        return;
+    }
+    if (!is_joining) {
+        close_open_frame(frames);
+    }
+    add_scan(frames, scan);
+}
+
+/* ---- the clock ------------------------------------------------------------------------------- */
+
+static int is_off_clock(const struct rho_frames *frames, int64_t time_us)
+{
+    int64_t ahead_us = time_us - frames->clock_us; /* RHO_LIMIT_TIME_US: it fits */
+    return frames->counters.scans_taken > 0 &&
+           (ahead_us > frames->config.jump_max_us || -ahead_us > frames->config.jump_max_us);
+}
+
+static void restart(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+{
+    close_open_frame(frames);
+    frames->closed_us = INT64_MIN;
+    frames->off_clock = 0;
+    frames->counters.clock_jumps = rho_count(frames->counters.clock_jumps, 1);
+    frames->slots[frames->open].is_restart = 1;
+    add_scan(frames, scan);
+}
+
+enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+{
+    if (!frames || !scan) {
+        return RHO_ERROR_NULL;
+    }
+    if (frames->magic != FRAMES_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = check_scan(frames, scan);
+    if (status != RHO_OK) {
+        return status;
+    }
+    frames->has_closed = 0;
+    if (!is_off_clock(frames, scan->time_us)) {
+        frames->off_clock = (uint16_t)(frames->off_clock - (frames->off_clock > 0));
+        add_or_count(frames, scan);
+    } else if (frames->off_clock < frames->config.follow_scans) {
+        frames->off_clock++;
+        frames->counters.scans_off_clock = rho_count(frames->counters.scans_off_clock, 1);
+    } else {
+        restart(frames, scan);
+    }
+    return RHO_OK;
+}
+
+enum rho_status rho_frames_close(struct rho_frames *frames)
+{
+    if (!frames) {
+        return RHO_ERROR_NULL;
+    }
+    if (frames->magic != FRAMES_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    frames->has_closed = 0;
+    close_open_frame(frames);
+    return RHO_OK;
+}
+
+/* ---- what was closed ------------------------------------------------------------------------- */
+
+static void view_scan(const struct rho_frames *frames, const struct rho_frames_scan *from,
+                      struct rho_bearing_scan *scan)
+{
+    const struct rho_frames_sensor *sensor = &frames->sensors[from->sensor];
+    *scan = (struct rho_bearing_scan){.time_us = from->time_us,
+                                      .sensor_id = sensor->sensor_id,
+                                      .x_m = sensor->x_m,
+                                      .y_m = sensor->y_m,
+                                      .sector_from_rad = from->sector_from_rad,
+                                      .sector_to_rad = from->sector_to_rad,
+                                      .num_bearings = from->num_bearings,
+                                      .bearings = from->bearings};
+}
+
+int rho_frames_closed(const struct rho_frames *frames, struct rho_frame_view *view)
+{
+    if (!view) {
+        return 0;
+    }
+    memset(view, 0, sizeof *view);
+    if (!frames || frames->magic != FRAMES_MAGIC || !frames->has_closed) {
+        return 0;
+    }
+    const struct rho_frames_slot *slot = &frames->slots[frames->open ^ 1u];
+    for (unsigned i = 0; i < slot->num_scans; i++) {
+        int32_t sensor_id = frames->sensors[slot->scans[i].sensor].sensor_id;
+        unsigned place = i;
+        for (; place > 0 && view->scans[place - 1u].sensor_id > sensor_id; place--) {
+            view->scans[place] = view->scans[place - 1u];
+        }
+        view_scan(frames, &slot->scans[i], &view->scans[place]);
+    }
+    view->frame.time_us = slot->time_us;
+    view->frame.num_scans = slot->num_scans;
+    view->frame.scans = view->scans;
+    view->is_restart = slot->is_restart;
+    return 1;
+}

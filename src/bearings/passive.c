@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive: configuration, frames, and the plan of a search (rho_passive_search). Each phase of the
+ * search is a file of its own; passive_search.h lists them.
+ */
+#include "rhotrack/passive.h"
+
+#include <string.h>
+
+#include "passive_search.h"
+#include "rhotrack/types.h"
+
+#define PASSIVE_MAGIC 0x50415353u /* "PASS" */
+
+#define SCANS_MIN 4u
+#define LINES_MAX 96u
+#define VOTES_MIN 2u /* of a line */
+/*
+ * Votes of a line, as a share of the scans that have crossings: in the first pass and in the
+ * second.
+ */
+#define FIRST_VOTES_SHARE 0.6f
+#define SECOND_VOTES_SHARE 0.5f
+
+/* ---- setting up ------------------------------------------------------------------------------ */
+
+void rho_passive_config_default(struct rho_passive_config *config)
+{
+    *config = (struct rho_passive_config){.scans = 8,
+                                          .range_max_m = 100000.0f,
+                                          .v_max_mps = 450.0f,
+                                          .pd = 0.9f,
+                                          .field_of_view_rad = RHO_PI,
+                                          .hits_min = 0.65f,
+                                          .rho_cell_m = 2000.0f,
+                                          .theta_cell_rad = RHO_PI / 36.0f,
+                                          .rule = RHO_GHOST_SAFE,
+                                          .false_tracks_per_hour = 1.0f};
+}
+
+static int is_usable(const struct rho_passive_config *config)
+{
+    return config->scans >= SCANS_MIN && config->scans <= RHO_MAX_PASSIVE_SCANS &&
+           rho_is_within(config->range_max_m, 1000.0f, 500000.0f) &&
+           rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(config->pd, 0.01f, 0.999f) &&
+           rho_is_within(config->field_of_view_rad, 0.01f, RHO_TWO_PI) &&
+           rho_is_within(config->hits_min, 0.1f, 1.0f) &&
+           rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
+           2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS &&
+           rho_is_within(config->theta_cell_rad, 0.99f * RHO_PI / (float)RHO_PASSIVE_THETA_CELLS,
+                         0.5f) &&
+           rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f) &&
+           (unsigned)config->rule <= RHO_GHOST_SAFE;
+}
+
+/* Farther apart, and lines through what the sensors see could lie outside of the cells of rho. */
+static float max_sensor_distance_m(const struct rho_passive_config *config)
+{
+    float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
+    float apart_m =
+        2.0f * reach_m < 4.0f * RHO_LIMIT_POSITION_M ? 2.0f * reach_m : 4.0f * RHO_LIMIT_POSITION_M;
+    return apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
+}
+
+enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
+                                 const struct rho_passive_config *config)
+{
+    if (!passive || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *passive) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    struct rho_passive_config kept = *config; /* it may lie within *passive */
+    memset(passive, 0, sizeof *passive);
+    passive->config = kept;
+    passive->magic = PASSIVE_MAGIC;
+    return rho_batch_init(&passive->batch, kept.scans, max_sensor_distance_m(&kept));
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_frame *frame,
+                                 uint8_t *fates)
+{
+    if (!passive) {
+        return RHO_ERROR_NULL;
+    }
+    if (passive->magic != PASSIVE_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = rho_batch_push(&passive->batch, frame, fates);
+    if (status == RHO_OK) {
+        passive->num_tracks = 0;
+    }
+    return status;
+}
+
+enum rho_status rho_passive_accepts(const struct rho_passive *passive,
+                                    const struct rho_frame *frame)
+{
+    if (!passive) {
+        return RHO_ERROR_NULL;
+    }
+    return passive->magic == PASSIVE_MAGIC ? rho_batch_accepts(&passive->batch, frame)
+                                           : RHO_ERROR_STATE;
+}
+
+uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
+{
+    return passive && track && passive->magic == PASSIVE_MAGIC
+               ? rho_batch_remove(&passive->batch, track->claim)
+               : 0;
+}
+
+/* ---- the search ------------------------------------------------------------------------------ */
+
+/* Only scans that two sensors or more reported in have crossings, and votes. */
+static unsigned count_crossed(const struct rho_batch *batch)
+{
+    unsigned count = 0;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        unsigned seen = 0;
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            seen += batch->was_seen[k][s];
+        }
+        count += seen >= 2;
+    }
+    return count;
+}
+
+/*
+ * Crossings, lines of crossings, and hypotheses on the lines, from the bearings that are not
+ * claimed.
+ */
+static void search_lines(struct rho_passive_search *search, float votes_share)
+{
+    struct rho_passive_line line;
+    float votes = votes_share * (float)count_crossed(&search->passive->batch);
+    unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
+    votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
+    rho_passive_find_crossings(search);
+    rho_passive_vote_for_lines(search);
+    for (unsigned i = 0; i < LINES_MAX && rho_passive_next_line(search, votes_min, &line); i++) {
+        search->passive->work.peaks = rho_count(search->passive->work.peaks, 1);
+        rho_passive_fit_hypotheses(search, &line);
+    }
+}
+
+static void release_claims(struct rho_passive *passive)
+{
+    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
+}
+
+static void clear_results(struct rho_passive *passive)
+{
+    memset(&passive->work, 0, sizeof passive->work);
+    release_claims(passive);
+    passive->num_tracks = passive->num_candidates = 0;
+    passive->start_mnat = 0;
+}
+
+enum rho_status rho_passive_search(struct rho_passive *passive)
+{
+    if (!passive) {
+        return RHO_ERROR_NULL;
+    }
+    if (passive->magic != PASSIVE_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    struct rho_passive_search search = {.passive = passive};
+    clear_results(passive);
+    rho_batch_compact(&passive->batch);
+    if (passive->batch.num_scans < SCANS_MIN || passive->batch.num_sensors < 2) {
+        return RHO_OK;
+    }
+    rho_passive_prepare(&search);
+
+    /* the first pass: crossings that a third sensor supports */
+    search_lines(&search, FIRST_VOTES_SHARE);
+    rho_passive_claim_best_set(&search);
+    rho_passive_set_start_score(&search);
+
+    /* the second pass: all crossings of the bearings that are left */
+    search.is_second = 1;
+    search_lines(&search, SECOND_VOTES_SHARE);
+    release_claims(passive);
+
+    /* candidates of both passes */
+    rho_passive_swap_bearings(&search);
+    rho_passive_select_tracks(&search);
+    return RHO_OK;
+}
+
+unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)
+{
+    unsigned sensors = 0;
+
+    for (unsigned sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
+        unsigned claims = 0;
+
+        for (unsigned scan = 0; scan < RHO_MAX_PASSIVE_SCANS; scan++) {
+            claims |= track->claim[scan][sensor];
+        }
+        sensors += claims != 0;
+    }
+    return sensors * (sensors - 1) / 2;
+}
+
+/* ---- objects of unknown origin --------------------------------------------------------------- */
+
+int rho_passive_is_sound(const struct rho_passive *passive)
+{
+    return is_usable(&passive->config) && rho_batch_is_sound(&passive->batch) &&
+           passive->batch.scans_max == passive->config.scans &&
+           passive->num_tracks <= RHO_MAX_PASSIVE_TRACKS &&
+           rho_passive_accepts(passive, NULL) == RHO_ERROR_NULL; /* STATE: not initialised */
+}

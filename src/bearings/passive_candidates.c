@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_candidates: the candidates for tracks, best score first where they are ranked. A
+ * candidate that shares most of its bearings with a better one is a twin, and is dropped.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+#include "rhotrack/types.h"
+
+#define TWIN_SHARE 0.8f
+
+unsigned rho_passive_count_shared(const struct rho_passive_search *search,
+                                  const struct rho_passive_candidate *a,
+                                  const struct rho_passive_candidate *b)
+{
+    unsigned shared = 0;
+    for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
+            shared += a->claim[k][s] != 0 && a->claim[k][s] == b->claim[k][s];
+        }
+    }
+    return shared;
+}
+
+/* Whether the other one claims most of the bearings of `of`. */
+static int is_twin(const struct rho_passive_search *search, const struct rho_passive_candidate *of,
+                   const struct rho_passive_candidate *other)
+{
+    return (float)rho_passive_count_shared(search, of, other) >= TWIN_SHARE * (float)of->hits;
+}
+
+static int has_better_twin(const struct rho_passive_search *search,
+                           const struct rho_passive_candidate *candidate)
+{
+    const struct rho_passive *passive = search->passive;
+    for (unsigned i = 0; i < passive->num_candidates; i++) {
+        if (passive->candidates[i].score_nat >= candidate->score_nat &&
+            is_twin(search, candidate, &passive->candidates[i])) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void remove_worse_twins(struct rho_passive_search *search,
+                               const struct rho_passive_candidate *candidate)
+{
+    struct rho_passive *passive = search->passive;
+    for (unsigned i = passive->num_candidates; i > 0; i--) {
+        if (is_twin(search, &passive->candidates[i - 1u], candidate)) {
+            passive->candidates[i - 1u] = passive->candidates[--passive->num_candidates];
+            search->candidates_removed++; /* at most once a fit: 2 passes, 96 lines, 20 fits */
+        }
+    }
+}
+
+/* A full list drops the candidate with the lowest score. */
+static void add_candidate(struct rho_passive_search *search,
+                          const struct rho_passive_candidate *candidate)
+{
+    struct rho_passive *passive = search->passive;
+    if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
+        passive->candidates[passive->num_candidates++] = *candidate;
+        return;
+    }
+    unsigned lowest = 0;
+    for (unsigned i = 1; i < passive->num_candidates; i++) {
+        if (passive->candidates[i].score_nat < passive->candidates[lowest].score_nat) {
+            lowest = i;
+        }
+    }
+    passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
+    search->candidates_removed++;
+    if (candidate->score_nat > passive->candidates[lowest].score_nat) {
+        passive->candidates[lowest] = *candidate;
+    }
+}
+
+int rho_passive_offer_candidate(struct rho_passive_search *search,
+                                const float state_m[RHO_PASSIVE_STATES])
+{
+    struct rho_passive_candidate candidate;
+    struct rho_passive_score score = rho_passive_score_nearest(search, state_m, 1, candidate.claim);
+    candidate.score_nat = score.score_nat;
+    candidate.hits = score.hits;
+    memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
+    if (score.is_track && !has_better_twin(search, &candidate)) {
+        remove_worse_twins(search, &candidate);
+        add_candidate(search, &candidate);
+    }
+    return score.is_track;
+}
+
+void rho_passive_rank_candidates(const struct rho_passive *passive,
+                                 uint8_t order[RHO_MAX_PASSIVE_CANDIDATES])
+{
+    for (unsigned i = 0; i < passive->num_candidates; i++) {
+        unsigned place = i;
+        for (; place > 0 &&
+               passive->candidates[i].score_nat > passive->candidates[order[place - 1u]].score_nat;
+             place--) {
+            order[place] = order[place - 1u];
+        }
+        order[place] = (uint8_t)i;
+    }
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_choice: the subset of candidates that are tracks together. Its total is the sum of the
+ * scores less share_nat for every bearing that two chosen candidates claim. The search adds the
+ * candidate that gains most, from several starts, and tries to replace each chosen candidate by
+ * others.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+
+#define STARTS 12u
+#define SAME_TARGET_SHARE 0.7f /* of the bearings */
+
+/* ---- joint selection ------------------------------------------------------------------------- */
+
+static void start_choice(struct rho_passive_choice *choice, const struct rho_passive_search *search)
+{
+    memset(choice, 0, sizeof *choice);
+    choice->search = search;
+    choice->count = search->passive->num_candidates;
+    for (unsigned i = 0; i < choice->count; i++) {
+        choice->gain_nat[i] = search->passive->candidates[i].score_nat;
+    }
+}
+
+/* Adds a candidate, or removes it. */
+static void toggle(struct rho_passive_choice *choice, unsigned which)
+{
+    const struct rho_passive *passive = choice->search->passive;
+    float sign = choice->is_in[which] ? -1.0f : 1.0f;
+    choice->total_nat += sign * choice->gain_nat[which];
+    choice->is_in[which] = !choice->is_in[which];
+    for (unsigned i = 0; i < choice->count; i++) {
+        if (i != which) {
+            unsigned shared = passive->shared[which][i];
+            choice->gain_nat[i] -= sign * choice->search->share_nat * (float)shared;
+        }
+    }
+}
+
+/* The candidate that gains most; count: none gains. */
+static unsigned find_best_addition(const struct rho_passive_choice *choice, unsigned excluded)
+{
+    unsigned best = choice->count;
+    float most = RHO_PASSIVE_GAIN_MIN_NAT;
+    for (unsigned i = 0; i < choice->count; i++) {
+        if (!choice->is_in[i] && !choice->is_out[i] && i != excluded &&
+            choice->gain_nat[i] > most) {
+            most = choice->gain_nat[i];
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Adds candidates while the total grows, and removes those that then have a negative gain. */
+static void add_while_gaining(struct rho_passive_choice *choice, unsigned excluded)
+{
+    for (unsigned added; (added = find_best_addition(choice, excluded)) < choice->count;) {
+        toggle(choice, added);
+        for (unsigned i = 0; i < choice->count; i++) {
+            if (choice->is_in[i] && i != added && choice->gain_nat[i] < -RHO_PASSIVE_GAIN_MIN_NAT) {
+                toggle(choice, i);
+            }
+        }
+    }
+}
+
+/* Replaces one candidate by others if that is worth more. Returns whether it is. */
+static int try_without(struct rho_passive_choice *choice, unsigned which)
+{
+    struct rho_passive_choice tried = *choice;
+    toggle(&tried, which);
+    add_while_gaining(&tried, which);
+    if (!(tried.total_nat > choice->total_nat + RHO_PASSIVE_GAIN_MIN_NAT)) {
+        return 0;
+    }
+    *choice = tried;
+    return 1;
+}
+
+void rho_passive_improve_choice(struct rho_passive_choice *choice)
+{
+    int is_better;
+    do {
+        is_better = 0;
+        for (unsigned i = 0; i < choice->count; i++) {
+            is_better |= choice->is_in[i] && try_without(choice, i);
+        }
+    } while (is_better);
+}
+
+static void count_shared_bearings(const struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    for (unsigned i = 0; i < passive->num_candidates; i++) {
+        for (unsigned j = 0; j < passive->num_candidates; j++) {
+            passive->shared[i][j] = (uint8_t)rho_passive_count_shared(
+                search, &passive->candidates[i], &passive->candidates[j]);
+        }
+    }
+}
+
+void rho_passive_choose_candidates(const struct rho_passive_search *search,
+                                   struct rho_passive_choice *best)
+{
+    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
+    rho_passive_rank_candidates(search->passive, order);
+    count_shared_bearings(search);
+    start_choice(best, search);
+    for (unsigned i = 0; i < STARTS && i < best->count; i++) {
+        struct rho_passive_choice choice = {.count = 0};
+        start_choice(&choice, search);
+        toggle(&choice, order[i]);
+        add_while_gaining(&choice, choice.count);
+        rho_passive_improve_choice(&choice);
+        if (choice.total_nat > best->total_nat) {
+            *best = choice;
+        }
+    }
+}
+
+/* ---- choices with and without a candidate ---------------------------------------------------- */
+
+/* Whether both are fits of the same target that differ in a few bearings. */
+static int is_same_target(const struct rho_passive *passive, unsigned of, unsigned other)
+{
+    return (float)passive->shared[of][other] >=
+           SAME_TARGET_SHARE * (float)passive->candidates[of].hits;
+}
+
+void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which)
+{
+    for (unsigned i = 0; i < choice->count; i++) {
+        if (i == which || is_same_target(choice->search->passive, which, i)) {
+            choice->is_out[i] = 1;
+            if (choice->is_in[i]) {
+                toggle(choice, i);
+            }
+        }
+    }
+}
+
+void rho_passive_include(struct rho_passive_choice *choice, unsigned which)
+{
+    if (which < choice->count && !choice->is_in[which]) {
+        toggle(choice, which);
+    }
+    add_while_gaining(choice, choice->count);
+}

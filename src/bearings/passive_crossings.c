@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_crossings: phase 1 of the search. Bearings of two sensors in one scan cross; crossings
+ * that must be ghosts are pruned, and with three sensors or more a further sensor must support a
+ * crossing.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+#include "rhotrack/types.h"
+
+#define SUPPORT_SIGMAS 3.0f
+
+/* Bearings of two sensors in one scan that are not left out, and their indices in the batch. */
+struct sensor_pair {
+    unsigned scan, a, b;
+    unsigned num_a, num_b;
+    float bearings_a_rad[RHO_MAX_BEARINGS], bearings_b_rad[RHO_MAX_BEARINGS];
+    uint8_t index_a[RHO_MAX_BEARINGS], index_b[RHO_MAX_BEARINGS];
+};
+
+static unsigned collect_bearings(const struct rho_passive_search *search, unsigned scan,
+                                 unsigned sensor, float *bearings_rad, uint8_t *index)
+{
+    const struct rho_passive *passive = search->passive;
+    unsigned count = 0;
+    for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
+        if (!search->is_second || !passive->is_claimed[scan][sensor][i]) {
+            index[count] = (uint8_t)i;
+            bearings_rad[count++] = passive->batch.bearings[scan][sensor][i].bearing_rad;
+        }
+    }
+    return count;
+}
+
+/* Whether a sensor has a bearing towards the crossing, within the errors of both. */
+static int has_bearing_at(const struct rho_passive_search *search, unsigned sensor,
+                          const struct rho_passive_point *point)
+{
+    const struct rho_passive *passive = search->passive;
+    float dx_m = point->x_m - search->x_m[sensor], dy_m = point->y_m - search->y_m[sensor];
+    float range2 = dx_m * dx_m + dy_m * dy_m;
+    if (!(range2 > 1.0f)) {
+        return 0;
+    }
+    /* variance of the crossing across the line of sight, times range^2 */
+    float across =
+        point->xx_m2 * dy_m * dy_m - 2.0f * point->xy_m2 * dx_m * dy_m + point->yy_m2 * dx_m * dx_m;
+    for (unsigned i = 0; i < passive->batch.num_bearings[point->scan][sensor]; i++) {
+        const struct rho_batch_bearing *seen = &passive->batch.bearings[point->scan][sensor][i];
+        float off_m = seen->cosine * dy_m - seen->sine * dx_m;
+        float variance_m2 = across / range2 + seen->sigma_rad * seen->sigma_rad * range2;
+        if (seen->cosine * dx_m + seen->sine * dy_m > 0.0f &&
+            off_m * off_m < SUPPORT_SIGMAS * SUPPORT_SIGMAS * variance_m2) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* All further sensors but one must have a bearing towards it, and one at least. */
+static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
+                        const struct rho_passive_point *point)
+{
+    unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
+    if (num_sensors < 3 || search->is_second) {
+        return 1;
+    }
+    for (unsigned s = 0; s < num_sensors; s++) {
+        support += s != pair->a && s != pair->b && has_bearing_at(search, s, point);
+    }
+    return support >= (num_sensors > 4 ? num_sensors - 3u : 1u);
+}
+
+static uint32_t find_least_certain(const struct rho_passive *passive)
+{
+    uint32_t worst = 0;
+    for (uint32_t i = 1; i < passive->num_points; i++) {
+        if (rho_passive_uncertainty_m2(&passive->points[i]) >
+            rho_passive_uncertainty_m2(&passive->points[worst])) {
+            worst = i;
+        }
+    }
+    return worst;
+}
+
+/* A full list drops its least certain crossing, which is searched only after a change. */
+static void add_point(struct rho_passive_search *search, const struct rho_passive_point *point)
+{
+    struct rho_passive *passive = search->passive;
+    if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
+        passive->points[passive->num_points++] = *point;
+        search->worst_point = passive->num_points;
+        return;
+    }
+    if (search->worst_point == passive->num_points) {
+        search->worst_point = find_least_certain(passive);
+    }
+    passive->work.points_dropped = rho_count(passive->work.points_dropped, 1);
+    if (rho_passive_uncertainty_m2(point) <
+        rho_passive_uncertainty_m2(&passive->points[search->worst_point])) {
+        passive->points[search->worst_point] = *point;
+        search->worst_point = passive->num_points;
+    }
+}
+
+static void add_crossing(struct rho_passive_search *search, const struct sensor_pair *pair,
+                         const struct rho_crossing_base *base, unsigned i, unsigned j)
+{
+    struct rho_passive *passive = search->passive;
+    const struct rho_batch_bearing *a =
+        &passive->batch.bearings[pair->scan][pair->a][pair->index_a[i]];
+    const struct rho_batch_bearing *b =
+        &passive->batch.bearings[pair->scan][pair->b][pair->index_b[j]];
+    struct rho_crossing crossing;
+    float covariance_m2[3];
+    if (rho_crossing_find(base, a->bearing_rad, b->bearing_rad, passive->config.range_max_m,
+                          &crossing) != RHO_CROSSING_MEETS) {
+        return;
+    }
+    rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad, a->sigma_rad, b->sigma_rad,
+                            covariance_m2);
+    struct rho_passive_point point = {.x_m = crossing.x_m,
+                                      .y_m = crossing.y_m,
+                                      .xx_m2 = covariance_m2[0],
+                                      .xy_m2 = covariance_m2[1],
+                                      .yy_m2 = covariance_m2[2],
+                                      .scan = (uint16_t)pair->scan};
+    if (is_supported(search, pair, &point)) {
+        add_point(search, &point);
+    }
+}
+
+static void cross_scan(struct rho_passive_search *search, const struct sensor_pair *pair,
+                       const struct rho_crossing_base *base)
+{
+    struct rho_passive *passive = search->passive;
+    struct rho_ghost_matrix matrix;
+    if (rho_ghost_fill(&matrix, base, pair->bearings_a_rad, pair->num_a, pair->bearings_b_rad,
+                       pair->num_b, passive->config.range_max_m) != RHO_OK) {
+        return; /* cannot be: frames were checked */
+    }
+    rho_ghost_prune(&matrix, passive->config.rule);
+    for (unsigned i = 0; i < pair->num_a; i++) {
+        for (unsigned j = 0; j < pair->num_b; j++) {
+            int is_ghost = matrix.reason[i][j] != RHO_GHOST_KEPT;
+            if (!search->is_second) {
+                passive->work.crossings = rho_count(passive->work.crossings, 1);
+                passive->work.ghosts = rho_count(passive->work.ghosts, (unsigned)is_ghost);
+            }
+            if (!is_ghost) {
+                add_crossing(search, pair, base, i, j);
+            }
+        }
+    }
+}
+
+static void cross_sensors(struct rho_passive_search *search, unsigned a, unsigned b)
+{
+    struct rho_crossing_base base;
+    if (rho_crossing_set_base(&base, search->x_m[a], search->y_m[a], search->x_m[b],
+                              search->y_m[b]) != RHO_OK) {
+        return; /* cannot be: frames were checked */
+    }
+    for (unsigned scan = 0; scan < search->passive->batch.num_scans; scan++) {
+        struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
+        pair.num_a = collect_bearings(search, scan, a, pair.bearings_a_rad, pair.index_a);
+        pair.num_b = collect_bearings(search, scan, b, pair.bearings_b_rad, pair.index_b);
+        cross_scan(search, &pair, &base);
+    }
+}
+
+void rho_passive_find_crossings(struct rho_passive_search *search)
+{
+    search->passive->num_points = 0;
+    memset(search->passive->fitted, 0, sizeof search->passive->fitted);
+    for (unsigned a = 0; a + 1u < search->passive->batch.num_sensors; a++) {
+        for (unsigned b = a + 1u; b < search->passive->batch.num_sensors; b++) {
+            cross_sensors(search, a, b);
+        }
+    }
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_hypotheses: phase 3 of the search. Two crossings of a line are a constant-velocity
+ * hypothesis; the hypotheses that most bearings agree with are fitted to the bearings.
+ */
+#include "passive_search.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+#define LINE_CELLS 1.5f        /* smallest distance at which a crossing counts as on a line */
+#define PAIR_SCANS_MIN 3       /* closer scans tell little of the velocity */
+#define SPEED_SLACK_MPS 150.0f /* beyond v_max_mps, before the fit */
+#define LINE_POINTS_MAX 160u
+#define FITS_PER_LINE 20u
+
+/* Indices of two crossings; the scan of a is before that of b. */
+struct pair {
+    uint16_t a, b;
+};
+
+/* The best pairs so far, best first. */
+struct best_pairs {
+    unsigned count;
+    float agreement[FITS_PER_LINE];
+    struct pair pair[FITS_PER_LINE];
+};
+
+/* A pair must agree better than this to be listed. */
+static float least_agreement(const struct best_pairs *best)
+{
+    return best->count < FITS_PER_LINE ? -1.0f : best->agreement[FITS_PER_LINE - 1u];
+}
+
+static void list_pair(struct best_pairs *best, float agreement, struct pair pair)
+{
+    if (!(agreement > least_agreement(best))) {
+        return;
+    }
+    unsigned place = best->count < FITS_PER_LINE ? best->count++ : FITS_PER_LINE - 1u;
+    for (; place > 0 && agreement > best->agreement[place - 1u]; place--) {
+        best->agreement[place] = best->agreement[place - 1u];
+        best->pair[place] = best->pair[place - 1u];
+    }
+    best->agreement[place] = agreement;
+    best->pair[place] = pair;
+}
+
+static unsigned collect_points(const struct rho_passive_search *search,
+                               const struct rho_passive_line *line, uint16_t *index)
+{
+    const struct rho_passive *passive = search->passive;
+    float least_m = LINE_CELLS * passive->config.rho_cell_m;
+    unsigned count = 0;
+    for (uint32_t i = 0; i < passive->num_points; i++) {
+        const struct rho_passive_point *point = &passive->points[i];
+        float off_m = point->x_m * line->cosine + point->y_m * line->sine - line->rho_m;
+        float reach_m =
+            RHO_PASSIVE_SPREAD_SIGMAS * rho_passive_rho_sigma_m(point, line->cosine, line->sine);
+        reach_m = reach_m > least_m ? reach_m : least_m;
+        if (!(off_m < reach_m && -off_m < reach_m)) {
+            continue;
+        }
+        if (count < LINE_POINTS_MAX) {
+            index[count++] = (uint16_t)i;
+        } else {
+            search->passive->work.line_points_dropped =
+                rho_count(search->passive->work.line_points_dropped, 1);
+        }
+    }
+    return count;
+}
+
+/* The constant velocity through two crossings. 0: no target is so fast. */
+static int connect(const struct rho_passive_search *search, struct pair pair,
+                   float state_m[RHO_PASSIVE_STATES])
+{
+    const struct rho_passive_point *a = &search->passive->points[pair.a];
+    const struct rho_passive_point *b = &search->passive->points[pair.b];
+    float steps = search->step[b->scan] - search->step[a->scan], span_s = steps * search->half_s;
+    float dx_m = b->x_m - a->x_m, dy_m = b->y_m - a->y_m;
+    float most_m = (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * span_s;
+    float way2_m2 = dx_m * dx_m + dy_m * dy_m;
+    if (way2_m2 > most_m * most_m) { /* the square root is seldom needed */
+        most_m += rho_sqrt(rho_passive_uncertainty_m2(a) + rho_passive_uncertainty_m2(b));
+        if (way2_m2 > most_m * most_m) {
+            return 0;
+        }
+    }
+    state_m[RHO_PASSIVE_DX] = dx_m / steps;
+    state_m[RHO_PASSIVE_DY] = dy_m / steps;
+    state_m[RHO_PASSIVE_X] = a->x_m - search->step[a->scan] * state_m[RHO_PASSIVE_DX];
+    state_m[RHO_PASSIVE_Y] = a->y_m - search->step[a->scan] * state_m[RHO_PASSIVE_DY];
+    return 1;
+}
+
+static void score_pairs(struct rho_passive_search *search, const uint16_t *index, unsigned count,
+                        struct best_pairs *best)
+{
+    struct rho_passive *passive = search->passive;
+    for (unsigned i = 0; i < count; i++) {
+        unsigned scan_min = passive->points[index[i]].scan + PAIR_SCANS_MIN;
+        for (unsigned j = 0; j < count; j++) {
+            struct pair pair = {index[i], index[j]};
+            float state_m[RHO_PASSIVE_STATES];
+            if (passive->points[pair.b].scan >= scan_min && connect(search, pair, state_m)) {
+                list_pair(best, rho_passive_agreement(search, state_m, least_agreement(best)),
+                          pair);
+                passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
+            }
+        }
+    }
+}
+
+static struct rho_passive_fitted *fitted_entry(struct rho_passive *passive, struct pair pair)
+{
+    return &passive->fitted[(pair.a * 61u + pair.b) % RHO_PASSIVE_PAIRS];
+}
+
+/*
+ * Neighbouring lines share pairs. A pair that gave no track gives none again; a pair that gave a
+ * track would give a twin of that candidate, unless a candidate was removed since.
+ */
+static int was_fitted(const struct rho_passive_search *search, struct pair pair)
+{
+    const struct rho_passive_fitted *fitted = fitted_entry(search->passive, pair);
+    return fitted->a == pair.a && fitted->b == pair.b &&
+           (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
+}
+
+static void fit_pair(struct rho_passive_search *search, struct pair pair)
+{
+    float state_m[RHO_PASSIVE_STATES];
+    if (was_fitted(search, pair) || !connect(search, pair, state_m)) {
+        return;
+    }
+    rho_passive_fit_nearest(search, state_m, 0);
+    int is_track = rho_passive_offer_candidate(search, state_m);
+    *fitted_entry(search->passive, pair) = (struct rho_passive_fitted){
+        .a = pair.a, .b = pair.b, .when = is_track ? search->candidates_removed : UINT16_MAX};
+}
+
+void rho_passive_fit_hypotheses(struct rho_passive_search *search,
+                                const struct rho_passive_line *line)
+{
+    uint16_t index[LINE_POINTS_MAX];
+    struct best_pairs best = {.count = 0};
+    score_pairs(search, index, collect_points(search, line, index), &best);
+    for (unsigned i = 0; i < best.count; i++) {
+        fit_pair(search, best.pair[i]);
+    }
+}

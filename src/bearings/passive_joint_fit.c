@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_joint_fit: tracks fitted together. The bearings of each look are assigned to the tracks,
+ * one to one, so that the total score is high; then each track is fitted to its own bearings; and
+ * again.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+#include "rhotrack/types.h"
+
+#define ROUNDS 3
+#define EXCHANGES_MAX (2 * RHO_MAX_PASSIVE_TRACKS)
+
+/* ---- one look -------------------------------------------------------------------------------- */
+
+/* The bearing of one look that each track gets (from 1; 0: none), and all score gains. */
+struct look_assignment {
+    unsigned num_tracks, num_bearings;
+    float gain_nat[RHO_MAX_PASSIVE_TRACKS][RHO_MAX_BEARINGS + 1];
+    uint8_t claim[RHO_MAX_PASSIVE_TRACKS];
+    uint8_t is_taken[RHO_MAX_BEARINGS + 1];
+};
+
+static void open_look(const struct rho_passive_search *search, const struct rho_passive_set *set,
+                      unsigned scan, unsigned sensor, struct look_assignment *look)
+{
+    memset(look, 0, sizeof *look);
+    look->num_tracks = set->num;
+    look->num_bearings = search->passive->batch.num_bearings[scan][sensor];
+    for (unsigned t = 0; t < look->num_tracks; t++) {
+        for (unsigned i = 1; i <= look->num_bearings; i++) {
+            look->gain_nat[t][i] =
+                rho_passive_score_gain(search, set->tracks[t].state_m, scan, sensor, i);
+        }
+    }
+}
+
+static void assign(struct look_assignment *look, unsigned track, unsigned bearing)
+{
+    look->is_taken[look->claim[track]] = 0;
+    look->claim[track] = (uint8_t)bearing;
+    look->is_taken[bearing] = bearing > 0;
+}
+
+/* The free bearing with the largest gain; 0: none gains. */
+static unsigned best_free_bearing(const struct look_assignment *look, unsigned track)
+{
+    unsigned best = 0;
+    for (unsigned i = 1; i <= look->num_bearings; i++) {
+        if (!look->is_taken[i] && look->gain_nat[track][i] > look->gain_nat[track][best]) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Greedily: the largest gain first. */
+static void assign_greedily(struct look_assignment *look)
+{
+    for (unsigned n = 0; n < look->num_tracks; n++) {
+        unsigned track = look->num_tracks, bearing = 0;
+        float most_nat = 0.0f;
+        for (unsigned t = 0; t < look->num_tracks; t++) {
+            unsigned i = look->claim[t] ? 0 : best_free_bearing(look, t);
+            if (look->gain_nat[t][i] > most_nat) {
+                most_nat = look->gain_nat[t][i];
+                track = t;
+                bearing = i;
+            }
+        }
+        if (track == look->num_tracks) {
+            return;
+        }
+        assign(look, track, bearing);
+    }
+}
+
+/*
+ * The taker gets the bearing of the loser, which gets the best free bearing then. Undone and 0
+ * where the total does not grow.
+ */
+static int exchange(struct look_assignment *look, unsigned taker, unsigned loser)
+{
+    unsigned kept = look->claim[taker], wanted = look->claim[loser];
+    float before_nat = look->gain_nat[taker][kept] + look->gain_nat[loser][wanted];
+    if (!(look->gain_nat[taker][wanted] > 0.0f)) {
+        return 0;
+    }
+    assign(look, loser, 0);
+    assign(look, taker, wanted);
+    assign(look, loser, best_free_bearing(look, loser));
+    float after_nat = look->gain_nat[taker][wanted] + look->gain_nat[loser][look->claim[loser]];
+    if (after_nat > before_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
+        return 1;
+    }
+    assign(look, loser, 0);
+    assign(look, taker, kept);
+    assign(look, loser, wanted);
+    return 0;
+}
+
+static int improve_by_exchange(struct look_assignment *look)
+{
+    for (unsigned taker = 0; taker < look->num_tracks; taker++) {
+        for (unsigned loser = 0; loser < look->num_tracks; loser++) {
+            if (taker != loser && look->claim[loser] > 0 && exchange(look, taker, loser)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static void assign_look(const struct rho_passive_search *search, struct rho_passive_set *set,
+                        unsigned scan, unsigned sensor)
+{
+    struct look_assignment look;
+    open_look(search, set, scan, sensor, &look);
+    assign_greedily(&look);
+    for (unsigned i = 0; i < EXCHANGES_MAX && improve_by_exchange(&look); i++) {
+    }
+    for (unsigned t = 0; t < set->num; t++) {
+        set->tracks[t].claim[scan][sensor] = look.claim[t];
+    }
+}
+
+/* ---- all looks ------------------------------------------------------------------------------- */
+
+static void assign_all_looks(const struct rho_passive_search *search, struct rho_passive_set *set)
+{
+    for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
+            assign_look(search, set, k, s);
+        }
+    }
+}
+
+static void score_set(const struct rho_passive_search *search, struct rho_passive_set *set)
+{
+    set->total_nat = 0.0f;
+    for (unsigned t = 0; t < set->num; t++) {
+        struct rho_passive_candidate *track = &set->tracks[t];
+        struct rho_passive_score score = rho_passive_score_claimed(
+            search, track->state_m, (rho_passive_const_claim *)track->claim);
+        track->score_nat = score.score_nat;
+        track->hits = score.hits;
+        set->chi2[t] = score.chi2;
+        set->is_track[t] = (uint8_t)score.is_track;
+        set->total_nat += score.score_nat;
+    }
+}
+
+static void assign_and_fit(const struct rho_passive_search *search, struct rho_passive_set *set)
+{
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        assign_all_looks(search, set);
+        for (unsigned t = 0; t < set->num; t++) {
+            struct rho_passive_candidate *track = &set->tracks[t];
+            rho_passive_fit_claimed(search, track->state_m,
+                                    (rho_passive_const_claim *)track->claim);
+        }
+    }
+    score_set(search, set);
+}
+
+/* Drops the member with the lowest score that is no track. Returns whether there was one. */
+static int drop_worst(struct rho_passive_set *set)
+{
+    unsigned worst = set->num;
+    for (unsigned t = 0; t < set->num; t++) {
+        if (!set->is_track[t] &&
+            (worst == set->num || set->tracks[t].score_nat < set->tracks[worst].score_nat)) {
+            worst = t;
+        }
+    }
+    if (worst == set->num) {
+        return 0;
+    }
+    set->num--;
+    for (unsigned t = worst; t < set->num; t++) {
+        set->tracks[t] = set->tracks[t + 1];
+        set->candidate[t] = set->candidate[t + 1];
+    }
+    return 1;
+}
+
+static void fill_set(const struct rho_passive_search *search,
+                     const struct rho_passive_choice *choice, struct rho_passive_set *set)
+{
+    struct rho_passive *passive = search->passive;
+    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
+    rho_passive_rank_candidates(passive, order);
+    set->num = 0;
+    for (unsigned i = 0; i < choice->count; i++) {
+        if (!choice->is_in[order[i]]) {
+            continue;
+        }
+        if (set->num == RHO_MAX_PASSIVE_TRACKS) {
+            passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
+            continue;
+        }
+        set->tracks[set->num] = passive->candidates[order[i]];
+        set->candidate[set->num++] = order[i];
+    }
+}
+
+static void fit_until_all_are_tracks(const struct rho_passive_search *search,
+                                     struct rho_passive_set *set)
+{
+    do {
+        assign_and_fit(search, set);
+    } while (drop_worst(set));
+}
+
+void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,
+                             uint8_t is_claimed)
+{
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            if (claims[k][s] > 0) {
+                passive->is_claimed[k][s][claims[k][s] - 1u] = is_claimed;
+            }
+        }
+    }
+}
+
+/* Each track in turn is fitted to the nearest bearings that no better track has claimed. */
+static void fit_in_turn(const struct rho_passive_search *search, struct rho_passive_set *set)
+{
+    for (unsigned t = 0; t < set->num; t++) {
+        struct rho_passive_candidate *track = &set->tracks[t];
+        rho_passive_fit_nearest(search, track->state_m, 0);
+        (void)rho_passive_score_nearest(search, track->state_m, 0, track->claim);
+        rho_passive_mark_claims(search->passive, (rho_passive_const_claim *)track->claim, 1);
+    }
+    for (unsigned t = 0; t < set->num; t++) {
+        rho_passive_mark_claims(search->passive, (rho_passive_const_claim *)set->tracks[t].claim,
+                                0);
+    }
+}
+
+/*
+ * Assignments and fits in turn end in a local optimum near their start: two starts, and the better
+ * end.
+ */
+void rho_passive_fit_jointly(const struct rho_passive_search *search,
+                             const struct rho_passive_choice *choice, struct rho_passive_set *set)
+{
+    struct rho_passive_set *spare = &search->passive->spare;
+    fill_set(search, choice, set);
+    *spare = *set;
+    fit_until_all_are_tracks(search, set);
+    fit_in_turn(search, spare);
+    fit_until_all_are_tracks(search, spare);
+    if (spare->total_nat > set->total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
+        *set = *spare;
+    }
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_margins: by how much the best set of tracks is worth more than the best set without each
+ * of its tracks. A set that turns out to be worth more becomes the best.
+ */
+#include <string.h>
+
+#include "passive_search.h"
+#include "rhotrack/types.h"
+
+#define FITTED_WITHIN_NAT 20.0f /* alternatives with a lower total of the choice are not fitted */
+#define FITTED_MAX 4u           /* alternatives that are fitted for each track */
+#define NONE_NAT (-1.0e9f)
+#define CHANGES_MAX 4 /* of the best set */
+
+/*
+ * Choices without the target of a candidate, by the candidate that takes its place; last: none
+ * does.
+ */
+struct alternatives {
+    struct rho_passive_choice without;
+    /* total of the choice; NONE_NAT: none, or already fitted */
+    float total_nat[RHO_MAX_PASSIVE_CANDIDATES + 1];
+};
+
+static void list_alternatives(const struct rho_passive *passive,
+                              const struct rho_passive_choice *choice, unsigned which,
+                              struct alternatives *alternatives)
+{
+    alternatives->without = *choice;
+    rho_passive_exclude_target(&alternatives->without, which);
+    for (unsigned i = 0; i <= choice->count; i++) {
+        alternatives->total_nat[i] = NONE_NAT;
+        if (i == choice->count ||
+            (!alternatives->without.is_out[i] && passive->shared[which][i] > 0)) {
+            struct rho_passive_choice tried = alternatives->without;
+            rho_passive_include(&tried, i);
+            rho_passive_improve_choice(&tried);
+            alternatives->total_nat[i] = tried.total_nat;
+        }
+    }
+}
+
+static unsigned find_best(const struct alternatives *alternatives)
+{
+    unsigned best = 0;
+    for (unsigned i = 1; i <= alternatives->without.count; i++) {
+        if (alternatives->total_nat[i] > alternatives->total_nat[best]) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+/*
+ * The highest total of a set without the target of the candidate. If it is higher than that of the
+ * best set and may_change, the set becomes the best one, and its choice the choice. Alternatives
+ * that are not fitted count with the total of their choice.
+ */
+static float best_total_without(const struct rho_passive_search *search,
+                                struct rho_passive_choice *choice, unsigned which, int may_change)
+{
+    struct rho_passive *passive = search->passive;
+    float most_nat = NONE_NAT, fit_nat = passive->best.total_nat - choice->total_nat;
+    struct alternatives alternatives;
+    list_alternatives(passive, choice, which, &alternatives);
+    for (unsigned n = 0; n < FITTED_MAX; n++) {
+        unsigned best = find_best(&alternatives);
+        if (alternatives.total_nat[best] < choice->total_nat - FITTED_WITHIN_NAT) {
+            break;
+        }
+        struct rho_passive_choice tried = alternatives.without;
+        rho_passive_include(&tried, best);
+        rho_passive_improve_choice(&tried);
+        rho_passive_fit_jointly(search, &tried, &passive->other);
+        alternatives.total_nat[best] = NONE_NAT;
+        most_nat = passive->other.total_nat > most_nat ? passive->other.total_nat : most_nat;
+        if (may_change && most_nat > passive->best.total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
+            passive->best = passive->other;
+            *choice = tried;
+            memset(choice->is_out, 0, sizeof choice->is_out);
+            return most_nat;
+        }
+    }
+    float unfitted_nat = alternatives.total_nat[find_best(&alternatives)] + fit_nat;
+    return unfitted_nat > most_nat ? unfitted_nat : most_nat;
+}
+
+/*
+ * All margins belong to one best set: they are computed anew when another set becomes the best,
+ * which happens at most CHANGES_MAX times.
+ */
+void rho_passive_find_margins(const struct rho_passive_search *search,
+                              struct rho_passive_choice *choice,
+                              float margins_nat[RHO_MAX_PASSIVE_TRACKS])
+{
+    const struct rho_passive_set *best = &search->passive->best;
+    unsigned changes = 0;
+    for (unsigned t = 0; t < best->num;) {
+        float total_nat = best->total_nat;
+        float margin_nat = total_nat - best_total_without(search, choice, best->candidate[t],
+                                                          changes < CHANGES_MAX);
+        if (best->total_nat > total_nat) {
+            changes++;
+            t = 0;
+        } else {
+            margins_nat[t++] = margin_nat > 0.0f ? margin_nat : 0.0f;
+        }
+    }
+}

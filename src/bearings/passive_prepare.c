@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_prepare: what a search needs before its phases: the geometry of the sensors, the times of
+ * the scans, the log-likelihood ratios of a hit and a miss, and the score that a track must reach.
+ */
+#include "passive_search.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+#define DENSITY_MIN_PER_RAD 0.3f
+#define SIGMA_RATIO_MAX 200.0f
+#define SQRT_TWO_PI 2.50662827f
+
+static void set_sensor_positions(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    float n = (float)passive->batch.num_sensors;
+    for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+        search->middle_x_m += passive->batch.sensors[s].x_m / n;
+        search->middle_y_m += passive->batch.sensors[s].y_m / n;
+    }
+    for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+        search->x_m[s] = passive->batch.sensors[s].x_m - search->middle_x_m;
+        search->y_m[s] = passive->batch.sensors[s].y_m - search->middle_y_m;
+    }
+}
+
+static void set_scan_times(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    int64_t first_us = passive->batch.time_us[0],
+            last_us = passive->batch.time_us[passive->batch.num_scans - 1];
+    search->half_s = 0.5f * rho_seconds_between(first_us, last_us);
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        search->step[k] =
+            rho_seconds_between(first_us, passive->batch.time_us[k]) / search->half_s - 1.0f;
+    }
+}
+
+/*
+ * The ratio of the largest sigma to the smallest is limited: float32 has too few digits for the
+ * normal equations of very different bearings.
+ */
+static void set_sigma_floor(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
+                float sigma_rad = passive->batch.bearings[k][s][i].sigma_rad / SIGMA_RATIO_MAX;
+                search->sigma_min_rad =
+                    sigma_rad > search->sigma_min_rad ? sigma_rad : search->sigma_min_rad;
+            }
+        }
+    }
+}
+
+/*
+ * The density of false bearings is the density of all bearings of the batch: a false bearing is
+ * equally likely anywhere in the field of view.
+ */
+static void set_likelihood_ratios(struct rho_passive_search *search)
+{
+    const struct rho_passive *passive = search->passive;
+    const struct rho_passive_config *config = &passive->config;
+    float total = 0.0f, log_sigmas = 0.0f;
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            search->looks += passive->batch.was_seen[k][s];
+            total += (float)passive->batch.num_bearings[k][s];
+            for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
+                log_sigmas += rho_log(passive->batch.bearings[k][s][i].sigma_rad);
+            }
+        }
+    }
+    float looks = search->looks > 0 ? (float)search->looks : 1.0f;
+    float density = total / looks / config->field_of_view_rad;
+    density = density > DENSITY_MIN_PER_RAD ? density : DENSITY_MIN_PER_RAD;
+    search->hit_nat = rho_log(config->pd / (density * SQRT_TWO_PI));
+    search->miss_nat = rho_log(1.0f - config->pd);
+    search->share_nat =
+        search->hit_nat - log_sigmas / (total > 0.0f ? total : 1.0f) - search->miss_nat;
+}
+
+static void set_theta_rows(struct rho_passive_search *search)
+{
+    const struct rho_passive_config *config = &search->passive->config;
+    search->theta_cells = (uint16_t)(RHO_PI / config->theta_cell_rad + 0.5f);
+    search->rho_cells = RHO_PASSIVE_RHO_CELLS;
+    for (unsigned i = 0; i < search->theta_cells; i++) {
+        float theta_rad = ((float)i + 0.5f) * RHO_PI / (float)search->theta_cells;
+        search->cosine[i] = rho_cos(theta_rad);
+        search->sine[i] = rho_sin(theta_rad);
+    }
+}
+
+void rho_passive_prepare(struct rho_passive_search *search)
+{
+    set_sensor_positions(search);
+    set_scan_times(search);
+    set_likelihood_ratios(search);
+    set_sigma_floor(search);
+    set_theta_rows(search);
+    rho_passive_mark_directions(search);
+}
+
+/*
+ * Two crossings determine a state, and its four bearings always fit. The likelihood ratio of the
+ * other bearings has the mean 1 if all bearings are false, so that it reaches e^s in at most one of
+ * e^s pairs of crossings. Pairs with a crossing of the newest frame are new at each search.
+ */
+void rho_passive_set_start_score(const struct rho_passive_search *search)
+{
+    struct rho_passive *passive = search->passive;
+    float points = (float)(passive->work.crossings - passive->work.ghosts);
+    float pairs = 0.5f * points * points + 1.0f;
+    float interval_h = 2.0f * search->half_s / (float)(passive->batch.num_scans - 1) / 3600.0f;
+    float allowed = passive->config.false_tracks_per_hour * interval_h;
+    float start_nat =
+        4.0f * (search->share_nat + search->miss_nat) + rho_log(pairs) - rho_log(allowed);
+    passive->start_mnat = (int32_t)(1000.0f * start_nat);
+}

@@ -1,0 +1,542 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * imm: the models, what an interval does to them, mixing and prediction. imm_likelihood.c scores
+ * plots, imm_update.c updates with them.
+ */
+#include "rhotrack/detail/imm.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "imm_axes.h"
+#include "rhotrack/detail/approx.h"
+
+/* Predicted variances are raised by thirty-two units of rounding, as in kalman.c. */
+#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 524288.0f)
+
+#define STEP_MAX_S 1.0e5f
+
+/* ---- models ---------------------------------------------------------------------------------- */
+
+/*
+ * Tuned with targets that manoeuvre at 1 to 30 g for 4 to 8 s: stationary acceleration sd of 0.8
+ * accel_max, and these shortest times. The times of slower targets are proportional to their
+ * turning time v_max / accel_max.
+ */
+#define ACCEL_SHARE 0.8f
+#define MEMORY_SHARE 0.35f
+#define MEMORY_MIN_S 3.0f
+#define SOJOURN_SHARE 0.47f
+#define SOJOURN_MIN_S 4.0f
+#define TURN_MAX_S 1000.0f
+
+/*
+ * Noise of the steady model: after 1 s a share of accel_max; less for targets that hardly
+ * manoeuvre, and for calm ones.
+ */
+#define QUIET_DENSITY 1.0f
+#define CALM_DENSITY 0.003f
+#define QUIET_SHARE 0.05f
+
+/* Mean time until an agile target that keeps straight becomes calm. */
+#define SETTLE_S 60.0f
+
+/*
+ * Manoeuvres with lower odds are not mixed into the steady model: even a small share would add the
+ * squared difference of the models to the steady variance at each scan, and straight targets would
+ * stay uncertain. A bound on the probability would not do, as it hardly falls between fast scans.
+ */
+#define ODDS_OVER 0.16f
+
+void rho_imm_model_default(struct rho_imm_model *model, float accel_max_mps2, float v_max_mps)
+{
+    const float accel = ACCEL_SHARE * accel_max_mps2, quiet = QUIET_SHARE * accel_max_mps2;
+    const float turn_s =
+        accel_max_mps2 * TURN_MAX_S > v_max_mps ? v_max_mps / accel_max_mps2 : TURN_MAX_S;
+    const float memory_s = MEMORY_SHARE * turn_s, sojourn_s = SOJOURN_SHARE * turn_s;
+    *model = (struct rho_imm_model){
+        .quiet_density = quiet * quiet < QUIET_DENSITY ? quiet * quiet : QUIET_DENSITY,
+        .calm_density = quiet * quiet < CALM_DENSITY ? quiet * quiet : CALM_DENSITY,
+        .memory_s = memory_s > MEMORY_MIN_S ? memory_s : MEMORY_MIN_S,
+        .maneuver_s = sojourn_s > SOJOURN_MIN_S ? sojourn_s : SOJOURN_MIN_S,
+        .calm_s = RHO_IMM_CALM_S,
+        .settle_s = SETTLE_S,
+        .speed_sigma_mps = v_max_mps,
+        .accel_sigma_mps2 = accel_max_mps2,
+    };
+    model->steady_s = model->maneuver_s;
+    model->drive_density = 2.0f * accel * accel / model->memory_s;
+}
+
+int rho_imm_model_is_usable(const struct rho_imm_model *model)
+{
+    return rho_is_within(model->quiet_density, 0.0f, 1e8f) &&
+           rho_is_within(model->calm_density, 0.0f, model->quiet_density) &&
+           rho_is_within(model->drive_density, 0.0f, 1e8f) &&
+           rho_is_within(model->memory_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->steady_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->maneuver_s, 1e-3f, 1e6f) &&
+           rho_is_within(model->calm_s, 0.0f, 1e6f) &&
+           rho_is_within(model->settle_s, model->calm_s > 0.0f ? 1e-3f : 0.0f, 1e6f) &&
+           rho_is_within(model->speed_sigma_mps, 1e-3f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(model->accel_sigma_mps2, 0.0f, 1e4f) &&
+           rho_is_within(model->speed_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS);
+}
+
+/* ---- what an interval does ------------------------------------------------------------------- */
+
+/*
+ * Weights and nodes of Gauss-Legendre quadrature with four points on 0 .. 1: exact to the seventh
+ * power.
+ */
+static const float gauss_weight[4] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
+static const float gauss_node[4] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f};
+
+/*
+ * Position, velocity and acceleration after `t` for a unit of acceleration at 0, x = t / memory
+ * within +-1/2: t^2 (x - 1 + e^-x) / x^2, t (1 - e^-x) / x, e^-x. Series, as the closed forms
+ * cancel for small x.
+ */
+static void acceleration_response(float t_s, float memory_s, float out[3])
+{
+    float x = t_s / memory_s;
+    /* sum over k of (-x)^k / (k + 2)!, nested; the next term is below rounding for |x| <= 1/2 */
+    float rest = 1.0f / 40320.0f * -x + 1.0f / 5040.0f;
+    rest = rest * -x + 1.0f / 720.0f;
+    rest = rest * -x + 1.0f / 120.0f;
+    rest = rest * -x + 1.0f / 24.0f;
+    rest = rest * -x + 1.0f / 6.0f;
+    rest = rest * -x + 0.5f;
+    out[0] = t_s * t_s * rest;
+    out[1] = t_s * (1.0f - x * rest);
+    out[2] = 1.0f - x * (1.0f - x * rest);
+}
+
+static void open_short_step(struct rho_imm_step *step, const struct rho_imm_model *model,
+                            float dt_s)
+{
+    float response[3];
+    acceleration_response(dt_s, model->memory_s, response);
+    step->position_by_accel = response[0];
+    step->velocity_by_accel = response[1];
+    step->accel_by_accel = response[2];
+    memset(step->noise, 0, sizeof step->noise);
+    for (int k = 0; dt_s > 0.0f && k < 4; k++) {
+        float weight = gauss_weight[k] * dt_s * model->drive_density;
+        acceleration_response(gauss_node[k] * dt_s, model->memory_s, response);
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j <= i; j++) {
+                step->noise[RHO_AT(i, j)] += weight * response[i] * response[j];
+            }
+        }
+    }
+}
+
+/* F P F^T of the manoeuvring model's axis. */
+static inline void propagate_axis_covariance(struct axis *at, struct accel *by,
+                                             const struct rho_imm_step *step)
+{
+    const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
+                h = step->accel_by_accel;
+    const float pp = at->pp + dt * at->vp + f * by->ap, pv = at->vp + dt * at->vv + f * by->av;
+    const float pa = by->ap + dt * by->av + f * by->aa;
+    const float vv = at->vv + g * by->av, va = by->av + g * by->aa;
+    at->pp = pp + dt * pv + f * pa;
+    at->vp = pv + g * pa;
+    at->vv = vv + g * va;
+    by->ap = h * pa;
+    by->av = h * va;
+    by->aa = h * h * by->aa;
+}
+
+/* The transition of a step twice as long. */
+static void double_step(struct rho_imm_step *step)
+{
+    float *noise = step->noise;
+    struct axis at = {.pp = noise[0], .vp = noise[1], .vv = noise[2]};
+    struct accel by = {.ap = noise[3], .av = noise[4], .aa = noise[5]};
+    propagate_axis_covariance(&at, &by, step);
+    noise[0] += at.pp;
+    noise[1] += at.vp;
+    noise[2] += at.vv;
+    noise[3] += by.ap;
+    noise[4] += by.av;
+    noise[5] += by.aa;
+    step->position_by_accel +=
+        step->dt_s * step->velocity_by_accel + step->position_by_accel * step->accel_by_accel;
+    step->velocity_by_accel += step->velocity_by_accel * step->accel_by_accel;
+    step->accel_by_accel *= step->accel_by_accel;
+    step->dt_s *= 2.0f;
+}
+
+/* Probability that an exponentially distributed time with mean mean_s has passed. */
+static float change_probability(float dt_s, float mean_s)
+{
+    return 1.0f - rho_exp(-dt_s / mean_s);
+}
+
+/*
+ * Transition probabilities of the Markov chain. A manoeuvre of a calm target counts even if it has
+ * ended within the step: after a long gap no other term holds its effect. The mean time between
+ * manoeuvres of a calm target is at least that of an agile one.
+ */
+static void set_transition_probabilities(struct rho_imm_step *step,
+                                         const struct rho_imm_model *model)
+{
+    const float begins = step->dt_s / model->steady_s, ends = step->dt_s / model->maneuver_s;
+    step->begins = step->ends = step->calm_begins = step->settles = step->odds_over = 0.0f;
+    if (step->dt_s > 0.0f) {
+        if (model->calm_s > 0.0f) {
+            step->calm_begins = change_probability(
+                step->dt_s, model->calm_s > model->steady_s ? model->calm_s : model->steady_s);
+            step->settles = change_probability(step->dt_s, model->settle_s);
+            step->odds_over = ODDS_OVER;
+        }
+        const float moved = 1.0f - rho_exp(-(begins + ends));
+        step->begins = begins / (begins + ends) * moved;
+        step->ends = ends / (begins + ends) * moved;
+        step->calm_begins = step->calm_begins < step->begins ? step->calm_begins : step->begins;
+    }
+}
+
+void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
+{
+    int doublings = 0;
+    step->dt_s = dt_s;
+    while (doublings < 40 &&
+           !(step->dt_s <= 0.5f * model->memory_s && step->dt_s >= -0.5f * model->memory_s)) {
+        step->dt_s *= 0.5f;
+        doublings++;
+    }
+    open_short_step(step, model, step->dt_s);
+    for (; doublings > 0; doublings--) {
+        double_step(step);
+    }
+    step->dt_s = dt_s;
+    step->quiet_density = model->quiet_density;
+    step->calm_density = model->calm_density;
+    const float noisy_s = dt_s > 0.0f ? dt_s : 0.0f;
+    step->quiet_noise[0] = noisy_s * noisy_s * noisy_s * (1.0f / 3.0f);
+    step->quiet_noise[1] = 0.5f * noisy_s * noisy_s;
+    step->quiet_noise[2] = noisy_s;
+    set_transition_probabilities(step, model);
+}
+
+/* ---- start ----------------------------------------------------------------------------------- */
+
+void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
+                   const struct rho_kalman *estimate)
+{
+    memset(imm, 0, sizeof *imm);
+    imm->steady = *estimate;
+    memcpy(imm->state, estimate->state, sizeof estimate->state);
+    memcpy(imm->covariance, estimate->covariance, sizeof estimate->covariance);
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        if (rho_kalman_is_open(estimate, axis)) {
+            imm->covariance[COVARIANCE_AT(axis, 2, axis, 2)] =
+                model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_KALMAN_VARIANCE_MIN;
+        }
+    }
+    for (int axis = 1; axis < NUM_AXES; axis++) {
+        for (int other = 0; other < axis; other++) {
+            for (int k = 0; k < 4; k++) {
+                float covariance = estimate->covariance[COVARIANCE_AT(axis, k / 2, other, k % 2)];
+                imm->is_coupled |= (uint8_t)(covariance > 0.0f || covariance < 0.0f);
+            }
+        }
+    }
+    imm->probability = 0.5f;
+    imm->calm = model->calm_s > 0.0f ? 0.5f : 0.0f;
+}
+
+/* ---- mix ------------------------------------------------------------------------------------- */
+
+/*
+ * Weights in a mixed moment: the model itself, the other one, and the product of their differences.
+ */
+struct mixing {
+    float own, other, spread;
+};
+
+/* Mixing weights of both models. */
+struct mixing_weights {
+    float into_steady,
+        into_manoeuvre; /* probability that the target was in the other model before */
+    struct mixing steady, manoeuvre;
+};
+
+/* The probabilities of calm, agile and manoeuvring are propagated; returns the mixing weights. */
+static struct mixing_weights update_markov_chain(struct rho_imm *imm,
+                                                 const struct rho_imm_step *step)
+{
+    const float was = imm->probability, was_steady = 1.0f - was;
+    const float calm = was_steady * imm->calm, agile = was_steady - calm;
+    const float begins = calm * step->calm_begins + agile * step->begins;
+    const float ends = was < step->odds_over * was_steady ? 0.0f : was * step->ends;
+    /* sums instead of differences from 1: no cancellation if a model is nearly certain */
+    const float calm_stays = calm * (1.0f - step->calm_begins);
+    const float agile_stays = agile * (1.0f - step->begins);
+    const float stay = calm_stays + agile_stays, is = begins + (was - ends);
+    /* FLT_MIN: a state may have probability 0 after rounding */
+    const float is_steady = ends + stay + FLT_MIN;
+    const float steady = ends / is_steady, manoeuvre = begins / (is + FLT_MIN);
+    imm->calm = (calm_stays + agile_stays * step->settles) / is_steady;
+    imm->probability = is;
+    return (struct mixing_weights){
+        .into_steady = steady,
+        .into_manoeuvre = manoeuvre,
+        .steady = {1.0f - steady, steady, steady * (1.0f - steady)},
+        .manoeuvre = {1.0f - manoeuvre, manoeuvre, manoeuvre * (1.0f - manoeuvre)},
+    };
+}
+
+static inline float mixed(const struct mixing *by, float own, float other, float product)
+{
+    return by->own * own + by->other * other + by->spread * product;
+}
+
+/* One axis of both. */
+static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct accel *more,
+                            const struct mixing_weights *by)
+{
+    const struct mixing *s = &by->steady, *m = &by->manoeuvre;
+    const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = more->a;
+    const struct axis was = *steady;
+    if (by->into_steady > 0.0f) {
+        steady->p += by->into_steady * p;
+        steady->v += by->into_steady * v;
+        steady->pp = mixed(s, was.pp, manoeuvre->pp, p * p);
+        steady->vp = mixed(s, was.vp, manoeuvre->vp, v * p);
+        steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
+    }
+    manoeuvre->p -= by->into_manoeuvre * p;
+    manoeuvre->v -= by->into_manoeuvre * v;
+    manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, p * p);
+    manoeuvre->vp = mixed(m, manoeuvre->vp, was.vp, v * p);
+    manoeuvre->vv = mixed(m, manoeuvre->vv, was.vv, v * v);
+    more->a -= by->into_manoeuvre * a;
+    more->ap = m->own * more->ap + m->spread * a * p;
+    more->av = m->own * more->av + m->spread * a * v;
+    more->aa = m->own * more->aa + m->spread * a * a;
+}
+
+/* The covariances of two axes, with the differences of the models on both axes. */
+static inline void mix_pair(struct pair *steady, struct pair *manoeuvre,
+                            const struct model_difference *a, const struct model_difference *b,
+                            const struct mixing_weights *by)
+{
+    const struct mixing *s = &by->steady, *m = &by->manoeuvre;
+    const struct pair was = *steady;
+    steady->pp = mixed(s, was.pp, manoeuvre->pp, a->p * b->p);
+    steady->pv = mixed(s, was.pv, manoeuvre->pv, a->p * b->v);
+    steady->vp = mixed(s, was.vp, manoeuvre->vp, a->v * b->p);
+    steady->vv = mixed(s, was.vv, manoeuvre->vv, a->v * b->v);
+    manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, a->p * b->p);
+    manoeuvre->pv = mixed(m, manoeuvre->pv, was.pv, a->p * b->v);
+    manoeuvre->vp = mixed(m, manoeuvre->vp, was.vp, a->v * b->p);
+    manoeuvre->vv = mixed(m, manoeuvre->vv, was.vv, a->v * b->v);
+    /* the steady model's acceleration is 0 with variance 0 */
+    manoeuvre->pa = m->own * manoeuvre->pa + m->spread * a->p * b->a;
+    manoeuvre->va = m->own * manoeuvre->va + m->spread * a->v * b->a;
+    manoeuvre->ap = m->own * manoeuvre->ap + m->spread * a->a * b->p;
+    manoeuvre->av = m->own * manoeuvre->av + m->spread * a->a * b->v;
+    manoeuvre->aa = m->own * manoeuvre->aa + m->spread * a->a * b->a;
+}
+
+/* ---- predict --------------------------------------------------------------------------------- */
+
+static inline float with_rounding_margin(float variance)
+{
+    const float higher = variance * ROUNDING_ALLOWANCE;
+    return higher < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : higher;
+}
+
+/* F x, F P F^T + Q of the manoeuvring model's axis. */
+static inline void predict_manoeuvre_axis(struct axis *at, struct accel *by,
+                                          const struct rho_imm_step *step)
+{
+    at->p += step->dt_s * at->v + step->position_by_accel * by->a;
+    at->v += step->velocity_by_accel * by->a;
+    by->a *= step->accel_by_accel;
+    propagate_axis_covariance(at, by, step);
+    at->pp = with_rounding_margin(at->pp + step->noise[0]);
+    at->vp += step->noise[1];
+    at->vv = with_rounding_margin(at->vv + step->noise[2]);
+    by->ap += step->noise[3];
+    by->av += step->noise[4];
+    by->aa = with_rounding_margin(by->aa + step->noise[5]);
+}
+
+/* The same for the steady model. */
+static inline void predict_steady_axis(struct axis *at, float dt,
+                                       const float noise[RHO_TRIANGLE(2)])
+{
+    at->p += dt * at->v;
+    at->pp = with_rounding_margin(at->pp + dt * (2.0f * at->vp + dt * at->vv) + noise[0]);
+    at->vp += dt * at->vv + noise[1];
+    at->vv = with_rounding_margin(at->vv + noise[2]);
+}
+
+/* The states must be finite, and the variances within their limit. */
+struct checks {
+    float state_sum;
+    int is_good;
+};
+
+static inline int are_within_limits(const struct checks *checks)
+{
+    return checks->is_good && checks->state_sum >= -FLT_MAX && checks->state_sum <= FLT_MAX;
+}
+
+/* One axis of both models, mixed if `by` is given. quiet_noise: of the steady model. */
+static void predict_axis(struct rho_imm *imm, int axis, const struct mixing_weights *by,
+                         const struct rho_imm_step *step, const float quiet_noise[RHO_TRIANGLE(2)],
+                         struct checks *checks)
+{
+    struct rho_kalman *kalman = &imm->steady;
+    if (!is_open(imm, axis)) {
+        checks->is_good &= imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
+        return;
+    }
+    struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
+    struct axis manoeuvre = load_axis(imm->state, imm->covariance, axis);
+    struct accel more = load_accel(imm, axis);
+    if (by) {
+        mix_axis(&steady, &manoeuvre, &more, by);
+    }
+    predict_steady_axis(&steady, step->dt_s, quiet_noise);
+    predict_manoeuvre_axis(&manoeuvre, &more, step);
+    store_axis(kalman->state, kalman->covariance, axis, &steady);
+    store_axis(imm->state, imm->covariance, axis, &manoeuvre);
+    store_accel(imm, axis, &more);
+    checks->is_good &= steady.pp + steady.vv <= RHO_KALMAN_VARIANCE_MAX;
+    checks->is_good &= manoeuvre.pp + manoeuvre.vv + more.aa <= RHO_KALMAN_VARIANCE_MAX;
+    checks->state_sum += steady.p + steady.v + manoeuvre.p + manoeuvre.v + more.a;
+}
+
+/* F C F^T of the manoeuvring model's axes: three columns, then three rows. */
+static inline void predict_manoeuvre_pair(struct pair *at, const struct rho_imm_step *step)
+{
+    const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
+                h = step->accel_by_accel;
+    const float pp = at->pp + dt * at->vp + f * at->ap, pv = at->pv + dt * at->vv + f * at->av;
+    const float pa = at->pa + dt * at->va + f * at->aa;
+    const float vp = at->vp + g * at->ap, vv = at->vv + g * at->av, va = at->va + g * at->aa;
+    const float ap = h * at->ap, av = h * at->av, aa = h * at->aa;
+    *at = (struct pair){
+        .pp = pp + dt * pv + f * pa,
+        .pv = pv + g * pa,
+        .pa = h * pa,
+        .vp = vp + dt * vv + f * va,
+        .vv = vv + g * va,
+        .va = h * va,
+        .ap = ap + dt * av + f * aa,
+        .av = av + g * aa,
+        .aa = h * aa,
+    };
+}
+
+/* The same for the steady model. */
+static inline void predict_steady_pair(struct pair *at, float dt_s)
+{
+    const float pv = at->pv + dt_s * at->vv;
+    at->vp += dt_s * at->vv;
+    at->pp += dt_s * (at->pv + at->vp);
+    at->pv = pv;
+}
+
+static inline struct model_difference difference_of(const struct rho_imm *imm, int axis)
+{
+    return (struct model_difference){
+        .p = imm->state[axis] - imm->steady.state[axis],
+        .v = imm->state[NUM_AXES + axis] - imm->steady.state[NUM_AXES + axis],
+        .a = imm->state[2 * NUM_AXES + axis],
+    };
+}
+
+/* The covariances of an axis with an earlier one; before the axes themselves are mixed. */
+static void predict_pair(struct rho_imm *imm, int axis, int other, const struct mixing_weights *by,
+                         const struct rho_imm_step *step)
+{
+    float *p = imm->covariance, *q = imm->steady.covariance;
+    const uint8_t *rows = pair_rows[axis + other - 1];
+    struct pair steady = load_steady_pair(q, rows), manoeuvre = load_pair(p, rows);
+    if (by) {
+        const struct model_difference a = difference_of(imm, axis), b = difference_of(imm, other);
+        mix_pair(&steady, &manoeuvre, &a, &b, by);
+    }
+    predict_steady_pair(&steady, step->dt_s);
+    predict_manoeuvre_pair(&manoeuvre, step);
+    store_steady_pair(q, rows, &steady);
+    store_pair(p, rows, &manoeuvre);
+}
+
+static void predict_pairs(struct rho_imm *imm, const struct mixing_weights *by,
+                          const struct rho_imm_step *step)
+{
+    predict_pair(imm, RHO_Y, RHO_X, by, step);
+    if (is_open(imm, RHO_Z)) {
+        predict_pair(imm, RHO_Z, RHO_X, by, step);
+        predict_pair(imm, RHO_Z, RHO_Y, by, step);
+    }
+}
+
+static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *step, int may_change)
+{
+    struct checks checks = {0.0f, 1};
+    struct mixing_weights by;
+    const struct mixing_weights *mixing = 0;
+    if (!imm || !step) {
+        return RHO_ERROR_NULL;
+    }
+    if (!(step->dt_s >= -STEP_MAX_S && step->dt_s <= STEP_MAX_S)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (may_change && step->begins + step->ends > 0.0f) {
+        by = update_markov_chain(imm, step);
+        mixing = &by;
+    }
+    if (imm->is_coupled) {
+        predict_pairs(imm, mixing, step);
+    }
+    const float density =
+        step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);
+    const float quiet_noise[RHO_TRIANGLE(2)] = {density * step->quiet_noise[0],
+                                                density * step->quiet_noise[1],
+                                                density * step->quiet_noise[2]};
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        predict_axis(imm, axis, mixing, step, quiet_noise, &checks);
+    }
+    return are_within_limits(&checks) ? RHO_OK : RHO_ERROR_VALUE;
+}
+
+enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm, const struct rho_imm_step *step)
+{
+    return predict(imm, step, 0);
+}
+
+enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
+{
+    return predict(imm, step, 1);
+}
+
+/* ---- estimate -------------------------------------------------------------------------------- */
+
+void rho_imm_estimate(const struct rho_imm *imm, struct rho_kalman *estimate, float accel_mps2[3])
+{
+    const float m = imm->probability, s = 1.0f - m;
+    float difference[RHO_KALMAN_STATES];
+    int place = 0;
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        difference[i] = imm->state[i] - imm->steady.state[i];
+        estimate->state[i] = imm->steady.state[i] + m * difference[i];
+        for (int j = 0; j <= i; j++, place++) {
+            estimate->covariance[place] = s * imm->steady.covariance[place] +
+                                          m * imm->covariance[place] +
+                                          s * m * difference[i] * difference[j];
+        }
+    }
+    for (int axis = 0; accel_mps2 && axis < NUM_AXES; axis++) {
+        accel_mps2[axis] = m * imm->state[2 * NUM_AXES + axis];
+    }
+}

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * imm_axes: the two models axis by axis. Private to src/estimation/imm*.c.
+ *
+ * The covariance of the steady model has the layout of the first 21 elements of the manoeuvring
+ * one's: positions and velocities have the same indices in both. The code is written out over named
+ * elements, as it runs for each hypothesis of each track.
+ */
+#ifndef RHOTRACK_IMM_AXES_H
+#define RHOTRACK_IMM_AXES_H
+
+#include <string.h>
+
+#include "rhotrack/detail/imm.h"
+
+#define NUM_AXES 3
+
+/*
+ * Index of the covariance of derivative d of an axis with derivative e of the same or another axis.
+ */
+#define COVARIANCE_AT(axis, d, other, e) RHO_AT(NUM_AXES *(d) + (axis), NUM_AXES * (e) + (other))
+
+/* Position and velocity of one axis, of either model, with their covariance. */
+struct axis {
+    float p, v;
+    float pp, vp, vv;
+};
+
+/*
+ * Acceleration of one axis of the manoeuvring model; in the steady model it is 0 with variance 0.
+ */
+struct accel {
+    float a;
+    float ap, av, aa;
+};
+
+/* Indices of an axis' first own covariance in its rows of position, velocity and acceleration. */
+static const uint8_t axis_rows[NUM_AXES][3] = {
+    {COVARIANCE_AT(0, 0, 0, 0), COVARIANCE_AT(0, 1, 0, 0), COVARIANCE_AT(0, 2, 0, 0)},
+    {COVARIANCE_AT(1, 0, 1, 0), COVARIANCE_AT(1, 1, 1, 0), COVARIANCE_AT(1, 2, 1, 0)},
+    {COVARIANCE_AT(2, 0, 2, 0), COVARIANCE_AT(2, 1, 2, 0), COVARIANCE_AT(2, 2, 2, 0)},
+};
+
+/* In such a row the next derivative of the same axis follows NUM_AXES elements later. */
+static inline struct axis load_axis(const float *state, const float *covariance, int axis)
+{
+    const float *by_v = &covariance[axis_rows[axis][1]];
+    return (struct axis){.p = state[axis],
+                         .v = state[NUM_AXES + axis],
+                         .pp = covariance[axis_rows[axis][0]],
+                         .vp = by_v[0],
+                         .vv = by_v[NUM_AXES]};
+}
+
+static inline void store_axis(float *state, float *covariance, int axis, const struct axis *in)
+{
+    float *by_v = &covariance[axis_rows[axis][1]];
+    state[axis] = in->p;
+    state[NUM_AXES + axis] = in->v;
+    covariance[axis_rows[axis][0]] = in->pp;
+    by_v[0] = in->vp;
+    by_v[NUM_AXES] = in->vv;
+}
+
+static inline struct accel load_accel(const struct rho_imm *imm, int axis)
+{
+    const float *by_a = &imm->covariance[axis_rows[axis][2]];
+    return (struct accel){.a = imm->state[2 * NUM_AXES + axis],
+                          .ap = by_a[0],
+                          .av = by_a[NUM_AXES],
+                          .aa = by_a[2 * NUM_AXES]};
+}
+
+static inline void store_accel(struct rho_imm *imm, int axis, const struct accel *in)
+{
+    float *by_a = &imm->covariance[axis_rows[axis][2]];
+    imm->state[2 * NUM_AXES + axis] = in->a;
+    by_a[0] = in->ap;
+    by_a[NUM_AXES] = in->av;
+    by_a[2 * NUM_AXES] = in->aa;
+}
+
+/*
+ * Covariances of two axes: the first letter is the derivative of the later axis, the second that of
+ * the earlier one. The steady model has the elements without a.
+ */
+struct pair {
+    float pp, pv, pa;
+    float vp, vv, va;
+    float ap, av, aa;
+};
+
+/* Estimate of the manoeuvring model minus that of the steady one, on one axis. */
+struct model_difference {
+    float p, v, a;
+};
+
+/* Indices of pp; pv; pa va; vp vv; ap av aa, for the axes y and x, z and x, z and y. */
+static const uint8_t pair_rows[NUM_AXES][5] = {
+    {COVARIANCE_AT(1, 0, 0, 0), COVARIANCE_AT(1, 0, 0, 1), COVARIANCE_AT(1, 0, 0, 2),
+     COVARIANCE_AT(1, 1, 0, 0), COVARIANCE_AT(1, 2, 0, 0)},
+    {COVARIANCE_AT(2, 0, 0, 0), COVARIANCE_AT(2, 0, 0, 1), COVARIANCE_AT(2, 0, 0, 2),
+     COVARIANCE_AT(2, 1, 0, 0), COVARIANCE_AT(2, 2, 0, 0)},
+    {COVARIANCE_AT(2, 0, 1, 0), COVARIANCE_AT(2, 0, 1, 1), COVARIANCE_AT(2, 0, 1, 2),
+     COVARIANCE_AT(2, 1, 1, 0), COVARIANCE_AT(2, 2, 1, 0)},
+};
+
+static inline struct pair load_steady_pair(const float *covariance, const uint8_t rows[5])
+{
+    const float *by_v = &covariance[rows[3]];
+    return (struct pair){
+        .pp = covariance[rows[0]], .pv = covariance[rows[1]], .vp = by_v[0], .vv = by_v[NUM_AXES]};
+}
+
+static inline void store_steady_pair(float *covariance, const uint8_t rows[5],
+                                     const struct pair *in)
+{
+    float *by_v = &covariance[rows[3]];
+    covariance[rows[0]] = in->pp;
+    covariance[rows[1]] = in->pv;
+    by_v[0] = in->vp;
+    by_v[NUM_AXES] = in->vv;
+}
+
+static inline struct pair load_pair(const float *covariance, const uint8_t rows[5])
+{
+    const float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
+    struct pair out = load_steady_pair(covariance, rows);
+    out.pa = with_a[0];
+    out.va = with_a[NUM_AXES];
+    out.ap = by_a[0];
+    out.av = by_a[NUM_AXES];
+    out.aa = by_a[2 * NUM_AXES];
+    return out;
+}
+
+static inline void store_pair(float *covariance, const uint8_t rows[5], const struct pair *in)
+{
+    float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
+    store_steady_pair(covariance, rows, in);
+    with_a[0] = in->pa;
+    with_a[NUM_AXES] = in->va;
+    by_a[0] = in->ap;
+    by_a[NUM_AXES] = in->av;
+    by_a[2 * NUM_AXES] = in->aa;
+}
+
+/* Positions and velocities of a model, as a filter of their own. */
+static inline void load_kinematics(struct rho_kalman *to, const float *state,
+                                   const float *covariance)
+{
+    memcpy(to->state, state, sizeof to->state);
+    memcpy(to->covariance, covariance, sizeof to->covariance);
+}
+
+static inline int is_open(const struct rho_imm *imm, int axis)
+{
+    return imm->covariance[RHO_AT(axis, axis)] > 0.0f;
+}
+
+static inline float plot_velocity(const struct rho_plot *plot, int axis)
+{
+    return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
+}
+
+/*
+ * Bayes update of the model probabilities by the innovation `off` of a scalar (imm_likelihood.c).
+ */
+void rho_imm_update_probability(struct rho_imm *imm, const float off[2], const float variance[2],
+                                float *gain_nat);
+
+#endif

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * input_decide: the onset test. On each axis the input is accepted or rejected; the effect of an
+ * input that was accepted before and is rejected now is moved into the estimate.
+ */
+#include <stddef.h>
+#include <string.h>
+
+#include "input_columns.h"
+#include "rhotrack/detail/input.h"
+
+/* Indices of row i of a packed 3 x 3 matrix. */
+static const uint8_t places[NUM_AXES][NUM_AXES] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
+
+static void reset_input(struct rho_input *input, int axis, float variance)
+{
+    const uint8_t *place = places[axis];
+
+    memset(input->sensitivity[axis], 0, sizeof input->sensitivity[axis]);
+    input->input_mps2[axis] = 0.0f;
+    input->variance[place[0]] = 0.0f;
+    input->variance[place[1]] = 0.0f;
+    input->variance[place[2]] = 0.0f;
+    input->variance[place[axis]] = variance;
+}
+
+static float input_nis(const struct rho_input *input, int axis)
+{
+    const float u = input->input_mps2[axis];
+
+    return u / input->variance[places[axis][axis]] * u;
+}
+
+/* ---- correlated inputs --------------------------------------------------------------- */
+
+/* A conditional variance; rounding must not take all of it. */
+static float remaining(float variance, float explained)
+{
+    const float rest = variance - explained, least = variance * ROUNDING_SHARE;
+
+    return rest > least ? rest : least;
+}
+
+/* The input of this axis is 0: the others are conditioned on that. */
+static void condition_on_no_input(struct rho_input *input, int axis)
+{
+    const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
+    float *v = input->variance;
+    const float vb = v[RHO_AT(axis, b)], vc = v[RHO_AT(axis, c)];
+    const float share_b = vb / v[RHO_AT(axis, axis)], share_c = vc / v[RHO_AT(axis, axis)];
+
+    input->input_mps2[b] -= share_b * input->input_mps2[axis];
+    input->input_mps2[c] -= share_c * input->input_mps2[axis];
+    v[RHO_AT(b, b)] = remaining(v[RHO_AT(b, b)], share_b * vb);
+    v[RHO_AT(c, c)] = remaining(v[RHO_AT(c, c)], share_c * vc);
+    v[RHO_AT(b, c)] -= share_b * vc;
+}
+
+/*
+ * The input of this axis has ended: its effect is moved into the estimate. By regression on the
+ * other axes, u = s_b u_b + s_c u_c + rest: their sensitivities get the shares, and only the rest,
+ * which is uncorrelated with them, goes into the estimate, so that estimate and inputs stay
+ * independent.
+ */
+static void absorb_input(struct rho_input *input, int axis)
+{
+    const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
+    const float *v = input->variance, *m = input->sensitivity[axis];
+    const float vb = v[RHO_AT(axis, b)], vc = v[RHO_AT(axis, c)];
+    float rest_mps2 = input->input_mps2[axis], variance = v[RHO_AT(axis, axis)];
+
+    if (!is_zero(vb) || !is_zero(vc)) {
+        const float bb = v[RHO_AT(b, b)], bc = v[RHO_AT(b, c)];
+        const float pivot = remaining(v[RHO_AT(c, c)], bc / bb * bc);
+        const float share_c = (vc - bc / bb * vb) / pivot;
+        const float share_b = (vb - share_c * bc) / bb;
+
+        rest_mps2 -= share_b * input->input_mps2[b] + share_c * input->input_mps2[c];
+        variance = remaining(variance, share_b * vb + share_c * vc);
+        for (int i = 0; i < NUM_STATES; i++) {
+            input->sensitivity[b][i] += share_b * m[i];
+            input->sensitivity[c][i] += share_c * m[i];
+        }
+    }
+    add_column(&input->bare, m, axis, rest_mps2, variance);
+}
+
+/* The axis with the smallest NIS among these, at least one; the first of equals. */
+static int find_weakest(const struct rho_input *input, uint32_t axes)
+{
+    int weakest = is_in(axes, 0) ? 0 : (is_in(axes, 1) ? 1 : 2);
+    float least = input_nis(input, weakest);
+
+    for (int axis = weakest + 1; axis < NUM_AXES; axis++) {
+        if (is_in(axes, axis) && input_nis(input, axis) < least) {
+            weakest = axis;
+            least = input_nis(input, axis);
+        }
+    }
+    return weakest;
+}
+
+/* Returns the axes with inputs. */
+static uint32_t decide_correlated(struct rho_input *input, float limit2, float variance)
+{
+    uint32_t left = INPUT_ALL_PRESENT;
+
+    while (left) {
+        const int axis = find_weakest(input, left);
+
+        if (input_nis(input, axis) > limit2) {
+            break;
+        }
+        if (is_in(input->present, axis)) {
+            absorb_input(input, axis);
+        } else {
+            condition_on_no_input(input, axis);
+        }
+        reset_input(input, axis, variance);
+        left &= ~(1u << axis);
+    }
+    return left;
+}
+
+/* ---- independent inputs ---------------------------------------------------------------------- */
+
+static uint32_t decide_independent(struct rho_input *input, float limit2, float variance)
+{
+    uint32_t left = 0;
+
+    for (int axis = 0; axis < NUM_AXES; axis++) {
+        if (input_nis(input, axis) > limit2) {
+            left |= 1u << axis;
+            continue;
+        }
+        if (is_in(input->present, axis)) {
+            add_column(&input->bare, input->sensitivity[axis], axis, input->input_mps2[axis],
+                       input->variance[places[axis][axis]]);
+        }
+        reset_input(input, axis, variance);
+    }
+    return left;
+}
+
+void rho_input_decide(struct rho_input *input, const struct rho_input_config *config)
+{
+    if (input == NULL || config == NULL || !config->is_estimated) {
+        return;
+    }
+    const float limit2 = config->threshold * config->threshold;
+    const float variance = config->sigma_mps2 * config->sigma_mps2;
+
+    input->present = are_independent(input->variance) ? decide_independent(input, limit2, variance)
+                                                      : decide_correlated(input, limit2, variance);
+}

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/* input_plot: a plot as scalar measurements: position along its noise axes, range rate, bearing. */
+#include <float.h>
+#include <stddef.h>
+
+#include "input_columns.h"
+#include "rhotrack/detail/input.h"
+
+/* False for NaN. */
+static int is_finite(float v)
+{
+    return v >= -FLT_MAX && v <= FLT_MAX;
+}
+
+static enum rho_status measure_axis(struct rho_input *input, const struct rho_input_config *config,
+                                    int axis, float place_m, float variance)
+{
+    if (!rho_kalman_is_open(&input->bare, axis)) {
+        return rho_kalman_open_axis(&input->bare, axis, place_m, variance,
+                                    config->velocity_variance);
+    }
+    return rho_input_update(input, config, axis, place_m, variance);
+}
+
+/* Along the line of sight, across it, and upwards: the noise of these is independent. */
+static enum rho_status measure_along_noise_axes(struct rho_input *input,
+                                                const struct rho_input_config *config,
+                                                const struct rho_measurement *seen, int num_axes)
+{
+    const float ca = seen->cos_azimuth, sa = seen->sin_azimuth;
+    const int has_z = num_axes == NUM_AXES;
+    const float ce = has_z ? seen->cos_elevation : 1.0f, se = has_z ? seen->sin_elevation : 0.0f;
+    const float rows[NUM_AXES][NUM_STATES] = {
+        {ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
+    enum rho_status status = RHO_OK;
+
+    for (int k = 0; k < num_axes && status == RHO_OK; k++) {
+        float innovation_m = 0.0f;
+        for (int i = 0; i < num_axes; i++) {
+            innovation_m += rows[k][i] * (seen->place_m[i] - input->bare.state[i]);
+        }
+        status = rho_input_update_row(input, config, rows[k], innovation_m, seen->variance_m2[k]);
+    }
+    return status;
+}
+
+/* The first axes, all open or all closed. */
+static enum rho_status measure_open_axes(struct rho_input *input,
+                                         const struct rho_input_config *config,
+                                         const struct rho_measurement *seen, int num_axes)
+{
+    if (!rho_kalman_is_open(&input->bare, RHO_X)) {
+        return rho_kalman_update_position(&input->bare, seen, config->velocity_variance);
+    }
+    return measure_along_noise_axes(input, config, seen, num_axes);
+}
+
+/* If only one of (x, y) and z is open, as rho_kalman_update_position does. */
+static enum rho_status measure_height_apart(struct rho_input *input,
+                                            const struct rho_input_config *config,
+                                            const struct rho_measurement *seen)
+{
+    struct rho_measurement level = *seen;
+    float covariance[6];
+    enum rho_status status;
+
+    rho_measurement_covariance(seen, covariance);
+    level.variance_m2[0] = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
+                           seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
+    level.has_z = 0;
+    status = measure_open_axes(input, config, &level, 2);
+    if (status == RHO_OK) {
+        status = measure_axis(input, config, RHO_Z, seen->place_m[2], covariance[RHO_ZZ]);
+    }
+    return status;
+}
+
+static enum rho_status update_position(struct rho_input *input,
+                                       const struct rho_input_config *config,
+                                       const struct rho_measurement *seen)
+{
+    const int num_axes = seen->has_z ? NUM_AXES : 2;
+    const int is_open = rho_kalman_is_open(&input->bare, RHO_X);
+    enum rho_status status = RHO_OK;
+
+    for (int axis = 0; axis < num_axes; axis++) {
+        if (!is_finite(seen->place_m[axis])) {
+            return RHO_ERROR_VALUE;
+        }
+    }
+    if (seen->is_isotropic) {
+        for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
+            status =
+                measure_axis(input, config, axis, seen->place_m[axis], seen->variance_m2[axis]);
+        }
+        return status;
+    }
+    if (is_open != rho_kalman_is_open(&input->bare, RHO_Y)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (seen->has_z && is_open != rho_kalman_is_open(&input->bare, RHO_Z)) {
+        return measure_height_apart(input, config, seen);
+    }
+    return measure_open_axes(input, config, seen, num_axes);
+}
+
+enum rho_status rho_input_update_position(struct rho_input *input,
+                                          const struct rho_input_config *config,
+                                          const struct rho_measurement *measurement)
+{
+    enum rho_status status;
+
+    if (input == NULL || config == NULL || measurement == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    struct rho_input next = *input;
+    if (config->is_estimated) {
+        status = update_position(&next, config, measurement);
+    } else {
+        status = rho_kalman_update_position(&next.bare, measurement, config->velocity_variance);
+    }
+    if (status == RHO_OK) {
+        *input = next;
+    }
+    return status;
+}
+
+/* ---- range rates and bearings ---------------------------------------------------------------- */
+
+/* Converts an innovation of the corrected estimate to one of the filter without input. */
+static float innovation_without_input(const struct rho_input *input,
+                                      const struct rho_kalman *corrected,
+                                      const float row[NUM_STATES], float innovation)
+{
+    for (int i = 0; i < NUM_STATES; i++) {
+        innovation += row[i] * (corrected->state[i] - input->bare.state[i]);
+    }
+    return innovation;
+}
+
+enum rho_status rho_input_update_range_rate(struct rho_input *input,
+                                            const struct rho_input_config *config,
+                                            const struct rho_sensor *sensor, float rate_mps,
+                                            float variance)
+{
+    struct rho_kalman corrected;
+    struct rho_kalman_row seen;
+
+    if (input == NULL || config == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    rho_input_estimate(input, &corrected);
+    if (!rho_kalman_linearise_range_rate(&corrected, sensor, rate_mps, variance, &seen) ||
+        !rho_kalman_is_range_rate_clear(&corrected, sensor, &seen)) {
+        return RHO_OK;
+    }
+    const float innovation_mps =
+        innovation_without_input(input, &corrected, seen.row, seen.innovation);
+    return rho_input_update_row(input, config, seen.row, innovation_mps, seen.variance);
+}
+
+enum rho_status rho_input_update_bearing(struct rho_input *input,
+                                         const struct rho_input_config *config, float x_m,
+                                         float y_m, float bearing_rad, float sigma_rad)
+{
+    struct rho_kalman corrected;
+    struct rho_kalman_bearing seen;
+
+    if (input == NULL || config == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
+        return RHO_ERROR_VALUE;
+    }
+    rho_input_estimate(input, &corrected);
+    if (!rho_kalman_linearise_bearing(&corrected, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
+        return RHO_OK;
+    }
+    const float innovation_m = innovation_without_input(input, &corrected, seen.row, seen.off_m);
+    return rho_input_update_row(input, config, seen.row, innovation_m, seen.variance_m2);
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * input_update: a scalar measurement updates the filter without input, and the inputs by the part
+ * of the innovation that they explain.
+ */
+#include <float.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "input_columns.h"
+#include "rhotrack/detail/input.h"
+
+/* Reduced variances are raised by sixteen units of rounding first, as in the filter. */
+#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
+
+#define INPUT2_MAX 1.0e24f
+
+/*
+ * Limit of (s / S)^2 P_ii: a covariance with element i is at most sqrt(P_ii) times the largest
+ * sigma.
+ */
+#define MOVED2_MAX (SENSITIVITY2_MAX / RHO_KALMAN_VARIANCE_MAX)
+
+/* Indices of row i of a packed 6 x 6 matrix. */
+static const uint8_t row_indices[NUM_STATES][NUM_STATES] = {
+    {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
+    {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
+};
+
+static float floored_noise(float variance)
+{
+    return variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
+}
+
+static float at_least_floor(float variance)
+{
+    return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
+}
+
+/* ---- any measurement ------------------------------------------------------------------------- */
+
+/* A scalar measurement with P h, h P h^T + R, and its derivatives by the inputs, H N. */
+struct scalar {
+    const float *row; /* NULL: an element of the state */
+    int element;
+    float value;    /* of an element */
+    float noise;    /* R */
+    float off;      /* measured minus predicted by the filter without input */
+    float variance; /* h P h^T + R */
+    float projected[NUM_STATES];
+    float by_input[NUM_AXES];
+};
+
+static enum rho_status update_bare(struct rho_kalman *bare, const struct scalar *scalar)
+{
+    if (scalar->row) {
+        return rho_kalman_update_row(bare, scalar->row, scalar->off, scalar->noise, NULL);
+    }
+    return rho_kalman_update(bare, scalar->element, scalar->value, scalar->noise, NULL);
+}
+
+/* M = (I - K H) N, a column. False where it is too large, or NaN. */
+static int update_sensitivity(float m[NUM_STATES], const struct scalar *scalar, float by_input)
+{
+    const float factor = by_input / scalar->variance;
+    float size2 = 0.0f;
+
+    for (int i = 0; i < NUM_STATES; i++) {
+        m[i] -= factor * scalar->projected[i];
+        size2 += m[i] * m[i];
+    }
+    return size2 <= SENSITIVITY2_MAX;
+}
+
+/* V and u, (11) and (12). False where they are too large, or NaN. */
+static int update_inputs(struct rho_input *input, const struct scalar *scalar)
+{
+    float *v = input->variance, *u = input->input_mps2, vs[NUM_AXES];
+    float variance = scalar->variance, rest = scalar->off;
+
+    for (int a = 0; a < NUM_AXES; a++) {
+        vs[a] = v[RHO_AT(a, RHO_X)] * scalar->by_input[RHO_X] +
+                v[RHO_AT(a, RHO_Y)] * scalar->by_input[RHO_Y] +
+                v[RHO_AT(a, RHO_Z)] * scalar->by_input[RHO_Z];
+        variance += vs[a] * scalar->by_input[a];
+        rest -= scalar->by_input[a] * u[a];
+    }
+    for (int a = 0; a < NUM_AXES; a++) {
+        const float gain = vs[a] / variance;
+
+        u[a] += gain * rest;
+        for (int b = 0; b < a; b++) {
+            v[RHO_AT(a, b)] -= gain * vs[b];
+        }
+        if (!is_zero(vs[a])) {
+            v[RHO_AT(a, a)] = at_least_floor(v[RHO_AT(a, a)] * ROUNDING_ALLOWANCE - gain * vs[a]);
+        }
+    }
+    return variance >= scalar->variance && variance <= FLT_MAX &&
+           u[0] * u[0] + u[1] * u[1] + u[2] * u[2] <= INPUT2_MAX;
+}
+
+static enum rho_status update_all(struct rho_input *input, const struct scalar *scalar)
+{
+    struct rho_input next = *input;
+    enum rho_status status;
+
+    if (!update_inputs(&next, scalar)) {
+        return RHO_ERROR_VALUE;
+    }
+    for (int a = 0; a < NUM_AXES; a++) {
+        if (!update_sensitivity(next.sensitivity[a], scalar, scalar->by_input[a])) {
+            return RHO_ERROR_VALUE;
+        }
+    }
+    status = update_bare(&next.bare, scalar);
+    if (status == RHO_OK) {
+        *input = next;
+    }
+    return status;
+}
+
+static enum rho_status update_row(struct rho_input *input, const float row[6], float innovation,
+                                  float variance)
+{
+    struct scalar scalar = {.row = row, .noise = variance, .off = innovation};
+
+    scalar.variance = floored_noise(variance) +
+                      rho_linalg_project6(input->bare.covariance, row, scalar.projected);
+    for (int a = 0; a < NUM_AXES; a++) {
+        for (int i = 0; i < NUM_STATES; i++) {
+            scalar.by_input[a] += row[i] * input->sensitivity[a][i];
+        }
+    }
+    return update_all(input, &scalar);
+}
+
+static enum rho_status update_coupled(struct rho_input *input, int element, float value,
+                                      float variance)
+{
+    struct scalar scalar = {.element = element,
+                            .value = value,
+                            .noise = variance,
+                            .off = value - input->bare.state[element]};
+
+    for (int i = 0; i < NUM_STATES; i++) {
+        scalar.projected[i] = input->bare.covariance[row_indices[element][i]];
+    }
+    scalar.variance = floored_noise(variance) + scalar.projected[element];
+    for (int a = 0; a < NUM_AXES; a++) {
+        scalar.by_input[a] = input->sensitivity[a][element];
+    }
+    return update_all(input, &scalar);
+}
+
+/* ---- an element that depends on the input of its own axis only ------------------------------- */
+
+/*
+ * True if the element depends on no other axis' input, and the inputs are uncorrelated: the usual
+ * case.
+ */
+static int is_axis_independent(const struct rho_input *input, int element, int axis)
+{
+    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
+    const int b = others[axis][0], c = others[axis][1];
+
+    return (bits_of(input->sensitivity[b][element]) | bits_of(input->sensitivity[c][element]) |
+            bits_of(input->variance[RHO_YX]) | bits_of(input->variance[RHO_ZX]) |
+            bits_of(input->variance[RHO_ZY])) == 0;
+}
+
+/*
+ * The same as update_all, (8) to (13), for one axis; written out, as a loop would take twice the
+ * time.
+ */
+static enum rho_status update_axis(struct rho_input *input, int axis, int element, float value,
+                                   float variance)
+{
+    const float *p = input->bare.covariance;
+    const uint8_t *index = row_indices[element];
+    float *m = input->sensitivity[axis];
+    const float s = m[element], v = input->variance[RHO_AT(axis, axis)];
+    const float bare = p[index[element]] + floored_noise(variance), total = v * s * s + bare;
+    const float rest = value - input->bare.state[element] - s * input->input_mps2[axis];
+    const float learned_mps2 = input->input_mps2[axis] + v * s / total * rest;
+    const float factor = s / bare;
+
+    const float x = m[RHO_X] - factor * p[index[RHO_X]];
+    const float y = m[RHO_Y] - factor * p[index[RHO_Y]];
+    const float z = m[RHO_Z] - factor * p[index[RHO_Z]];
+    const float vx = m[RHO_VX] - factor * p[index[RHO_VX]];
+    const float vy = m[RHO_VY] - factor * p[index[RHO_VY]];
+    const float vz = m[RHO_VZ] - factor * p[index[RHO_VZ]];
+    if (!(factor * factor * p[index[element]] <= MOVED2_MAX && total <= FLT_MAX &&
+          learned_mps2 * learned_mps2 <= INPUT2_MAX)) {
+        return RHO_ERROR_VALUE;
+    }
+    const enum rho_status status = rho_kalman_update(&input->bare, element, value, variance, NULL);
+    if (status == RHO_OK) {
+        m[RHO_X] = x;
+        m[RHO_Y] = y;
+        m[RHO_Z] = z;
+        m[RHO_VX] = vx;
+        m[RHO_VY] = vy;
+        m[RHO_VZ] = vz;
+        input->input_mps2[axis] = learned_mps2;
+        /* scaled, not differenced: no cancellation */
+        input->variance[RHO_AT(axis, axis)] = at_least_floor(v * (bare / total));
+    }
+    return status;
+}
+
+enum rho_status rho_input_update(struct rho_input *input, const struct rho_input_config *config,
+                                 int element, float value, float variance)
+{
+    if (input == NULL || config == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (element < 0 || element >= NUM_STATES) {
+        return RHO_ERROR_VALUE;
+    }
+    const int axis = element < NUM_AXES ? element : element - NUM_AXES;
+    if (!config->is_estimated) {
+        return rho_kalman_update(&input->bare, element, value, variance, NULL);
+    }
+    if (!is_axis_independent(input, element, axis)) {
+        return update_coupled(input, element, value, variance);
+    }
+    if (is_zero(
+            input->sensitivity[axis][element])) { /* the element does not depend on the inputs */
+        return rho_kalman_update(&input->bare, element, value, variance, NULL);
+    }
+    return update_axis(input, axis, element, value, variance);
+}
+
+enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,
+                                     const float row[6], float innovation, float variance)
+{
+    if (input == NULL || config == NULL || row == NULL) {
+        return RHO_ERROR_NULL;
+    }
+    if (!config->is_estimated) {
+        return rho_kalman_update_row(&input->bare, row, innovation, variance, NULL);
+    }
+    return update_row(input, row, innovation, variance);
+}

@@ -1,0 +1,477 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * anisotropic_fit: a straight or turning track through plots with their own covariances, heights
+ * and range rates, the plot nearest to it, and the likelihood of the set.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/linalg.h"
+#include "search.h"
+
+#define ROWS_MAX 4     /* along, cross, up, range rate */
+#define UNKNOWNS_MAX 8 /* place and velocity, acceleration in the plane */
+
+/* The plot of scan m nearest to a fitted track; -1: none. factor widens the gate's covariance. */
+int rho_initiator_nearest_anisotropic(struct search *search, const struct line_fit *fit,
+                                      float factor, unsigned m)
+{
+    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    float t_s = search->time_s[m], bend_m2 = factor * search->fit_process_m2;
+    struct rho_window_place place = {
+        .x_m = fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
+        .y_m = fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s,
+        .z_m = fit->z_m + fit->vz_mps * t_s,
+        .vx_mps = fit->vx_mps + fit->ax_mps2 * t_s,
+        .vy_mps = fit->vy_mps + fit->ay_mps2 * t_s,
+        .ax_mps2 = fit->ax_mps2,
+        .ay_mps2 = fit->ay_mps2,
+        .vz_mps = fit->vz_mps,
+        .noise = {bend_m2, 0.0f, bend_m2, bend_m2},
+        .factor = factor,
+        .has_z = fit->has_z,
+        .gate_radius_m = rho_sqrt(search->gate_chi2 *
+                                  (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .skip_flags = search->skip_flags,
+    };
+    return rho_window_nearest_to(scan, &place, &search->initiator->work.window);
+}
+
+/* ---- regression ------------------------------------------------------------------------------ */
+
+/*
+ * A track through a set of plots. Position and velocity are the unknowns, and the acceleration of
+ * turning targets. Each plot gives a row along every axis of its noise, and one for its range rate,
+ * linearised at the fit of the positions alone. Times count from the middle in units of `unit_s`,
+ * positions from the middle plot, so that the unknowns have similar sizes.
+ */
+struct regression {
+    const struct search *search;
+    const struct plot_set *set;
+    int axes; /* 2, or 3 where heights count */
+    int unknowns;
+    float middle_s, unit_s;
+    float origin_m[3];
+    int has_point; /* the unknowns below were found: range rates can be linearised there */
+    /*
+     * position, then velocity times unit_s, `axes` each; then acceleration times unit_s^2, 2 where
+     * sets turn
+     */
+    float unknown[UNKNOWNS_MAX];
+    float factor[RHO_TRIANGLE(UNKNOWNS_MAX)]; /* Cholesky factor of the normal equations */
+};
+
+/* One scalar equation: row . unknown = value + noise. */
+struct equation {
+    float row[UNKNOWNS_MAX];
+    float value, variance;
+};
+
+static const struct rho_window_scan *scan_of(const struct regression *of, unsigned m)
+{
+    return rho_window_scan_at(&of->search->initiator->window, m);
+}
+
+static float time_of(const struct regression *of, unsigned m)
+{
+    float t_s = rho_initiator_plot_time_s(of->search, of->set, m);
+    return (t_s - of->middle_s) / of->unit_s;
+}
+
+static void add_axis(const struct regression *of, const float axis[3], float time,
+                     const float place_m[3], float variance, struct equation *equation)
+{
+    *equation = (struct equation){.variance = variance + of->search->fit_process_m2};
+    for (int i = 0; i < of->axes; i++) {
+        equation->row[i] = axis[i];
+        equation->row[of->axes + i] = time * axis[i];
+        equation->value += axis[i] * (place_m[i] - of->origin_m[i]);
+    }
+    for (int i = 2 * of->axes; i < of->unknowns; i++) {
+        equation->row[i] = 0.5f * time * time * axis[i - 2 * of->axes];
+    }
+}
+
+static int place_equations(const struct regression *of, unsigned m, struct equation *equations)
+{
+    const struct rho_window_scan *scan = scan_of(of, m);
+    struct rho_plot plot = rho_window_plot_of(scan, of->set->plot[m]);
+    struct rho_measurement seen;
+    rho_measurement_open(&plot, of->axes == 3 ? scan->measures : 0u, &scan->sensor, &seen);
+    float ca = seen.cos_azimuth, sa = seen.sin_azimuth;
+    float ce = seen.cos_elevation, se = seen.sin_elevation;
+    const float axes[3][3] = {{ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
+    int count = seen.has_z ? 3 : 2;
+    for (int i = 0; i < count; i++) {
+        add_axis(of, axes[i], time_of(of, m), seen.place_m, seen.variance_m2[i], &equations[i]);
+    }
+    return count;
+}
+
+static int range_rate_equation(const struct regression *of, unsigned m, struct equation *equation)
+{
+    const struct rho_window_scan *scan = scan_of(of, m);
+    const struct rho_window_plot *plot = &scan->plots[of->set->plot[m]];
+    float state[6] = {0.0f}, derivative[6], rate_mps, time = time_of(of, m);
+    if (!of->has_point || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
+        return 0;
+    }
+    for (int i = 0; i < of->axes; i++) {
+        const float *v = &of->unknown[of->axes];
+        float a = i < of->unknowns - 2 * of->axes ? v[of->axes + i] : 0.0f;
+        state[i] = of->origin_m[i] + of->unknown[i] + time * (v[i] + 0.5f * time * a);
+        state[i + 3] = (v[i] + time * a) / of->unit_s;
+    }
+    if (!rho_measurement_range_rate(state, &scan->sensor, of->axes == 3, derivative, &rate_mps)) {
+        return 0;
+    }
+    equation->value =
+        rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
+    for (int i = 0; i < of->axes; i++) {
+        equation->row[i] = derivative[i];
+        equation->row[of->axes + i] = time * derivative[i] + derivative[i + 3] / of->unit_s;
+    }
+    for (int i = 2 * of->axes; i < of->unknowns; i++) {
+        int axis = i - 2 * of->axes;
+        equation->row[i] =
+            time * (0.5f * time * derivative[axis] + derivative[axis + 3] / of->unit_s);
+    }
+    for (int i = 0; i < of->unknowns; i++) {
+        equation->value += equation->row[i] * of->unknown[i];
+    }
+    float sigma_mps = rho_window_sigma(plot->sigma_range_rate);
+    equation->variance = sigma_mps * sigma_mps;
+    return 1;
+}
+
+static int equations_of(const struct regression *of, unsigned m, struct equation *equations)
+{
+    int count = place_equations(of, m, equations);
+    return count + range_rate_equation(of, m, &equations[count]);
+}
+
+static void add_equation(const struct equation *equation, int unknowns, float *normal, float *right)
+{
+    float weight = 1.0f / equation->variance;
+    for (int i = 0; i < unknowns; i++) {
+        float weighted = weight * equation->row[i];
+        right[i] += weighted * equation->value;
+        for (int j = 0; j <= i; j++) {
+            normal[RHO_AT(i, j)] += weighted * equation->row[j];
+        }
+    }
+}
+
+/* Prior variance of an acceleration, in the units of the unknowns. */
+static float turn_variance(const struct regression *of)
+{
+    float turn_m = of->search->turn_mps2 * of->unit_s * of->unit_s;
+    return turn_m * turn_m;
+}
+
+/* Units of a regression for each of its plots, beyond those of an isotropic fit. */
+#define SOLVE_UNITS 50u
+
+/* Solves for the unknowns. 0 where the plots do not determine them. */
+static int solve(struct regression *of)
+{
+    rho_initiator_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
+    float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* the factor takes its place */
+    const int unknowns = of->unknowns;
+    for (int i = 0; i < RHO_TRIANGLE(UNKNOWNS_MAX); i++) {
+        normal[i] = 0.0f;
+    }
+    for (int i = 2 * of->axes; i < unknowns; i++) {
+        normal[RHO_AT(i, i)] = 1.0f / turn_variance(of);
+    }
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        struct equation equations[ROWS_MAX];
+        if (!(of->set->mask >> m & 1u)) {
+            continue;
+        }
+        int count = equations_of(of, m, equations);
+        for (int i = 0; i < count; i++) {
+            add_equation(&equations[i], unknowns, normal, right);
+        }
+    }
+    if (rho_linalg_cholesky(unknowns, normal, normal) != RHO_OK) {
+        return 0;
+    }
+    rho_linalg_forward(unknowns, of->factor, right);
+    rho_linalg_backward(unknowns, of->factor, right);
+    for (int i = 0; i < unknowns; i++) {
+        of->unknown[i] = right[i];
+    }
+    return 1;
+}
+
+/*
+ * Sets the unknowns and their units. Returns the rounds: 2 with range rates; 0 where all plots have
+ * one time.
+ */
+static int choose_unknowns(struct regression *of)
+{
+    const struct search *search = of->search;
+    float first_s = 0.0f, last_s = 0.0f;
+    unsigned seen = 0, heights = 0, range_rates = 0;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (!(of->set->mask >> m & 1u)) {
+            continue;
+        }
+        float t_s = rho_initiator_plot_time_s(search, of->set, m);
+        first_s = seen == 0 || t_s < first_s ? t_s : first_s;
+        last_s = seen == 0 || t_s > last_s ? t_s : last_s;
+        heights += (scan_of(of, m)->measures & RHO_MEASURES_Z) != 0;
+        range_rates += (scan_of(of, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
+        if (seen++ <= of->set->hits / 2u) {
+            const struct rho_window_plot *plot = &scan_of(of, m)->plots[of->set->plot[m]];
+            of->origin_m[0] = plot->x_m;
+            of->origin_m[1] = plot->y_m;
+            of->origin_m[2] = plot->z_m;
+        }
+    }
+    of->axes = heights >= 2u ? 3 : 2;
+    of->unknowns = 2 * of->axes + (search->turn_mps2 > 0.0f ? 2 : 0);
+    of->middle_s = 0.5f * (first_s + last_s);
+    of->unit_s = 0.5f * (last_s - first_s);
+    return of->unit_s > 0.0f ? range_rates > 0 ? 2 : 1 : 0;
+}
+
+static float residual2(const struct regression *of, const struct equation *equation)
+{
+    float residual = equation->value;
+    for (int i = 0; i < of->unknowns; i++) {
+        residual -= equation->row[i] * of->unknown[i];
+    }
+    return residual * residual / equation->variance;
+}
+
+/* chi2 of the acceleration against its prior. */
+static float turn_chi2(const struct regression *of)
+{
+    float sum = 0.0f;
+    for (int i = 2 * of->axes; i < of->unknowns; i++) {
+        sum += of->unknown[i] * of->unknown[i] / turn_variance(of);
+    }
+    return sum;
+}
+
+/* ---- ambiguous range rates ------------------------------------------------------------------- */
+
+/* The scan whose range rate has the fewest aliases; RHO_MAX_SCANS where none is ambiguous. */
+static unsigned widest_span(const struct regression *of)
+{
+    unsigned widest = RHO_MAX_SCANS;
+    float most_mps = 0.0f;
+    int is_ambiguous = 0;
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        const struct rho_window_scan *scan = scan_of(of, m);
+        if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
+            continue;
+        }
+        int has_span = rho_measurement_has_span(&scan->sensor);
+        float span_mps = has_span ? scan->sensor.range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
+        is_ambiguous = is_ambiguous || has_span;
+        if (span_mps > most_mps) {
+            most_mps = span_mps;
+            widest = m;
+        }
+    }
+    return is_ambiguous ? widest : RHO_MAX_SCANS;
+}
+
+/* One range rate against the fit of the positions: innovation, its variance, and its gain. */
+struct first_rate {
+    float error_mps, span_mps, variance;
+    float gain[UNKNOWNS_MAX];
+};
+
+static int predict_rate(const struct regression *of, unsigned m, struct first_rate *first)
+{
+    struct equation equation = {.variance = 0.0f};
+    const int unknowns = of->unknowns;
+    if (!range_rate_equation(of, m, &equation)) {
+        return 0;
+    }
+    const struct rho_sensor *sensor = &scan_of(of, m)->sensor;
+    first->span_mps =
+        rho_measurement_has_span(sensor) ? sensor->range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
+    first->error_mps = equation.value;
+    first->variance = equation.variance;
+    for (int i = 0; i < unknowns; i++) {
+        first->error_mps -= equation.row[i] * of->unknown[i];
+        first->gain[i] = equation.row[i];
+    }
+    rho_linalg_forward(unknowns, of->factor, first->gain);
+    for (int i = 0; i < unknowns; i++) {
+        first->variance += first->gain[i] * first->gain[i];
+    }
+    rho_linalg_backward(unknowns, of->factor, first->gain);
+    return 1;
+}
+
+static float chi2_of(const struct regression *of)
+{
+    struct equation equations[ROWS_MAX];
+    float chi2 = turn_chi2(of);
+    for (unsigned m = 0; m < of->search->num_scans; m++) {
+        int count = of->set->mask >> m & 1u ? equations_of(of, m, equations) : 0;
+        for (int i = 0; i < count; i++) {
+            chi2 += residual2(of, &equations[i]);
+        }
+    }
+    return chi2;
+}
+
+/* True where the speed is within v_max. */
+static int is_slow_enough(const struct regression *of)
+{
+    float v_max_mps = of->search->initiator->config.v_max_mps * of->unit_s;
+    const float *v = &of->unknown[of->axes];
+    return v[0] * v[0] + v[1] * v[1] <= v_max_mps * v_max_mps;
+}
+
+/* Solves from the fit of the positions, with this innovation of the first range rate. */
+static int solve_with_rate(struct regression *of, const float *places,
+                           const struct first_rate *first, float error_mps)
+{
+    for (int k = 0; k < of->unknowns; k++) {
+        of->unknown[k] = places[k] + first->gain[k] * (error_mps / first->variance);
+    }
+    return solve(of);
+}
+
+/*
+ * Positions alone leave several aliases. With one alias of one range rate those of the others
+ * follow. The fit with the least chi2 is kept; all aliases are equally likely beforehand.
+ */
+static int solve_aliases(struct regression *of, unsigned widest)
+{
+    float places[UNKNOWNS_MAX];
+    struct first_rate first;
+    float least = FLT_MAX, best_mps = 0.0f;
+    of->has_point = 1;
+    if (!predict_rate(of, widest, &first)) {
+        return solve(of);
+    }
+    float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * first.variance);
+    if (reach_mps > (float)ALIASES_MAX * first.span_mps) {
+        of->has_point = 0;
+        return 1;
+    }
+    memcpy(places, of->unknown, sizeof places);
+    for (int i = -ALIASES_MAX; i <= ALIASES_MAX; i++) {
+        float error_mps = first.error_mps + (float)i * first.span_mps;
+        if (i != 0 && !(error_mps <= reach_mps && error_mps >= -reach_mps)) {
+            continue;
+        }
+        if (solve_with_rate(of, places, &first, error_mps) && is_slow_enough(of)) {
+            float chi2 = chi2_of(of);
+            if (chi2 < least) {
+                least = chi2;
+                best_mps = error_mps;
+            }
+        }
+    }
+    /* solved once more: to keep the fit of each alias would take half of the stack */
+    return least < FLT_MAX && solve_with_rate(of, places, &first, best_mps);
+}
+
+/* Fits the positions first, and where there are range rates again with them. */
+static int regress(struct regression *of)
+{
+    int rounds = choose_unknowns(of);
+    const unsigned widest =
+        RHO_AMBIGUOUS_RANGE_RATES && rounds > 1 ? widest_span(of) : RHO_MAX_SCANS;
+    if (widest < RHO_MAX_SCANS) {
+        return solve(of) && solve_aliases(of, widest);
+    }
+    for (int i = 0; i < rounds; i++) {
+        if (!solve(of)) {
+            return 0;
+        }
+        of->has_point = 1;
+    }
+    return rounds > 0;
+}
+
+int rho_initiator_fit_anisotropic(const struct search *search, const struct plot_set *set,
+                                  struct line_fit *fit)
+{
+    struct regression of = {.search = search, .set = set};
+    float place_m[3] = {0.0f}, velocity_mps[3] = {0.0f}, accel_mps2[2] = {0.0f};
+    if (!regress(&of)) {
+        return 0;
+    }
+    for (int i = 2 * of.axes; i < of.unknowns; i++) {
+        accel_mps2[i - 2 * of.axes] = of.unknown[i] / (of.unit_s * of.unit_s);
+    }
+    for (int i = 0; i < of.axes; i++) {
+        float a = i < 2 ? accel_mps2[i] : 0.0f, back_s = -of.middle_s;
+        velocity_mps[i] = of.unknown[of.axes + i] / of.unit_s;
+        place_m[i] =
+            of.origin_m[i] + of.unknown[i] + (velocity_mps[i] + 0.5f * a * back_s) * back_s;
+        velocity_mps[i] += a * back_s;
+    }
+    *fit = (struct line_fit){
+        .x_m = place_m[0],
+        .y_m = place_m[1],
+        .vx_mps = velocity_mps[0],
+        .vy_mps = velocity_mps[1],
+        .ax_mps2 = accel_mps2[0],
+        .ay_mps2 = accel_mps2[1],
+        .has_z = of.axes == 3,
+        .z_m = place_m[2],
+        .vz_mps = velocity_mps[2],
+    };
+    return 1;
+}
+
+/* ---- likelihood ------------------------------------------------------------------------------ */
+
+/*
+ * ln of the joint density of a set's plots with position and velocity integrated out; heights and
+ * range rates over their densities as clutter.
+ */
+int rho_initiator_likelihood_anisotropic(const struct search *search, const struct plot_set *set,
+                                         struct set_score *score, float *nat)
+{
+    struct regression of = {.search = search, .set = set};
+    unsigned rows = 0, heights = 0, range_rates = 0;
+    float log_noise = 0.0f, log_aliases = 0.0f;
+    if (!regress(&of)) {
+        return 0;
+    }
+    score->chi2 = turn_chi2(&of);
+    for (int i = 2 * of.axes; i < of.unknowns; i++) {
+        log_noise += rho_log(turn_variance(&of));
+    }
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        struct equation equations[ROWS_MAX];
+        if (!(set->mask >> m & 1u)) {
+            continue;
+        }
+        unsigned count = (unsigned)equations_of(&of, m, equations);
+        for (unsigned i = 0; i < count; i++) {
+            score->chi2 += residual2(&of, &equations[i]);
+            log_noise += rho_log(equations[i].variance);
+        }
+        rows += count;
+        unsigned has_z = of.axes == 3 && (scan_of(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
+        heights += has_z;
+        range_rates += count - 2u - has_z;
+        if (rho_measurement_has_span(&scan_of(&of, m)->sensor)) {
+            log_aliases += (float)(count - 2u - has_z) *
+                           rho_measurement_log_aliases(&scan_of(&of, m)->sensor,
+                                                       search->initiator->config.v_max_mps);
+        }
+    }
+    unsigned unknowns = 2u * (unsigned)of.axes;
+    float log_fisher =
+        rho_linalg_log_determinant(of.unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
+    score->dimensions = rows - unknowns;
+    *nat = -0.5f * ((float)score->dimensions * LOG_TWO_PI + log_noise + log_fisher + score->chi2) +
+           rho_initiator_log_volume(search, of.axes == 3, heights, range_rates) - log_aliases;
+    return 1;
+}

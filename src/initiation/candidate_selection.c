@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * candidate_selection: the choice among candidates that share plots, and the scores of the chosen
+ * ones against clutter without the plots of likely targets.
+ */
+#include "search.h"
+
+/* Plots that two tracks may share: one where they cross. */
+#define SHARED_PLOTS_MAX 1u
+
+/* Score from which a candidate is more likely a target than clutter. */
+#define LIKELY_MNAT 0
+
+/*
+ * Gate of the second association, when better tracks have taken their plots. It is wider than the
+ * gate of the fit, which a neighbour's plots may have biased.
+ */
+#define SECOND_GATE_FACTOR 2.5f
+
+/* Units kept for an accepted candidate: a second score, and its place in two sorted lists. */
+#define RESCORED_UNITS 100u
+#define SORTED_IN_UNIT 2u
+
+/* ---- exclusive selection --------------------------------------------------------------------- */
+
+static unsigned shared_plots(const struct rho_candidate *a, const struct rho_candidate *b)
+{
+    unsigned common = (unsigned)a->mask & b->mask, shared = 0;
+    for (unsigned m = 0; m < RHO_MAX_SCANS; m++) {
+        shared += (common >> m & 1u) && a->plot[m] == b->plot[m];
+    }
+    return shared;
+}
+
+static int conflicts(const struct rho_initiator *initiator, unsigned accepted,
+                     const struct rho_candidate *candidate)
+{
+    for (unsigned i = 0; i < accepted; i++) {
+        if (shared_plots(&initiator->candidates[i], candidate) > SHARED_PLOTS_MAX) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void mark_taken(struct search *search, const struct rho_candidate *candidate)
+{
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if ((unsigned)candidate->mask >> m & 1u) {
+            rho_window_scan_at(&search->initiator->window, m)->marks[candidate->plot[m]] |=
+                RHO_WINDOW_TAKEN;
+        }
+    }
+}
+
+static void clear_taken(struct search *search)
+{
+    for (unsigned i = 0; i < search->initiator->num_candidates; i++) {
+        const struct rho_candidate *candidate = &search->initiator->candidates[i];
+        for (unsigned m = 0; m < search->num_scans; m++) {
+            if ((unsigned)candidate->mask >> m & 1u) {
+                struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+                scan->marks[candidate->plot[m]] &= (uint16_t)~RHO_WINDOW_TAKEN;
+            }
+        }
+    }
+}
+
+/* Associates a candidate again after better ones have taken their plots. 0: too few are left. */
+static int associate_rest(struct search *search, struct rho_candidate *candidate)
+{
+    struct line_fit fit;
+    struct plot_set set;
+    uint16_t skip = search->skip_flags;
+    if (!rho_initiator_open_candidate(search, candidate, &set, &fit)) {
+        return 0;
+    }
+    search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);
+    rho_initiator_associate(search, &fit, SECOND_GATE_FACTOR, &set);
+    int found =
+        set.hits >= search->min_scans && rho_initiator_make_candidate(search, &set, candidate);
+    search->skip_flags = skip;
+    return found;
+}
+
+static void bring_best_forward(struct rho_initiator *initiator, unsigned accepted)
+{
+    struct rho_candidate *list = initiator->candidates;
+    unsigned best = accepted;
+    for (unsigned i = accepted + 1; i < initiator->num_candidates; i++) {
+        if (list[i].score_mnat > list[best].score_mnat) {
+            best = i;
+        }
+    }
+    struct rho_candidate first = list[accepted];
+    list[accepted] = list[best];
+    list[best] = first;
+}
+
+/* Best first; equal scores keep their order. */
+static void sort_candidates(struct rho_initiator *initiator)
+{
+    struct rho_candidate *list = initiator->candidates;
+    for (unsigned i = 1; i < initiator->num_candidates; i++) {
+        struct rho_candidate candidate = list[i];
+        unsigned place = i;
+        while (place > 0 && list[place - 1u].score_mnat < candidate.score_mnat) {
+            list[place] = list[place - 1u];
+            place--;
+        }
+        list[place] = candidate;
+    }
+}
+
+/*
+ * Charges the least cost of the next choice. Drops the rest and returns 0 where the work is spent.
+ */
+static int charge_choice(struct search *search, unsigned accepted)
+{
+    struct rho_initiator *initiator = search->initiator;
+    if (rho_initiator_is_spent(search)) {
+        initiator->work.candidates_dropped =
+            rho_count(initiator->work.candidates_dropped, initiator->num_candidates - accepted);
+        initiator->num_candidates = (uint16_t)accepted;
+        search->is_partial = 1;
+        return 0;
+    }
+    rho_initiator_charge(search, RESCORED_UNITS + accepted / SORTED_IN_UNIT +
+                                     accepted / COMPARED_IN_UNIT +
+                                     (initiator->num_candidates - accepted) / PASSED_IN_UNIT);
+    return 1;
+}
+
+/*
+ * Best first. Accepted candidates are at the head of the list, by their scores when accepted. The
+ * worst are dropped where the work ends.
+ */
+void rho_initiator_select(struct search *search)
+{
+    struct rho_initiator *initiator = search->initiator;
+    unsigned accepted = 0;
+    while (accepted < initiator->num_candidates && charge_choice(search, accepted)) {
+        bring_best_forward(initiator, accepted);
+        struct rho_candidate candidate = initiator->candidates[accepted];
+        if (!conflicts(initiator, accepted, &candidate)) {
+            mark_taken(search, &candidate);
+            accepted++;
+        } else if (associate_rest(search, &candidate)) {
+            initiator->candidates[accepted] = candidate;
+        } else {
+            initiator->num_candidates--;
+            initiator->candidates[accepted] = initiator->candidates[initiator->num_candidates];
+        }
+    }
+    clear_taken(search);
+    sort_candidates(initiator); /* a second association may have raised a score */
+    rho_initiator_assume_turns(search, 0);
+}
+
+/* ---- judgement ------------------------------------------------------------------------------- */
+
+/*
+ * Marks the plots of likely targets, which are not clutter. Returns their mean number of plots: one
+ * of the targets may be clutter nevertheless, and is counted back.
+ */
+static float mark_likely_targets(struct search *search)
+{
+    struct rho_initiator *initiator = search->initiator;
+    unsigned likely = 0, hits = 0;
+    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+        if (initiator->candidates[i].score_mnat >= LIKELY_MNAT) {
+            mark_taken(search, &initiator->candidates[i]);
+            hits += initiator->candidates[i].hits;
+            likely++;
+        }
+    }
+    return likely ? (float)hits / (float)likely : 0.0f;
+}
+
+static int rescore_one(struct search *search, struct rho_candidate *candidate)
+{
+    struct plot_set set;
+    struct line_fit fit;
+    struct set_score score;
+    search->is_left_out = candidate->score_mnat >= LIKELY_MNAT;
+    if (!rho_initiator_open_candidate(search, candidate, &set, &fit) ||
+        set.hits < search->min_scans || !rho_initiator_score(search, &set, &fit, &score)) {
+        return 0;
+    }
+    candidate->score_mnat = score.mnat;
+    return rho_initiator_is_good_enough(search, &score);
+}
+
+/* Scores the accepted candidates again, against clutter without the likely targets. */
+void rho_initiator_rescore(struct search *search)
+{
+    struct rho_initiator *initiator = search->initiator;
+    float more_plots = mark_likely_targets(search);
+    if (more_plots <= 0.0f) {
+        return; /* nothing that would not count as clutter: the scores stand */
+    }
+    rho_initiator_measure_density(search, RHO_WINDOW_INITIATED | RHO_WINDOW_TAKEN, more_plots);
+    clear_taken(search);
+    rho_initiator_update_thresholds(search);
+    unsigned kept = 0;
+    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+        struct rho_candidate candidate = initiator->candidates[i];
+        if (rescore_one(search, &candidate)) {
+            initiator->candidates[kept++] = candidate;
+        }
+    }
+    initiator->num_candidates = (uint16_t)kept;
+    sort_candidates(initiator);
+}

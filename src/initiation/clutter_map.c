@@ -1,0 +1,454 @@
+/* SPDX-License-Identifier: MIT */
+/* clutter_map: echoes, and how often they return. */
+#include "rhotrack/detail/clutter_map_cells.h"
+
+#include <string.h>
+
+#include "rhotrack/detail/approx.h"
+
+/*
+ * Prior standard deviation of an echo's speed on each axis, as a share of the slowest target's
+ * speed.
+ */
+#define SPEED_SHARE 0.4f
+/*
+ * Share of the plot's variance that each plot adds to the place: a quay or a tree moves within its
+ * noise.
+ */
+#define PLACE_NOISE 0.02f
+
+/* Mean age of the counts in the tables, in revolutions. */
+#define TURNS_REMEMBERED 200.0f
+/*
+ * Counts are used after one to two blocks of this many revolutions. The first plots of a target are
+ * counted before its track starts, and removed then.
+ */
+#define BLOCK_TURNS 4.0f
+
+/*
+ * Prior probabilities of a return by class of hits, and their weight in looks; half of them after
+ * misses.
+ */
+static const float prior_chance[RHO_ECHO_HIT_CLASSES] = {0.004f, 0.04f, 0.12f, 0.2f};
+/* Prior where targets may stand: standing plots are clutter less often. */
+#define PRIOR_CHANCE_STANDING 0.003f
+#define PRIOR_LOOKS 3.0f
+/* Weight of the mean over all regions in one region, in looks. */
+#define REGION_LOOKS 2.0f
+#define CHANCE_MAX 0.98f
+
+/* Scans of its sensor, by class of hits, after which an unseen echo is forgotten. */
+static const uint8_t scans_kept[RHO_ECHO_HIT_CLASSES] = {12, 16, 30, 100};
+
+#define ALL_REGIONS (RHO_ECHO_TABLES - 1)
+
+void rho_clutter_map_init(struct rho_clutter_map *map, float v_min_mps)
+{
+    map->v_min_mps = v_min_mps;
+    map->scans_to_blocks = BLOCK_TURNS;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+unsigned rho_clutter_map_hit_class(unsigned hits)
+{
+    return hits < 2 ? 0 : hits < 3 ? 1 : hits < RHO_ECHO_KNOWN_HITS ? 2 : 3;
+}
+
+static unsigned gap_class(unsigned gap)
+{
+    return gap < 2 ? 0 : gap < 3 ? 1 : gap < 5 ? 2 : gap < 9 ? 3 : 4;
+}
+
+float rho_clutter_map_chance(const struct rho_clutter_map *map, unsigned region, unsigned hits,
+                             unsigned unseen)
+{
+    const unsigned c = rho_clutter_map_hit_class(hits), g = gap_class(unseen);
+    const struct rho_echo_returns *all = &map->tables[0][ALL_REGIONS];
+    const struct rho_echo_returns *here =
+        &map->tables[0][region < ALL_REGIONS ? region : ALL_REGIONS];
+    const float prior =
+        (map->v_min_mps > 0.0f ? prior_chance[c] : PRIOR_CHANCE_STANDING) * (g > 0 ? 0.5f : 1.0f);
+    /* counts may be negative, as tracks remove counts that are not used yet */
+    const float all_returns = all->returns[c][g] > 0.0f ? all->returns[c][g] : 0.0f;
+    const float returns = here->returns[c][g] > 0.0f ? here->returns[c][g] : 0.0f;
+    const float mean = (all_returns + PRIOR_LOOKS * prior) / (all->looks[c][g] + PRIOR_LOOKS);
+    const float chance = (returns + REGION_LOOKS * mean) / (here->looks[c][g] + REGION_LOOKS);
+    return chance < CHANCE_MAX ? chance : CHANCE_MAX;
+}
+
+void rho_clutter_map_count_look(struct rho_clutter_map *map, const struct rho_echo *echo)
+{
+    const unsigned c = rho_clutter_map_hit_class(echo->hits), g = gap_class(echo->unseen);
+    map->tables[1][echo->region].looks[c][g] += 1.0f;
+    map->tables[1][ALL_REGIONS].looks[c][g] += 1.0f;
+}
+
+void rho_clutter_map_count_return(struct rho_clutter_map *map, const struct rho_echo *echo)
+{
+    const unsigned c = rho_clutter_map_hit_class(echo->hits), g = gap_class(echo->unseen);
+    map->tables[1][echo->region].returns[c][g] += echo->weight;
+    map->tables[1][ALL_REGIONS].returns[c][g] += echo->weight;
+}
+
+/* Removes no more than all counts, used and not yet used. */
+static void remove_returns(struct rho_clutter_map *map, unsigned region, unsigned c, float returns)
+{
+    const float sum = map->tables[0][region].returns[c][0] + map->tables[1][region].returns[c][0] +
+                      map->tables[2][region].returns[c][0];
+    if (sum > 0.0f) {
+        map->tables[0][region].returns[c][0] -= returns < sum ? returns : sum;
+    }
+}
+
+void rho_clutter_map_take_back(struct rho_clutter_map *map, unsigned region,
+                               const float returns[RHO_ECHO_HIT_CLASSES])
+{
+    for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
+        remove_returns(map, region, c, returns[c]);
+        remove_returns(map, ALL_REGIONS, c, returns[c]);
+    }
+}
+
+float rho_clutter_map_kept(float share)
+{
+    return 1.0f - share / TURNS_REMEMBERED;
+}
+
+/* *to = keep *to + *from */
+static void add_table(struct rho_echo_returns *to, float keep, const struct rho_echo_returns *from)
+{
+    for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
+        for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
+            to->looks[c][g] = keep * to->looks[c][g] + from->looks[c][g];
+            to->returns[c][g] = keep * to->returns[c][g] + from->returns[c][g];
+        }
+    }
+}
+
+static void advance_blocks(struct rho_clutter_map *map)
+{
+    for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
+        add_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
+    }
+    memcpy(map->tables[2], map->tables[1], sizeof map->tables[2]);
+    memset(map->tables[1], 0, sizeof map->tables[1]);
+}
+
+void rho_clutter_map_move_on(struct rho_clutter_map *map, float share)
+{
+    const struct rho_echo_returns none = {.looks = {{0.0f}}};
+    for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
+        add_table(&map->tables[0][r], rho_clutter_map_kept(share), &none);
+    }
+    map->scans_to_blocks -= share;
+    if (!(map->scans_to_blocks > 0.0f)) {
+        advance_blocks(map);
+        if (!(map->tables[0][ALL_REGIONS].looks[0][0] > 0.0f)) {
+            advance_blocks(map); /* the first block is used as soon as it ends */
+        }
+        map->scans_to_blocks = BLOCK_TURNS;
+    }
+}
+
+/* ---- echoes ---------------------------------------------------------------------------------- */
+
+struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m, float y_m)
+{
+    const float dx_m = x_m - (sensor ? sensor->x_m : 0.0f);
+    const float dy_m = y_m - (sensor ? sensor->y_m : 0.0f);
+    const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    if (!(range_m > 0.0f)) {
+        return (struct echo_view){1.0f, 0.0f, 0.0f};
+    }
+    return (struct echo_view){dx_m / range_m, dy_m / range_m, range_m};
+}
+
+float rho_clutter_map_turn(const struct echo_view *view)
+{
+    return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
+}
+
+static unsigned cell_of(float share)
+{
+    const float cell = share * (float)RHO_ECHO_REGIONS;
+    return cell > 0.0f ? cell < (float)RHO_ECHO_REGIONS ? (unsigned)cell : RHO_ECHO_REGIONS - 1u
+                       : 0;
+}
+
+uint8_t rho_clutter_map_region(const struct rho_sensor *sensor, float range_max_m, float x_m,
+                               float y_m)
+{
+    const struct echo_view view = rho_clutter_map_view(sensor, x_m, y_m);
+    return (uint8_t)(cell_of(rho_clutter_map_turn(&view)) * RHO_ECHO_REGIONS +
+                     cell_of(rho_sqrt(view.range_m / range_max_m)));
+}
+
+static void predict_axis(float axis[3], float dt_s)
+{
+    axis[0] += dt_s * (2.0f * axis[1] + dt_s * axis[2]);
+    axis[1] += dt_s * axis[2];
+}
+
+void rho_clutter_map_predict(struct rho_echo *echo, int64_t time_us)
+{
+    const float dt_s = rho_seconds_between(echo->time_us, time_us);
+    echo->x_m += dt_s * echo->vx_mps;
+    echo->y_m += dt_s * echo->vy_mps;
+    predict_axis(echo->along, dt_s);
+    predict_axis(echo->across, dt_s);
+    echo->time_us = time_us;
+}
+
+/* Updates one axis with a plot off_m away; move: corrections of place and speed. */
+static void update_axis(float axis[3], float variance_m2, float off_m, float move[2])
+{
+    const float sum = axis[0] + variance_m2, place = axis[0] / sum, speed = axis[1] / sum;
+    move[0] = place * off_m;
+    move[1] = speed * off_m;
+    axis[2] -= speed * axis[1];
+    axis[2] = axis[2] > 0.0f ? axis[2] : 0.0f; /* rounding: the noise may be millimetres */
+    axis[1] *= 1.0f - place;
+    axis[0] = (1.0f - place) * axis[0] + PLACE_NOISE * variance_m2;
+}
+
+void rho_clutter_map_take(struct rho_echo *echo, const struct rho_sensor *sensor,
+                          const struct rho_plot *plot)
+{
+    const struct echo_view view = rho_clutter_map_view(sensor, echo->x_m, echo->y_m);
+    const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
+    float along[2], across[2];
+    update_axis(echo->along, plot->sigma_range_m * plot->sigma_range_m,
+                dx_m * view.along_x + dy_m * view.along_y, along);
+    update_axis(echo->across, plot->sigma_cross_m * plot->sigma_cross_m,
+                dy_m * view.along_x - dx_m * view.along_y, across);
+    echo->x_m += along[0] * view.along_x - across[0] * view.along_y;
+    echo->y_m += along[0] * view.along_y + across[0] * view.along_x;
+    echo->vx_mps += along[1] * view.along_x - across[1] * view.along_y;
+    echo->vy_mps += along[1] * view.along_y + across[1] * view.along_x;
+    echo->hits = (uint16_t)(echo->hits < UINT16_MAX ? echo->hits + 1 : UINT16_MAX);
+    echo->unseen = 0;
+}
+
+int rho_clutter_map_is_lost(const struct rho_echo *echo)
+{
+    return echo->unseen > scans_kept[rho_clutter_map_hit_class(echo->hits)];
+}
+
+void rho_clutter_map_begin(const struct rho_clutter_map *map, struct rho_echo *echo,
+                           int32_t sensor_id, int64_t time_us, const struct rho_plot *plot)
+{
+    const float speed_mps = SPEED_SHARE * map->v_min_mps;
+    *echo = (struct rho_echo){
+        .time_us = time_us,
+        .sensor_id = sensor_id,
+        .x_m = plot->x_m,
+        .y_m = plot->y_m,
+        .along = {plot->sigma_range_m * plot->sigma_range_m, 0.0f, speed_mps * speed_mps},
+        .across = {plot->sigma_cross_m * plot->sigma_cross_m, 0.0f, speed_mps * speed_mps},
+        .plot = -1,
+        .hits = 1,
+        .was_looked_at = 1,
+    };
+}
+
+/* ---- room ------------------------------------------------------------------------------------ */
+
+#define RANKS 64u
+#define HITS_RANKED 16u
+
+/* An echo that no scan covers counts as missed once in this many seconds. */
+#define MISSED_S 60.0f
+
+/* Echoes with a higher rank are dropped first. */
+static unsigned drop_rank(const struct rho_echo *echo, int64_t time_us)
+{
+    const unsigned hits = echo->hits < HITS_RANKED ? echo->hits : HITS_RANKED;
+    unsigned missed = echo->unseen;
+    if (!echo->was_looked_at && echo->region != UINT8_MAX) {
+        const float unseen_s = rho_seconds_between(echo->time_us, time_us);
+        missed += 1u + (unsigned)(unseen_s < MISSED_S * (float)RANKS ? unseen_s / MISSED_S
+                                                                     : (float)RANKS);
+    }
+    const unsigned rank = missed * 8u / hits;
+    return rank < RANKS ? rank : RANKS - 1u;
+}
+
+/* Echoes that the newest scan saw stay. */
+static int may_be_dropped(const struct rho_echo *echo)
+{
+    return echo->hits > 0 && (echo->unseen > 0 || !echo->was_looked_at);
+}
+
+void rho_clutter_map_make_room(struct rho_clutter_map *map, uint32_t num, int64_t time_us)
+{
+    uint16_t of_rank[RANKS] = {0};
+    uint32_t is_free = 0;
+    unsigned rank = RANKS;
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
+        const struct rho_echo *echo = &map->echoes[i];
+        is_free += echo->hits == 0;
+        if (may_be_dropped(echo)) {
+            of_rank[drop_rank(echo, time_us)]++;
+        }
+    }
+    while (rank > 0 && is_free < num) {
+        is_free += of_rank[--rank];
+    }
+    uint32_t to_spare = is_free > num ? is_free - num : 0; /* of the last rank */
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
+        struct rho_echo *echo = &map->echoes[i];
+        if (!may_be_dropped(echo) || drop_rank(echo, time_us) < rank) {
+            continue;
+        }
+        if (drop_rank(echo, time_us) == rank && to_spare > 0) {
+            to_spare--;
+            continue;
+        }
+        echo->hits = 0;
+        map->echoes_dropped = rho_count(map->echoes_dropped, 1);
+    }
+}
+
+/* ---- saved and taught ------------------------------------------------------------------------ */
+
+/* Square of the standard deviations of speed beyond which an echo moves. */
+#define MOVES_SIGMAS2 16.0f
+#define LOOKS_MAX 1e9f
+
+enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t sensor_id, float x_m,
+                                      float y_m, float sigma_range_m, float sigma_cross_m,
+                                      uint16_t hits)
+{
+    if (!map) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_is_coordinate(x_m) || !rho_is_coordinate(y_m) ||
+        !rho_is_within(sigma_range_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX) ||
+        !rho_is_within(sigma_cross_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX) || hits == 0) {
+        return RHO_ERROR_VALUE;
+    }
+    rho_clutter_map_make_room(map, 1, map->time_us);
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
+        if (map->echoes[i].hits == 0) {
+            map->echoes[i] = (struct rho_echo){
+                .sensor_id = sensor_id,
+                .x_m = x_m,
+                .y_m = y_m,
+                .along = {sigma_range_m * sigma_range_m, 0.0f, 0.0f}, /* it stands, at any time */
+                .across = {sigma_cross_m * sigma_cross_m, 0.0f, 0.0f},
+                .plot = -1,
+                .hits = hits,
+                .region = UINT8_MAX, /* found at the first look: its sensor may not be known yet */
+            };
+            return RHO_OK;
+        }
+    }
+    map->echoes_dropped = rho_count(map->echoes_dropped, 1);
+    return RHO_OK;
+}
+
+const struct rho_echo *rho_clutter_map_next(const struct rho_clutter_map *map, uint32_t *place)
+{
+    while (map && place && *place < RHO_ECHO_PLACES) {
+        const struct rho_echo *echo = &map->echoes[(*place)++];
+        if (echo->hits >= RHO_ECHO_KNOWN_HITS) {
+            return echo;
+        }
+    }
+    return NULL;
+}
+
+int rho_clutter_map_stands(const struct rho_echo *echo)
+{
+    return echo && !(echo->vx_mps * echo->vx_mps + echo->vy_mps * echo->vy_mps >
+                     MOVES_SIGMAS2 * (echo->along[2] + echo->across[2]));
+}
+
+void rho_clutter_map_learned(const struct rho_clutter_map *map, unsigned region, unsigned hits,
+                             unsigned unseen, float *looks, float *returns)
+{
+    const unsigned c = rho_clutter_map_hit_class(hits), g = gap_class(unseen);
+    float sum_looks = 0.0f, sum_returns = 0.0f;
+    for (unsigned part = 0; map && region < RHO_ECHO_TABLES && part < 3; part++) {
+        sum_looks += map->tables[part][region].looks[c][g];
+        sum_returns += map->tables[part][region].returns[c][g];
+    }
+    sum_returns = sum_returns > 0.0f ? sum_returns : 0.0f; /* tracks have taken back more */
+    if (looks) {
+        *looks = sum_looks;
+    }
+    if (returns) {
+        *returns = sum_returns < sum_looks ? sum_returns : sum_looks;
+    }
+}
+
+enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_map *map, unsigned region,
+                                              unsigned hits, unsigned unseen, float looks,
+                                              float returns)
+{
+    const unsigned c = rho_clutter_map_hit_class(hits), g = gap_class(unseen);
+    if (!map) {
+        return RHO_ERROR_NULL;
+    }
+    if (region >= RHO_ECHO_TABLES || hits == 0 || unseen == 0 ||
+        !rho_is_within(looks, 0.0f, LOOKS_MAX) || !rho_is_within(returns, 0.0f, looks)) {
+        return RHO_ERROR_VALUE;
+    }
+    map->tables[0][region].looks[c][g] = looks;
+    map->tables[0][region].returns[c][g] = returns;
+    return RHO_OK;
+}
+
+/* ---- a map of unknown origin ----------------------------------------------------------------- */
+
+static int is_sound_table(const struct rho_echo_returns *table)
+{
+    for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
+        for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
+            if (!rho_is_within(table->looks[c][g], 0.0f, 1e9f) ||
+                !rho_is_within(table->returns[c][g], -1e9f, 1e9f)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static int is_sound_axis(const float axis[3])
+{
+    return rho_are_finite(axis, 3) && axis[0] > 0.0f && axis[2] >= 0.0f;
+}
+
+static int is_sound_echo(const struct rho_echo *echo)
+{
+    const float place[4] = {echo->x_m, echo->y_m, echo->vx_mps, echo->vy_mps};
+    return rho_is_stored_time(echo->time_us) && rho_are_finite(place, 4) &&
+           is_sound_axis(echo->along) && is_sound_axis(echo->across) &&
+           rho_is_within(echo->weight, 0.0f, 1e9f) && echo->plot < RHO_MAX_PLOTS &&
+           (echo->region < RHO_ECHO_TABLES - 1 || echo->region == UINT8_MAX);
+}
+
+int rho_clutter_map_is_sound(const struct rho_clutter_map *map)
+{
+    if (!rho_is_stored_time(map->time_us) || map->first_echo >= RHO_ECHO_PLACES ||
+        !rho_is_within(map->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) ||
+        !rho_is_within(map->rate_plots, 0.0f, 1e9f) ||
+        !rho_is_within(map->exact_plots, 0.0f, map->rate_plots) ||
+        !rho_are_finite(&map->scans_to_blocks, 1)) {
+        return 0;
+    }
+    for (unsigned block = 0; block < 3; block++) {
+        for (unsigned region = 0; region < RHO_ECHO_TABLES; region++) {
+            if (!is_sound_table(&map->tables[block][region])) {
+                return 0;
+            }
+        }
+    }
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
+        if (map->echoes[i].hits > 0 && !is_sound_echo(&map->echoes[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}

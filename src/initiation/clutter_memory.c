@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * clutter_memory: the clutter of the last hundred scans: hot spots that are smaller than the few
+ * plots of a window can show, and standing objects.
+ *
+ * Plots that leave the window unused were clutter. They are counted in cells much smaller than
+ * those of the window's map, and all counts are halved regularly. A cell with significantly more
+ * plots than the window's density explains has the density of its own count. So the memory only
+ * raises densities: clutter that has ended is forgotten slowly, and the window shows new clutter.
+ */
+#include <string.h>
+
+#include "search.h"
+
+/* Scans at which all counts are halved: a memory of 64 to 128 scans. */
+#define SCANS_MAX 128u
+/*
+ * Significance of a cell, in standard deviations of its expected count. Without it, random counts
+ * would raise densities everywhere.
+ */
+#define SIGMAS 3.0f
+/*
+ * The map is laid anew where the area has outgrown it, with this margin on each side; or has become
+ * this much smaller.
+ */
+#define MARGIN_SHARE 0.25f
+#define TOO_WIDE 4.0f
+
+static int is_outside(const struct rho_clutter_memory *memory, const struct rho_extent *extent)
+{
+    const float width_m = (float)RHO_MAX_CLUTTER_CELLS / memory->columns_per_m;
+    const float height_m = (float)RHO_MAX_CLUTTER_CELLS / memory->rows_per_m;
+    return extent->x_min_m < memory->x_min_m || extent->y_min_m < memory->y_min_m ||
+           extent->x_max_m > memory->x_min_m + width_m ||
+           extent->y_max_m > memory->y_min_m + height_m ||
+           width_m > TOO_WIDE * rho_extent_width_m(extent, 1.0f) ||
+           height_m > TOO_WIDE * rho_extent_height_m(extent, 1.0f);
+}
+
+static void place_cells(struct rho_clutter_memory *memory, const struct rho_extent *extent)
+{
+    const float width_m = rho_extent_width_m(extent, 1.0f);
+    const float height_m = rho_extent_height_m(extent, 1.0f);
+    memset(memory, 0, sizeof *memory);
+    memory->x_min_m = extent->x_min_m - MARGIN_SHARE * width_m;
+    memory->y_min_m = extent->y_min_m - MARGIN_SHARE * height_m;
+    memory->columns_per_m = (float)RHO_MAX_CLUTTER_CELLS / ((1.0f + 2.0f * MARGIN_SHARE) * width_m);
+    memory->rows_per_m = (float)RHO_MAX_CLUTTER_CELLS / ((1.0f + 2.0f * MARGIN_SHARE) * height_m);
+}
+
+static int index_of(float cells)
+{
+    return cells >= 0.0f && cells < (float)RHO_MAX_CLUTTER_CELLS ? (int)cells : -1;
+}
+
+/* -1: not on the map. */
+static int cell_of(const struct rho_clutter_memory *memory, float x_m, float y_m)
+{
+    const int column = index_of((x_m - memory->x_min_m) * memory->columns_per_m);
+    const int row = index_of((y_m - memory->y_min_m) * memory->rows_per_m);
+    return column < 0 || row < 0 ? -1 : row * RHO_MAX_CLUTTER_CELLS + column;
+}
+
+static void halve(struct rho_clutter_memory *memory)
+{
+    for (unsigned c = 0; c < RHO_CLUTTER_MEMORY_CELLS; c++) {
+        memory->count[c] /= 2;
+    }
+    memory->num_scans /= 2;
+}
+
+void rho_initiator_add_to_memory(struct rho_initiator *initiator)
+{
+    struct rho_clutter_memory *memory = &initiator->memory;
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, 0);
+    if (memory->num_scans == 0 || is_outside(memory, &initiator->window.extent)) {
+        place_cells(memory, &initiator->window.extent);
+    }
+    if (memory->num_scans == SCANS_MAX) {
+        halve(memory);
+    }
+    memory->num_scans++;
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const int cell = cell_of(memory, scan->plots[i].x_m, scan->plots[i].y_m);
+        if (cell < 0 || (scan->marks[i] & RHO_WINDOW_INITIATED)) {
+            continue;
+        }
+        if (memory->count[cell] == UINT16_MAX) {
+            halve(memory); /* the others keep their proportion */
+        }
+        memory->count[cell]++;
+    }
+}
+
+float rho_initiator_memory_density(const struct rho_initiator *initiator, float x_m, float y_m,
+                                   float density_per_m2)
+{
+    const struct rho_clutter_memory *memory = &initiator->memory;
+    if (RHO_MAX_CLUTTER_CELLS == 0 || memory->num_scans == 0) {
+        return density_per_m2;
+    }
+    const int cell = cell_of(memory, x_m, y_m);
+    if (cell < 0) {
+        return density_per_m2;
+    }
+    const float scans_m2 = (float)memory->num_scans / (memory->columns_per_m * memory->rows_per_m);
+    /* one plot of the window's density is added: few plots weigh little, and no division is by 0 */
+    const float expected = density_per_m2 * scans_m2 + 1.0f;
+    const float count = (float)memory->count[cell] + 1.0f, excess = count - expected;
+    return excess > 0.0f && excess * excess > SIGMAS * SIGMAS * expected
+               ? density_per_m2 * count / expected
+               : density_per_m2;
+}

@@ -1,0 +1,520 @@
+/* SPDX-License-Identifier: MIT */
+#include "false_track_rate.h"
+
+#include "rhotrack/detail/approx.h"
+
+/*
+ * Variance of the prediction of a tentative track over that of a plot, as determinants of both
+ * axes.
+ */
+#define PREDICTION_SPREAD 4.0f
+
+#define GAIN_MAX_NAT 60.0f
+#define NEVER_NAT (-1.0e6f)
+
+#define RINGS 8 /* of speeds, for the share of tracks that stay in the area */
+#define SHARE_MIN 1.0e-6f
+
+/* Limit of a number of false sets. */
+#define WEIGHT_MAX 1.0e30f
+
+/* ---- places ---------------------------------------------------------------------------------- */
+
+static float log_sigma(uint16_t code)
+{
+    return rho_log(rho_window_sigma(code));
+}
+
+static struct place_class class_of(const struct false_tracks *model,
+                                   const struct rho_window_scan *scan, unsigned index)
+{
+    const struct search *search = model->search;
+    const struct rho_window_plot *plot = &scan->plots[index];
+    struct place_class place = {
+        .log_density = rho_log(rho_initiator_mean_density(search->initiator, plot->x_m, plot->y_m)),
+        .log_range = log_sigma(plot->sigma_range),
+        .log_cross = log_sigma(plot->sigma_cross),
+    };
+    if (model->has_z) {
+        place.log_up = log_sigma(plot->sigma_up);
+    }
+    if (model->has_range_rate) {
+        place.log_range_rate = log_sigma(plot->sigma_range_rate);
+    }
+    /* the area that has one such plot */
+    place.share = rho_exp(-place.log_density);
+    return place;
+}
+
+static int is_close(float a, float b)
+{
+    return a - b < 0.05f && b - a < 0.05f;
+}
+
+static int are_alike(const struct place_class *a, const struct place_class *b)
+{
+    return is_close(a->log_density, b->log_density) && is_close(a->log_range, b->log_range) &&
+           is_close(a->log_cross, b->log_cross) && is_close(a->log_up, b->log_up) &&
+           is_close(a->log_range_rate, b->log_range_rate);
+}
+
+static void add_class(struct false_tracks *model, const struct place_class *place)
+{
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        if (are_alike(&model->classes[i], place)) {
+            model->classes[i].share += place->share;
+            return;
+        }
+    }
+    model->classes[model->num_classes++] = *place;
+}
+
+/* Samples every so many held plots: clutter and noise at places where there are plots. */
+static void sample_places(struct false_tracks *model)
+{
+    struct rho_window *window = &model->search->initiator->window;
+    unsigned total = 0, passed = 0;
+    float sum = 0.0f;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        total += rho_window_scan_at(window, m)->num_plots;
+    }
+    if (total == 0) {
+        return;
+    }
+    unsigned stride = (total + CLASSES_MAX - 1u) / CLASSES_MAX;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        for (unsigned i = 0; i < scan->num_plots; i++, passed++) {
+            if (passed % stride == stride / 2u) {
+                struct place_class place = class_of(model, scan, i);
+                add_class(model, &place);
+            }
+        }
+    }
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        sum += model->classes[i].share;
+    }
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        model->classes[i].share /= sum;
+    }
+}
+
+/* ---- patterns -------------------------------------------------------------------------------- */
+
+/* ln Gamma(k + 1) for k a multiple of a half. */
+static float log_gamma(float k)
+{
+    float sum = 0.0f;
+    while (k > 0.75f) {
+        sum += rho_log(k);
+        k -= 1.0f;
+    }
+    return k > 0.25f ? sum + 0.5f * LOG_PI + LOG_HALF : sum;
+}
+
+/*
+ * Mean over the choices of h scans, the first of the span and the newest among them, of h sum (t -
+ * mean)^2 = sum over pairs of (t_i - t_j)^2.
+ */
+static float mean_spread_s2(const struct search *search, unsigned first, unsigned hits)
+{
+    unsigned last = search->num_scans - 1u, between = last - first - 1u, inner = hits - 2u;
+    float both = search->time_s[last] - search->time_s[first];
+    float one = 0.0f, none = 0.0f;
+    for (unsigned i = first + 1u; i < last; i++) {
+        float before = search->time_s[i] - search->time_s[first];
+        float after = search->time_s[last] - search->time_s[i];
+        one += before * before + after * after;
+        for (unsigned j = first + 1u; j < i; j++) {
+            float gap = search->time_s[i] - search->time_s[j];
+            none += gap * gap;
+        }
+    }
+    float chosen = between > 0 ? (float)inner / (float)between : 0.0f;
+    float chosen_too = between > 1 ? (float)(inner - (inner > 0)) / (float)(between - 1u) : 0.0f;
+    return both * both + chosen * one + chosen * chosen_too * none;
+}
+
+/*
+ * Share of the first points that have the second point, displaced by (dx, dy), in an area of width
+ * x height.
+ */
+static float share_left_by(float width_m, float height_m, float dx_m, float dy_m)
+{
+    return dx_m < width_m && dy_m < height_m ? (1.0f - dx_m / width_m) * (1.0f - dy_m / height_m)
+                                             : 0.0f;
+}
+
+/*
+ * Share of the straight tracks that begin in the area, with any allowed velocity, and are still in
+ * it span_s later: there are no plots outside. Mean over rings of equal content and directions of a
+ * quadrant.
+ */
+static float share_inside(const struct search *search, float span_s)
+{
+    static const float directions[4][2] = {{0.98078528f, 0.19509032f},
+                                           {0.83146961f, 0.55557023f},
+                                           {0.55557023f, 0.83146961f},
+                                           {0.19509032f, 0.98078528f}}; /* (2 i + 1) pi / 16 */
+    const struct rho_window *window = &search->initiator->window;
+    const struct rho_initiator_config *config = &search->initiator->config;
+    float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
+    float width_m = rho_extent_width_m(&window->extent, side_min_m);
+    float height_m = rho_extent_height_m(&window->extent, side_min_m);
+    float least2 = config->v_min_mps * config->v_min_mps;
+    float most2 = config->v_max_mps * config->v_max_mps, share = 0.0f;
+    for (int ring = 0; ring < RINGS; ring++) {
+        float part = ((float)ring + 0.5f) / (float)RINGS;
+        float travelled_m = span_s * rho_sqrt(least2 + part * (most2 - least2));
+        for (int i = 0; i < 4; i++) {
+            share += share_left_by(width_m, height_m, travelled_m * directions[i][0],
+                                   travelled_m * directions[i][1]) /
+                     (float)(4 * RINGS);
+        }
+    }
+    return share > SHARE_MIN ? share : SHARE_MIN;
+}
+
+/* ln of the aliases of this number of range rates. */
+static float log_aliases_of(const struct false_tracks *model, float hits)
+{
+    return hits * model->log_aliases;
+}
+
+/* ln det of the normal equations, all axes. */
+static float log_fisher(const struct false_tracks *model, const struct place_class *place,
+                        float hits, float spread_s2)
+{
+    float cross = rho_log(spread_s2) - 4.0f * place->log_cross;
+    float along = rho_log(spread_s2) - 4.0f * place->log_range;
+    if (model->has_range_rate) {
+        /* hits / range^2 (S / range^2 + hits / rate^2), S = spread / hits */
+        float slope = rho_log(spread_s2 / hits) - 2.0f * place->log_range;
+        float rate = rho_log(hits) - 2.0f * place->log_range_rate;
+        float larger = slope > rate ? slope : rate, smaller = slope > rate ? rate : slope;
+        along = rho_log(hits) - 2.0f * place->log_range + larger +
+                rho_log(1.0f + rho_exp(smaller - larger));
+    }
+    return cross + along + (model->has_z ? rho_log(spread_s2) - 4.0f * place->log_up : 0.0f);
+}
+
+/* Half the log of the determinant of the noise of one hit. */
+static float log_noise(const struct false_tracks *model, const struct place_class *place)
+{
+    return place->log_range + place->log_cross + (model->has_z ? place->log_up : 0.0f) +
+           (model->has_range_rate ? place->log_range_rate : 0.0f);
+}
+
+static float dimensions_of_hit(const struct false_tracks *model)
+{
+    return 2.0f + (model->has_z ? 1.0f : 0.0f) + (model->has_range_rate ? 1.0f : 0.0f);
+}
+
+static float log_hits_and_misses(const struct search *search, unsigned first, unsigned hits)
+{
+    unsigned newest = search->num_scans - 1u;
+    return (float)hits * search->log_pd[newest] +
+           (float)(newest - first + 1u - hits) * search->log_miss[newest];
+}
+
+static float half_dimensions(const struct false_tracks *model, unsigned hits)
+{
+    return 0.5f * ((float)hits * dimensions_of_hit(model) - (model->has_z ? 6.0f : 4.0f));
+}
+
+/* The score of a perfect fit: rho_initiator_score with chi2 = 0. */
+static float best_score(const struct false_tracks *model, const struct place_class *place,
+                        unsigned first, unsigned hits, float spread_s2)
+{
+    const struct search *search = model->search;
+    float h = (float)hits;
+    float fisher = log_fisher(model, place, h, spread_s2);
+    return search->log_prior + log_hits_and_misses(search, first, hits) - h * place->log_density -
+           half_dimensions(model, hits) * LOG_TWO_PI - h * log_noise(model, place) - 0.5f * fisher +
+           rho_initiator_log_volume(search, model->has_z, model->has_z ? hits : 0u,
+                                    model->has_range_rate ? hits : 0u) -
+           log_aliases_of(model, h);
+}
+
+/* chi2 / 2 of half as many dimensions. */
+static float chi2_half_limit(float half)
+{
+    return 0.5f * rho_initiator_chi2_limit((unsigned)(2.0f * half + 0.5f), SIGMAS_99_9);
+}
+
+static void add_pattern(struct false_tracks *model, unsigned first, unsigned hits)
+{
+    const struct search *search = model->search;
+    unsigned newest = search->num_scans - 1u, between = newest - first - 1u;
+    float half = half_dimensions(model, hits);
+    model->patterns[model->num_patterns++] = (struct pattern){
+        .first = (uint16_t)first,
+        .hits = (uint16_t)hits,
+        .log_choices = rho_initiator_log_factorial(between) -
+                       rho_initiator_log_factorial(hits - 2u) -
+                       rho_initiator_log_factorial(between + 2u - hits),
+        .spread_s2 = mean_spread_s2(search, first, hits),
+        .inside = share_inside(search, search->time_s[newest] - search->time_s[first]),
+        .half_dimensions = half,
+        .most = chi2_half_limit(half),
+    };
+}
+
+static float log_widened_sigma(float log_sigma_m, float bend_m2)
+{
+    return 0.5f * rho_log(rho_exp(2.0f * log_sigma_m) + bend_m2);
+}
+
+/*
+ * Share of a bent track's residual in its j-th mode, as of a free beam; the first one is the
+ * longest bow.
+ */
+static float shape_share(unsigned j)
+{
+    const float waves = 3.0f / (float)(2u * j + 1u);
+    return waves * waves * waves * waves;
+}
+
+/*
+ * ln of the sigma with which the plots' determinant equals that of the score. The dimensions of the
+ * residual have very different variances, sigma^2 plus their mode's part of the bend, and the
+ * determinant is their product (src/DESIGN.md).
+ */
+static float log_widened_by_shapes(float log_sigma_m, float bend_m2, unsigned dimensions)
+{
+    float all = 0.0f, sum = 0.0f;
+    for (unsigned j = 1; j <= dimensions; j++) {
+        all += shape_share(j);
+    }
+    for (unsigned j = 1; j <= dimensions; j++) {
+        sum += log_widened_sigma(log_sigma_m, bend_m2 * shape_share(j) / all);
+    }
+    return sum / (float)dimensions;
+}
+
+/*
+ * The noise of a plot about a straight track, widened by the bend of tracks with this number of
+ * hits from `first` on. For anisotropic noise the score takes process noise as independent from
+ * plot to plot: all dimensions are alike.
+ */
+static struct place_class widened(const struct false_tracks *model, const struct place_class *place,
+                                  unsigned first, unsigned hits)
+{
+    struct place_class wide = *place;
+    if (!(model->search->fit_process_m2 > 0.0f)) {
+        return wide;
+    }
+    const float bend_m2 = model->bend_m2[first];
+    const float scans = (float)(model->search->num_scans - first);
+    if (rho_initiator_is_isotropic(model->search)) {
+        wide.log_range =
+            log_widened_by_shapes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
+        wide.log_cross = wide.log_range;
+    } else {
+        wide.log_range = log_widened_sigma(place->log_range, bend_m2 / (scans - 2.0f));
+        wide.log_cross = log_widened_sigma(place->log_cross, bend_m2 / (scans - 2.0f));
+        wide.log_up = log_widened_sigma(place->log_up, bend_m2 / (scans - 2.0f));
+    }
+    return wide;
+}
+
+static struct pattern_score score_pattern(const struct false_tracks *model,
+                                          const struct place_class *place,
+                                          const struct pattern *pattern)
+{
+    const struct search *search = model->search;
+    unsigned first = pattern->first, hits = pattern->hits;
+    struct place_class wide = widened(model, place, first, hits);
+    struct pattern_score score = {.best_nat =
+                                      best_score(model, &wide, first, hits, pattern->spread_s2)};
+    score.weight = 0.5f * place->share * pattern->inside *
+                   rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
+                           score.best_nat - log_gamma(pattern->half_dimensions));
+    score.weight = score.weight < WEIGHT_MAX ? score.weight : WEIGHT_MAX;
+    return score;
+}
+
+static void list_patterns(struct false_tracks *model)
+{
+    unsigned num_scans = model->search->num_scans;
+    model->num_patterns = 0;
+    model->least_hits = 3;
+    for (unsigned first = 0; first + 3u <= num_scans; first++) {
+        if (model->search->fit_process_m2 > 0.0f) {
+            (void)rho_initiator_bend_m2(model->search, first, &model->bend_m2[first]);
+        }
+        for (unsigned hits = 3; hits <= num_scans - first; hits++) {
+            add_pattern(model, first, hits);
+        }
+    }
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        for (unsigned k = 0; k < model->num_patterns; k++) {
+            model->scores[i][k] = score_pattern(model, &model->classes[i], &model->patterns[k]);
+        }
+    }
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+static float mean_log_aliases(const struct search *search)
+{
+    float sum = 0.0f;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        sum +=
+            rho_measurement_log_aliases(&rho_window_scan_at(&search->initiator->window, m)->sensor,
+                                        search->initiator->config.v_max_mps);
+    }
+    return sum / (float)search->num_scans;
+}
+
+void rho_initiator_model_false_tracks(const struct search *search, struct false_tracks *model)
+{
+    /*
+     * where only some scans measure heights or range rates, false tracks are assumed to need none:
+     * an upper bound
+     */
+    uint32_t measures = ~0u;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+        measures &= scan->num_plots > 0 ? scan->measures : ~0u; /* no hit is in an empty one */
+    }
+    model->search = search;
+    model->has_z = (measures & RHO_MEASURES_Z) != 0;
+    model->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
+    model->log_aliases = model->has_range_rate ? mean_log_aliases(search) : 0.0f;
+    model->num_classes = 0;
+    sample_places(model);
+    list_patterns(model);
+}
+
+/* ---- how many -------------------------------------------------------------------------------- */
+
+/*
+ * A scan ago the track had one hit less: the margin of that pattern, of one scan later and one hit
+ * less, over start_nat.
+ */
+static float score_margin_before(const struct false_tracks *model, unsigned place, unsigned k,
+                                 float start_nat)
+{
+    if (model->patterns[k].hits <= model->least_hits) {
+        return 0.0f;
+    }
+    /* patterns are listed by their first scan, then by hits */
+    const unsigned less = k + model->search->num_scans - model->patterns[k].first - 3u;
+    const float before = model->scores[place][less].best_nat - start_nat;
+    const float most = model->patterns[less].most;
+    return before < most ? before : most;
+}
+
+/*
+ * Sets of a pattern in a class that reach s and whose track had not started at start_nat before:
+ * weight y^k times the share of them whose track starts with the newest hit. Their chi2 / 2 was
+ * above `before` without it, and is below y with it. Of the content of a ball, with the two
+ * dimensions of one hit fewer, that is 1 - k q^(k - 1) + (k - 1) q^k, q = before / y. Computed
+ * without logarithms, as it is called often: k is a multiple of a half.
+ */
+static float sets_in(const struct false_tracks *model, unsigned place, unsigned k, float s_nat,
+                     float start_nat)
+{
+    const struct pattern *pattern = &model->patterns[k];
+    const struct pattern_score *score = &model->scores[place][k];
+    float half = pattern->half_dimensions, y = score->best_nat - s_nat;
+    if (!(y > 0.0f)) {
+        return 0.0f;
+    }
+    const float before = score_margin_before(model, place, k, start_nat);
+    y = y < pattern->most ? y : pattern->most;
+    if (before >= y) {
+        return 0.0f;
+    }
+    unsigned halves = (unsigned)(2.0f * half + 0.5f);
+    float q = before / y, content = halves % 2u ? rho_sqrt(y) : 1.0f;
+    float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(half - 1) */
+    for (; halves >= 4u; halves -= 2u) {
+        content *= y;
+        raised *= q;
+    }
+    float share = before > 0.0f ? 1.0f - half * raised + (half - 1.0f) * raised * q : 1.0f;
+    return score->weight * (content * y) * share;
+}
+
+static float sets_of(const struct false_tracks *model, unsigned k, float s_nat, float start_nat)
+{
+    float sum = 0.0f;
+    if (model->patterns[k].hits < model->least_hits) {
+        return 0.0f;
+    }
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        sum += sets_in(model, i, k, s_nat, start_nat);
+    }
+    return sum;
+}
+
+float rho_initiator_false_sets_above(const struct false_tracks *model, float s_nat, float start_nat,
+                                     float enough)
+{
+    float sum = 0.0f;
+    for (unsigned k = 0; k < model->num_patterns && sum <= enough; k++) {
+        sum += sets_of(model, k, s_nat, start_nat);
+    }
+    return sum;
+}
+
+float rho_initiator_stay_inside(const struct false_tracks *model, float start_nat)
+{
+    const struct search *search = model->search;
+    unsigned newest = search->num_scans - 1u;
+    float stay[RHO_MAX_SCANS], sum = 0.0f, all = 0.0f;
+    for (unsigned first = 0; first + 3u <= search->num_scans; first++) {
+        float span_s = search->time_s[newest] - search->time_s[first];
+        stay[first] =
+            share_inside(search, span_s + search->interval_s) / share_inside(search, span_s);
+    }
+    for (unsigned k = 0; k < model->num_patterns; k++) {
+        float sets = sets_of(model, k, start_nat, start_nat);
+        sum += sets * stay[model->patterns[k].first];
+        all += sets;
+    }
+    return all > 0.0f ? sum / all : 1.0f;
+}
+
+float rho_initiator_gain_of_hit(const struct false_tracks *model)
+{
+    const struct search *search = model->search;
+    float least = GAIN_MAX_NAT;
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        const struct place_class wide =
+            widened(model, &model->classes[i], search->num_scans - 3u, 3);
+        float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
+                     0.5f * dimensions_of_hit(model) * LOG_TWO_PI - log_noise(model, &wide) -
+                     rho_log(PREDICTION_SPREAD) +
+                     rho_initiator_log_volume(search, 0, 0, model->has_range_rate ? 1u : 0u) -
+                     log_aliases_of(model, 1.0f);
+        least = gain < least ? gain : least;
+    }
+    return least;
+}
+
+/* The best score of a pattern in any class. */
+static float best_in_any_class(const struct false_tracks *model, unsigned k)
+{
+    float best = NEVER_NAT;
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        float here = model->scores[i][k].best_nat;
+        best = here > best ? here : best;
+    }
+    return best;
+}
+
+/* The chi2 / 2 of targets has mean k: half of them are lost where the margin is smaller. */
+int rho_initiator_allows_targets(const struct false_tracks *model, float start_nat)
+{
+    for (unsigned k = 0; k < model->num_patterns; k++) {
+        const struct pattern *pattern = &model->patterns[k];
+        if (pattern->hits == model->least_hits &&
+            best_in_any_class(model, k) - start_nat >= pattern->half_dimensions) {
+            return 1;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/* initiator_validate: consistency of an initiator of unknown origin (a snapshot). */
+#include "search.h"
+
+/* Limit of scores, so that their sums do not overflow. */
+#define SCORE_MAX_MNAT 1000000000
+
+static int is_score(int32_t mnat)
+{
+    return mnat >= -SCORE_MAX_MNAT && mnat <= SCORE_MAX_MNAT;
+}
+
+static int is_finite(float v)
+{
+    return rho_are_finite(&v, 1);
+}
+
+static int is_above_0(float v)
+{
+    return v > 0.0f && is_finite(v);
+}
+
+static int is_sound_map(const struct rho_density_map *map)
+{
+    if (map->columns < 1 || map->columns > RHO_MAX_DENSITY_CELLS || map->rows < 1 ||
+        map->rows > RHO_MAX_DENSITY_CELLS) {
+        return 0;
+    }
+    return is_above_0(map->mean) && is_above_0(map->prior_plots) && is_above_0(map->content) &&
+           is_above_0(map->scans) && rho_is_coordinate(map->sensor_x_m) &&
+           rho_is_coordinate(map->sensor_y_m) && rho_is_within(map->middle_rad, -10.0f, 10.0f) &&
+           is_finite(map->u0) && is_finite(map->v0) && rho_is_within(map->width, 0.0f, 1e30f) &&
+           rho_is_within(map->height, 0.0f, 1e30f) &&
+           rho_is_within(map->scans, 0.0f, (float)RHO_MAX_SCANS);
+}
+
+/* There are no maps before the first search. */
+static int are_sound_maps(const struct rho_initiator *initiator)
+{
+    for (unsigned i = 0; i < initiator->num_maps && i < RHO_MAX_DENSITY_MAPS; i++) {
+        if (!is_sound_map(&initiator->density[i])) {
+            return 0;
+        }
+    }
+    return initiator->num_maps <= RHO_MAX_DENSITY_MAPS &&
+           rho_are_finite(initiator->sensor_ratio, RHO_MAX_SCANS);
+}
+
+static int has_sound_memory(const struct rho_initiator *initiator)
+{
+    const struct rho_clutter_memory *memory = &initiator->memory;
+    return RHO_MAX_CLUTTER_CELLS == 0 ||
+           (is_finite(memory->x_min_m) && is_finite(memory->y_min_m) &&
+            rho_is_within(memory->columns_per_m, 0.0f, 1e6f) &&
+            rho_is_within(memory->rows_per_m, 0.0f, 1e6f));
+}
+
+/* True where the plots of a candidate are held. */
+static int is_sound_candidate(const struct rho_initiator *initiator,
+                              const struct rho_candidate *candidate)
+{
+    const struct rho_window *window = &initiator->window;
+    if ((uint32_t)candidate->mask >> window->num_scans != 0 || !is_score(candidate->score_mnat)) {
+        return 0;
+    }
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = &window->ring[(window->first + m) % window->scans_max];
+        if (((unsigned)candidate->mask >> m & 1u) && candidate->plot[m] >= scan->num_plots) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Further sectors of a revolution keep what its first one has decided. */
+static int has_sound_revolution(const struct rho_initiator *initiator)
+{
+    const unsigned num_scans = initiator->window.num_scans;
+    const unsigned least = num_scans < 3 ? num_scans : 3u;
+    return !RHO_SECTORS || !initiator->has_revolution ||
+           (num_scans > 0 && initiator->num_maps > 0 && initiator->min_scans >= least);
+}
+
+int rho_initiator_is_sound(const struct rho_initiator *initiator)
+{
+    const struct rho_initiator_config *config = &initiator->config;
+    if (!rho_initiator_is_usable(config) || !rho_window_is_sound(&initiator->window) ||
+        initiator->window.scans_max != config->scans ||
+        (initiator->window.area_is_fixed != 0) != (config->area_is_fixed != 0) ||
+        !rho_initiator_accepts(initiator, INT64_MAX)) {
+        return 0;
+    }
+    if (initiator->num_candidates > RHO_MAX_CANDIDATES || initiator->min_scans > RHO_MAX_SCANS ||
+        !is_score(initiator->start_mnat) || !is_score(initiator->confirm_mnat) ||
+        !is_finite(initiator->density_per_m2) || !are_sound_maps(initiator) ||
+        !has_sound_memory(initiator) || !has_sound_revolution(initiator) ||
+        initiator->budget.resume.cost_class >= RHO_INITIATOR_CLASSES ||
+        initiator->budget.resume.plot >= RHO_MAX_PLOTS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < initiator->num_candidates; i++) {
+        if (!is_sound_candidate(initiator, &initiator->candidates[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}

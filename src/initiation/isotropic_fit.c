@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * isotropic_fit: a straight track through plots whose noise has one axis, the plot nearest to it,
+ * and the likelihood of the set.
+ */
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/linalg.h"
+#include "search.h"
+
+static float variance_m2(const struct rho_window_plot *plot)
+{
+    float sigma_m = rho_window_sigma_m(plot);
+    return sigma_m * sigma_m;
+}
+
+/* ---- least squares --------------------------------------------------------------------------- */
+
+/* Weighted moments of a set about its own mean: no large numbers are subtracted. */
+struct moments {
+    float weight, time_s, x_m, y_m; /* sum of weights 1 / sigma^2, and weighted means */
+    float tt, tx, ty;               /* weighted sums of products about the means */
+};
+
+static struct moments moments_of(const struct search *search, const struct plot_set *set)
+{
+    struct moments sum = {0};
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (set->mask >> m & 1u) {
+            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            float w = 1.0f / variance_m2(plot);
+            sum.weight += w;
+            sum.time_s += w * rho_initiator_plot_time_s(search, set, m);
+            sum.x_m += w * plot->x_m;
+            sum.y_m += w * plot->y_m;
+        }
+    }
+    sum.time_s /= sum.weight;
+    sum.x_m /= sum.weight;
+    sum.y_m /= sum.weight;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (set->mask >> m & 1u) {
+            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            float w = 1.0f / variance_m2(plot);
+            float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
+            sum.tt += w * t_s * t_s;
+            sum.tx += w * t_s * (plot->x_m - sum.x_m);
+            sum.ty += w * t_s * (plot->y_m - sum.y_m);
+        }
+    }
+    return sum;
+}
+
+/* 0 where the plots do not determine a line. */
+int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
+                                struct line_fit *fit)
+{
+    struct moments sum = moments_of(search, set);
+    if (!(sum.tt > 0.0f)) {
+        return 0;
+    }
+    *fit = (struct line_fit){.vx_mps = sum.tx / sum.tt, .vy_mps = sum.ty / sum.tt};
+    fit->x_m = sum.x_m - fit->vx_mps * sum.time_s;
+    fit->y_m = sum.y_m - fit->vy_mps * sum.time_s;
+    return 1;
+}
+
+/* The plot of scan m nearest to the fitted track; -1: none. */
+int rho_initiator_nearest_isotropic(struct search *search, const struct line_fit *fit, float factor,
+                                    unsigned m)
+{
+    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    float bend_m2 = factor * search->fit_process_m2;
+    struct rho_window_query query = {
+        .x_m = fit->x_m + fit->vx_mps * search->time_s[m],
+        .y_m = fit->y_m + fit->vy_mps * search->time_s[m],
+        .vx_mps = fit->vx_mps,
+        .vy_mps = fit->vy_mps,
+        .variance_m2 = bend_m2,
+        .sigma_factor = factor,
+        .gate_chi2 = RHO_GATE_CHI2_2D,
+        .gate_radius_m =
+            rho_sqrt(RHO_GATE_CHI2_2D * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .skip_flags = search->skip_flags,
+    };
+    return rho_window_nearest(scan, &query, &search->initiator->work.window);
+}
+
+/* ---- likelihood ------------------------------------------------------------------------------ */
+
+/* Determinants and residual of a set, both axes. */
+struct likelihood_terms {
+    float log_det_noise;  /* ln det V */
+    float log_det_fisher; /* ln det A^T V^-1 A, A the line's design matrix */
+    float chi2;           /* residual, two axes */
+};
+
+/* Independent noise: V is diagonal, and everything follows from the moments. */
+static struct likelihood_terms terms_without_process_noise(const struct search *search,
+                                                           const struct plot_set *set)
+{
+    struct moments sum = moments_of(search, set);
+    float vx_mps = sum.tx / sum.tt, vy_mps = sum.ty / sum.tt;
+    struct likelihood_terms terms = {.log_det_fisher = rho_log(sum.weight * sum.tt)};
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (set->mask >> m & 1u) {
+            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
+            float rx_m = plot->x_m - sum.x_m - vx_mps * t_s;
+            float ry_m = plot->y_m - sum.y_m - vy_mps * t_s;
+            float noise_m2 = variance_m2(plot);
+            terms.chi2 += (rx_m * rx_m + ry_m * ry_m) / noise_m2;
+            terms.log_det_noise += rho_log(noise_m2);
+        }
+    }
+    return terms;
+}
+
+static float dot(unsigned n, const float *a, const float *b)
+{
+    float sum = 0.0f;
+    for (unsigned i = 0; i < n; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+/*
+ * Squared residual of y off the columns one and t, all whitened; fisher = [one.one, one.t, t.t] and
+ * its determinant. The residuals are formed and then squared: a difference of squares would cancel.
+ */
+static float residual_chi2(unsigned n, const float *one, const float *t, const float *y,
+                           const float fisher[3], float determinant)
+{
+    float by_one = dot(n, one, y), by_t = dot(n, t, y), chi2 = 0.0f;
+    float place = (by_one * fisher[2] - by_t * fisher[1]) / determinant;
+    float slope = (by_t * fisher[0] - by_one * fisher[1]) / determinant;
+    for (unsigned i = 0; i < n; i++) {
+        float residual = y[i] - place * one[i] - slope * t[i];
+        chi2 += residual * residual;
+    }
+    return chi2;
+}
+
+/* The columns of the regression, one row a hit, about the moments' means. */
+struct columns {
+    float one[RHO_MAX_SCANS], t[RHO_MAX_SCANS], x[RHO_MAX_SCANS], y[RHO_MAX_SCANS];
+    float noise[RHO_TRIANGLE(RHO_MAX_SCANS)]; /* V */
+};
+
+static unsigned fill_columns(const struct search *search, const struct plot_set *set,
+                             struct columns *columns)
+{
+    struct moments sum = moments_of(search, set);
+    unsigned scan[RHO_MAX_SCANS], n = 0;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (set->mask >> m & 1u) {
+            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            columns->one[n] = 1.0f;
+            columns->t[n] = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
+            columns->x[n] = plot->x_m - sum.x_m;
+            columns->y[n] = plot->y_m - sum.y_m;
+            scan[n] = m;
+            for (unsigned j = 0; j <= n; j++) {
+                columns->noise[RHO_AT(n, j)] = search->process_m2[RHO_AT(m, scan[j])];
+            }
+            columns->noise[RHO_AT(n, n)] += variance_m2(plot);
+            n++;
+        }
+    }
+    return n;
+}
+
+/* Process noise couples the scans: whiten with the Cholesky factor of V. 0 where V is singular. */
+static int terms_with_process_noise(const struct search *search, const struct plot_set *set,
+                                    struct likelihood_terms *terms)
+{
+    struct columns c;
+    unsigned n = fill_columns(search, set, &c);
+    if (rho_linalg_cholesky((int)n, c.noise, c.noise) != RHO_OK) {
+        return 0;
+    }
+    rho_linalg_forward((int)n, c.noise, c.one);
+    rho_linalg_forward((int)n, c.noise, c.t);
+    rho_linalg_forward((int)n, c.noise, c.x);
+    rho_linalg_forward((int)n, c.noise, c.y);
+    const float fisher[3] = {dot(n, c.one, c.one), dot(n, c.one, c.t), dot(n, c.t, c.t)};
+    float determinant = fisher[0] * fisher[2] - fisher[1] * fisher[1];
+    if (!(determinant > 0.0f)) {
+        return 0;
+    }
+    terms->log_det_noise = rho_linalg_log_determinant((int)n, c.noise);
+    terms->log_det_fisher = rho_log(determinant);
+    terms->chi2 = residual_chi2(n, c.one, c.t, c.x, fisher, determinant) +
+                  residual_chi2(n, c.one, c.t, c.y, fisher, determinant);
+    return 1;
+}
+
+/*
+ * ln of the plots' joint density with position and velocity integrated out (isotropic: both axes,
+ * hence no factor 1/2 except of chi2). 0 where the plots do not determine a line.
+ */
+int rho_initiator_likelihood_isotropic(const struct search *search, const struct plot_set *set,
+                                       struct set_score *score, float *nat)
+{
+    struct likelihood_terms terms;
+    if (!(search->fit_process_m2 > 0.0f)) {
+        terms = terms_without_process_noise(search, set);
+    } else if (!terms_with_process_noise(search, set, &terms)) {
+        return 0;
+    }
+    score->chi2 = terms.chi2;
+    score->dimensions = 2u * set->hits - 4u;
+    *nat = -((float)(set->hits - 2u) * LOG_TWO_PI + terms.log_det_noise + terms.log_det_fisher +
+             0.5f * terms.chi2);
+    return 1;
+}

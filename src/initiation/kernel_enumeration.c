@@ -1,0 +1,446 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * kernel_enumeration: all kernels that end in a plot.
+ *
+ * There are two ways to them, and the cheaper one is taken for each span of scans. Either each pair
+ * of plots is a kernel, for which the scans between vote; or a vote is found first, the third plot,
+ * whose line from the ending tells where the kernels with this vote begin.
+ */
+#include "rhotrack/detail/approx.h"
+#include "search.h"
+
+/* Rounding error of a place computed from sums of coordinates, as a share of these. */
+#define ROUNDING_SHARE 1e-6f
+
+/* Near plots are counted bin by bin up to this number of rows. */
+#define NEAR_ROWS 16
+
+/* Costs of a kernel and a look-up in plots compared, for the choice between the two ways alone. */
+#define FIRST_PLOTS 0.5f
+#define KERNEL_PLOTS 3.0f
+#define LOOKUP_PLOTS 3.0f
+#define LOOKUPS_OF_PAIR 2.0f
+#define SHARE_IN_GATE 0.5f /* of the plots under a gate's square */
+
+/* ---- spans ----------------------------------------------------------------------------------- */
+
+static float spread_s(const struct rho_window_scan *scan)
+{
+    return scan->offset_max_s - scan->offset_min_s;
+}
+
+static float ends_m2(const struct span *span, float al)
+{
+    float from_m = (1.0f - al) * span->scan_a->sigma_max_m, to_m = al * span->scan_b->sigma_max_m;
+    return from_m * from_m + to_m * to_m;
+}
+
+/*
+ * Widest gate of scan m. The plots' own times shift al by up to `slack`; the variance is convex in
+ * al.
+ */
+static struct voter voter_of(const struct search *search, const struct span *span, unsigned m)
+{
+    struct voter voter = {0.0f, 0.0f};
+    float sigma_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
+    float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
+    float slack = (spread_s(span->scan_a) + spread_s(span->scan_b)) / span->gap_s;
+    float low_m2 = ends_m2(span, al - slack), high_m2 = ends_m2(span, al + slack);
+    if (search->fit_process_m2 > 0.0f) {
+        voter.process_m2 = rho_initiator_process_gap_m2(search, span->a, m, span->b);
+    }
+    float bend_m = 0.5f * search->turn_mps2 * (search->time_s[m] - search->time_s[span->a]) *
+                   (search->time_s[span->b] - search->time_s[m]);
+    voter.process_m2 += bend_m * bend_m;
+    voter.gate_radius_m = rho_sqrt(search->gate_chi2 * (sigma_m * sigma_m + voter.process_m2 +
+                                                        (low_m2 > high_m2 ? low_m2 : high_m2)));
+    return voter;
+}
+
+/* True where no plot of these scans is earlier than one of the scan before. */
+static int is_ordered(const struct search *search, const struct span *span)
+{
+    for (unsigned m = span->a; m < span->b; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+        const struct rho_window_scan *next = rho_window_scan_at(&search->initiator->window, m + 1u);
+        if (!(search->time_s[m] + scan->offset_max_s <=
+              search->time_s[m + 1u] + next->offset_min_s)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void open_span(struct search *search, struct span *span, struct voter *voters)
+{
+    struct rho_window *window = &search->initiator->window;
+    span->scan_a = rho_window_scan_at(window, span->a);
+    span->scan_b = rho_window_scan_at(window, span->b);
+    span->gap_s = search->time_s[span->b] - search->time_s[span->a];
+    span->misses_max = (uint8_t)(span->b - span->a + 1u - search->min_scans);
+    span->is_ordered = (uint8_t)is_ordered(search, span);
+    span->voters = voters;
+    span->slack_m = 0.0f;
+    if (!rho_initiator_is_isotropic(search)) {
+        span->slack_m =
+            rho_sqrt(RHO_GATE_CHI2_2D * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
+                                         span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
+    }
+    for (unsigned m = span->a + 1u; m < span->b; m++) {
+        voters[span->b - m - 1u] = voter_of(search, span, m);
+    }
+}
+
+/* A kernel of M votes spans at least M scans; scans of one instant make none. */
+void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan)
+{
+    struct voter *voters = fan->voters;
+    fan->num_spans = 0;
+    for (unsigned a = 0; a + search->min_scans <= b + 1u; a++) {
+        if (search->time_s[b] > search->time_s[a]) {
+            struct span *span = &fan->spans[fan->num_spans++];
+            span->a = (uint8_t)a;
+            span->b = (uint8_t)b;
+            open_span(search, span, voters);
+            voters += b - a - 1u;
+        }
+    }
+}
+
+/* ---- plots in a square ----------------------------------------------------------------------- */
+
+struct box {
+    float x0_m, x1_m, y0_m, y1_m;
+};
+
+static struct box box_about(const struct rho_window_plot *plot, float gate_radius_m)
+{
+    return (struct box){plot->x_m - gate_radius_m, plot->x_m + gate_radius_m,
+                        plot->y_m - gate_radius_m, plot->y_m + gate_radius_m};
+}
+
+static struct rho_window_bins bins_under(struct search *search, const struct rho_window_scan *scan,
+                                         const struct box *box)
+{
+    struct rho_window_bins bins =
+        rho_window_bins_under(scan, box->x0_m, box->x1_m, box->y0_m, box->y1_m);
+    rho_initiator_charge(search, (uint32_t)(bins.row_last - bins.row_first) + 1u);
+    return bins;
+}
+
+/* Plots in the bins under it. */
+static unsigned count_in(struct search *search, const struct rho_window_scan *scan,
+                         const struct box *box)
+{
+    struct rho_window_bins bins = bins_under(search, scan, box);
+    unsigned count = 0;
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        count += (unsigned)(start[bins.column_last + 1] - start[bins.column_first]);
+    }
+    return count;
+}
+
+/* ---- pairs ----------------------------------------------------------------------------------- */
+
+/* Distance that a target may have travelled between the ending and the scan, without noise. */
+static float travel_max_m(const struct search *search, const struct ending *ending, unsigned b,
+                          unsigned m)
+{
+    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    float time_s = search->time_s[b] - search->time_s[m] + ending->plot->offset_s;
+    float most_s = time_s - scan->offset_min_s;
+    return most_s > 0.0f ? search->initiator->config.v_max_mps * most_s : 0.0f;
+}
+
+/* Makes a candidate of the kernel from plot i of scan a where enough scans vote for it. */
+static void try_pair(struct search *search, const struct span *span, const struct ending *ending,
+                     const struct first_vote *first, unsigned i)
+{
+    struct plot_set set;
+    int next = 0;
+    do {
+        if (rho_initiator_vote(search, span, ending, first, i, &next, &set)) {
+            rho_initiator_add_candidate(search, &set);
+        }
+    } while (next > 0);
+}
+
+static int try_pairs(struct search *search, const struct span *span, const struct ending *ending)
+{
+    static const struct first_vote any = {.gap = 0};
+    const struct rho_window_scan *scan = span->scan_a;
+    struct box box =
+        box_about(ending->plot, travel_max_m(search, ending, span->b, span->a) + span->slack_m);
+    struct rho_window_bins bins = bins_under(search, scan, &box);
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        unsigned end = start[bins.column_last + 1];
+        rho_initiator_charge(search, end - start[bins.column_first]);
+        for (unsigned i = start[bins.column_first]; i < end; i++) {
+            try_pair(search, span, ending, &any, i);
+        }
+        if (rho_initiator_is_spent(search)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* ---- the third plot first -------------------------------------------------------------------- */
+
+static float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* A vote before the ending, and the velocity between the two. */
+struct third {
+    struct first_vote first;
+    float before_s; /* its time before the ending's; 0: plots of one instant */
+    float vx_mps, vy_mps;
+};
+
+/*
+ * The box in scan a in which kernels with this vote begin: the gate of the vote, extrapolated from
+ * the ending. Returns 0 where it is empty.
+ */
+static int predict_box(const struct search *search, const struct span *span,
+                       const struct ending *ending, const struct third *third, struct box *box)
+{
+    const struct rho_window_plot *to = ending->plot;
+    float begin_s = span->gap_s + to->offset_s - span->scan_a->offset_min_s;
+    float end_s = span->gap_s + to->offset_s - span->scan_a->offset_max_s;
+    float far_m = search->initiator->config.v_max_mps * begin_s + span->slack_m;
+    *box = box_about(to, far_m);
+    if (!(third->before_s > 0.0f)) {
+        return 1;
+    }
+    float gate_radius_m =
+        begin_s / third->before_s *
+        (GATE_ROUNDING * ending->gate_share * span->voters[third->first.gap - 1u].gate_radius_m +
+         ending->rounding_m);
+    float x0_m = to->x_m - third->vx_mps * begin_s, x1_m = to->x_m - third->vx_mps * end_s;
+    float y0_m = to->y_m - third->vy_mps * begin_s, y1_m = to->y_m - third->vy_mps * end_s;
+    box->x0_m = larger(box->x0_m, smaller(x0_m, x1_m) - gate_radius_m);
+    box->x1_m = smaller(box->x1_m, larger(x0_m, x1_m) + gate_radius_m);
+    box->y0_m = larger(box->y0_m, smaller(y0_m, y1_m) - gate_radius_m);
+    box->y1_m = smaller(box->y1_m, larger(y0_m, y1_m) + gate_radius_m);
+    return box->x0_m <= box->x1_m && box->y0_m <= box->y1_m;
+}
+
+/* Tries the kernels of the span that begin in that box. */
+static void try_first_plots(struct search *search, const struct span *span,
+                            const struct ending *ending, const struct third *third)
+{
+    const struct rho_window_scan *scan = span->scan_a;
+    struct box box;
+    uint32_t passed = 0;
+    if (!predict_box(search, span, ending, third, &box)) {
+        return;
+    }
+    struct rho_window_bins bins =
+        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
+        passed += end - i + 1u;
+        for (; i < end; i++) {
+            const struct rho_window_plot *plot = &scan->plots[i];
+            if (plot->x_m >= box.x0_m && plot->x_m <= box.x1_m && plot->y_m >= box.y0_m &&
+                plot->y_m <= box.y1_m) {
+                try_pair(search, span, ending, &third->first, i);
+            }
+        }
+    }
+    rho_initiator_charge(search, passed);
+}
+
+/*
+ * The spans whose first vote may be `gap` scans before the end, of those in by_votes; a bit each.
+ */
+static unsigned spans_of_gap(const struct fan *fan, unsigned by_votes, unsigned gap)
+{
+    unsigned spans = 0;
+    for (unsigned n = 0; n < fan->num_spans; n++) {
+        if ((by_votes >> n & 1u) && gap <= fan->spans[n].misses_max + 1u) {
+            spans |= 1u << n;
+        }
+    }
+    return spans;
+}
+
+/*
+ * Largest distance of a vote `gap` scans before from the ending: travel of a target, noise, and the
+ * gate.
+ */
+static float vote_distance_max_m(const struct search *search, const struct fan *fan,
+                                 const struct ending *ending, unsigned spans, unsigned gap)
+{
+    unsigned b = fan->spans[0].b;
+    float far_m = 0.0f;
+    for (unsigned n = 0; n < fan->num_spans; n++) {
+        const struct span *span = &fan->spans[n];
+        if (spans >> n & 1u) {
+            far_m =
+                larger(far_m, span->slack_m + GATE_ROUNDING * span->voters[gap - 1u].gate_radius_m);
+        }
+    }
+    return far_m + ending->rounding_m + GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
+}
+
+static void try_third_plot(struct search *search, const struct fan *fan,
+                           const struct ending *ending, unsigned spans, unsigned gap, unsigned k)
+{
+    unsigned b = fan->spans[0].b;
+    const struct rho_window_plot *plot =
+        &rho_window_scan_at(&search->initiator->window, b - gap)->plots[k];
+    const struct rho_window_plot *to = ending->plot;
+    float before_s = search->time_s[b] - search->time_s[b - gap] + to->offset_s - plot->offset_s;
+    float per_s = before_s > 0.0f ? 1.0f / before_s : 0.0f;
+    const struct third third = {.first = {.gap = gap, .index = k},
+                                .before_s = before_s,
+                                .vx_mps = (to->x_m - plot->x_m) * per_s,
+                                .vy_mps = (to->y_m - plot->y_m) * per_s};
+    for (unsigned n = 0; spans >> n; n++) {
+        if (spans >> n & 1u) {
+            try_first_plots(search, &fan->spans[n], ending, &third);
+        }
+    }
+}
+
+/* Tries the kernels of these spans whose first vote is `gap` scans before the end. */
+static int try_third_plots(struct search *search, const struct fan *fan,
+                           const struct ending *ending, unsigned spans, unsigned gap)
+{
+    const struct rho_window_scan *scan =
+        rho_window_scan_at(&search->initiator->window, fan->spans[0].b - gap);
+    float far_m = vote_distance_max_m(search, fan, ending, spans, gap);
+    struct box box = box_about(ending->plot, far_m);
+    struct rho_window_bins bins = bins_under(search, scan, &box);
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        unsigned end = start[bins.column_last + 1];
+        rho_initiator_charge(search, end - start[bins.column_first]);
+        for (unsigned k = start[bins.column_first]; k < end; k++) {
+            float dx_m = scan->plots[k].x_m - ending->plot->x_m;
+            float dy_m = scan->plots[k].y_m - ending->plot->y_m;
+            if (dx_m * dx_m + dy_m * dy_m > far_m * far_m ||
+                (scan->marks[k] & search->skip_flags)) {
+                continue;
+            }
+            try_third_plot(search, fan, ending, spans, gap, k);
+            if (rho_initiator_is_spent(search)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* ---- which way ------------------------------------------------------------------------------- */
+
+/*
+ * True where the way by votes compares fewer plots: where plots lie far apart against their noise.
+ * counts: plots that a target in the ending may have come from, summed over the last scans.
+ */
+static int votes_are_cheaper(struct search *search, const struct span *span,
+                             const struct ending *ending, const unsigned *counts)
+{
+    unsigned width = span->b - span->a, thirds = counts[span->misses_max + 1u];
+    unsigned pairs = counts[width] - counts[width - 1u];
+    if (!span->is_ordered || pairs == 0 || thirds == 0) {
+        return span->is_ordered &&
+               pairs > 0; /* without a third plot there is nothing to look for */
+    }
+    const struct rho_window_scan *before =
+        rho_window_scan_at(&search->initiator->window, span->b - 1u);
+    float gate_radius_m = ending->gate_share * span->voters[0].gate_radius_m;
+    float ratio = span->gap_s / (search->time_s[span->b] - search->time_s[span->b - 1u]);
+    struct box gate = box_about(ending->plot, gate_radius_m), firsts;
+    firsts = box_about(ending->plot, smaller(gate_radius_m * ratio,
+                                             travel_max_m(search, ending, span->b, span->a)));
+    float lookup = LOOKUP_PLOTS + (float)count_in(search, before, &gate);
+    float found = (float)count_in(search, span->scan_a, &firsts), by_votes = 0.0f;
+    float in_gate = SHARE_IN_GATE * ending->along_share / ending->gate_share;
+    for (unsigned gap = 1; gap <= span->misses_max + 1u; gap++) {
+        float kernel = KERNEL_PLOTS + (float)(gap + 1u) * lookup;
+        by_votes +=
+            (float)(counts[gap] - counts[gap - 1u]) *
+            (1.0f + LOOKUP_PLOTS + found * (FIRST_PLOTS + in_gate * kernel) / (float)(gap * gap));
+    }
+    return by_votes < (float)pairs * (KERNEL_PLOTS + LOOKUPS_OF_PAIR * lookup);
+}
+
+/*
+ * Where the box has many rows of bins, all plots of these rows count: their number is known at
+ * once.
+ */
+unsigned rho_initiator_count_near(struct search *search, const struct fan *fan, unsigned j)
+{
+    const struct span *widest = &fan->spans[0];
+    const struct ending ending = {.plot = &widest->scan_b->plots[j]};
+    const struct rho_window_scan *scan =
+        rho_window_scan_at(&search->initiator->window, widest->b - 1u);
+    float far_m =
+        travel_max_m(search, &ending, widest->b, widest->b - 1u) + widest->voters[0].gate_radius_m;
+    struct box box = box_about(ending.plot, far_m);
+    struct rho_window_bins bins =
+        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
+    if (bins.row_last - bins.row_first < NEAR_ROWS) {
+        return count_in(search, scan, &box);
+    }
+    rho_initiator_charge(search, 1);
+    return (unsigned)(scan->bin_start[(bins.row_last + 1) * scan->bins_x] -
+                      scan->bin_start[bins.row_first * scan->bins_x]);
+}
+
+static void count_reachable(struct search *search, const struct fan *fan,
+                            const struct ending *ending, unsigned *counts)
+{
+    unsigned b = fan->spans[0].b;
+    counts[0] = 0;
+    for (unsigned gap = 1; gap <= b - fan->spans[0].a; gap++) {
+        struct box box = box_about(ending->plot, travel_max_m(search, ending, b, b - gap));
+        const struct rho_window_scan *scan =
+            rho_window_scan_at(&search->initiator->window, b - gap);
+        counts[gap] = counts[gap - 1u] + count_in(search, scan, &box);
+    }
+}
+
+int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, unsigned j)
+{
+    const struct span *widest = &fan->spans[0];
+    struct ending ending = {.plot = &widest->scan_b->plots[j]};
+    unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
+    if (rho_initiator_is_spent(search)) {
+        return 0;
+    }
+    float far_m = travel_max_m(search, &ending, widest->b, widest->a);
+    ending.rounding_m = ROUNDING_SHARE * (larger(ending.plot->x_m, -ending.plot->x_m) +
+                                          larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
+    if (!rho_initiator_is_isotropic(search)) {
+        ending.noise = rho_window_noise(widest->scan_b, ending.plot);
+    }
+    rho_initiator_find_vote_gate(search, far_m + widest->slack_m + widest->voters[0].gate_radius_m,
+                                 &ending);
+    count_reachable(search, fan, &ending, counts);
+    for (unsigned n = 0; n < fan->num_spans; n++) {
+        if (votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
+            by_votes |= 1u << n;
+        } else if (!try_pairs(search, &fan->spans[n], &ending)) {
+            return 0;
+        }
+    }
+    for (unsigned gap = 1; spans_of_gap(fan, by_votes, gap) != 0; gap++) {
+        if (!try_third_plots(search, fan, &ending, spans_of_gap(fan, by_votes, gap), gap)) {
+            return 0;
+        }
+    }
+    return 1;
+}

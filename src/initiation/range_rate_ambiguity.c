@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * range_rate_ambiguity: the aliases of an ambiguous range rate. The velocity between two plots
+ * excludes most of them. Each of the others is tried, and determines the velocity along the line of
+ * sight as well as the range rate does.
+ */
+#include "rhotrack/detail/approx.h"
+#include "search.h"
+
+/* Sums of a few such products are rounded to 1e-6 in float32. */
+#define LESS_THAN_ALL (1.0f - 4.0e-6f)
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* Whole number of spans. */
+static int whole(float spans)
+{
+    return spans < (float)ALIASES_MAX ? (int)spans : ALIASES_MAX;
+}
+
+int rho_initiator_open_aliases(const struct rho_window_scan *scan,
+                               const struct rho_window_plot *plot,
+                               const struct rho_window_place *place, struct aliases *aliases)
+{
+    if (!(scan->measures & RHO_MEASURES_RANGE_RATE) || !rho_measurement_has_span(&scan->sensor) ||
+        !rho_window_see_range_rate(scan, plot, place, &aliases->seen)) {
+        return 0;
+    }
+    aliases->span_mps = scan->sensor.range_rate_span_mps;
+    float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * aliases->seen.variance);
+    float error_mps = aliases->seen.error_mps; /* in the gate, or nearly: one alias at least */
+    aliases->last = whole(larger(reach_mps - error_mps, 0.0f) / aliases->span_mps);
+    aliases->first = -whole(larger(reach_mps + error_mps, 0.0f) / aliases->span_mps);
+    return 1;
+}
+
+/* A scalar update of the velocity: V - V u u^T V / s^2. */
+void rho_initiator_apply_alias(const struct aliases *aliases, int i,
+                               const struct rho_window_place *place, struct rho_window_place *known)
+{
+    const struct rho_window_noise *noise = &place->velocity_noise;
+    const float *u = aliases->seen.along;
+    const float toward[3] = {noise->xx_m2 * u[0] + noise->xy_m2 * u[1],
+                             noise->xy_m2 * u[0] + noise->yy_m2 * u[1], noise->zz_m2 * u[2]};
+    float per_variance = 1.0f / aliases->seen.variance;
+    float share = (aliases->seen.error_mps + (float)i * aliases->span_mps) * per_variance;
+    *known = *place;
+    for (int k = 0; k < 3; k++) {
+        known->more_mps[k] = toward[k] * share;
+    }
+    /* rounding must not make a variance negative */
+    per_variance *= LESS_THAN_ALL;
+    known->velocity_noise.xx_m2 -= toward[0] * toward[0] * per_variance;
+    known->velocity_noise.xy_m2 -= toward[0] * toward[1] * per_variance;
+    known->velocity_noise.yy_m2 -= toward[1] * toward[1] * per_variance;
+    known->velocity_noise.zz_m2 -= toward[2] * toward[2] * per_variance;
+}

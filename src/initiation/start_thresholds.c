@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * start_thresholds: the scores that start and confirm a track, and M, so that clutter alone makes
+ * no more tracks than wanted.
+ *
+ * false_track_rate tells the expected number of sets of clutter plots that reach a score at once.
+ * Besides, tentative false tracks climb to the confirm threshold by further clutter plots. The
+ * thresholds are those at which the sum of both equals the wanted rate.
+ */
+#include <float.h>
+
+#include "false_track_rate.h"
+#include "rhotrack/detail/approx.h"
+
+/* Sets of clutter plots a search that may start a tentative track; the next scans decide on it. */
+#define FALSE_STARTS_MAX 0.1f
+
+/* Bounds of thresholds. Every track in the gates reaches the lower one. */
+#define THRESHOLD_MIN_NAT (-10.0f)
+#define THRESHOLD_MAX_NAT 60.0f
+#define BISECTIONS 16
+
+#define STEPS 12 /* of the integral over tentative starts */
+
+/* Table of the probability to climb, by the missing score. */
+#define CLIMB_STEP 0.5f
+#define CLIMBS 48
+#define CLIMB_SWEEPS 4
+
+/* Share of targets that turn, and the share of false tracks that they may add. */
+#define TURNING_SHARE 0.1f
+
+/*
+ * M is the smallest number of votes, down from N, with at most this many false tracks a search;
+ * else N.
+ */
+#define FALSE_TRACKS_MAX 0.1f
+
+/* Scores that start and confirm tracks, and the least number of votes. */
+struct thresholds {
+    float start_nat, confirm_nat;
+    unsigned min_scans;
+};
+
+/* ---- votes of a batch ------------------------------------------------------------------------ */
+
+/*
+ * ln of the expected number of false tracks with votes in h given scans: density^h sigma^(2h-4)
+ * V(c) A pi (v_max^2 - v_min^2) h Stt, V the ball of 2h - 4 dimensions, Stt the spread of the scan
+ * times (src/DESIGN.md derives it).
+ */
+static float log_false_tracks(const struct search *search, unsigned h, float sigma_m,
+                              float spread_s2)
+{
+    const struct rho_initiator_config *config = &search->initiator->config;
+    float degrees = (float)(2u * h - 4u);
+    float log_ball =
+        0.5f * degrees * (LOG_PI + rho_log(rho_initiator_chi2_limit(2u * h - 4u, SIGMAS_95))) -
+        rho_initiator_log_factorial(h - 2u);
+    float speeds = config->v_max_mps * config->v_max_mps - config->v_min_mps * config->v_min_mps;
+    return (float)h * rho_log(search->initiator->density_per_m2) + degrees * rho_log(sigma_m) +
+           log_ball + rho_log(rho_initiator_area_m2(search->initiator)) + LOG_PI + rho_log(speeds) +
+           rho_log((float)h * spread_s2);
+}
+
+static float largest_sigma_m(const struct search *search)
+{
+    float sigma_m = RHO_LIMIT_SIGMA_MIN;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        float scan_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
+        sigma_m = scan_m > sigma_m ? scan_m : sigma_m;
+    }
+    return rho_sqrt(sigma_m * sigma_m + search->fit_process_m2);
+}
+
+/*
+ * The sum over the subsets of h of N scans is taken as C(N, h) times the subset spread evenly over
+ * the window.
+ */
+static float false_tracks_of_votes(const struct search *search, unsigned h)
+{
+    float span_s = search->time_s[search->num_scans - 1u] - search->time_s[0];
+    float spread_s2 = (float)(h * (h + 1u)) * span_s * span_s / (12.0f * (float)(h - 1u));
+    float log_subsets = rho_initiator_log_factorial(search->num_scans) -
+                        rho_initiator_log_factorial(h) -
+                        rho_initiator_log_factorial(search->num_scans - h);
+    return rho_exp(log_subsets + log_false_tracks(search, h, largest_sigma_m(search), spread_s2));
+}
+
+static unsigned choose_min_scans(const struct search *search)
+{
+    unsigned m = search->num_scans;
+    float model = m > 3 ? false_tracks_of_votes(search, m) : 0.0f;
+    while (m > 3) {
+        model += false_tracks_of_votes(search, m - 1u);
+        if (!(model <= FALSE_TRACKS_MAX)) {
+            break;
+        }
+        m--;
+    }
+    return m;
+}
+
+/* ---- tentative tracks ------------------------------------------------------------------------ */
+
+struct climbs {
+    float of[CLIMBS]; /* of u in the middle of each step */
+};
+
+/*
+ * Probability that clutter lifts the score of a tentative track by u or more before it is dropped,
+ * for u in steps of CLIMB_STEP. In every scan a clutter plot in the gate adds between gain_nat and
+ * that less half the gate, uniformly, with density pd e^-gain_nat; else the score loses the miss:
+ *
+ *     climb(u) = integral of density climb(u - gain) d gain + (1 - P(hit)) climb(u + miss)
+ *     climb(u <= 0) = 1
+ *
+ * Solved in a few sweeps, from the values nearest to 1 on.
+ */
+static float climb_probability(const struct climbs *climbs, float u_nat)
+{
+    float place = u_nat / CLIMB_STEP;
+    if (u_nat <= 0.0f) {
+        return 1.0f;
+    }
+    return place < (float)CLIMBS ? climbs->of[(int)place] : 0.0f;
+}
+
+/* Effect of a scan on a tentative track of clutter. */
+struct clutter_gain {
+    float gain_nat; /* of a perfect hit */
+    float each;     /* probability of each step of the gain below it */
+    unsigned gains; /* steps */
+    float miss_nat; /* lost without a hit */
+};
+
+static struct clutter_gain gain_by_clutter(const struct false_tracks *model, float start_nat)
+{
+    const struct search *search = model->search;
+    unsigned newest = search->num_scans - 1u;
+    struct clutter_gain gain = {.gain_nat = rho_initiator_gain_of_hit(model),
+                                .gains = (unsigned)(0.5f * RHO_GATE_CHI2_2D / CLIMB_STEP),
+                                .miss_nat = -search->log_miss[newest]};
+    gain.each = rho_initiator_stay_inside(model, start_nat) * CLIMB_STEP *
+                rho_exp(search->log_pd[newest] - gain.gain_nat);
+    if (gain.each * (float)gain.gains > 1.0f) {
+        /* clutter in every gate: the track takes one of several plots */
+        gain.each = 1.0f / (float)gain.gains;
+    }
+    return gain;
+}
+
+static void solve_climbs(struct climbs *climbs, const struct false_tracks *model, float start_nat)
+{
+    struct clutter_gain gain = gain_by_clutter(model, start_nat);
+    float missed = 1.0f - gain.each * (float)gain.gains;
+    for (int u = 0; u < CLIMBS; u++) {
+        climbs->of[u] = 0.0f;
+    }
+    for (int sweep = 0; sweep < CLIMB_SWEEPS; sweep++) {
+        for (int u = 0; u < CLIMBS; u++) {
+            float at = CLIMB_STEP * ((float)u + 0.5f), sum = 0.0f;
+            for (unsigned i = 0; i < gain.gains; i++) {
+                sum +=
+                    climb_probability(climbs, at - gain.gain_nat + CLIMB_STEP * ((float)i + 0.5f));
+            }
+            climbs->of[u] =
+                gain.each * sum + missed * climb_probability(climbs, at + gain.miss_nat);
+        }
+    }
+}
+
+/* ---- thresholds ------------------------------------------------------------------------------ */
+
+/*
+ * True where clutter has more tracks confirmed at s than wanted: sets that reach s at once, and
+ * sets that start below, from start_nat on, and climb. The sets not yet summed, up to at_start,
+ * climb with a smaller probability than those summed so far: mostly that decides early.
+ */
+static int confirms_more_than(const struct climbs *climbs, const struct false_tracks *model,
+                              float s_nat, float start_nat, float at_start, float wanted)
+{
+    float above = rho_initiator_false_sets_above(model, s_nat, start_nat, FLT_MAX), sum = above;
+    float lowest = s_nat - start_nat < CLIMB_STEP * (float)CLIMBS
+                       ? start_nat
+                       : s_nat - CLIMB_STEP * (float)CLIMBS;
+    float step = (s_nat - lowest) / (float)STEPS;
+    for (int i = 1; i <= STEPS; i++) {
+        float climbs_up = climb_probability(climbs, step * ((float)i - 0.5f));
+        if (sum > wanted || sum + (at_start - above) * climbs_up <= wanted) {
+            break;
+        }
+        float below =
+            rho_initiator_false_sets_above(model, s_nat - step * (float)i, start_nat, FLT_MAX);
+        sum += (below - above) * climbs_up;
+        above = below;
+    }
+    return sum > wanted;
+}
+
+/* The lowest start threshold with no more false starts than allowed. */
+static float start_threshold(const struct false_tracks *model)
+{
+    float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
+    if (rho_initiator_false_sets_above(model, low, low, FALSE_STARTS_MAX) <= FALSE_STARTS_MAX) {
+        return low;
+    }
+    for (int i = 0; i < BISECTIONS; i++) {
+        float middle = 0.5f * (low + high);
+        if (rho_initiator_false_sets_above(model, middle, middle, FALSE_STARTS_MAX) >
+            FALSE_STARTS_MAX) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}
+
+static float confirm_threshold(const struct false_tracks *model, float wanted, float start_nat)
+{
+    struct climbs climbs;
+    float low = start_nat, high = THRESHOLD_MAX_NAT;
+    float at_start = rho_initiator_false_sets_above(model, start_nat, start_nat, FLT_MAX);
+    if (at_start <= wanted) {
+        return low;
+    }
+    solve_climbs(&climbs, model, start_nat);
+    for (int i = 0; i < BISECTIONS; i++) {
+        float middle = 0.5f * (low + high);
+        if (confirms_more_than(&climbs, model, middle, start_nat, at_start, wanted)) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}
+
+/*
+ * M: the fewest hits whose threshold a target is likely to reach. Where there is none, a full
+ * window starts sets with all hits, and a window that still fills starts none: M is beyond the
+ * scans held.
+ */
+static unsigned choose_least_hits(struct false_tracks *model, float *start_nat)
+{
+    unsigned num_scans = model->search->num_scans;
+    unsigned wanted = model->search->initiator->config.min_scans;
+    for (model->least_hits = wanted > 3u ? wanted : 3u; model->least_hits <= num_scans;
+         model->least_hits++) {
+        *start_nat = start_threshold(model);
+        if (model->num_classes == 0 || rho_initiator_allows_targets(model, *start_nat)) {
+            return model->least_hits;
+        }
+    }
+    model->least_hits = num_scans;
+    return num_scans == model->search->initiator->config.scans ? num_scans : num_scans + 1u;
+}
+
+static void find_thresholds(const struct search *search, struct thresholds *thresholds)
+{
+    const struct rho_initiator_config *config = &search->initiator->config;
+    struct false_tracks model;
+    thresholds->start_nat = THRESHOLD_MAX_NAT;
+    rho_initiator_model_false_tracks(search, &model);
+    thresholds->min_scans = choose_least_hits(&model, &thresholds->start_nat);
+    thresholds->confirm_nat =
+        confirm_threshold(&model, config->false_tracks_per_hour * search->interval_s / 3600.0f,
+                          thresholds->start_nat);
+}
+
+static void use_thresholds(struct search *search, const struct thresholds *thresholds)
+{
+    struct rho_initiator *initiator = search->initiator;
+    search->min_scans = thresholds->min_scans;
+    search->score_min_nat = thresholds->start_nat;
+    initiator->start_mnat = rho_initiator_mnat(thresholds->start_nat);
+    initiator->confirm_mnat = rho_initiator_mnat(thresholds->confirm_nat);
+}
+
+/*
+ * Without a rate to keep, one threshold starts and confirms tracks. In further sectors of a
+ * revolution those of its first sector stay.
+ */
+void rho_initiator_set_thresholds(struct search *search)
+{
+    struct rho_initiator *initiator = search->initiator;
+    const struct rho_initiator_config *config = &initiator->config;
+    if (search->is_continued) {
+        search->min_scans = initiator->min_scans;
+        search->score_min_nat = (float)initiator->start_mnat * 0.001f;
+        return;
+    }
+    struct thresholds thresholds = {config->score_min_nat, config->score_min_nat,
+                                    config->min_scans};
+    if (search->keeps_rate && search->num_scans >= 3) {
+        find_thresholds(search, &thresholds);
+    } else if (thresholds.min_scans == 0) {
+        thresholds.min_scans = search->keeps_rate ? 3u : choose_min_scans(search);
+    }
+    use_thresholds(search, &thresholds);
+    initiator->min_scans = (uint16_t)search->min_scans;
+}
+
+/* The same against the density as it was measured last. */
+void rho_initiator_update_thresholds(struct search *search)
+{
+    struct thresholds thresholds;
+    find_thresholds(search, &thresholds);
+    use_thresholds(search, &thresholds);
+}
+
+/* ---- turns ----------------------------------------------------------------------------------- */
+
+/*
+ * ln of the prior of a turn. Sets of clutter that reach s are at most S TURNING_SHARE / 2 e^-s,
+ * with S scans in which they may begin, as the score is a likelihood ratio. Where the thresholds
+ * would let more than TURNING_SHARE of the wanted false tracks through, the prior is lowered.
+ */
+float rho_initiator_log_turn_prior(const struct search *search)
+{
+    const struct rho_initiator *initiator = search->initiator;
+    float wanted = initiator->config.false_tracks_per_hour * search->interval_s / 3600.0f;
+    if (!search->keeps_rate || !(wanted > 0.0f)) {
+        return rho_log(TURNING_SHARE);
+    }
+    float log_sets = rho_log(0.5f * (float)search->num_scans);
+    float start_nat = log_sets - rho_log(FALSE_STARTS_MAX) - 0.001f * (float)initiator->start_mnat;
+    float confirm_nat = log_sets - rho_log(wanted) - 0.001f * (float)initiator->confirm_mnat;
+    float more_nat = start_nat > confirm_nat ? start_nat : confirm_nat;
+    return rho_log(TURNING_SHARE) - (more_nat > 0.0f ? more_nat : 0.0f);
+}
+
+void rho_initiator_assume_turns(struct search *search, int turns)
+{
+    search->turn_mps2 = turns ? search->initiator->config.turn_mps2 : 0.0f;
+    search->log_turn = turns ? search->log_turning : 0.0f;
+    search->is_isotropic = search->has_one_noise && !turns;
+}

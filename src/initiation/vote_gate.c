@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+/* vote_gate: how far votes can be from a kernel, where the noise of a radar grows with range. */
+#include "rhotrack/detail/approx.h"
+#include "search.h"
+
+static int has_one_sensor(const struct search *search)
+{
+    const struct rho_sensor *first = &rho_window_scan_at(&search->initiator->window, 0)->sensor;
+    for (unsigned m = 1; m < search->num_scans; m++) {
+        const struct rho_sensor *sensor =
+            &rho_window_scan_at(&search->initiator->window, m)->sensor;
+        if (!rho_is_within(sensor->x_m, first->x_m, first->x_m) ||
+            !rho_is_within(sensor->y_m, first->y_m, first->y_m)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/*
+ * Raises sigma_per_m to the largest noise over range of the plots of a scan with noise above
+ * sigma_near_m.
+ */
+static void widen_noise(struct search *search, const struct rho_window_scan *scan)
+{
+    float per2 = search->sigma_per_m * search->sigma_per_m;
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const struct rho_window_plot *plot = &scan->plots[i];
+        float sigma_m = rho_window_sigma_m(plot);
+        float x_m = plot->x_m - scan->sensor.x_m, y_m = plot->y_m - scan->sensor.y_m;
+        float range2_m2 = x_m * x_m + y_m * y_m, sigma2_m2 = sigma_m * sigma_m;
+        if (sigma_m > search->sigma_near_m && sigma2_m2 > per2 * range2_m2) {
+            per2 = range2_m2 > 1.0f ? sigma2_m2 / range2_m2 : sigma2_m2;
+        }
+    }
+    search->sigma_per_m = rho_sqrt(per2);
+}
+
+/*
+ * Gates are wide enough for the noise of the farthest plots. Nearer plots have less noise where it
+ * is that of an angle.
+ */
+void rho_initiator_prepare_vote_gates(struct search *search)
+{
+    search->sigma_least_m = 0.0f;
+    if (rho_initiator_is_isotropic(search) || search->fit_process_m2 > 0.0f ||
+        !has_one_sensor(search)) {
+        return;
+    }
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+        for (unsigned i = 0; i < scan->num_plots; i++) {
+            float sigma_m = rho_window_sigma(scan->plots[i].sigma_range);
+            search->sigma_near_m = sigma_m > search->sigma_near_m ? sigma_m : search->sigma_near_m;
+        }
+        if (scan->num_plots > 0 &&
+            (search->sigma_least_m <= 0.0f || scan->sigma_max_m < search->sigma_least_m)) {
+            search->sigma_least_m = scan->sigma_max_m;
+        }
+    }
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        widen_noise(search, rho_window_scan_at(&search->initiator->window, m));
+    }
+}
+
+/*
+ * All plots of the kernels that end here are within far_m. The sine of the angle between their
+ * lines of sight and its own is at most far_m over their range, so that no more than sigma_per_m
+ * far_m of their noise across lies along its line of sight.
+ */
+void rho_initiator_find_vote_gate(const struct search *search, float far_m, struct ending *ending)
+{
+    ending->gate_share = ending->along_share = 1.0f;
+    ending->along_x = ending->along_y = 0.0f;
+    if (search->sigma_least_m <= 0.0f) {
+        return;
+    }
+    const struct rho_sensor *sensor = &rho_window_scan_at(&search->initiator->window, 0)->sensor;
+    float x_m = ending->plot->x_m - sensor->x_m, y_m = ending->plot->y_m - sensor->y_m;
+    float range_m = rho_sqrt(x_m * x_m + y_m * y_m);
+    float across_m = search->sigma_per_m * (range_m + far_m);
+    float turned_m = search->sigma_per_m * far_m;
+    float along_m = rho_sqrt(search->sigma_near_m * search->sigma_near_m + turned_m * turned_m);
+    across_m = across_m > search->sigma_near_m ? across_m : search->sigma_near_m;
+    if (across_m < search->sigma_least_m) {
+        ending->gate_share = across_m / search->sigma_least_m;
+    }
+    if (along_m < search->sigma_least_m && range_m > 1.0f) {
+        ending->along_share = along_m / search->sigma_least_m;
+        ending->along_x = x_m / range_m;
+        ending->along_y = y_m / range_m;
+    }
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/* window_validate: consistency of a window of unknown origin (a snapshot). */
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/window.h"
+#include "rhotrack/measurement.h"
+
+static int is_finite(float v)
+{
+    return rho_are_finite(&v, 1);
+}
+
+static int is_sound_extent(const struct rho_extent *extent)
+{
+    return rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
+           rho_is_coordinate(extent->y_min_m) && rho_is_coordinate(extent->y_max_m);
+}
+
+static int is_sound_plot(const struct rho_window_plot *plot)
+{
+    return rho_is_coordinate(plot->x_m) && rho_is_coordinate(plot->y_m) &&
+           rho_is_coordinate(plot->z_m) &&
+           rho_is_within(plot->offset_s, -2e-6f * RHO_LIMIT_OFFSET_US,
+                         2e-6f * RHO_LIMIT_OFFSET_US) &&
+           is_finite(plot->range_rate_mps);
+}
+
+/* Bins are in order, and each plot lies in its own bin: pushes move plots by bins. */
+static int has_sound_bins(const struct rho_window_scan *scan)
+{
+    const unsigned num_bins = (unsigned)scan->bins_x * scan->bins_y;
+    if (num_bins < 1 || num_bins > RHO_MAX_BINS || scan->bin_start[0] != 0 ||
+        scan->bin_start[num_bins] != scan->num_plots) {
+        return 0;
+    }
+    for (unsigned bin = 0; bin < num_bins; bin++) {
+        if (scan->bin_start[bin] > scan->bin_start[bin + 1] ||
+            scan->bin_start[bin + 1] > scan->num_plots) {
+            return 0;
+        }
+        for (unsigned i = scan->bin_start[bin]; i < scan->bin_start[bin + 1]; i++) {
+            const struct rho_window_plot *plot = &scan->plots[i];
+            if (rho_window_bin_of(scan, plot->x_m, plot->y_m) != bin) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* The newest sector, or the newest scan where that is no sector. */
+static int is_sound_newest(const struct rho_window *window)
+{
+    const struct rho_window_sector *newest = &window->newest;
+    if (window->num_scans == 0) {
+        return 1;
+    }
+    const int64_t begun_us =
+        window->ring[(window->first + window->num_scans - 1u) % window->scans_max].time_us;
+    return rho_is_stored_time(newest->time_us) && newest->time_us >= begun_us &&
+           newest->time_us - begun_us <= RHO_LIMIT_OFFSET_US && is_finite(newest->offset_min_s);
+}
+
+static int is_sound_scan(const struct rho_window_scan *scan)
+{
+    if (!rho_is_stored_time(scan->time_us) ||
+        !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+        !rho_measurement_is_sensor(&scan->sensor) || !rho_is_within(scan->sensor.pd, 0.0f, 1.0f) ||
+        scan->num_plots > RHO_MAX_PLOTS || scan->num_unused > scan->num_plots ||
+        !is_finite(scan->bin_x0_m) || !is_finite(scan->bin_y0_m) ||
+        !rho_is_within(scan->bins_per_m_x, 0.0f, 1e6f) ||
+        !rho_is_within(scan->bins_per_m_y, 0.0f, 1e6f) ||
+        !rho_is_within(scan->sigma_max_m, 0.0f, 1e7f) || !is_finite(scan->offset_min_s) ||
+        !is_finite(scan->offset_max_s)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        if (!is_sound_plot(&scan->plots[i])) {
+            return 0;
+        }
+    }
+    return has_sound_bins(scan);
+}
+
+int rho_window_is_sound(const struct rho_window *window)
+{
+    int64_t before_us = INT64_MIN;
+    if (window->scans_max < 1 || window->scans_max > RHO_MAX_SCANS ||
+        window->num_scans > window->scans_max || window->first >= window->scans_max ||
+        !rho_is_within(window->side_min_m, 0.0f, 1e30f) || !is_sound_extent(&window->extent)) {
+        return 0;
+    }
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = &window->ring[(window->first + m) % window->scans_max];
+        if (scan->time_us < before_us || !is_sound_scan(scan)) {
+            return 0;
+        }
+        before_us = scan->time_us;
+    }
+    return is_sound_newest(window) && rho_window_accepts(window, INT64_MAX);
+}

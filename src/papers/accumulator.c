@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * accumulator: checks of the points, and the choice between the ways to fill and search the rows:
+ * all of them (accumulator_rows.c), or only rows and points that can reach a peak
+ * (accumulator_prune.c).
+ */
+#include "rhotrack/detail/accumulator.h"
+
+#include <string.h>
+
+#include "accumulator_pass.h"
+#include "rhotrack/types.h"
+
+#define ACCUMULATOR_MAGIC 0x41434355u /* "ACCU" */
+
+/*
+ * Up to so many points, clearing the touched cells is cheaper than the whole row; measured, with
+ * and without pruning.
+ */
+#define SPARSE_CELLS 8u
+#define SPARSE_POINTS 64u
+#define PRUNED_VOTES 3u /* with two votes by chance nearly every row has a cell */
+#define NARROW_SCANS 8u
+#define NARROW_POINTS 255u
+
+/* The build fails where the RAM formula of config.h is no longer an upper bound. */
+typedef char rho_assert_accumulator_ram[sizeof(struct rho_accumulator) <= RHO_RAM_ACCUMULATOR_BYTES
+                                            ? 1
+                                            : -1];
+
+enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t size,
+                                     const struct rho_accumulator_config *config)
+{
+    if (!accumulator || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *accumulator) {
+        return RHO_ERROR_SIZE;
+    }
+    if (rho_accumulator_plane(config, &accumulator->theta_cells, &accumulator->rho_cells) !=
+        RHO_OK) {
+        return RHO_ERROR_CONFIG;
+    }
+    accumulator->config = *config;
+    accumulator->cells_per_m = 1.0f / config->rho_cell_m;
+    accumulator->first_cell = 1.0f + config->rho_max_m / config->rho_cell_m;
+    accumulator->magic = ACCUMULATOR_MAGIC;
+    return RHO_OK;
+}
+
+static int are_believed(const struct rho_accumulator_points *points, unsigned num_points)
+{
+    for (unsigned i = 0; i < num_points; i++) {
+        if (!rho_is_coordinate(points->x_m[i]) || !rho_is_coordinate(points->y_m[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int are_in_order(const struct rho_accumulator_points *points)
+{
+    if (points->num_scans > RHO_ACCUMULATOR_SCANS_MAX) {
+        return 0;
+    }
+    for (unsigned scan = 1; scan < points->num_scans; scan++) {
+        if (points->scan_end[scan] < points->scan_end[scan - 1u]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static unsigned count_points(const struct rho_accumulator_points *points)
+{
+    return points->num_scans > 0 ? points->scan_end[points->num_scans - 1u] : 0u;
+}
+
+enum rho_status rho_accumulator_check(const struct rho_accumulator_points *points)
+{
+    if (!points || (points->num_scans > 0 && !points->scan_end)) {
+        return RHO_ERROR_NULL;
+    }
+    if (!are_in_order(points)) {
+        return RHO_ERROR_VALUE;
+    }
+    unsigned num_points = count_points(points);
+    if (num_points > 0 && (!points->x_m || !points->y_m)) {
+        return RHO_ERROR_NULL;
+    }
+    return are_believed(points, num_points) ? RHO_OK : RHO_ERROR_VALUE;
+}
+
+/*
+ * Square of the distance from the origin within which points are inside all rows; 0: there is none.
+ */
+static float inside2_m2(const struct rho_accumulator *accumulator)
+{
+    const struct rho_accumulator_config *config = &accumulator->config;
+    float last_m = (float)accumulator->rho_cells * config->rho_cell_m - config->rho_max_m;
+    float least_m = last_m < config->rho_max_m ? last_m : config->rho_max_m;
+    float inside_m = least_m - RHO_ACCUMULATOR_ROUNDING * config->rho_cell_m;
+    return inside_m > 0.0f ? inside_m * inside_m : 0.0f;
+}
+
+/* Bit m: scan m has points that may lie beyond rho_max_m. */
+static unsigned scans_outside(const struct rho_accumulator_pass *pass)
+{
+    const struct rho_accumulator_points *points = pass->points;
+    float inside2 = inside2_m2(pass->accumulator);
+    unsigned i = 0, scans = 0;
+    for (unsigned scan = 0; scan < points->num_scans; scan++) {
+        float farthest2 = 0.0f;
+        for (; i < points->scan_end[scan]; i++) {
+            float range2 = points->x_m[i] * points->x_m[i] + points->y_m[i] * points->y_m[i];
+            farthest2 = range2 > farthest2 ? range2 : farthest2;
+        }
+        scans |= farthest2 < inside2 ? 0u : 1u << scan;
+    }
+    return scans;
+}
+
+static void choose_rows(struct rho_accumulator_pass *pass)
+{
+    const struct rho_accumulator_config *config = &pass->accumulator->config;
+    pass->counts_points = config->votes == RHO_VOTES_POINTS;
+    pass->is_narrow = pass->counts_points ? pass->num_points <= NARROW_POINTS
+                                          : pass->points->num_scans <= NARROW_SCANS;
+    pass->is_sparse =
+        pass->num_points <= RHO_ACCUMULATOR_SPARSE_MAX &&
+        pass->num_points <= pass->accumulator->rho_cells / SPARSE_CELLS + SPARSE_POINTS;
+    pass->scans_outside = scans_outside(pass);
+    pass->is_pruned = pass->is_sparse && pass->scans_outside == 0 && !config->no_pruning &&
+                      config->min_votes >= PRUNED_VOTES;
+}
+
+/* Sparse rows are cleared by the list of touched cells, which is empty at first. */
+static void empty(struct rho_accumulator_pass *pass)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    size_t cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
+    for (unsigned slot = 0; slot < 3; slot++) {
+        memset(accumulator->rows[slot], 0, cells * (pass->is_narrow ? 1u : 2u));
+        accumulator->num_touched[slot] = accumulator->num_reached[slot] = 0;
+    }
+}
+
+enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
+                                     const struct rho_accumulator_points *points,
+                                     struct rho_accumulator_peak *peaks, uint32_t max_peaks,
+                                     struct rho_accumulator_result *result)
+{
+    if (!accumulator || !points || !result || (max_peaks > 0 && !peaks)) {
+        return RHO_ERROR_NULL;
+    }
+    if (accumulator->magic != ACCUMULATOR_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = rho_accumulator_check(points);
+    if (status != RHO_OK) {
+        return status;
+    }
+    unsigned num_points = count_points(points);
+    if (num_points == 0) { /* the arrays may be NULL */
+        memset(result, 0, sizeof *result);
+        return RHO_OK;
+    }
+    struct rho_accumulator_pass pass = {.accumulator = accumulator,
+                                        .points = points,
+                                        .list = {.peaks = peaks,
+                                                 .max_peaks = max_peaks,
+                                                 .min_votes = accumulator->config.min_votes,
+                                                 .min_share = accumulator->config.min_share},
+                                        .num_points = num_points,
+                                        .neighbours = accumulator->config.neighbours};
+    choose_rows(&pass);
+    if (pass.is_sparse) {
+        empty(&pass);
+    } else {
+        memset(accumulator->room.scan, 0, sizeof accumulator->room.scan);
+    }
+    if (pass.is_pruned) {
+        rho_accumulator_search_pruned(&pass);
+    } else {
+        rho_accumulator_search_all_rows(&pass);
+    }
+    rho_peak_list_finish(&pass.list);
+    *result = (struct rho_accumulator_result){.num_peaks = pass.list.num_peaks,
+                                              .peaks_dropped = pass.list.peaks_dropped,
+                                              .votes = pass.votes,
+                                              .votes_max = pass.list.votes_max};
+    return RHO_OK;
+}

@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: MIT */
+/* accumulator_rows: votes of the points in a row of theta, and the peaks of the row. */
+#include <string.h>
+
+#include "accumulator_pass.h"
+#include "rhotrack/types.h"
+
+#define BLOCK 64  /* cells tested together */
+#define BLOCKS 4u /* blocks tested together */
+#define AROUND 80 /* a block with both neighbours, in whole vectors */
+#define CROWDED                                                                                    \
+    4 /* cells per point of a scan; with fewer, stores to the same cell would wait for each other */
+
+/* ---- votes ----------------------------------------------------------------------------------- */
+
+static const uint8_t bits_of_byte[256] = {
+#define TWO(n) (n), (n) + 1, (n) + 1, (n) + 2
+#define FOUR(n) TWO(n), TWO((n) + 1), TWO((n) + 1), TWO((n) + 2)
+#define SIX(n) FOUR(n), FOUR((n) + 1), FOUR((n) + 1), FOUR((n) + 2)
+    SIX(0), SIX(1), SIX(1), SIX(2)};
+
+static unsigned votes_narrow(const struct rho_accumulator_pass *pass, uint8_t cell)
+{
+    return pass->counts_points ? cell : bits_of_byte[cell];
+}
+
+static unsigned votes_wide(const struct rho_accumulator_pass *pass, uint16_t cell)
+{
+    return pass->counts_points ? cell
+                               : (unsigned)bits_of_byte[cell & 255u] + bits_of_byte[cell >> 8];
+}
+
+static void add_peak(struct rho_accumulator_pass *pass, unsigned cell, unsigned votes,
+                     unsigned mask)
+{
+    struct rho_accumulator_peak peak = {.votes = votes,
+                                        .theta_cell = (uint16_t)pass->middle_theta_cell,
+                                        .rho_cell = (uint16_t)(cell - 1u),
+                                        .mask = pass->counts_points ? 0u : mask};
+    rho_peak_list_add(&pass->list, peak);
+}
+
+/*
+ * Whether one of n bytes, a multiple of BLOCK, has min_votes bits: eight bytes at a time, in words
+ * that a compiler vectorises. The bit count of a byte ends in its upper half; what the shift moves
+ * into the lower half stays there.
+ */
+static int may_have_scans_narrow(const uint8_t *row, unsigned n, unsigned min_votes)
+{
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
+    for (unsigned i = 0; i < n; i += 8u) {
+        uint64_t v;
+        memcpy(&v, row + i, sizeof v);
+        v -= v >> 1 & ones * 0x55u;
+        v = (v & ones * 0x33u) + (v >> 2 & ones * 0x33u);
+        reached |= v + (v << 4) + add;
+    }
+    return (reached & ones * 0x80u) != 0;
+}
+
+static uint16_t scans_wide(uint16_t mask);
+
+static int may_have_scans_wide(const uint16_t *row, unsigned n, unsigned min_votes)
+{
+    uint16_t most = 0;
+    for (unsigned i = 0; i < n; i++) {
+        uint16_t v = scans_wide(row[i]);
+        most = v > most ? v : most;
+    }
+    return most >= min_votes;
+}
+
+/* ---- rows ------------------------------------------------------------------------------------ */
+
+#define CELL uint8_t
+#define NAME(f) f##_narrow
+#include "accumulator_cells.h"
+#undef CELL
+#undef NAME
+#define CELL uint16_t
+#define NAME(f) f##_wide
+#include "accumulator_cells.h"
+#undef CELL
+#undef NAME
+
+/*
+ * Projects points from .. from + n - 1 of these scans; points outside of the plane do not count as
+ * votes.
+ */
+static void project_points(struct rho_accumulator_pass *pass, unsigned scans, unsigned from,
+                           unsigned n, struct rho_accumulator_projection place, int32_t *cells)
+{
+    const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
+    unsigned outside = 0;
+    if (pass->scans_outside & scans) {
+        float last = (float)(pass->accumulator->rho_cells + 1u);
+        outside = rho_accumulator_project_within(x_m, y_m, n, place, last, cells);
+    } else {
+        rho_accumulator_project(x_m, y_m, n, place, cells);
+    }
+    pass->votes = rho_count(pass->votes, n - outside);
+}
+
+static unsigned scan_start(const struct rho_accumulator_pass *pass, unsigned scan)
+{
+    return scan > 0 ? pass->points->scan_end[scan - 1u] : 0u;
+}
+
+/* Guard cells have no votes, so that they never are larger neighbours. */
+static void empty_guards(const struct rho_accumulator_pass *pass, void *row)
+{
+    unsigned last = pass->accumulator->rho_cells + 1u;
+    if (pass->is_narrow) {
+        ((uint8_t *)row)[0] = ((uint8_t *)row)[last] = 0;
+    } else {
+        ((uint16_t *)row)[0] = ((uint16_t *)row)[last] = 0;
+    }
+}
+
+static void reverse_row(const struct rho_accumulator_pass *pass, void *row)
+{
+    if (pass->is_narrow) {
+        reverse_row_narrow(row, pass->accumulator->rho_cells);
+    } else {
+        reverse_row_wide(row, pass->accumulator->rho_cells);
+    }
+}
+
+/* ---- sparse rows ----------------------------------------------------------------------------- */
+
+static unsigned vote_few(const struct rho_accumulator_pass *pass, void *row, const int32_t *cells,
+                         unsigned n, unsigned scan, uint16_t *reached)
+{
+    unsigned bit = pass->counts_points ? 0u : 1u << scan;
+    if (bit && scan + 1u < pass->list.min_votes) {
+        /* the scans so far cannot reach min_votes */
+        if (pass->is_narrow) {
+            vote_scan_narrow(row, cells, n, (uint8_t)bit);
+        } else {
+            vote_scan_wide(row, cells, n, (uint16_t)bit);
+        }
+        return 0;
+    }
+    return pass->is_narrow ? vote_few_narrow(pass, row, cells, n, (uint8_t)bit, reached)
+                           : vote_few_wide(pass, row, cells, n, (uint16_t)bit, reached);
+}
+
+static void clear_few(struct rho_accumulator_pass *pass, unsigned slot)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    const int32_t *cells = accumulator->touched[slot];
+    void *row = accumulator->rows[slot];
+    for (unsigned i = 0; i < accumulator->num_touched[slot]; i++) {
+        if (pass->is_narrow) {
+            ((uint8_t *)row)[cells[i]] = 0;
+        } else {
+            ((uint16_t *)row)[cells[i]] = 0;
+        }
+    }
+}
+
+static void fill_few(struct rho_accumulator_pass *pass, unsigned slot,
+                     struct rho_accumulator_projection place, int is_turned)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    int32_t *cells = accumulator->touched[slot];
+    void *row = accumulator->rows[slot];
+    unsigned num_reached = 0;
+    clear_few(pass, slot);
+    project_points(pass, ~0u, 0, pass->num_points, place, cells);
+    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
+        unsigned from = scan_start(pass, scan), n = pass->points->scan_end[scan] - from;
+        num_reached +=
+            vote_few(pass, row, cells + from, n, scan, accumulator->reached[slot] + num_reached);
+    }
+    accumulator->num_touched[slot] = (uint16_t)pass->num_points;
+    accumulator->num_reached[slot] = (uint16_t)num_reached;
+    empty_guards(pass, row);
+    if (is_turned) {
+        reverse_row(pass, row);
+        for (unsigned i = 0; i < pass->num_points; i++) {
+            cells[i] = accumulator->rho_cells + 1 - cells[i];
+        }
+    }
+}
+
+void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsigned slot,
+                                        unsigned theta_cell, unsigned num_kept)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    int32_t *cells = accumulator->touched[slot];
+    const uint16_t *bits = accumulator->room.few.bits;
+    void *row = accumulator->rows[slot];
+    uint16_t *reached = accumulator->reached[slot];
+    clear_few(pass, slot);
+    rho_accumulator_project(accumulator->room.few.x_m, accumulator->room.few.y_m, num_kept,
+                            rho_accumulator_projection(accumulator, theta_cell), cells);
+    unsigned num_reached = pass->is_narrow
+                               ? vote_kept_narrow(pass, row, cells, bits, num_kept, reached)
+                               : vote_kept_wide(pass, row, cells, bits, num_kept, reached);
+    accumulator->num_touched[slot] = (uint16_t)num_kept;
+    accumulator->num_reached[slot] = (uint16_t)num_reached;
+}
+
+void rho_accumulator_clear_row(struct rho_accumulator_pass *pass, unsigned slot)
+{
+    clear_few(pass, slot);
+    pass->accumulator->num_touched[slot] = pass->accumulator->num_reached[slot] = 0;
+}
+
+/* ---- dense rows ------------------------------------------------------------------------------ */
+
+static void vote_many(const struct rho_accumulator_pass *pass, void *row, const int32_t *cells,
+                      unsigned n, unsigned scan)
+{
+    void *apart = pass->accumulator->room.scan;
+    unsigned num_cells = pass->accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
+    int is_crowded = n * CROWDED > num_cells;
+    if (pass->counts_points && pass->is_narrow) {
+        vote_points_narrow(row, cells, n);
+    } else if (pass->counts_points) {
+        vote_points_wide(row, cells, n);
+    } else if (pass->is_narrow && is_crowded) {
+        vote_scan_apart_narrow(row, apart, num_cells, cells, n, (uint8_t)(1u << scan));
+    } else if (pass->is_narrow) {
+        vote_scan_narrow(row, cells, n, (uint8_t)(1u << scan));
+    } else if (is_crowded) {
+        vote_scan_apart_wide(row, apart, num_cells, cells, n, (uint16_t)(1u << scan));
+    } else {
+        vote_scan_wide(row, cells, n, (uint16_t)(1u << scan));
+    }
+}
+
+static void vote_chunks(struct rho_accumulator_pass *pass, void *row,
+                        struct rho_accumulator_projection place, unsigned scan)
+{
+    int32_t *cells = pass->accumulator->touched[0]; /* it is free: only sparse rows use it */
+    unsigned end = pass->points->scan_end[scan], most = RHO_ACCUMULATOR_SPARSE_MAX;
+    for (unsigned from = scan_start(pass, scan); from < end; from += most) {
+        unsigned n = end - from < most ? end - from : most;
+        project_points(pass, 1u << scan, from, n, place, cells);
+        vote_many(pass, row, cells, n, scan);
+    }
+}
+
+static void fill_many(struct rho_accumulator_pass *pass, unsigned slot,
+                      struct rho_accumulator_projection place, int is_turned)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    void *row = accumulator->rows[slot];
+    unsigned cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
+    memset(row, 0, cells * (pass->is_narrow ? 1u : 2u));
+    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
+        vote_chunks(pass, row, place, scan);
+    }
+    empty_guards(pass, row);
+    if (is_turned) {
+        reverse_row(pass, row);
+    }
+}
+
+/* ---- all rows -------------------------------------------------------------------------------- */
+
+void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, unsigned theta_cell,
+                              int is_turned)
+{
+    struct rho_accumulator_projection place =
+        rho_accumulator_projection(pass->accumulator, theta_cell);
+    uint32_t votes = pass->votes;
+    if (pass->is_sparse) {
+        fill_few(pass, slot, place, is_turned);
+    } else {
+        fill_many(pass, slot, place, is_turned);
+    }
+    if (is_turned) {
+        pass->votes = votes; /* the row is filled twice, and counts once */
+    }
+}
+
+static void find_peaks_sparse(struct rho_accumulator_pass *pass, unsigned slot)
+{
+    const struct rho_accumulator *accumulator = pass->accumulator;
+    if (pass->is_narrow) {
+        find_peaks_sparse_narrow(pass, accumulator->reached[slot], accumulator->num_reached[slot]);
+    } else {
+        find_peaks_sparse_wide(pass, accumulator->reached[slot], accumulator->num_reached[slot]);
+    }
+}
+
+void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned theta_cell)
+{
+    unsigned slot = theta_cell % 3u;
+    for (unsigned i = 0; i < 3; i++) {
+        pass->rows[i] = pass->accumulator->rows[(slot + 2u + i) % 3u];
+    }
+    pass->middle_theta_cell = theta_cell;
+    pass->above_is_first = theta_cell > 0;
+    pass->below_is_first = theta_cell + 1u == pass->accumulator->theta_cells;
+    if (pass->is_sparse) {
+        find_peaks_sparse(pass, slot);
+    } else if (pass->is_narrow) {
+        find_peaks_dense_narrow(pass);
+    } else {
+        find_peaks_dense_wide(pass);
+    }
+}
+
+/* Rows -1 (the last one reversed), 0, 1, ..., and after the last row the first one reversed. */
+void rho_accumulator_search_all_rows(struct rho_accumulator_pass *pass)
+{
+    unsigned last = pass->accumulator->theta_cells - 1u;
+    rho_accumulator_fill_row(pass, 2, last, 1);
+    rho_accumulator_fill_row(pass, 0, 0, 0);
+    for (unsigned theta_cell = 0; theta_cell <= last; theta_cell++) {
+        int is_end = theta_cell == last;
+        rho_accumulator_fill_row(pass, (theta_cell + 1u) % 3u, is_end ? 0u : theta_cell + 1u,
+                                 is_end);
+        rho_accumulator_find_row_peaks(pass, theta_cell);
+    }
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+/* passive_paper: configuration, frames, and the plan of a search. */
+#include "rhotrack/passive_paper.h"
+
+#include <string.h>
+
+#include "passive_paper_search.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+#define PAPER_MAGIC 0x50504150u /* "PPAP" */
+
+#define SCANS_MIN 4u
+#define VOTES_MAX 255u
+
+/*
+ * A crossing is within range_max of two sensors, and so at most range_max plus this share of the
+ * largest sensor distance from the centroid: one half with two to four sensors, (n - 2) / n with
+ * more.
+ */
+#define APART_SHARE (RHO_MAX_PASSIVE_SENSORS > 4 ? 0.75f : 0.5f)
+
+/* ---- setting up ------------------------------------------------------------------------------ */
+
+void rho_passive_paper_config_default(struct rho_passive_paper_config *config)
+{
+    *config = (struct rho_passive_paper_config){.scans = 8,
+                                                .range_max_m = 100000.0f,
+                                                .rho_cell_m = 1000.0f,
+                                                .theta_cell_rad = RHO_PI / 90.0f,
+                                                .votes = RHO_VOTES_SCANS,
+                                                .rule = RHO_GHOST_LITERAL};
+}
+
+static unsigned count_rows(const struct rho_passive_paper_config *config)
+{
+    return (unsigned)(RHO_PI / config->theta_cell_rad + 0.5f);
+}
+
+static int is_usable(const struct rho_passive_paper_config *config)
+{
+    return config->scans >= SCANS_MIN && config->scans <= RHO_MAX_PASSIVE_SCANS &&
+           config->votes_min <= VOTES_MAX &&
+           rho_is_within(config->range_max_m, 1000.0f, 500000.0f) &&
+           rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
+           2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS &&
+           rho_is_within(config->theta_cell_rad, 1.0e-4f, 0.5f) &&
+           count_rows(config) <= RHO_PAPER_THETA_CELLS &&
+           (unsigned)config->votes <= RHO_VOTES_POINTS && (unsigned)config->rule <= RHO_GHOST_SAFE;
+}
+
+/* Farther apart, and lines through crossings could lie outside of the cells of rho. */
+static float max_sensor_distance_m(const struct rho_passive_paper_config *config)
+{
+    float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS - config->range_max_m;
+    float apart_m = reach_m / APART_SHARE;
+    apart_m = apart_m < 4.0f * RHO_LIMIT_POSITION_M ? apart_m : 4.0f * RHO_LIMIT_POSITION_M;
+    return apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
+}
+
+enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t size,
+                                       const struct rho_passive_paper_config *config)
+{
+    if (!paper || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *paper) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    struct rho_passive_paper_config kept = *config; /* it may lie within *paper */
+    memset(paper, 0, sizeof *paper);
+    paper->config = kept;
+    paper->magic = PAPER_MAGIC;
+    return rho_batch_init(&paper->batch, kept.scans, max_sensor_distance_m(&kept));
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
+                                       const struct rho_frame *frame, uint8_t *fates)
+{
+    if (!paper) {
+        return RHO_ERROR_NULL;
+    }
+    if (paper->magic != PAPER_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = rho_batch_push(&paper->batch, frame, fates);
+    if (status == RHO_OK) {
+        paper->num_lines = 0;
+    }
+    return status;
+}
+
+/* ---- a search -------------------------------------------------------------------------------- */
+
+static int has_looked(const struct rho_batch *batch, unsigned sensor)
+{
+    unsigned looks = 0;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        looks += batch->was_seen[k][sensor];
+    }
+    return looks > 0;
+}
+
+/* The sensors with a scan in the batch, and their centroid. */
+static void set_sensors(struct rho_passive_paper_search *search)
+{
+    const struct rho_batch *batch = &search->paper->batch;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        if (has_looked(batch, s)) {
+            search->sensors[search->num_sensors++] = (uint8_t)s;
+        }
+    }
+    for (unsigned i = 0; i < search->num_sensors; i++) {
+        const struct rho_batch_sensor *sensor = &batch->sensors[search->sensors[i]];
+        search->middle_x_m += sensor->x_m / (float)search->num_sensors;
+        search->middle_y_m += sensor->y_m / (float)search->num_sensors;
+    }
+    search->near = search->num_sensors > 2 ? 1 : 0;
+}
+
+static void set_times(struct rho_passive_paper_search *search)
+{
+    const struct rho_batch *batch = &search->paper->batch;
+    int64_t first_us = batch->time_us[0], last_us = batch->time_us[batch->num_scans - 1];
+    search->half_s = 0.5f * rho_seconds_between(first_us, last_us);
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        search->step[k] = rho_seconds_between(first_us, batch->time_us[k]) / search->half_s - 1.0f;
+    }
+}
+
+static void set_cells(struct rho_passive_paper_search *search)
+{
+    struct rho_passive_paper *paper = search->paper;
+    search->rows = (int)count_rows(&paper->config);
+    search->columns = RHO_PAPER_RHO_CELLS;
+    paper->votes_min = paper->config.votes_min > 0
+                           ? paper->config.votes_min
+                           : (uint16_t)((4u * paper->batch.num_scans + 4u) / 5u);
+}
+
+enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
+{
+    if (!paper) {
+        return RHO_ERROR_NULL;
+    }
+    if (paper->magic != PAPER_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    struct rho_passive_paper_search search = {.paper = paper};
+    memset(&paper->work, 0, sizeof paper->work);
+    paper->num_lines = 0;
+    rho_batch_compact(&paper->batch);
+    set_sensors(&search);
+    set_cells(&search);
+    if (paper->batch.num_scans < SCANS_MIN || search.num_sensors < 2) {
+        return RHO_OK;
+    }
+    set_times(&search);
+    rho_passive_paper_vote(&search);
+    rho_passive_paper_choose(&search);
+    rho_passive_paper_fit(&search);
+    return RHO_OK;
+}

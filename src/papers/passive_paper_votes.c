@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_paper_votes: crossings of each pair of sensors, their votes, confirmation by all pairs.
+ */
+#include <string.h>
+
+#include "passive_paper_search.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+/* ---- crossings ------------------------------------------------------------------------------- */
+
+static unsigned collect_bearings(const struct rho_batch *batch, unsigned scan, unsigned sensor,
+                                 float *bearings_rad)
+{
+    for (unsigned i = 0; i < batch->num_bearings[scan][sensor]; i++) {
+        bearings_rad[i] = batch->bearings[scan][sensor][i].bearing_rad;
+    }
+    return batch->num_bearings[scan][sensor];
+}
+
+static void add_point(struct rho_passive_paper_search *search, unsigned scan,
+                      const struct rho_crossing *crossing)
+{
+    struct rho_passive_paper *paper = search->paper;
+    if (paper->scan_end[scan] == RHO_MAX_PAPER_CROSSINGS) {
+        search->per_pair.points_dropped = rho_count(search->per_pair.points_dropped, 1);
+        return;
+    }
+    paper->points[paper->scan_end[scan]++] =
+        (struct rho_passive_paper_point){.x_m = crossing->x_m, .y_m = crossing->y_m};
+}
+
+static void cross_scan(struct rho_passive_paper_search *search,
+                       const struct rho_crossing_base *base, unsigned scan, unsigned a, unsigned b)
+{
+    const struct rho_passive_paper *paper = search->paper;
+    struct rho_ghost_matrix matrix;
+    float bearings_a_rad[RHO_MAX_BEARINGS] = {0}, bearings_b_rad[RHO_MAX_BEARINGS] = {0};
+    unsigned num_a = collect_bearings(&paper->batch, scan, a, bearings_a_rad);
+    unsigned num_b = collect_bearings(&paper->batch, scan, b, bearings_b_rad);
+    if (rho_ghost_fill(&matrix, base, bearings_a_rad, num_a, bearings_b_rad, num_b,
+                       paper->config.range_max_m) != RHO_OK) {
+        return; /* cannot be: frames were checked */
+    }
+    rho_ghost_prune(&matrix, paper->config.rule);
+    for (unsigned i = 0; i < num_a; i++) {
+        for (unsigned j = 0; j < num_b; j++) {
+            struct rho_crossing crossing;
+            int is_left =
+                matrix.reason[i][j] == RHO_GHOST_KEPT &&
+                rho_crossing_find(base, bearings_a_rad[i], bearings_b_rad[j],
+                                  paper->config.range_max_m, &crossing) == RHO_CROSSING_MEETS;
+            search->per_pair.crossings++;
+            search->per_pair.ghosts += !is_left;
+            if (is_left) {
+                add_point(search, scan, &crossing);
+            }
+        }
+    }
+}
+
+void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b)
+{
+    struct rho_passive_paper *paper = search->paper;
+    const struct rho_batch_sensor *sensor_a = &paper->batch.sensors[a];
+    const struct rho_batch_sensor *sensor_b = &paper->batch.sensors[b];
+    struct rho_crossing_base base;
+    memset(&search->per_pair, 0, sizeof search->per_pair);
+    memset(paper->scan_end, 0, sizeof paper->scan_end);
+    if (rho_crossing_set_base(
+            &base, sensor_a->x_m - search->middle_x_m, sensor_a->y_m - search->middle_y_m,
+            sensor_b->x_m - search->middle_x_m, sensor_b->y_m - search->middle_y_m) != RHO_OK) {
+        return; /* cannot be: frames were checked */
+    }
+    for (unsigned scan = 0; scan < paper->batch.num_scans; scan++) {
+        paper->scan_end[scan] = scan > 0 ? paper->scan_end[scan - 1u] : 0;
+        cross_scan(search, &base, scan, a, b);
+    }
+}
+
+/* ---- eq. (3) --------------------------------------------------------------------------------- */
+
+float rho_passive_paper_rho_m(float range_m, float bearing_rad, float x_m, float y_m,
+                              float theta_rad)
+{
+    float rho_local_m = range_m * rho_cos(rho_angle_difference(bearing_rad, theta_rad));
+    return rho_local_m + x_m * rho_cos(theta_rad) + y_m * rho_sin(theta_rad);
+}
+
+struct rho_passive_paper_direction
+rho_passive_paper_direction(const struct rho_passive_paper_search *search, int row)
+{
+    float theta_rad = ((float)row + 0.5f) * RHO_PI / (float)search->rows;
+    return (struct rho_passive_paper_direction){rho_cos(theta_rad), rho_sin(theta_rad)};
+}
+
+/* Eq. (3) for a known position: multiplied out it is x cos(theta) + y sin(theta). */
+int rho_passive_paper_column(const struct rho_passive_paper_search *search,
+                             struct rho_passive_paper_direction direction,
+                             const struct rho_passive_paper_point *point)
+{
+    float rho_m = point->x_m * direction.cosine + point->y_m * direction.sine;
+    float cell = rho_m / search->paper->config.rho_cell_m + 0.5f * (float)search->columns;
+    return cell >= 0.0f && cell < (float)search->columns ? (int)cell : -1;
+}
+
+/* ---- votes ----------------------------------------------------------------------------------- */
+
+void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, int row,
+                                uint8_t counts[RHO_PAPER_RHO_CELLS])
+{
+    const struct rho_passive_paper *paper = search->paper;
+    struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
+    uint8_t voted[RHO_PAPER_RHO_CELLS] = {0}; /* the last scan that voted, from 1 */
+    memset(counts, 0, RHO_PAPER_RHO_CELLS);
+    for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
+        for (; i < paper->scan_end[scan]; i++) {
+            int column = rho_passive_paper_column(search, direction, &paper->points[i]);
+            if (column >= 0 && counts[column] < UINT8_MAX &&
+                (paper->config.votes == RHO_VOTES_POINTS || voted[column] != scan + 1u)) {
+                counts[column]++;
+                voted[column] = (uint8_t)(scan + 1u);
+            }
+        }
+    }
+}
+
+/* The most votes of a cell and its neighbours, in three rows. */
+static unsigned max_votes_near(const uint8_t *const rows[3], int column, int columns)
+{
+    unsigned most = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = column - 1; j <= column + 1; j++) {
+            if (j >= 0 && j < columns && rows[i][j] > most) {
+                most = rows[i][j];
+            }
+        }
+    }
+    return most;
+}
+
+/* A cell that all pairs confirm gets 1 plus their votes. */
+static void confirm_row(struct rho_passive_paper_search *search, int row,
+                        const uint8_t *const rows[3], int is_first)
+{
+    uint8_t *cells = search->paper->cells[row];
+    for (int column = 0; column < search->columns; column++) {
+        unsigned most =
+            search->near > 0 ? max_votes_near(rows, column, search->columns) : rows[1][column];
+        unsigned so_far = is_first ? 1u : cells[column];
+        unsigned sum = so_far + rows[1][column];
+        int is_confirmed = so_far > 0 && most >= search->paper->votes_min;
+        cells[column] = is_confirmed ? (uint8_t)(sum < UINT8_MAX ? sum : UINT8_MAX) : 0;
+    }
+}
+
+static void vote_pair(struct rho_passive_paper_search *search, int is_first)
+{
+    uint8_t(*kept)[RHO_PAPER_RHO_CELLS] = search->paper->rows;
+    rho_passive_paper_vote_row(search, -1, kept[0]);
+    rho_passive_paper_vote_row(search, 0, kept[1]);
+    for (int row = 0; row < search->rows; row++) {
+        const uint8_t *const rows[3] = {kept[row % 3], kept[(row + 1) % 3], kept[(row + 2) % 3]};
+        rho_passive_paper_vote_row(search, row + 1, kept[(row + 2) % 3]);
+        confirm_row(search, row, rows, is_first);
+    }
+}
+
+static void count_work(struct rho_passive_paper_search *search)
+{
+    struct rho_passive_paper_work *work = &search->paper->work;
+    const struct rho_passive_paper_work *more = &search->per_pair;
+    work->crossings = rho_count(work->crossings, more->crossings);
+    work->ghosts = rho_count(work->ghosts, more->ghosts);
+    work->points_dropped = rho_count(work->points_dropped, more->points_dropped);
+    work->votes = rho_count(work->votes, (more->crossings - more->ghosts - more->points_dropped) *
+                                             (unsigned)search->rows);
+}
+
+void rho_passive_paper_vote(struct rho_passive_paper_search *search)
+{
+    int is_first = 1;
+    for (unsigned i = 0; i + 1u < search->num_sensors; i++) {
+        for (unsigned j = i + 1u; j < search->num_sensors; j++) {
+            rho_passive_paper_cross(search, search->sensors[i], search->sensors[j]);
+            count_work(search);
+            vote_pair(search, is_first);
+            is_first = 0;
+        }
+    }
+}

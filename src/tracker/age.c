@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * age: tracks without a plot have a miss where the sensor looked; evidence and time end tracks.
+ */
+#include "step.h"
+
+/* Standard deviations of a speed that is surely below the slowest target's. */
+#define SLOW_SIGMAS 3.0f
+
+/* Speeds beyond the fastest target's: by so much, and by so many standard deviations, in so many
+ * updates in a row. */
+#define FAST_SHARE 1.1f
+#define FAST_SIGMAS 2.0f
+#define FAST_UPDATES 3
+
+/* The track follows something that stands, however often it is seen. */
+static int is_too_slow(const struct step *step, const struct rho_track *track)
+{
+    const float *velocity_mps = &track->kalman.state[3];
+    const float least_mps =
+        step->tracker->config.v_min_mps - SLOW_SIGMAS * rho_track_sigma_mps(track);
+    return least_mps > 0.0f && velocity_mps[0] * velocity_mps[0] +
+                                       velocity_mps[1] * velocity_mps[1] +
+                                       velocity_mps[2] * velocity_mps[2] <
+                                   least_mps * least_mps;
+}
+
+/* Counts the updates in a row that leave the track surely faster than any target. */
+static int is_too_fast(const struct step *step, struct rho_track *track)
+{
+    const float *velocity_mps = &track->kalman.state[3];
+    const float v_max_mps = step->tracker->config.v_max_mps;
+    const float speed2 = velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] +
+                         velocity_mps[2] * velocity_mps[2];
+    const float most_mps = FAST_SHARE * v_max_mps;
+    const float sure_mps = v_max_mps + FAST_SIGMAS * rho_track_sigma_mps(track);
+    const float limit_mps = most_mps > sure_mps ? most_mps : sure_mps;
+    if (track->plot >= 0) {
+        track->fast_in_row =
+            (uint8_t)(speed2 > limit_mps * limit_mps
+                          ? track->fast_in_row + (track->fast_in_row < FAST_UPDATES ? 1 : 0)
+                          : 0);
+    }
+    return track->fast_in_row >= FAST_UPDATES;
+}
+
+void rho_tracker_age_track(struct step *step, struct rho_track *track, int is_missed,
+                           const struct rho_track_limits *limits)
+{
+    struct rho_tracker_counters *counters = &step->tracker->counters;
+    const int is_unseen = rho_tracker_is_long_unobserved(step, track, is_missed, limits) ||
+                          rho_tracker_is_place_unknown(step, track);
+    const int is_fast = is_too_fast(step, track);
+    rho_tracker_apply_thresholds(step, track, limits);
+    if (track->status != RHO_TRACK_FREE && (is_unseen || is_fast || is_too_slow(step, track))) {
+        counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);
+        counters->tracks_too_fast =
+            rho_count(counters->tracks_too_fast, is_fast && !is_unseen ? 1 : 0);
+        rho_tracker_end_track(step, track);
+    }
+}
+
+/* The score of a track with hypotheses counts the miss already. */
+static void count_miss(const struct step *step, struct rho_track *track)
+{
+    rho_track_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
+                              ? 0
+                              : rho_tracker_mnat(-rho_tracker_detection(step, track).log_miss));
+}
+
+void rho_tracker_age(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_expect_second_plots(step);
+    }
+    const struct rho_track_limits limits = rho_tracker_limits(step);
+    rho_tracker_find_asked_evidence(step);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status == RHO_TRACK_FREE) {
+            continue;
+        }
+        const int is_missed = track->plot < 0 && rho_tracker_is_reached(step, row) &&
+                              rho_tracker_scan_looked_at(step, track);
+        if (is_missed) {
+            count_miss(step, track);
+        }
+        if (RHO_SECTORS) {
+            rho_tracker_note_sight(step, track);
+        }
+        rho_tracker_age_track(step, track, is_missed, &limits);
+    }
+    rho_tracker_remove_ended(tracker);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bearing_frame: what the step of a frame of bearings and its initiation share. Private to them.
+ */
+#ifndef RHOTRACK_BEARING_FRAME_H
+#define RHOTRACK_BEARING_FRAME_H
+
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+static inline int is_bearing(const struct rho_bearing *bearing)
+{
+    return rho_measurement_is_bearing(bearing) && bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
+           bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
+}
+
+/*
+ * How many bearings of a scan have a fate of their own and room to be held. first: the scan's first
+ * bearing among those of the frame.
+ */
+static inline uint32_t num_held(const struct step *step, const struct rho_bearing_scan *scan,
+                                uint32_t first)
+{
+    const uint32_t room = first < step->num_gated ? step->num_gated - first : 0;
+    const uint32_t num = scan->num_bearings < room ? scan->num_bearings : room;
+    return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
+}
+
+#endif

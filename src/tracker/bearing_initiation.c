@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bearing_initiation: the phase initiate of a frame. Bearings that no track claimed go into the
+ * batch, ghosts among them are marked, and a full batch starts tracks.
+ */
+#include <string.h>
+
+#include "bearing_frame.h"
+#include "rhotrack/detail/crossing.h"
+
+/* ln of the odds, a hundred to one, against any other explanation of a track's bearings. */
+#define MARGIN_MIN_MNAT 4605
+
+/* ---- ghosts ---------------------------------------------------------------------------------- */
+
+/*
+ * 1 where the bearing may meet one of the other scan in a target. *num counts the crossings tried.
+ */
+static int meets_any(const struct step *step, const struct rho_crossing_base *base,
+                     float bearing_rad, const struct rho_bearing_scan *other, uint32_t *num)
+{
+    struct rho_crossing crossing;
+    for (uint32_t j = 0; j < other->num_bearings && j < RHO_MAX_BEARINGS; j++) {
+        if (is_bearing(&other->bearings[j])) {
+            *num += 1;
+            if (rho_crossing_find(base, bearing_rad, other->bearings[j].bearing_rad,
+                                  step->passive->config.range_max_m,
+                                  &crossing) == RHO_CROSSING_MEETS) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* The bearing has crossings, and none of them can be a target. */
+static int is_ghost(const struct step *step, const struct rho_bearing_scan *scan, uint32_t i)
+{
+    uint32_t num = 0;
+    for (uint32_t k = 0; k < step->frame->num_scans; k++) {
+        const struct rho_bearing_scan *other = &step->frame->scans[k];
+        struct rho_crossing_base base;
+        if (other != scan &&
+            rho_crossing_set_base(&base, scan->x_m, scan->y_m, other->x_m, other->y_m) == RHO_OK &&
+            meets_any(step, &base, scan->bearings[i].bearing_rad, other, &num)) {
+            return 0;
+        }
+    }
+    return num > 0;
+}
+
+/* Ghosts stay in the batch: the other sensors may have missed the target of one. */
+static void mark_ghosts(struct step *step)
+{
+    uint32_t first = 0;
+    for (uint32_t k = 0; k < step->frame->num_scans; k++) {
+        const struct rho_bearing_scan *scan = &step->frame->scans[k];
+        uint32_t num = num_held(step, scan, first);
+        for (uint32_t i = 0; i < num; i++) {
+            uint8_t *fate = &step->report->fates[first + i];
+            if (*fate == RHO_FATE_HELD && is_ghost(step, scan, i)) {
+                *fate = RHO_FATE_GHOST;
+            }
+        }
+        first = rho_count(first, scan->num_bearings);
+    }
+}
+
+/* ---- initiate -------------------------------------------------------------------------------- */
+
+/* The frame as the batch takes it: the bearings that have fates, and these fates in a row. */
+struct held {
+    struct rho_frame frame;
+    struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
+    uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
+};
+
+/* Copies fates to the held frame's, or back. */
+static void move_fates(const struct step *step, struct held *held, int is_back)
+{
+    uint8_t *packed = held->fates;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < step->frame->num_scans; i++) {
+        uint32_t num = held->scans[i].num_bearings;
+        uint8_t *fates = step->report->fates + (num > 0 ? first : 0);
+        memcpy(is_back ? fates : packed, is_back ? packed : fates, num);
+        packed += num;
+        first = rho_count(first, step->frame->scans[i].num_bearings);
+    }
+}
+
+static void push(struct step *step)
+{
+    struct held held;
+    uint32_t first = 0;
+    held.frame = *step->frame;
+    held.frame.scans = held.scans;
+    for (uint32_t i = 0; i < held.frame.num_scans; i++) {
+        held.scans[i] = step->frame->scans[i];
+        held.scans[i].num_bearings = num_held(step, &held.scans[i], first);
+        first = rho_count(first, step->frame->scans[i].num_bearings);
+    }
+    move_fates(step, &held, 0);
+    /* the frame was accepted before the step began */
+    (void)!rho_passive_push(step->passive, &held.frame, held.fates);
+    move_fates(step, &held, 1);
+}
+
+/* The batch's estimate is of x, y, vx and vy. */
+static void fill_estimate(const struct rho_passive_track *found, struct rho_kalman *estimate)
+{
+    static const uint8_t place[4] = {0, 1, 3, 4};
+    const float state[4] = {found->x_m, found->y_m, found->vx_mps, found->vy_mps};
+    rho_kalman_init(estimate);
+    for (int i = 0; i < 4; i++) {
+        estimate->state[place[i]] = state[i];
+        for (int j = 0; j <= i; j++) {
+            estimate->covariance[RHO_AT(place[i], place[j])] = found->covariance[RHO_AT(i, j)];
+        }
+    }
+}
+
+/* One of the sensors that saw it last. */
+static int32_t last_sensor(const struct rho_passive *passive, const struct rho_passive_track *found)
+{
+    int32_t sensor_id = passive->batch.sensors[0].sensor_id;
+    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+            sensor_id = found->claim[k][s] ? passive->batch.sensors[s].sensor_id : sensor_id;
+        }
+    }
+    return sensor_id;
+}
+
+static void start_track(struct step *step, const struct rho_passive_track *found,
+                        const struct rho_track_limits *limits)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_kalman estimate;
+    struct rho_track track;
+    fill_estimate(found, &estimate);
+    if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->time_us,
+                                 last_sensor(step->passive, found),
+                                 (uint16_t)rho_count_bits(found->scans),
+                                 found->score_mnat) == RHO_OK &&
+        rho_tracker_admit(step, &track, limits)) {
+        tracker->counters.plots_initiated =
+            rho_count(tracker->counters.plots_initiated, rho_passive_consume(step->passive, found));
+    }
+}
+
+/* Seen in one of the last two scans: no remains of a track that claims its bearings by now. */
+static int is_fresh(const struct rho_passive *passive, const struct rho_passive_track *found)
+{
+    return (unsigned)found->scans >> (passive->batch.num_scans - 2u) != 0;
+}
+
+/*
+ * A batch that is not full may hold ghosts that still look straight. A started track has the
+ * evidence of a whole batch, and is confirmed at once.
+ */
+void rho_tracker_initiate_passive(struct step *step)
+{
+    struct rho_passive *passive = step->passive;
+    if (!passive) {
+        rho_tracker_refuse_unclaimed(step);
+        return;
+    }
+    push(step);
+    mark_ghosts(step);
+    step->tracker->counters.plots_clutter =
+        rho_count(step->tracker->counters.plots_clutter, passive->batch.num_left);
+    if (passive->batch.num_scans < passive->batch.scans_max) {
+        return;
+    }
+    (void)!rho_passive_search(passive);
+    step->tracker->counters.candidates_dropped =
+        rho_count(step->tracker->counters.candidates_dropped, passive->work.candidates_dropped);
+    struct rho_track_limits limits = rho_tracker_limits(step);
+    limits.confirm_mnat = passive->start_mnat;
+    for (unsigned i = 0; i < passive->num_tracks; i++) {
+        const struct rho_passive_track *found = &passive->tracks[i];
+        if (found->score_mnat >= passive->start_mnat && found->margin_mnat >= MARGIN_MIN_MNAT &&
+            is_fresh(passive, found)) {
+            start_track(step, found, &limits);
+        }
+    }
+}

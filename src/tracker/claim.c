@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * claim: gates the scan's plots and assigns them to tracks, each at most one.
+ */
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+/* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the
+ * paper. */
+#define HOUGH_VELOCITIES_MIN 3
+/* More than any two velocities within the limits can differ, m/s for nat: only the order counts. */
+#define HOUGH_GAIN_MAX_NAT 80000.0f
+
+/* ---- the plots of the scan ------------------------------------------------------------------- */
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* Bounds of noise and own time, for the boxes that gates search. */
+static void note_widest(struct step *step, const struct rho_plot *plot)
+{
+    float offset_s = (float)plot->offset_us * 1e-6f;
+    const float factor = rho_measurement_widest_factor(step->sensor);
+    step->sigma_max_m = larger(step->sigma_max_m, factor * rho_plot_sigma_m(plot));
+    step->offset_max_s = larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+    if (step->scan->measures & RHO_MEASURES_Z) {
+        step->sigma_max_m = larger(step->sigma_max_m, factor * plot->sigma_up_m);
+    }
+}
+
+/* Plots that are no measurements, or outside of the stated coverage, are invalid. */
+static void validate_plots(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        int valid = rho_measurement_is_valid(plot, step->scan->measures);
+        if (valid && !rho_tracker_covers(step->sensor, plot, step->scan->measures)) {
+            valid = 0;
+            tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
+        }
+        step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
+        if (valid) {
+            rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
+            note_widest(step, plot);
+        }
+    }
+}
+
+/* ---- tracks with a Kalman filter ------------------------------------------------------------- */
+
+/* Opens the Hough gate by the velocities of the track's last two estimates. */
+static int opens_hough(const struct step *step, const struct rho_track *track,
+                       struct rho_gate_hough *hough)
+{
+    const struct rho_tracker_config *config = &step->tracker->config;
+    uint8_t planes = config->planes;
+    if (!rho_kalman_is_open(&track->kalman, 2)) {
+        planes = RHO_GATE_PLANE_XY;
+    }
+    return RHO_HAS_FILTER(RHO_TRACK_INPUT) && config->gate == RHO_TRACKER_HOUGH &&
+           !RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
+           track->num_velocities >= HOUGH_VELOCITIES_MIN &&
+           rho_gate_hough_open(hough, planes, config->theta_cell_rad, track->before_mps,
+                               track->newest_mps) == RHO_OK;
+}
+
+/* Without a measured velocity: the one that brings the target from its last plot to this one. */
+static void velocity_of(const struct step *step, const struct rho_track *track,
+                        const struct rho_plot *plot, float velocity_mps[3])
+{
+    const float measured_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+    const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
+    const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
+    float dt_s = rho_seconds_between(track->updated_us, step->time_us + plot->offset_us);
+    for (int axis = 0; axis < 3; axis++) {
+        velocity_mps[axis] = track->newest_mps[axis];
+        if (axis == 2 && !has_z) {
+            continue;
+        }
+        if (step->scan->measures & RHO_MEASURES_VELOCITY) {
+            velocity_mps[axis] = measured_mps[axis];
+        } else if (dt_s > 0.0f) {
+            /* the prediction is where the newest velocity leads */
+            velocity_mps[axis] += (place_m[axis] - track->kalman.state[axis]) / dt_s;
+        }
+    }
+}
+
+/* The gain falls with the Hough residual; the offset makes any gated plot better than a miss. */
+static float hough_gain(const struct step *step, const struct rho_track *track,
+                        const struct rho_gate_hough *hough, const struct rho_plot *plot)
+{
+    float velocity_mps[3];
+    velocity_of(step, track, plot, velocity_mps);
+    return HOUGH_GAIN_MAX_NAT - rho_gate_hough_residual_mps(hough, velocity_mps);
+}
+
+static int is_in_box(const struct step *step, const struct rho_gate *gate, const float half_m[2],
+                     uint32_t i)
+{
+    const float dx_m = step->scan->plots[i].x_m - gate->predicted.state[0];
+    const float dy_m = step->scan->plots[i].y_m - gate->predicted.state[1];
+    return dx_m <= half_m[0] && dx_m >= -half_m[0] && dy_m <= half_m[1] && dy_m >= -half_m[1] &&
+           step->report->fates[i] == RHO_FATE_HELD;
+}
+
+static void offer_gated_plots(struct step *step, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[row];
+    struct rho_gate gate;
+    struct rho_gate_hough hough;
+    struct rho_gate_result result;
+    float half_m[2];
+    const float log_miss = rho_tracker_detection(step, track).log_miss;
+    const float log_density = rho_tracker_log_density(step, track);
+    const int by_hough = opens_hough(step, track, &hough);
+    rho_tracker_open_gate(step, track, step->scan->measures, &gate);
+    rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
+    struct plots_near near = rho_tracker_plots_near(
+        step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
+        gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
+    struct plots_near counted = near;
+    struct plot_choice choice = rho_tracker_choose_plots(step, track);
+    for (uint32_t i; choice.most < rho_tracker_most_near(step, &near) &&
+                     rho_tracker_next_plot(step, &counted, &i);) {
+        if (is_in_box(step, &gate, half_m, i)) {
+            rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
+        }
+    }
+    rho_tracker_end_choice(step, &choice);
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        if (is_in_box(step, &gate, half_m, i) &&
+            rho_tracker_is_chosen(step, &choice, track, plot) &&
+            rho_gate_test(&gate, plot, &result)) {
+            rho_tracker_offer(
+                step, row, i,
+                by_hough ? hough_gain(step, track, &hough, plot)
+                         : rho_tracker_score_plot(step, track, &result, log_density, i) - log_miss);
+        }
+    }
+}
+
+/* ---- tracks with hypotheses ------------------------------------------------------------------ */
+
+static void offer_scored_plots(struct step *step, unsigned row)
+{
+    const float log_miss = rho_tracker_log_miss(step, &step->tracker->tracks[row]);
+    struct plot_scores scores;
+    uint32_t plot;
+    float gain_nat;
+    rho_tracker_begin_scores(step, row, &scores);
+    while (rho_tracker_next_score(step, &scores, &plot, &gain_nat)) {
+        if (gain_nat > log_miss) {
+            rho_tracker_offer(step, row, plot, gain_nat - log_miss);
+        }
+    }
+}
+
+/* ---- the phase ------------------------------------------------------------------------------- */
+
+void rho_tracker_claim(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    validate_plots(step);
+    rho_tracker_sort_plots(step);
+    if (RHO_CLAIMS_BEYOND && step->first_row > 0) {
+        rho_tracker_measure_part(step);
+    } else if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_look_at_clutter(step);
+    }
+    /* both counts are within the capacities: nothing to refuse */
+    (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
+    rho_tracker_begin_work(step);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
+            continue;
+        }
+        if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
+            offer_scored_plots(step, row);
+        } else {
+            offer_gated_plots(step, row);
+        }
+    }
+    rho_tracker_assign(step);
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * expected_clutter: how many false plots are expected where a track is.
+ *
+ * The initiator measures the density of clutter. Where it knows none, the unclaimed plots of a
+ * scan, smoothed over ten scans, are spread over the area that plots have come from so far.
+ */
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "step.h"
+
+/* Weight of the newest scan in the smoothed counts: a memory of ten scans. */
+#define CLUTTER_SMOOTHING 0.1f
+
+/* The least density of clutter that is believed at a plot without clutter near it, 1/m^2. */
+#define DENSITY_MIN 1e-12f
+
+/* Standard deviations of a gate, where it is as large as the track's place is uncertain. */
+#define GATE_SIGMAS 3.0f
+
+float rho_tracker_usual_density(const struct step *step, float x_m, float y_m)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    if (step->initiator) {
+        float density = rho_initiator_density(step->initiator, step->scan->sensor_id, x_m, y_m);
+        if (density > 0.0f) {
+            return density;
+        }
+    }
+    float area_m2 = rho_extent_area_m2(&tracker->extent, RHO_CLUTTER_SIDE_MIN_M);
+    return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
+}
+
+float rho_tracker_believed_density(const struct step *step, const struct rho_plot *plot)
+{
+    const float density = rho_tracker_usual_density(step, plot->x_m, plot->y_m);
+    return density > DENSITY_MIN ? density : DENSITY_MIN;
+}
+
+static float density_in_part(const struct step *step, float x_m, float y_m)
+{
+    float density = rho_tracker_usual_density(step, x_m, y_m);
+    if (RHO_CLAIMS_BEYOND && step->part_share > 0.0f) {
+        density *= step->part_share;
+        density = step->part_per_m2 > density ? step->part_per_m2 : density;
+    }
+    return density;
+}
+
+float rho_tracker_log_density(const struct step *step, const struct rho_track *track)
+{
+    return rho_log(density_in_part(step, track->kalman.state[0], track->kalman.state[1]));
+}
+
+float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track)
+{
+    if (step->frame) {
+        return 0.0f;
+    }
+    const float sigma_m = rho_track_sigma_m(track);
+    return 0.5f * RHO_TWO_PI * GATE_SIGMAS * GATE_SIGMAS * sigma_m * sigma_m *
+           density_in_part(step, track->kalman.state[0], track->kalman.state[1]);
+}
+
+/*
+ * The initiator has measured the first parts of earlier scans. A later part is as dense as its own
+ * plots lie; where plots of all places are mixed, as the first part.
+ */
+void rho_tracker_measure_part(struct step *step)
+{
+    struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
+    float num = 0.0f;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &step->scan->plots[i];
+            if (num < 1.0f) {
+                extent = (struct rho_extent){plot->x_m, plot->x_m, plot->y_m, plot->y_m};
+            }
+            rho_extent_add(&extent, plot->x_m, plot->y_m);
+            num += 1.0f;
+        }
+    }
+    step->part_per_m2 = num / rho_extent_area_m2(&extent, RHO_CLUTTER_SIDE_MIN_M);
+    step->part_share = (float)step->num_inputs / (float)RHO_MAX_PLOTS;
+}
+
+void rho_tracker_smooth(float *mean, float newest)
+{
+    *mean += CLUTTER_SMOOTHING * (newest - *mean);
+}
+
+void rho_tracker_learn_unclaimed(struct step *step)
+{
+    float unclaimed = 0.0f;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        uint8_t fate = step->report->fates[i];
+        unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
+    }
+    rho_tracker_smooth(&step->tracker->unclaimed_plots,
+                       unclaimed * (RHO_SECTORS ? rho_tracker_turns(step) : 1.0f));
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * initiate: tracks start from the plots that no track claimed.
+ */
+#include "step.h"
+
+/* The row of a held plot in its scan; -1: it came with an earlier sector. */
+static int16_t row_of(struct rho_initiator *initiator, unsigned m, unsigned plot)
+{
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
+    if (RHO_SECTORS && m + 1u == initiator->window.num_scans &&
+        rho_tracker_is_of_earlier_sector(&initiator->window, scan, plot)) {
+        return -1;
+    }
+    return (int16_t)(scan->marks[plot] & RHO_WINDOW_ROW);
+}
+
+/* The candidate's plots in the order of their scans. */
+static unsigned gather_plots(struct rho_initiator *initiator, const struct rho_candidate *candidate,
+                             struct rho_track_plot *plots)
+{
+    unsigned n = 0;
+    for (unsigned m = 0; m < initiator->window.num_scans; m++) {
+        if ((unsigned)candidate->mask >> m & 1u) {
+            const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
+            struct rho_plot plot = rho_window_plot_of(scan, candidate->plot[m]);
+            plots[n++] = (struct rho_track_plot){
+                .time_us = scan->time_us + plot.offset_us,
+                .measures = scan->measures & ~RHO_MEASURES_VELOCITY, /* the window has none */
+                .sensor_id = scan->sensor.sensor_id,
+                .sensor = &scan->sensor,
+                .plot = plot,
+                .row = row_of(initiator, m, candidate->plot[m]),
+            };
+        }
+    }
+    return n;
+}
+
+/* A better candidate of this search has started with the newest plot. If there is another target,
+ * the next scan will show it. */
+static int is_doubled(struct rho_initiator *initiator, const struct rho_candidate *candidate)
+{
+    const unsigned newest = initiator->window.num_scans - 1u;
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, newest);
+    return (scan->marks[candidate->plot[newest]] & RHO_WINDOW_INITIATED) != 0;
+}
+
+static void start_track(struct step *step, const struct rho_candidate *candidate,
+                        const struct rho_track_limits *limits)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track_plot plots[RHO_MAX_SCANS];
+    struct rho_track track;
+    unsigned n = gather_plots(step->initiator, candidate, plots);
+    if (rho_track_start(&track, tracker->next_track_id, plots, n, &step->model,
+                        candidate->score_mnat) != RHO_OK) {
+        tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
+        return;
+    }
+    if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_note_start(step, candidate, &track);
+    }
+    if (RHO_SECTORS) {
+        rho_tracker_note_sight(step, &track);
+    }
+    if (rho_tracker_admit(step, &track, limits)) {
+        tracker->counters.plots_initiated = rho_count(
+            tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
+        if (RHO_MAX_ECHOES > 0) {
+            rho_tracker_expect_earlier_second_plots(step, candidate);
+        }
+    }
+}
+
+/* The search counts as work of the step. */
+static void search_newest(struct step *step)
+{
+    struct rho_initiator *initiator = step->initiator;
+    const struct rho_initiator_budget before = initiator->budget;
+    (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST, rho_tracker_work_left(step));
+    step->work = rho_count(step->work, initiator->budget.work);
+    step->plots_not_tried = rho_count(step->plots_not_tried,
+                                      initiator->budget.plots_not_tried - before.plots_not_tried);
+    step->is_partial |= initiator->budget.partial_steps != before.partial_steps;
+}
+
+/* Pointers were checked before the step began. The search uses the pd that was learned. */
+static void push(struct step *step, const struct rho_scan *held)
+{
+    struct rho_sensor sensor;
+    if (step->sensor) {
+        sensor = *step->sensor;
+        sensor.pd = rho_tracker_mean_pd(step);
+    }
+    (void)!rho_initiator_push(step->initiator, held, step->sensor ? &sensor : 0,
+                              step->report->fates, &step->tracker->counters.plots_clutter);
+}
+
+static void start_tracks(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_initiator *initiator = step->initiator;
+    /* only the plots with a fate of their own are offered */
+    struct rho_scan held = *step->scan;
+    held.num_plots = step->num_gated;
+    push(step, &held);
+    if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_keep_repeats(step);
+    }
+    search_newest(step);
+    tracker->counters.candidates_dropped =
+        rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
+    tracker->start_mnat = initiator->start_mnat;
+    tracker->confirm_mnat = initiator->confirm_mnat;
+    if (RHO_SECTORS) {
+        rho_tracker_note_thresholds(step);
+    }
+    const struct rho_track_limits limits = rho_tracker_limits(step);
+    rho_tracker_begin_share(step, RHO_WORK_STARTS_SHARE);
+    /* what a suspect sensor alone sees is no target */
+    for (unsigned i = 0; i < initiator->num_candidates && !step->is_suspect; i++) {
+        if (!is_doubled(initiator, &initiator->candidates[i])) {
+            start_track(step, &initiator->candidates[i], &limits);
+        }
+    }
+}
+
+void rho_tracker_initiate(struct step *step)
+{
+    if (step->initiator) {
+        start_tracks(step);
+    } else {
+        rho_tracker_refuse_unclaimed(step);
+    }
+    if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_learn_clutter(step);
+    }
+    rho_tracker_learn_unclaimed(step);
+}

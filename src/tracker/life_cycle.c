@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * life_cycle: the thresholds that confirm tracks and end them.
+ */
+#include "rhotrack/detail/approx.h"
+#include "step.h"
+
+/* Wald's lower threshold: one true track in a hundred is given up while tentative. */
+#define TENTATIVE_FALL_MNAT 4605
+
+/*
+ * ln of the odds that a target seen until now is still there: 200, its lifetime in scans, to one.
+ * In frames all sensors are assumed to miss what one misses.
+ */
+#define LIFETIME_MNAT 5298
+
+/*
+ * A grown track that has moved, and is not seen any more, may hide: tentative, unreported, for so
+ * many times coast_scans_max misses, as long as no more clutter plots than that are expected in its
+ * gate. The target may have flown behind something, and keeps its identity.
+ */
+#define HIDE_SHARE 2.4f
+#define HIDE_CLUTTER_MAX 3.0f
+
+void rho_tracker_end_track(struct step *step, struct rho_track *track)
+{
+    struct rho_report *report = step->report;
+    if (track->is_believed) {
+        report->ended[report->num_ended++] = track->track_id;
+    }
+    rho_track_end(track, &step->model);
+    track->status = RHO_TRACK_FREE;
+    step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
+}
+
+void rho_tracker_remove_ended(struct rho_tracker *tracker)
+{
+    unsigned live = 0;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        if (tracker->tracks[i].status != RHO_TRACK_FREE) {
+            tracker->tracks[live++] = tracker->tracks[i];
+        }
+    }
+    tracker->num_tracks = (uint16_t)live;
+}
+
+/* A miss of the best sensor: the scan of a weak sensor must not make earlier misses of a better one
+ * count for more. */
+static float largest_loss(const struct step *step)
+{
+    float loss = -step->log_miss;
+    for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
+        float other = -rho_log(1.0f - step->tracker->sensors[i].pd);
+        loss = other > loss ? other : loss;
+    }
+    return loss;
+}
+
+struct rho_track_limits rho_tracker_limits(const struct step *step)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    struct rho_track_limits limits = {
+        .confirm_mnat = tracker->confirm_mnat,
+        .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
+        .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
+        .fall_mnat = rho_tracker_mnat(largest_loss(step) * (float)tracker->config.coast_scans_max *
+                                      (float)tracker->looks_max),
+        .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
+    };
+    return limits;
+}
+
+static int may_hide(const struct step *step, const struct rho_track *track)
+{
+    return rho_tracker_is_grown(track) && (RHO_MAX_ECHOES == 0 || rho_tracker_has_moved(track)) &&
+           rho_tracker_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
+}
+
+/*
+ * A hidden track ends later, and its score falls no further than twice doubt_mnat: a hidden target
+ * is missed for sure, and two plots that fit are to be enough when it is back.
+ */
+static void let_hide(struct rho_track *track, struct rho_track_limits *limits)
+{
+    const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
+    const int32_t most_mnat = 2 * limits->doubt_mnat;
+    const int32_t least_mnat = track->score_max_mnat - most_mnat;
+    limits->misses_in_row_max = misses < (float)UINT8_MAX ? (uint8_t)misses : UINT8_MAX;
+    limits->fall_mnat = limits->fall_mnat > most_mnat ? limits->fall_mnat : most_mnat + 1;
+    track->score_mnat = track->score_mnat > least_mnat ? track->score_mnat : least_mnat;
+}
+
+void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
+                                  const struct rho_track_limits *limits)
+{
+    const uint8_t was_believed = track->is_believed;
+    const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
+    const int is_late = track->misses_in_row >= limits->misses_in_row_max;
+    struct rho_track_limits own = *limits;
+    if ((is_low || is_late) && may_hide(step, track)) {
+        let_hide(track, &own);
+    }
+    if (is_late || rho_tracker_is_too_young(step, track)) {
+        own.doubt_mnat = 0;
+    }
+    rho_tracker_note_growth(step, track);
+    if (rho_track_apply_thresholds(track, &own) == RHO_TRACK_FREE) {
+        rho_tracker_note_death(step, track);
+        rho_tracker_end_track(step, track);
+    } else if (track->is_believed != was_believed) {
+        step->tracker->counters.tracks_confirmed =
+            rho_count(step->tracker->counters.tracks_confirmed, 1);
+    }
+}

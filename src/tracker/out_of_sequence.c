@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * out_of_sequence: scans that are older than the newest one, but not by much. Tracks go back to the
+ * scan's time without process noise, claim its plots, and return before the next scan.
+ */
+#include "step.h"
+
+#if RHO_SECTORS
+
+#define LATE_LIMIT_S 60.0f
+
+void rho_tracker_set_late_default(struct rho_tracker_config *config)
+{
+    config->late_max_s = 20.0f;
+}
+
+int rho_tracker_is_late_usable(const struct rho_tracker_config *config)
+{
+    return rho_is_within(config->late_max_s, 0.0f, LATE_LIMIT_S);
+}
+
+int rho_tracker_takes_late(const struct step *step)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_tracker_look *look =
+        step->scan ? rho_tracker_look_of(tracker, step->scan->sensor_id) : 0;
+    const int is_double = look && look->count > 0 && look->time_us == step->time_us;
+    return step->scan && !is_double &&
+           rho_seconds_between(step->time_us, tracker->time_us) <= tracker->config.late_max_s;
+}
+
+void rho_tracker_count_late(struct step *step)
+{
+    struct rho_tracker_counters *counters = &step->tracker->counters;
+    counters->scans_retrodicted = rho_count(counters->scans_retrodicted, 1);
+}
+
+void rho_tracker_note_ahead(struct rho_track *track)
+{
+    track->ahead_us = track->time_us;
+}
+
+int rho_tracker_is_sound_ahead(const struct rho_track *track)
+{
+    return rho_is_stored_time(track->ahead_us);
+}
+
+/*
+ * A track that was moved back returns to its time before; one that was not so far stays. 0 where
+ * the estimate cannot be moved there any more.
+ */
+static int return_track(struct step *step, struct rho_track *track)
+{
+    const int was_ahead = track->ahead_us > track->time_us;
+    if (!was_ahead && track->time_us != step->time_us) {
+        return 1;
+    }
+    if (was_ahead && rho_track_return(track, track->ahead_us, &step->model) != RHO_OK) {
+        return 0;
+    }
+    rho_track_merge_estimates(track, track->time_us, &step->model);
+    return 1;
+}
+
+/* Unclaimed plots start no track: the initiation has gone on. The report is of the newest time. */
+void rho_tracker_end_late(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            step->report->fates[i] = RHO_FATE_STALE;
+        }
+    }
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        if (!return_track(step, &tracker->tracks[i])) {
+            tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
+            rho_tracker_end_track(step, &tracker->tracks[i]);
+        }
+    }
+    rho_tracker_remove_ended(tracker);
+    step->time_us = tracker->time_us;
+    step->report->time_us = step->time_us;
+}
+
+#endif

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * plot_index: the scan's plots by strips of x, so that a track looks at those near it alone.
+ *
+ * A track's box is as wide as its uncertainty, a strip as the scan over RHO_PLOT_STRIPS. Within a
+ * strip plots keep their order. With one strip nothing is sorted: plots that follow each other
+ * share a box, one of RHO_PLOT_BOXES, and boxes that are elsewhere are passed over. Radars send
+ * plots as the antenna turns, so that their boxes are small.
+ */
+#include <string.h>
+
+#include "step.h"
+
+#if RHO_PLOT_STRIPS > 1
+
+/* Plots of any place, and limits of any size, have one. */
+static unsigned strip_of(const struct rho_tracker_strips *strips, float x_m)
+{
+    const float place = (x_m - strips->x_min_m) * strips->per_m;
+    if (!(place > 0.0f)) {
+        return 0;
+    }
+    return place < (float)(RHO_PLOT_STRIPS - 1) ? (unsigned)place : RHO_PLOT_STRIPS - 1u;
+}
+
+/* As wide as the plots that count lie. */
+static void lay_strips(struct rho_tracker_strips *strips, const struct step *step)
+{
+    float x_min_m = RHO_LIMIT_POSITION_M, x_max_m = -RHO_LIMIT_POSITION_M;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            const float x_m = step->scan->plots[i].x_m;
+            x_min_m = x_m < x_min_m ? x_m : x_min_m;
+            x_max_m = x_m > x_max_m ? x_m : x_max_m;
+        }
+    }
+    strips->x_min_m = x_min_m;
+    strips->per_m = x_max_m > x_min_m ? (float)RHO_PLOT_STRIPS / (x_max_m - x_min_m) : 0.0f;
+}
+
+/*
+ * Counting sort: the plots of strip s are counted two places on, then put one place on, which moves
+ * to their end.
+ */
+void rho_tracker_sort_plots(struct step *step)
+{
+    struct rho_tracker_strips *strips = &step->tracker->strips;
+    uint16_t *starts = strips->starts;
+    lay_strips(strips, step);
+    memset(starts, 0, sizeof strips->starts);
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            starts[strip_of(strips, step->scan->plots[i].x_m) + 2u]++;
+        }
+    }
+    for (unsigned s = 2; s < RHO_PLOT_STRIPS; s++) {
+        starts[s + 1u] = (uint16_t)(starts[s + 1u] + starts[s]);
+    }
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            strips->plots[starts[strip_of(strips, step->scan->plots[i].x_m) + 1u]++] = (uint16_t)i;
+        }
+    }
+}
+
+struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
+                                         float y_min_m, float y_max_m)
+{
+    const struct rho_tracker_strips *strips = &step->tracker->strips;
+    return (struct plots_near){
+        .next = strips->starts[strip_of(strips, x_min_m)],
+        .end = strips->starts[strip_of(strips, x_max_m) + 1u],
+        .within = {x_min_m, x_max_m, y_min_m, y_max_m},
+    };
+}
+
+#else
+
+void rho_tracker_sort_plots(struct step *step)
+{
+    step->plots_of_box = (step->num_gated + RHO_PLOT_BOXES - 1u) / RHO_PLOT_BOXES;
+    for (unsigned k = 0; k < RHO_PLOT_BOXES; k++) {
+        const uint32_t first = k * step->plots_of_box, end = first + step->plots_of_box;
+        struct plot_box box = {RHO_LIMIT_POSITION_M, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
+                               -RHO_LIMIT_POSITION_M};
+        for (uint32_t i = first; i < end && i < step->num_gated; i++) {
+            const struct rho_plot *plot = &step->scan->plots[i];
+            if (step->report->fates[i] == RHO_FATE_HELD) {
+                box.x_min_m = plot->x_m < box.x_min_m ? plot->x_m : box.x_min_m;
+                box.x_max_m = plot->x_m > box.x_max_m ? plot->x_m : box.x_max_m;
+                box.y_min_m = plot->y_m < box.y_min_m ? plot->y_m : box.y_min_m;
+                box.y_max_m = plot->y_m > box.y_max_m ? plot->y_m : box.y_max_m;
+            }
+        }
+        step->boxes[k] = box;
+    }
+}
+
+struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
+                                         float y_min_m, float y_max_m)
+{
+    (void)step;
+    return (struct plots_near){0, 0, 0, {x_min_m, x_max_m, y_min_m, y_max_m}};
+}
+
+int rho_tracker_next_box(const struct step *step, struct plots_near *near)
+{
+    const struct plot_box within = near->within;
+    for (unsigned k = near->box; k < RHO_PLOT_BOXES; k++) {
+        const struct plot_box *box = &step->boxes[k];
+        if (!(box->x_min_m > within.x_max_m || box->x_max_m < within.x_min_m ||
+              box->y_min_m > within.y_max_m || box->y_max_m < within.y_min_m)) {
+            const uint32_t end = (k + 1u) * step->plots_of_box;
+            near->box = k + 1u;
+            near->next = k * step->plots_of_box;
+            near->end = end < step->num_gated ? end : step->num_gated;
+            return near->next < near->end;
+        }
+    }
+    return 0;
+}
+
+#endif

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * plot_scores: how much likelier a plot is a track's than clutter, ln; and the pairs of a track and
+ * a plot or bearing that are offered to the assignment.
+ */
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+/* ---- offers ---------------------------------------------------------------------------------- */
+
+int32_t rho_tracker_mnat(float nat)
+{
+    float mnat = nat * 1000.0f;
+    if (!(mnat > -(float)RHO_ASSIGNMENT_COST_MAX)) {
+        return -RHO_ASSIGNMENT_COST_MAX;
+    }
+    return mnat < (float)RHO_ASSIGNMENT_COST_MAX ? (int32_t)mnat : RHO_ASSIGNMENT_COST_MAX;
+}
+
+void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
+                           uint32_t measures, struct rho_gate *gate)
+{
+    struct rho_kalman expected;
+    rho_track_expect(track, &expected);
+    rho_gate_open(gate, &expected,
+                  RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? step->model.input->noise_density
+                                                          : step->model.noise_density,
+                  step->sensor, measures);
+}
+
+void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat)
+{
+    int32_t gain = rho_tracker_mnat(gain_nat);
+    (void)!rho_assignment_add(&step->tracker->assignment, row, column, gain > 1 ? -gain : -1);
+}
+
+int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat)
+{
+    const struct rho_assignment *assignment = &step->tracker->assignment;
+    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
+        if (assignment->pairs[row][i].column == column) {
+            *gain_nat = rho_tracker_detection(step, &step->tracker->tracks[row]).log_miss -
+                        0.001f * (float)assignment->pairs[row][i].cost;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+void rho_tracker_assign(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    rho_assignment_solve(&tracker->assignment);
+    tracker->counters.gate_plots_dropped =
+        rho_count(tracker->counters.gate_plots_dropped, tracker->assignment.pairs_dropped);
+}
+
+/* ---- scores ---------------------------------------------------------------------------------- */
+
+/* ln of the plot's density as the track's over its density as clutter, whose range rates are any
+ * that a target may have. */
+static float log_ratio(const struct step *step, const struct rho_gate_result *result,
+                       float log_density)
+{
+    float dimensions = 2.0f;
+    if (result->has_z) {
+        log_density -= step->log_height;
+        dimensions += 1.0f;
+    }
+    if (result->has_range_rate) {
+        log_density -= step->log_range_rates;
+        dimensions += 1.0f;
+    }
+    return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
+}
+
+static float repeats_nat(const struct step *step, uint32_t row)
+{
+    return RHO_MAX_ECHOES > 0 ? rho_tracker_repeats_nat(step, row) : 0.0f;
+}
+
+float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
+                             const struct rho_gate_result *result, float log_density, uint32_t row)
+{
+    return rho_tracker_detection(step, track).log_pd +
+           log_ratio(step, result, log_density + repeats_nat(step, row));
+}
+
+float rho_tracker_log_miss(const struct step *step, const struct rho_track *track)
+{
+    return rho_tracker_scan_looked_at(step, track) ? rho_tracker_detection(step, track).log_miss
+                                                   : 0.0f;
+}
+
+struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row)
+{
+    const struct rho_plot *plot = &step->scan->plots[row];
+    return (struct rho_track_plot){
+        .time_us = step->scan->time_us + plot->offset_us,
+        .measures = step->scan->measures,
+        .sensor_id = step->scan->sensor_id,
+        .sensor = step->sensor,
+        .plot = *plot,
+        .row = (int16_t)row,
+    };
+}
+
+/* ---- hypotheses ------------------------------------------------------------------------------ */
+
+/*
+ * Plots between the limits may be in the gate of a hypothesis, whatever their noise and own time.
+ */
+static struct plots_near plots_near_track(const struct step *step, const struct rho_track *track,
+                                          struct rho_hypotheses_box *box)
+{
+    const float slack_m = rho_hypotheses_box_margin_m(&step->tracker->hypotheses, track->slot, box,
+                                                      step->sigma_max_m, step->offset_max_s);
+    return rho_tracker_plots_near(step, box->x_min_m - slack_m, box->x_max_m + slack_m,
+                                  box->y_min_m - slack_m, box->y_max_m + slack_m);
+}
+
+/* Near the track, and not assigned to another one (before the assignment none is). */
+static int is_free_and_near(const struct step *step, struct plot_scores *scores, uint32_t i)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    const int owner = tracker->assignment.column_row[i];
+    return step->report->fates[i] == RHO_FATE_HELD &&
+           !(owner >= 0 && owner != (int)scores->track_row) &&
+           rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
+                                    &scores->box, &step->scan->plots[i], step->scan->measures);
+}
+
+static void choose_plots(struct step *step, const struct rho_track *track,
+                         struct plot_scores *scores)
+{
+    struct plots_near counted = scores->near;
+    scores->choice = rho_tracker_choose_plots(step, track);
+    for (uint32_t i; scores->choice.most < rho_tracker_most_near(step, &scores->near) &&
+                     rho_tracker_next_plot(step, &counted, &i);) {
+        if (is_free_and_near(step, scores, i)) {
+            rho_tracker_note_choice(&scores->choice, track, &step->scan->plots[i]);
+        }
+    }
+    rho_tracker_end_choice(step, &scores->choice);
+}
+
+void rho_tracker_begin_scores(struct step *step, unsigned row, struct plot_scores *scores)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[row];
+    scores->track_row = row;
+    scores->log_pd = rho_tracker_detection(step, track).log_pd;
+    scores->clutter = (struct rho_hypotheses_clutter){
+        .log_per_m2 = rho_tracker_log_density(step, track),
+        .log_per_m = -step->log_height,
+        .log_per_mps = -step->log_rates,
+        .log_per_range_rate = -step->log_range_rates,
+    };
+    rho_hypotheses_begin_scan(&tracker->hypotheses, track->slot, &scores->box);
+    scores->box.sigma_factor = rho_measurement_widest_factor(step->sensor);
+    scores->near = plots_near_track(step, track, &scores->box);
+    choose_plots(step, track, scores);
+}
+
+int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
+                           float *gain_nat)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[scores->track_row];
+    struct rho_imm_plot seen;
+    while (rho_tracker_next_plot(step, &scores->near, plot)) {
+        const struct rho_plot *at = &step->scan->plots[*plot];
+        if (!is_free_and_near(step, scores, *plot) ||
+            !rho_tracker_is_chosen(step, &scores->choice, track, at)) {
+            continue;
+        }
+        rho_imm_open_plot(&seen, at, step->scan->measures, step->sensor);
+        struct rho_hypotheses_clutter clutter = scores->clutter;
+        clutter.log_per_m2 += repeats_nat(step, *plot);
+        if (rho_hypotheses_score_plot(&tracker->hypotheses, track->slot, &seen,
+                                      step->time_us + at->offset_us, (int16_t)*plot, scores->log_pd,
+                                      &clutter, gain_nat)) {
+            return 1;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * predict: moves tracks to the scan's time.
+ *
+ * A track that the scan cannot see stays at its own time. So scans of other sectors or sensors
+ * change no bit of its estimate.
+ */
+#include "step.h"
+
+void rho_tracker_predict_track(struct step *step, struct rho_track *track)
+{
+    /* an estimate that time has made worthless cannot be carried on */
+    if (rho_track_predict(track, step->time_us, &step->model) != RHO_OK) {
+        rho_tracker_end_track(step, track);
+    }
+}
+
+void rho_tracker_predict(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        track->plot = -1;
+        if (RHO_SECTORS) {
+            rho_tracker_note_ahead(track);
+        }
+        if (rho_tracker_reaches(step, track) &&
+            !(RHO_SECTORS && rho_tracker_was_seen(step, track)) &&
+            !rho_tracker_is_only_seen_by_suspect_sensor(step, track)) {
+            step->reached[i / 32] |= 1u << i % 32;
+            rho_tracker_predict_track(step, track);
+        }
+    }
+}

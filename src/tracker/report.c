@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * report: the tracks at the step's time, one fate for each plot, and the counters.
+ */
+#include <string.h>
+
+#include "step.h"
+
+/* Tracks that the scan cannot see, and tracks that started at their plots' own times, stay as they
+ * are; the report moves their last estimates. */
+void rho_tracker_merge_estimates(struct step *step)
+{
+    for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
+        struct rho_track *track = &step->tracker->tracks[i];
+        if (track->time_us == step->time_us) {
+            rho_track_merge_estimates(track, step->time_us, &step->model);
+        }
+    }
+}
+
+/* Hypotheses stay where they are: the one estimate moves, forward with its acceleration. */
+static void move_estimate(struct rho_track *at, float dt_s, float noise_density)
+{
+    if (rho_kalman_predict(&at->kalman, dt_s, noise_density) != RHO_OK) {
+        return;
+    }
+    for (int axis = 0; axis < 3 && dt_s > 0.0f; axis++) {
+        at->kalman.state[axis] += 0.5f * dt_s * dt_s * at->accel_mps2[axis];
+        at->kalman.state[axis + 3] += dt_s * at->accel_mps2[axis];
+    }
+}
+
+/* The track at the step's time: itself, or a copy moved there in *at. */
+static const struct rho_track *at_step(const struct step *step, const struct rho_track *track,
+                                       struct rho_track *at)
+{
+    if (track->time_us == step->time_us) {
+        return track;
+    }
+    *at = *track;
+    /* back from the plot's own time to the scan's, without noise, or on: nothing to refuse */
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        move_estimate(at, rho_seconds_between(track->time_us, step->time_us),
+                      step->model.noise_density);
+    } else {
+        (void)!rho_track_predict(at, step->time_us, &step->model);
+    }
+    return at;
+}
+
+static void report_track(const struct step *step, const struct rho_track *track,
+                         struct rho_track_report *out)
+{
+    int64_t age_us = step->time_us - track->updated_us;
+    struct rho_track moved;
+    const struct rho_track *at = at_step(step, track, &moved);
+    *out = (struct rho_track_report){
+        .track_id = track->track_id,
+        .status = (enum rho_track_status)track->status,
+        .hits = track->hits,
+        .misses = track->misses,
+        .sensor_id = track->sensor_id,
+        .plot = rho_tracker_is_late(step->tracker, step->time_us) ? -1 : track->plot,
+        .update_age_us = age_us < 0           ? 0
+                         : age_us < INT32_MAX ? (int32_t)age_us
+                                              : INT32_MAX,
+        .score_nat = (float)track->score_mnat * 0.001f,
+        .sigma_m = rho_track_sigma_m(at),
+        .sigma_mps = rho_track_sigma_mps(at),
+        .maneuver_probability = at->maneuver_probability,
+        .num_hypotheses = 1,
+    };
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        out->num_hypotheses =
+            (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
+    }
+    memcpy(out->accel_mps2, at->accel_mps2, sizeof out->accel_mps2);
+    memcpy(out->state, at->kalman.state, sizeof out->state);
+    memcpy(out->covariance, at->kalman.covariance, sizeof out->covariance);
+}
+
+/* Plots without a place in fates[]: STALE in a scan that came out of sequence, else NO_ROOM. */
+static void count_fates(const struct step *step)
+{
+    struct rho_tracker_counters *counters = &step->tracker->counters;
+    struct rho_report *report = step->report;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        report->fates_total[report->fates[i]]++;
+    }
+    uint32_t others = step->num_inputs - step->num_gated;
+    if (RHO_CLAIMS_BEYOND) {
+        report->fates_total[RHO_FATE_CLAIMED] += step->num_beyond_claimed;
+        report->fates_total[RHO_FATE_INVALID] += step->num_beyond_invalid;
+        others -= step->num_beyond_claimed + step->num_beyond_invalid;
+    }
+    report->fates_total[step->is_late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] += others;
+    for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
+        counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
+    }
+    counters->plots_in = rho_count(counters->plots_in, step->num_inputs);
+}
+
+void rho_tracker_report(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    count_fates(step);
+    tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
+    step->report->num_tracks = tracker->num_tracks;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        report_track(step, &tracker->tracks[i], &step->report->tracks[i]);
+    }
+}

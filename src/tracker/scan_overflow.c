@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scan_overflow: scans of more plots than there is room for. Existing tracks come first: they claim
+ * from the other plots, too.
+ *
+ * The scan is claimed in parts of RHO_MAX_PLOTS. In each part the tracks that have no plot yet
+ * claim one; a track without a plot after the last part is missed. Only plots of the first part
+ * have places in fates[] and are held: unclaimed plots of later parts are NO_ROOM.
+ */
+#include <string.h>
+
+#include "step.h"
+
+/* Rows that a track can tell. */
+#define ROWS_MAX ((uint32_t)INT16_MAX)
+
+static void open_part(struct step *step, struct rho_scan *part, const struct rho_scan *whole,
+                      uint32_t first, uint32_t end)
+{
+    *part = *whole;
+    part->plots += first;
+    part->num_plots = end - first < RHO_MAX_PLOTS ? end - first : RHO_MAX_PLOTS;
+    step->scan = part;
+    step->first_row = first;
+    step->num_gated = part->num_plots;
+    step->has_more_parts = end - first > RHO_MAX_PLOTS;
+}
+
+/*
+ * Tracks that were assigned a plot, taken or refused, are excluded from later parts. Their plots
+ * get the rows of the whole scan.
+ */
+static void close_part(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        const int had = rho_assignment_column(&tracker->assignment, i) != RHO_ASSIGNMENT_NONE;
+        if (rho_tracker_is_reached(step, i) && (track->plot >= 0 || had)) {
+            track->plot = (int16_t)(track->plot < 0 ? -1 : track->plot + (int32_t)step->first_row);
+            step->reached[i / 32] &= ~(1u << i % 32);
+        }
+    }
+    for (uint32_t i = 0; i < step->num_gated && step->first_row > 0; i++) {
+        step->num_beyond_claimed += step->report->fates[i] == RHO_FATE_CLAIMED ? 1u : 0u;
+        step->num_beyond_invalid += step->report->fates[i] == RHO_FATE_INVALID ? 1u : 0u;
+    }
+}
+
+static uint32_t end_of_parts(const struct rho_scan *whole)
+{
+    const uint32_t most = RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS < ROWS_MAX
+                              ? RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS
+                              : ROWS_MAX;
+    return whole->num_plots < most ? whole->num_plots : most;
+}
+
+void rho_tracker_claim_parts(struct step *step)
+{
+    const struct step before = *step;
+    const uint32_t end = end_of_parts(before.scan);
+    uint8_t fates[RHO_MAX_PLOTS];
+    struct rho_scan part;
+    for (uint32_t first = 0; first < end; first += RHO_MAX_PLOTS) {
+        open_part(step, &part, before.scan, first, end);
+        rho_tracker_claim(step);
+        rho_tracker_update(step);
+        close_part(step);
+        if (first == 0) {
+            memcpy(fates, step->report->fates, sizeof fates);
+        }
+    }
+    memcpy(step->report->fates, fates, sizeof fates);
+    memcpy(step->reached, before.reached, sizeof step->reached);
+    step->part_share = before.part_share;
+    step->part_per_m2 = before.part_per_m2;
+    step->scan = before.scan;
+    step->first_row = before.first_row;
+    step->num_gated = before.num_gated;
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * sectors: a radar that is stepped sector by sector sees each target once a turn, also one at the
+ * edge of two sectors.
+ *
+ *      previous sector  |  this sector          the antenna turns this way ->
+ *            .--------. |
+ *           (   gate   )|      passed as a whole: a track without a plot is missed here
+ *            '--------' |
+ *                  .----|---.
+ *                 (   gate   )  its plot may come in either sector. A track that took one in the
+ *                  '----|---'   previous sector takes none here. One without a plot is missed
+ *                               in the sector in which the antenna passes the end of its gate
+ */
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+#if RHO_SECTORS
+
+/* Standard deviations from a track's place to the end of where its plot is expected. */
+#define GATE_SIGMAS 3.0f
+
+/* num_looks where the sensor is not known. */
+static unsigned place_of_look(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned place = 0;
+    while (place < tracker->num_looks && tracker->looks[place].sensor_id != sensor_id) {
+        place++;
+    }
+    return place;
+}
+
+static struct rho_tracker_look *find_look(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    const unsigned place = place_of_look(tracker, sensor_id);
+    return place < tracker->num_looks ? &tracker->looks[place] : 0;
+}
+
+/* A sensor that comes back is counted anew. */
+static void forget_sights(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        for (int k = 0; k < 2; k++) {
+            track->look[k] = track->look_sensor_id[k] == sensor_id ? 0 : track->look[k];
+        }
+    }
+}
+
+/* A new sensor replaces the one that was heard longest ago, where there is no free place. */
+static struct rho_tracker_look *add_look(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    struct rho_tracker_look *oldest = &tracker->looks[0];
+    for (unsigned i = 1; i < tracker->num_looks; i++) {
+        oldest = tracker->looks[i].time_us < oldest->time_us ? &tracker->looks[i] : oldest;
+    }
+    if (tracker->num_looks < RHO_MAX_SENSORS) {
+        oldest = &tracker->looks[tracker->num_looks++];
+    }
+    forget_sights(tracker, sensor_id);
+    *oldest = (struct rho_tracker_look){.sensor_id = sensor_id};
+    return oldest;
+}
+
+const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
+                                                   int32_t sensor_id)
+{
+    const unsigned place = tracker ? place_of_look(tracker, sensor_id) : 0;
+    return tracker && place < tracker->num_looks ? &tracker->looks[place] : 0;
+}
+
+struct rho_tracker_look *rho_tracker_own_look(struct step *step)
+{
+    return find_look(step->tracker, step->scan->sensor_id);
+}
+
+void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    struct rho_tracker_look *look = find_look(tracker, sensor_id);
+    if (look) {
+        *look = tracker->looks[--tracker->num_looks];
+        memset(&tracker->looks[tracker->num_looks], 0, sizeof *look);
+    }
+}
+
+void rho_tracker_note_look(struct step *step)
+{
+    const struct rho_scan *scan = step->scan;
+    struct rho_tracker_look *look = rho_tracker_own_look(step);
+    if (step->is_late) {
+        return;
+    }
+    look = look ? look : add_look(step->tracker, scan->sensor_id);
+    if (look->count > 0) {
+        const unsigned ends =
+            rho_angle_sector_goes_on(look->sector_from_rad, look->sector_to_rad,
+                                     scan->sector_from_rad, scan->sector_to_rad, 0.0f);
+        /* the two halves of a turn meet at both ends, which do not tell the direction */
+        step->turning = ends == RHO_ANGLE_GOES_ON_LEFT    ? 1.0f
+                        : ends == RHO_ANGLE_GOES_ON_RIGHT ? -1.0f
+                                                          : 0.0f;
+    }
+    look->time_us = scan->time_us;
+    look->count = (uint16_t)(look->count == UINT16_MAX ? 1 : look->count + 1);
+    look->sector_from_rad = scan->sector_from_rad;
+    look->sector_to_rad = scan->sector_to_rad;
+    step->look = look->count;
+}
+
+/*
+ * A track of one radar is tested at another radar's scans, too: it falls by the lower threshold and
+ * rises by the higher.
+ */
+void rho_tracker_note_thresholds(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_tracker_look *own = rho_tracker_own_look(step);
+    if (own) {
+        own->start_mnat = step->initiator->start_mnat;
+        own->confirm_mnat = step->initiator->confirm_mnat;
+    }
+    for (unsigned i = 0; i < tracker->num_looks; i++) {
+        const struct rho_tracker_look *look = &tracker->looks[i];
+        if (step->time_us - look->time_us > RHO_TRACKER_SILENT_US ||
+            (look->start_mnat == 0 && look->confirm_mnat == 0)) {
+            continue;
+        }
+        tracker->start_mnat =
+            look->start_mnat < tracker->start_mnat ? look->start_mnat : tracker->start_mnat;
+        tracker->confirm_mnat =
+            look->confirm_mnat > tracker->confirm_mnat ? look->confirm_mnat : tracker->confirm_mnat;
+    }
+}
+
+static int is_turning(const struct step *step)
+{
+    return step->turning > 0.0f || step->turning < 0.0f;
+}
+
+int rho_tracker_was_seen(const struct step *step, const struct rho_track *track)
+{
+    if (!is_turning(step)) {
+        return 0;
+    }
+    const uint16_t before = (uint16_t)(step->look == 1 ? UINT16_MAX : step->look - 1);
+    const int32_t sensor_id = step->scan->sensor_id;
+    return ((track->look_sensor_id[0] == sensor_id && track->look[0] == before) ||
+            (track->look_sensor_id[1] == sensor_id && track->look[1] == before));
+}
+
+void rho_tracker_note_sight(const struct step *step, struct rho_track *track)
+{
+    if (track->plot < 0 || step->is_late) {
+        return;
+    }
+    if (track->look_sensor_id[0] != step->scan->sensor_id) {
+        track->look_sensor_id[1] = track->look_sensor_id[0];
+        track->look[1] = track->look[0];
+        track->look_sensor_id[0] = step->scan->sensor_id;
+    }
+    track->look[0] = step->look;
+}
+
+/* Is the gate's end in the sector that lies counter-clockwise (+1), or clockwise (-1)? */
+static int holds_end(const struct step *step, const struct rho_track *track, float way)
+{
+    const struct rho_scan *scan = step->scan;
+    const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
+    const float dx_m = track->kalman.state[0] - (step->sensor ? step->sensor->x_m : 0.0f);
+    const float dy_m = track->kalman.state[1] - (step->sensor ? step->sensor->y_m : 0.0f);
+    const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    float margin_rad = GATE_SIGMAS * rho_track_sigma_m(track) / (range_m > 1.0f ? range_m : 1.0f);
+    if (!(margin_rad < 0.5f * width_rad)) {
+        margin_rad = 0.5f * width_rad;
+    }
+    /* turned by a small angle */
+    const float turn = way * margin_rad;
+    return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                    track->kalman.state[0] - turn * dy_m,
+                                    track->kalman.state[1] + turn * dx_m);
+}
+
+static int is_sector(const struct rho_scan *scan)
+{
+    return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
+}
+
+int rho_tracker_has_passed(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_scan *scan = step->scan;
+    if (is_turning(step)) {
+        return holds_end(step, track, step->turning); /* the far one */
+    }
+    if (step->is_late && is_sector(scan)) {
+        /* either neighbour may have had its plot */
+        return holds_end(step, track, 1.0f) && holds_end(step, track, -1.0f);
+    }
+    return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                    track->kalman.state[0], track->kalman.state[1]);
+}
+
+float rho_tracker_turns(const struct step *step)
+{
+    return is_turning(step) ? RHO_TWO_PI / rho_angle_sector_width(step->scan->sector_from_rad,
+                                                                  step->scan->sector_to_rad)
+                            : 1.0f;
+}
+
+int rho_tracker_saw_last(const struct rho_track *track, int32_t sensor_id)
+{
+    return (track->look[0] > 0 && track->look_sensor_id[0] == sensor_id) ||
+           (track->look[1] > 0 && track->look_sensor_id[1] == sensor_id);
+}
+
+int rho_tracker_is_of_earlier_sector(const struct rho_window *window,
+                                     const struct rho_window_scan *scan, unsigned plot)
+{
+    return scan->plots[plot].offset_s < window->newest.offset_min_s;
+}
+
+/* ---- snapshots ------------------------------------------------------------------------------- */
+
+int rho_tracker_has_sound_looks(const struct rho_tracker *tracker)
+{
+    if (tracker->num_looks > RHO_MAX_SENSORS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < tracker->num_looks; i++) {
+        const struct rho_tracker_look *look = &tracker->looks[i];
+        if (!rho_angle_is_sector(look->sector_from_rad, look->sector_to_rad) ||
+            !rho_is_stored_time(look->time_us) || !rho_tracker_is_score(look->start_mnat) ||
+            !rho_tracker_is_score(look->confirm_mnat) ||
+            !rho_is_within(look->seen_share, 0.0f, 1e9f) ||
+            !rho_is_within(look->distance2, 0.0f, 1e30f) ||
+            !rho_is_within(look->sigma_m, 0.0f, 1e9f)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+#endif

@@ -1,0 +1,422 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * sensor_learning: sensors that are not as stated. Tracks that are surely targets' show what a
+ * sensor's noise is, and how often it sees them.
+ *
+ * Noise: of a plot that the assignment gives to a steady track the innovation v on an axis, along
+ * the line of sight or across it, has the variance p + f r: p of the steady filter's prediction, r
+ * of the plot's noise as stated, f what is learned. Of white innovations u = v / sqrt(p + f r) half
+ * of the squared difference of one and the one before is 1 on average; where the target turns, or
+ * the prediction is off otherwise, they lie on one side for some scans, and that is left out so.
+ * With e = (u - u_before)^2 / 2, cut at c^2 (plots of others are among them), and b the mean of it,
+ *
+ *      ln f += g (min(e, c^2) / b - 1),        g = 3 / (n + 40) of the n-th innovation
+ *
+ * Tracks that two sensors have seen say nothing here: one that is off would look noisy to the
+ * other. Where noise is more than some 2.5 times what is stated, tracks seem to manoeuvre all the
+ * time, and show little: `rhotrack calibrate` finds it.
+ *
+ * P_D: of the looks that follow one that saw the track, how many see it; one that does not counts
+ * when the track is seen again, so that targets that are gone have no misses. Tracks that end early
+ * for being seen seldom are counted for as long as they are there. Of a target that fades the first
+ * miss counts alone: the pd that is learned is rather too high, and is never above the one stated.
+ */
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/linalg.h"
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+/* Tracks that are likelier to turn teach nothing of noise. */
+#define MANEUVER_MAX 0.2f
+#define HAS_INNOVATION 1u
+#define IS_MISSED 2u
+#define SHOWN_PER_SIGMA 16.0f
+#define SIGMAS_MAX 7.9f
+
+/* Squared innovations count so far; their mean then, of a normal distribution. */
+#define CUT2 2.25f
+#define MEAN_CUT 0.7785f
+#define GAIN 3.0f
+#define INNOVATIONS_PRIOR 40.0f
+#define LOG_NOISE_MAX 4.6f /* 10 times the sigma */
+#define INNOVATIONS_MIN 100
+#define INNOVATIONS_MAX 1000
+/* Where the prediction is less certain than this, its own errors would count as noise. */
+#define NOISE_SHARE_MIN 0.4f
+/*
+ * ln of variances: smaller differences count as none; and smaller than this over the root of
+ * innovations.
+ */
+#define AS_STATED 0.25f
+#define CHANCE 4.0f
+
+/* Prior looks: at all rings, with the stated pd; at one ring, with the pd of all rings. */
+#define PRIOR_OF_ALL 30.0f
+#define PRIOR_OF_RING 20.0f
+#define LOOKS_MAX 1000
+/*
+ * Standard deviations: below so many, pd is as stated; learned pd is raised by so many, to be
+ * cautious.
+ */
+#define SURELY 2.5f
+#define CAUTION 1.0f
+
+/* One Kalman filter takes manoeuvres for noise, and loses targets that are there. */
+static int learns(const struct rho_tracker_config *config)
+{
+    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
+}
+
+static int learns_noise(const struct rho_tracker_config *config)
+{
+    return learns(config) && (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
+}
+
+/* ---- use of noise ---------------------------------------------------------------------------- */
+
+static float factor_of(const struct rho_tracker *tracker, const struct rho_tracker_learned *learned,
+                       int axis)
+{
+    const float log_noise = learned->log_noise[axis];
+    const float most = AS_STATED + CHANCE / rho_sqrt(1.0f + (float)learned->innovations);
+    if (!learns_noise(&tracker->config) || learned->innovations < INNOVATIONS_MIN ||
+        (log_noise <= most && log_noise >= -most)) {
+        return 1.0f;
+    }
+    const float factor = rho_exp(0.5f * log_noise);
+    const float least =
+        factor > tracker->config.learn_noise_min ? factor : tracker->config.learn_noise_min;
+    return least < tracker->config.learn_noise_max ? least : tracker->config.learn_noise_max;
+}
+
+static uint16_t percent_of(float factor)
+{
+    return (uint16_t)(100.0f * factor + 0.5f);
+}
+
+void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_sensor *sensor)
+{
+    if (step->learned) {
+        sensor->sigma_range_percent =
+            percent_of(suspicion * factor_of(step->tracker, step->learned, 0));
+        sensor->sigma_cross_percent =
+            percent_of(suspicion * factor_of(step->tracker, step->learned, 1));
+    }
+}
+
+void rho_tracker_set_noise(struct step *step, float suspicion)
+{
+    if (step->learned) {
+        rho_tracker_use_noise(step, suspicion,
+                              &step->tracker->sensors[step->learned - step->tracker->learned]);
+    }
+}
+
+/* ---- noise learned --------------------------------------------------------------------------- */
+
+static const struct rho_kalman *steady_of(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
+    for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot); i++) {
+        const struct rho_hypothesis *at = rho_hypotheses_at(pool, track->slot, i);
+        if (at->weight_nat >= 0.0f) {
+            return at->time_us == step->time_us && at->imm.probability < MANEUVER_MAX
+                       ? &at->imm.steady
+                       : 0;
+        }
+    }
+    return 0;
+}
+
+/* The innovation along a direction, over its sigma, and whether noise dominates it. */
+struct innovation {
+    float sigmas;
+    int is_clear;
+};
+
+/* up_m2: variance by the noise of the height, which is not learned. */
+static struct innovation innovation_along(const struct rho_kalman *steady,
+                                          const struct rho_plot *plot, float x, float y,
+                                          float noise_m2, float up_m2)
+{
+    const float after_s = (float)plot->offset_us * 1e-6f, *state = steady->state;
+    const float *p = steady->covariance, vx = x * after_s, vy = y * after_s;
+    const float predicted_m2 =
+        x * (x * p[RHO_AT(0, 0)] +
+             2.0f * (y * p[RHO_AT(1, 0)] + vx * p[RHO_AT(3, 0)] + vy * p[RHO_AT(4, 0)])) +
+        y * (y * p[RHO_AT(1, 1)] + 2.0f * (vx * p[RHO_AT(3, 1)] + vy * p[RHO_AT(4, 1)])) +
+        vx * (vx * p[RHO_AT(3, 3)] + 2.0f * vy * p[RHO_AT(4, 3)]) + vy * vy * p[RHO_AT(4, 4)];
+    const float variance_m2 = predicted_m2 + noise_m2 + up_m2;
+    const float off_m = x * (plot->x_m - state[0] - after_s * state[3]) +
+                        y * (plot->y_m - state[1] - after_s * state[4]);
+    const float sigmas = off_m / rho_sqrt(variance_m2);
+    return (struct innovation){sigmas > SIGMAS_MAX    ? SIGMAS_MAX
+                               : sigmas > -SIGMAS_MAX ? sigmas
+                                                      : -SIGMAS_MAX,
+                               noise_m2 >= NOISE_SHARE_MIN * variance_m2};
+}
+
+/* Half the squared difference to the axis' innovation before, cut; below 0 where it is not used. */
+static float note_excess(struct rho_track *track, int axis, const struct innovation *now)
+{
+    const float off = now->sigmas - (float)track->shown[axis] * (1.0f / SHOWN_PER_SIGMA);
+    const float square = 0.5f * off * off;
+    track->shown[axis] = (int8_t)(now->sigmas * SHOWN_PER_SIGMA);
+    return !(track->has_shown & HAS_INNOVATION) || !now->is_clear ? -1.0f
+           : square < CUT2                                        ? square
+                                                                  : CUT2;
+}
+
+static int add(float *log_noise, float excess, float gain)
+{
+    if (excess < 0.0f) {
+        return 0;
+    }
+    const float sum = *log_noise + gain * (excess / MEAN_CUT - 1.0f);
+    *log_noise = sum > LOG_NOISE_MAX ? LOG_NOISE_MAX : sum < -LOG_NOISE_MAX ? -LOG_NOISE_MAX : sum;
+    return 1;
+}
+
+/* factors: learned so far, of the variances. */
+static void learn_noise(struct step *step, struct rho_track *track, const struct rho_plot *plot,
+                        const float factors[2])
+{
+    struct rho_tracker_learned *learned = step->learned;
+    const struct rho_kalman *steady = steady_of(step, track);
+    const float dx_m = plot->x_m - step->sensor->x_m, dy_m = plot->y_m - step->sensor->y_m;
+    const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    if (!steady || !(range_m > 1.0f)) {
+        track->has_shown &= IS_MISSED;
+        return;
+    }
+    const float x = dx_m / range_m, y = dy_m / range_m;
+    /*
+     * along a rising line of sight: the noise in the plane, and the part that the height's adds
+     * there
+     */
+    const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
+    const float dz_m = has_z ? plot->z_m - step->sensor->z_m : 0.0f;
+    const float rise2 = dz_m * dz_m / (dz_m * dz_m + range_m * range_m);
+    const float up_m2 = has_z ? rise2 * plot->sigma_up_m * plot->sigma_up_m : 0.0f;
+    const float along_m2 = plot->sigma_range_m * plot->sigma_range_m;
+    const float across_m2 = plot->sigma_cross_m * plot->sigma_cross_m;
+    const struct innovation along =
+        innovation_along(steady, plot, x, y, (1.0f - rise2) * along_m2 * factors[0], up_m2);
+    const struct innovation across =
+        innovation_along(steady, plot, -y, x, across_m2 * factors[1], 0.0f);
+    const float along_excess = note_excess(track, 0, &along);
+    const float across_excess = note_excess(track, 1, &across);
+    const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
+    const int is_round = along_m2 <= across_m2 && along_m2 >= across_m2;
+    int is_used = add(&learned->log_noise[0], along_excess, gain);
+    if (is_round) {
+        /* such plots have one noise, and one is learned */
+        is_used |= add(&learned->log_noise[0], across_excess, gain);
+        learned->log_noise[1] = learned->log_noise[0];
+    } else {
+        is_used |= add(&learned->log_noise[1], across_excess, gain);
+    }
+    track->has_shown |= HAS_INNOVATION;
+    learned->innovations =
+        (uint16_t)(learned->innovations + (is_used && learned->innovations < INNOVATIONS_MAX));
+}
+
+/* ---- pd -------------------------------------------------------------------------------------- */
+
+static unsigned ring_of(const struct rho_sensor *sensor, const struct rho_track *track)
+{
+    const float dx_m = track->kalman.state[0] - sensor->x_m;
+    const float dy_m = track->kalman.state[1] - sensor->y_m;
+    const float share = rho_sqrt(dx_m * dx_m + dy_m * dy_m) / sensor->range_max_m;
+    return share < 1.0f ? (unsigned)(share * (float)RHO_LEARN_RINGS) : RHO_LEARN_RINGS - 1u;
+}
+
+/* pd as seen, and how well that is known. */
+struct seen {
+    float pd, sigma;
+};
+
+static struct seen seen_of(float hits, float looks, float prior, float prior_pd)
+{
+    const float pd = (hits + prior * prior_pd) / (looks + prior);
+    return (struct seen){pd, rho_sqrt(pd * (1.0f - pd) / (looks + prior))};
+}
+
+static struct seen seen_at_all(const struct rho_tracker_learned *learned, float pd)
+{
+    float looks = 0.0f, hits = 0.0f;
+    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        looks += (float)learned->looks[ring];
+        hits += (float)learned->hits[ring];
+    }
+    return seen_of(hits, looks, PRIOR_OF_ALL, pd);
+}
+
+static float usable_pd(const struct rho_tracker_config *config, const struct seen *seen,
+                       float stated)
+{
+    const float pd = seen->pd + CAUTION * seen->sigma;
+    const float least = config->learn_pd_min * stated;
+    return !(seen->pd + SURELY * seen->sigma < stated) ? stated : pd > least ? pd : least;
+}
+
+static float pd_at(const struct rho_tracker_config *config,
+                   const struct rho_tracker_learned *learned, float stated, unsigned ring)
+{
+    const struct seen all = seen_at_all(learned, stated);
+    const struct seen seen =
+        seen_of((float)learned->hits[ring], (float)learned->looks[ring], PRIOR_OF_RING, all.pd);
+    return usable_pd(config, &seen, stated);
+}
+
+static int is_lowered(const struct step *step)
+{
+    return learns(&step->tracker->config) && step->learned && step->learned->is_lowered;
+}
+
+struct detection rho_tracker_detection(const struct step *step, const struct rho_track *track)
+{
+    const struct detection stated = {step->log_pd, step->log_miss};
+    if (!is_lowered(step)) {
+        return stated;
+    }
+    const unsigned ring = ring_of(step->sensor, track);
+    if (!(step->learned->is_lowered >> ring & 1u)) {
+        return stated;
+    }
+    const float pd = pd_at(&step->tracker->config, step->learned, step->sensor->pd, ring);
+    return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
+}
+
+float rho_tracker_mean_pd(const struct step *step)
+{
+    const float stated = step->sensor->pd;
+    if (!is_lowered(step)) {
+        return stated;
+    }
+    const struct seen all = seen_at_all(step->learned, stated);
+    return usable_pd(&step->tracker->config, &all, stated);
+}
+
+static void note_look(struct step *step, const struct rho_track *track, unsigned is_seen)
+{
+    struct rho_tracker_learned *learned = step->learned;
+    const unsigned ring = ring_of(step->sensor, track);
+    learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
+    learned->hits[ring] = (uint16_t)(learned->hits[ring] + is_seen);
+    if (learned->looks[ring] >= LOOKS_MAX) {
+        learned->looks[ring] = (uint16_t)(learned->looks[ring] / 2u);
+        learned->hits[ring] = (uint16_t)(learned->hits[ring] / 2u);
+    }
+}
+
+/* The look that follows a hit counts once it is known that the target is still there. */
+static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
+{
+    const int is_own = track->sensor_id == step->scan->sensor_id;
+    if (is_seen && is_own) {
+        note_look(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
+    }
+    track->has_shown &= (uint8_t)~IS_MISSED;
+    track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
+}
+
+/* One ring a scan: little changes from one to the next. */
+static void find_lowered(struct step *step)
+{
+    struct rho_tracker_learned *learned = step->learned;
+    const float pd = pd_at(&step->tracker->config, learned, step->sensor->pd, learned->ring);
+    const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
+    learned->is_lowered = (uint8_t)(others | (pd < step->sensor->pd ? bit : 0u));
+    learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
+}
+
+/* ---- a scan ---------------------------------------------------------------------------------- */
+
+static int is_evidence(const struct step *step, unsigned row)
+{
+    const struct rho_track *track = &step->tracker->tracks[row];
+    return track->status != RHO_TRACK_FREE && track->is_believed && rho_tracker_is_grown(track) &&
+           rho_tracker_is_reached(step, row);
+}
+
+static int is_steady(const struct rho_track *track)
+{
+    return !track->is_shared && RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
+           track->maneuver_probability < MANEUVER_MAX;
+}
+
+static int can_learn(const struct step *step)
+{
+    return !step->is_suspect && !step->is_late && step->learned && learns(&step->tracker->config);
+}
+
+void rho_tracker_learn(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const int has_noise = learns_noise(&tracker->config);
+    const int has_pd = tracker->config.learn_pd_min < 1.0f;
+    if (!can_learn(step)) {
+        return;
+    }
+    const float factors[2] = {rho_exp(step->learned->log_noise[0]),
+                              rho_exp(step->learned->log_noise[1])};
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (!is_evidence(step, row)) {
+            continue;
+        }
+        const int plot = rho_assignment_column(&tracker->assignment, row);
+        if (has_noise && plot != RHO_ASSIGNMENT_NONE && is_steady(track)) {
+            learn_noise(step, track, &step->scan->plots[plot], factors);
+        }
+        if (plot != RHO_ASSIGNMENT_NONE ||
+            (!step->has_more_parts && rho_tracker_scan_looked_at(step, track))) {
+            learn_pd(step, track, plot != RHO_ASSIGNMENT_NONE);
+        }
+    }
+    if (has_pd && !step->has_more_parts) {
+        find_lowered(step);
+    }
+}
+
+/* ---- what is known --------------------------------------------------------------------------- */
+
+int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
+{
+    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        if (learned->hits[ring] > learned->looks[ring] || learned->looks[ring] > LOOKS_MAX) {
+            return 0;
+        }
+    }
+    return rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
+           rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
+           learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
+           learned->ring < RHO_LEARN_RINGS;
+}
+
+enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t sensor_id,
+                                     struct rho_tracker_known *known)
+{
+    if (!tracker || !known) {
+        return RHO_ERROR_NULL;
+    }
+    const struct rho_sensor *sensor =
+        rho_tracker_is_ready(tracker) ? rho_tracker_find_sensor(tracker, sensor_id) : 0;
+    if (!sensor) {
+        return RHO_ERROR_STATE;
+    }
+    const struct rho_tracker_learned *learned = &tracker->learned[sensor - tracker->sensors];
+    *known = (struct rho_tracker_known){
+        .range_factor = factor_of(tracker, learned, 0),
+        .cross_factor = factor_of(tracker, learned, 1),
+        .innovations = learned->innovations,
+    };
+    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        known->pd[ring] = learned->is_lowered >> ring & 1u
+                              ? pd_at(&tracker->config, learned, sensor->pd, ring)
+                              : sensor->pd;
+        known->looks += learned->looks[ring];
+    }
+    return RHO_OK;
+}

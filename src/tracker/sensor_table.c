@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * sensor_table: the sensors that were described (rho_tracker_set_sensor).
+ */
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+unsigned rho_tracker_place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned place = 0;
+
+    while (place < tracker->num_sensors && tracker->sensors[place].sensor_id != sensor_id) {
+        place++;
+    }
+    return place;
+}
+
+const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
+                                                 int32_t sensor_id)
+{
+    unsigned place = rho_tracker_place_of_sensor(tracker, sensor_id);
+
+    return place < tracker->num_sensors ? &tracker->sensors[place] : NULL;
+}
+
+int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
+{
+    return rho_measurement_is_sensor(sensor) && rho_is_within(sensor->pd, 0.01f, 0.999f) &&
+           rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
+           sensor->range_min_m < sensor->range_max_m &&
+           rho_angle_is_sector(sensor->sector_from_rad, sensor->sector_to_rad);
+}

@@ -1,0 +1,535 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/snapshot.h"
+
+#include <string.h>
+
+#include "rhotrack/initiator.h"
+#include "rhotrack/passive.h"
+#include "rhotrack/tracker.h"
+
+/* Bytes of the image; numbers have the least significant byte first on every machine. */
+#define MAGIC_AT 0u
+#define VERSION_AT 8u
+#define LAYOUT_AT 12u
+#define SIZE_AT 16u
+#define NUM_PARTS_AT 20u
+#define HEADER_BYTES 24u
+#define PART_BYTES 16u /* kind, id, size, 0 */
+#define END_BYTES 8u   /* 0, checksum */
+
+static const uint8_t magic[8] = {'r', 'h', 'o', 's', 'n', 'a', 'p', '\n'};
+
+/* ---- numbers and checksum -------------------------------------------------------------------- */
+
+static void put_u32(uint8_t *bytes, uint32_t value)
+{
+    for (unsigned i = 0; i < 4; i++) {
+        bytes[i] = (uint8_t)(value >> 8 * i);
+    }
+}
+
+static uint32_t get_u32(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
+           (uint32_t)bytes[3] << 24;
+}
+
+/* CRC-32 (IEEE 802.3), four bits at a time; begins with and is kept as its complement. */
+static uint32_t add_to_crc(uint32_t crc, const uint8_t *bytes, size_t size)
+{
+    static const uint32_t table[16] = {0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu,
+                                       0x76dc4190u, 0x6b6b51f4u, 0x4db26158u, 0x5005713cu,
+                                       0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,
+                                       0x9b64c2b0u, 0x86d3d2d4u, 0xa00ae278u, 0xbdbdf21cu};
+    for (size_t i = 0; i < size; i++) {
+        crc = crc >> 4 ^ table[(crc ^ bytes[i]) & 15u];
+        crc = crc >> 4 ^ table[(crc ^ (uint32_t)bytes[i] >> 4) & 15u];
+    }
+    return crc;
+}
+
+/* Of bytes with their checksum behind them, before its complement. */
+#define CRC_OF_ALL 0xdebb20e3u
+
+/* ---- layout ---------------------------------------------------------------------------------- */
+
+#define PLACE(type, field) (uint32_t) offsetof(struct type, field)
+
+/* In the machine's byte order, which is part of it. */
+static const uint32_t facts[] = {
+    RHO_MAX_PLOTS,
+    RHO_MAX_SCANS,
+    RHO_MAX_BINS,
+    RHO_MAX_TRACKS,
+    RHO_MAX_HYPOTHESES,
+    RHO_MAX_GATE_PLOTS,
+    RHO_MAX_SENSORS,
+    RHO_MAX_CANDIDATES,
+    RHO_MAX_DENSITY_CELLS,
+    RHO_MAX_DENSITY_MAPS,
+    RHO_MAX_CLUTTER_CELLS,
+    RHO_MAX_BEARINGS,
+    RHO_MAX_PASSIVE_SCANS,
+    RHO_MAX_PASSIVE_SENSORS,
+    RHO_MAX_PASSIVE_TRACKS,
+    RHO_FILTERS,
+    RHO_SECTORS,
+    RHO_AMBIGUOUS_RANGE_RATES,
+    RHO_PLOT_STRIPS,
+    RHO_HYPOTHESES_OF_TRACK,
+    RHO_HYPOTHESES_CHILDREN,
+    RHO_HYPOTHESES_MEMORY,
+    RHO_MAX_ECHOES,
+    RHO_ECHO_REGIONS,
+    RHO_STROBE_BINS,
+    RHO_ECHO_HIT_CLASSES,
+    RHO_ECHO_GAP_CLASSES,
+    sizeof(struct rho_tracker),
+    sizeof(struct rho_tracker_config),
+    sizeof(struct rho_tracker_counters),
+    sizeof(struct rho_sensor),
+    sizeof(struct rho_tracker_learned),
+    RHO_LEARN_RINGS,
+    sizeof(struct rho_tracker_pace),
+    sizeof(struct rho_track),
+    sizeof(struct rho_assignment),
+    sizeof(struct rho_hypotheses),
+    sizeof(struct rho_hypothesis),
+    sizeof(struct rho_imm),
+    sizeof(struct rho_input),
+    PLACE(rho_tracker, config),
+    PLACE(rho_tracker, counters),
+    PLACE(rho_tracker, sensors),
+    PLACE(rho_tracker, tracks),
+    PLACE(rho_tracker, assignment),
+    PLACE(rho_tracker, hypotheses),
+    PLACE(rho_track, score_mnat),
+    PLACE(rho_track, time_us),
+    PLACE(rho_track, kalman),
+    PLACE(rho_track, num_velocities),
+    PLACE(rho_track, input),
+    PLACE(rho_hypotheses, node_of),
+    PLACE(rho_hypotheses, nodes),
+    PLACE(rho_hypothesis, time_us),
+    PLACE(rho_hypothesis, picks),
+    PLACE(rho_hypothesis, num_candidates),
+    sizeof(struct rho_initiator),
+    sizeof(struct rho_initiator_config),
+    sizeof(struct rho_density_map),
+    sizeof(struct rho_candidate),
+    sizeof(struct rho_window),
+    sizeof(struct rho_window_scan),
+    sizeof(struct rho_window_plot),
+    PLACE(rho_initiator, config),
+    PLACE(rho_initiator, density),
+    PLACE(rho_initiator, candidates),
+    PLACE(rho_initiator, window),
+    PLACE(rho_window, extent),
+    PLACE(rho_window, ring),
+    PLACE(rho_window_scan, sensor),
+    PLACE(rho_window_scan, num_plots),
+    PLACE(rho_window_scan, bin_start),
+    PLACE(rho_window_scan, plots),
+    sizeof(struct rho_passive),
+    sizeof(struct rho_passive_config),
+    sizeof(struct rho_passive_track),
+    sizeof(struct rho_batch),
+    PLACE(rho_passive, tracks),
+    PLACE(rho_passive, batch),
+    PLACE(rho_batch, time_us),
+    PLACE(rho_batch, bearings),
+};
+
+static uint32_t layout(void)
+{
+    return add_to_crc(0, (const uint8_t *)facts, sizeof facts);
+}
+
+/* ---- kinds ----------------------------------------------------------------------------------- */
+
+/* 0: there is no such kind. */
+static size_t size_of(uint32_t kind)
+{
+    switch (kind) {
+    case RHO_SNAPSHOT_TRACKER:
+        return sizeof(struct rho_tracker);
+    case RHO_SNAPSHOT_INITIATOR:
+        return sizeof(struct rho_initiator);
+    case RHO_SNAPSHOT_PASSIVE:
+        return sizeof(struct rho_passive);
+    default:
+        return 0;
+    }
+}
+
+static int is_sound(uint32_t kind, const void *object)
+{
+    switch (kind) {
+    case RHO_SNAPSHOT_TRACKER:
+        return rho_tracker_is_sound((const struct rho_tracker *)object);
+    case RHO_SNAPSHOT_INITIATOR:
+        return rho_initiator_is_sound((const struct rho_initiator *)object);
+    case RHO_SNAPSHOT_PASSIVE:
+        return rho_passive_is_sound((const struct rho_passive *)object);
+    default:
+        return 0;
+    }
+}
+
+static size_t padding_of(size_t size)
+{
+    return (RHO_SNAPSHOT_ALIGNMENT - size % RHO_SNAPSHOT_ALIGNMENT) % RHO_SNAPSHOT_ALIGNMENT;
+}
+
+static enum rho_status check_parts(const struct rho_snapshot_part *parts, unsigned num_parts)
+{
+    if (num_parts > 0 && !parts) {
+        return RHO_ERROR_NULL;
+    }
+    for (unsigned i = 0; i < num_parts; i++) {
+        if (!parts[i].object) {
+            return RHO_ERROR_NULL;
+        }
+        if (size_of((uint32_t)parts[i].kind) == 0) {
+            return RHO_ERROR_VALUE;
+        }
+        if (size_of((uint32_t)parts[i].kind) != parts[i].size) {
+            return RHO_ERROR_SIZE;
+        }
+    }
+    return RHO_OK;
+}
+
+static size_t image_size(const struct rho_snapshot_part *parts, unsigned num_parts)
+{
+    size_t size = HEADER_BYTES + (size_t)num_parts * PART_BYTES + END_BYTES;
+    for (unsigned i = 0; i < num_parts; i++) {
+        size += parts[i].size + padding_of(parts[i].size);
+    }
+    return size;
+}
+
+size_t rho_snapshot_size(const struct rho_snapshot_part *parts, unsigned num_parts)
+{
+    return check_parts(parts, num_parts) == RHO_OK ? image_size(parts, num_parts) : 0;
+}
+
+/* ---- save ------------------------------------------------------------------------------------ */
+
+/* All bytes of the image pass in order; those within the window are written. */
+struct writer {
+    size_t at, from, end;
+    uint8_t *buffer;
+    uint32_t crc;
+    int has_crc; /* asked for: the window holds it */
+};
+
+static void put(struct writer *writer, const void *data, size_t size)
+{
+    const uint8_t *bytes = data;
+    const size_t at = writer->at;
+    const size_t first = at > writer->from ? at : writer->from;
+    const size_t end = at + size < writer->end ? at + size : writer->end;
+    if (writer->has_crc) {
+        writer->crc = add_to_crc(writer->crc, bytes, size);
+    }
+    if (first < end) {
+        memcpy(writer->buffer + (first - writer->from), bytes + (first - at), end - first);
+    }
+    writer->at += size;
+}
+
+static void put_head(struct writer *writer, const struct rho_snapshot_part *parts,
+                     unsigned num_parts)
+{
+    uint8_t bytes[HEADER_BYTES];
+    memcpy(bytes + MAGIC_AT, magic, sizeof magic);
+    put_u32(bytes + VERSION_AT, RHO_SNAPSHOT_VERSION);
+    put_u32(bytes + LAYOUT_AT, layout());
+    put_u32(bytes + SIZE_AT, (uint32_t)image_size(parts, num_parts));
+    put_u32(bytes + NUM_PARTS_AT, num_parts);
+    put(writer, bytes, HEADER_BYTES);
+    for (unsigned i = 0; i < num_parts; i++) {
+        put_u32(bytes, (uint32_t)parts[i].kind);
+        put_u32(bytes + 4, (uint32_t)parts[i].id);
+        put_u32(bytes + 8, (uint32_t)parts[i].size);
+        put_u32(bytes + 12, 0);
+        put(writer, bytes, PART_BYTES);
+    }
+}
+
+static void put_end(struct writer *writer)
+{
+    uint8_t bytes[4] = {0};
+    put(writer, bytes, sizeof bytes);
+    put_u32(bytes, ~writer->crc);
+    put(writer, bytes, sizeof bytes);
+}
+
+static int are_all_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
+{
+    for (unsigned i = 0; i < num_parts; i++) {
+        if (!is_sound((uint32_t)parts[i].kind, parts[i].object)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigned num_parts,
+                                  size_t offset, uint8_t *buffer, size_t size, size_t *length)
+{
+    static const uint8_t zeros[RHO_SNAPSHOT_ALIGNMENT] = {0};
+    enum rho_status status = check_parts(parts, num_parts);
+    if (!buffer || !length || status != RHO_OK) {
+        return status != RHO_OK ? status : RHO_ERROR_NULL;
+    }
+    if (offset == 0 && !are_all_sound(parts, num_parts)) {
+        return RHO_ERROR_STATE;
+    }
+    const size_t all = image_size(parts, num_parts);
+    const size_t left = offset < all ? all - offset : 0;
+    *length = size < left ? size : left;
+    struct writer writer = {.from = offset,
+                            .end = offset + *length,
+                            .crc = UINT32_MAX,
+                            .has_crc = offset + *length > all - 4u};
+    writer.buffer = buffer;
+    put_head(&writer, parts, num_parts);
+    for (unsigned i = 0; i < num_parts; i++) {
+        put(&writer, parts[i].object, parts[i].size);
+        put(&writer, zeros, padding_of(parts[i].size));
+    }
+    put_end(&writer);
+    return RHO_OK;
+}
+
+/* ---- load ------------------------------------------------------------------------------------ */
+
+static uint32_t part_field(const uint8_t *image, unsigned part, unsigned field)
+{
+    return get_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
+}
+
+/* The stated sizes of the parts are the kinds' sizes, and fill the image. */
+static int fits(const uint8_t *image, uint32_t size, uint32_t num_parts)
+{
+    size_t left = size - HEADER_BYTES - END_BYTES;
+    if (num_parts > left / PART_BYTES) {
+        return 0;
+    }
+    left -= num_parts * PART_BYTES;
+    for (unsigned i = 0; i < num_parts; i++) {
+        const size_t bytes = size_of(part_field(image, i, 0));
+        if (bytes == 0 || part_field(image, i, 2) != bytes || bytes + padding_of(bytes) > left) {
+            return 0;
+        }
+        left -= bytes + padding_of(bytes);
+    }
+    return left == 0;
+}
+
+/* Checks an image without its objects. */
+static enum rho_status check_image(const uint8_t *image, size_t size)
+{
+    if (!image) {
+        return RHO_ERROR_NULL;
+    }
+    if ((uintptr_t)image % RHO_SNAPSHOT_ALIGNMENT != 0) {
+        return RHO_ERROR_VALUE;
+    }
+    if (size < HEADER_BYTES + END_BYTES) {
+        return RHO_ERROR_SHORT;
+    }
+    if (memcmp(image, magic, sizeof magic) != 0 ||
+        get_u32(image + VERSION_AT) != RHO_SNAPSHOT_VERSION) {
+        return RHO_ERROR_TYPE;
+    }
+    if (get_u32(image + LAYOUT_AT) != layout()) {
+        return RHO_ERROR_SIZE;
+    }
+    const uint32_t said = get_u32(image + SIZE_AT);
+    if (said > size) {
+        return RHO_ERROR_SHORT;
+    }
+    if (said < HEADER_BYTES + END_BYTES ||
+        ~add_to_crc(UINT32_MAX, image, said - 4u) != get_u32(image + said - 4u) ||
+        !fits(image, said, get_u32(image + NUM_PARTS_AT))) {
+        return RHO_ERROR_VALUE;
+    }
+    return RHO_OK;
+}
+
+enum rho_status rho_snapshot_list(const void *image, size_t size, struct rho_snapshot_part *parts,
+                                  unsigned max_parts, unsigned *num_parts)
+{
+    const uint8_t *bytes = image;
+    if (!num_parts || (max_parts > 0 && !parts)) {
+        return RHO_ERROR_NULL;
+    }
+    const enum rho_status status = check_image(bytes, size);
+    if (status != RHO_OK) {
+        return status;
+    }
+    *num_parts = get_u32(bytes + NUM_PARTS_AT);
+    for (unsigned i = 0; i < *num_parts && i < max_parts; i++) {
+        parts[i].kind = (enum rho_snapshot_kind)part_field(bytes, i, 0);
+        parts[i].id = (int32_t)part_field(bytes, i, 1);
+        parts[i].size = part_field(bytes, i, 2);
+    }
+    return RHO_OK;
+}
+
+static int are_those_of(const struct rho_snapshot_part *parts, unsigned num_parts,
+                        const uint8_t *image)
+{
+    if (get_u32(image + NUM_PARTS_AT) != num_parts) {
+        return 0;
+    }
+    for (unsigned i = 0; i < num_parts; i++) {
+        if (part_field(image, i, 0) != (uint32_t)parts[i].kind ||
+            part_field(image, i, 1) != (uint32_t)parts[i].id) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Checks the image's objects, or copies them. */
+static int go_through(const struct rho_snapshot_part *parts, unsigned num_parts,
+                      const uint8_t *image, int takes)
+{
+    const uint8_t *object = image + HEADER_BYTES + (size_t)num_parts * PART_BYTES;
+    for (unsigned i = 0; i < num_parts; i++) {
+        if (takes) {
+            memcpy(parts[i].object, object, parts[i].size);
+        } else if (!is_sound((uint32_t)parts[i].kind, object)) {
+            return 0;
+        }
+        object += parts[i].size + padding_of(parts[i].size);
+    }
+    return 1;
+}
+
+enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigned num_parts,
+                                  const void *image, size_t size)
+{
+    const uint8_t *bytes = image;
+    enum rho_status status = check_parts(parts, num_parts);
+    if (status == RHO_OK) {
+        status = check_image(bytes, size);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (!are_those_of(parts, num_parts, bytes)) {
+        return RHO_ERROR_COUNT;
+    }
+    if (!go_through(parts, num_parts, bytes, 0)) {
+        return RHO_ERROR_VALUE;
+    }
+    (void)go_through(parts, num_parts, bytes, 1);
+    return RHO_OK;
+}
+
+/* ---- load in pieces -------------------------------------------------------------------------- */
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Header and table of an image of these parts are known before it comes. */
+static enum rho_status compare_head(const struct rho_snapshot_loader *loader, const uint8_t *bytes,
+                                    size_t size)
+{
+    uint8_t expected[PART_BYTES] = {0};
+    for (size_t i = 0; i < size; i++) {
+        const size_t at = loader->at + i;
+        if (i % PART_BYTES == 0) {
+            struct writer writer = {.from = at, .end = at + least(PART_BYTES, size - i)};
+            writer.buffer = expected;
+            put_head(&writer, loader->parts, loader->num_parts);
+        }
+        if (bytes[i] != expected[i % PART_BYTES]) {
+            return at < LAYOUT_AT ? RHO_ERROR_TYPE
+                   : at < SIZE_AT ? RHO_ERROR_SIZE
+                                  : RHO_ERROR_COUNT;
+        }
+    }
+    return RHO_OK;
+}
+
+/* Copies the bytes of a piece that belong to objects. */
+static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *bytes, size_t size)
+{
+    size_t first = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
+    for (unsigned i = 0; i < loader->num_parts; i++) {
+        const struct rho_snapshot_part *part = &loader->parts[i];
+        const size_t from = first > loader->at ? first : loader->at;
+        const size_t end = least(first + part->size, loader->at + size);
+        if (from < end) {
+            memcpy((uint8_t *)part->object + (from - first), bytes + (from - loader->at),
+                   end - from);
+        }
+        first += part->size + padding_of(part->size);
+    }
+}
+
+/* The image has passed once. */
+static enum rho_status end_pass(struct rho_snapshot_loader *loader)
+{
+    int is_whole = loader->crc == CRC_OF_ALL;
+    if (loader->passes == 1 && !(is_whole && are_all_sound(loader->parts, loader->num_parts))) {
+        for (unsigned i = 0; i < loader->num_parts; i++) {
+            memset(loader->parts[i].object, 0, loader->parts[i].size);
+        }
+        is_whole = 0;
+    }
+    loader->at = 0;
+    loader->crc = UINT32_MAX;
+    loader->passes++;
+    return is_whole ? RHO_OK : RHO_ERROR_VALUE;
+}
+
+enum rho_status rho_snapshot_begin(struct rho_snapshot_loader *loader,
+                                   const struct rho_snapshot_part *parts, unsigned num_parts)
+{
+    const enum rho_status status = check_parts(parts, num_parts);
+    if (!loader || status != RHO_OK) {
+        return loader ? status : RHO_ERROR_NULL;
+    }
+    *loader =
+        (struct rho_snapshot_loader){.parts = parts, .num_parts = num_parts, .crc = UINT32_MAX};
+    return RHO_OK;
+}
+
+enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader, const uint8_t *bytes,
+                                  size_t size)
+{
+    enum rho_status status = RHO_OK;
+    if (!loader || (size > 0 && !bytes)) {
+        return RHO_ERROR_NULL;
+    }
+    if (loader->passes >= RHO_SNAPSHOT_PASSES || check_parts(loader->parts, loader->num_parts)) {
+        return RHO_ERROR_STATE;
+    }
+    const size_t all = image_size(loader->parts, loader->num_parts);
+    const size_t head = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
+    const size_t taken = least(size, all - loader->at);
+    if (loader->passes == 0 && loader->at < head) {
+        status = compare_head(loader, bytes, least(taken, head - loader->at));
+    }
+    if (loader->passes == 1) {
+        copy_piece(loader, bytes, taken);
+    }
+    loader->crc = add_to_crc(loader->crc, bytes, taken);
+    loader->at += (uint32_t)taken;
+    if (status == RHO_OK && loader->at == all) {
+        status = end_pass(loader);
+    }
+    if (status != RHO_OK) {
+        loader->passes = RHO_SNAPSHOT_PASSES + 1; /* refused */
+    }
+    return status;
+}

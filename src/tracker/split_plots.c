@@ -1,0 +1,513 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * split_plots: expects second plots of one target near the plots that tracks have claimed, learns
+ * how often they come, and ends the younger of two tracks of one target.
+ */
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/clutter_map_cells.h"
+#include "step.h"
+
+#if RHO_MAX_ECHOES > 0
+
+/*
+ * Bounds of the bins in standard deviations, their prior shares, and the weight of the prior in
+ * plots.
+ */
+static const float bin_end[RHO_SECOND_BINS] = {1.0f, 2.0f, 3.0f, 4.0f, 6.0f, 8.0f, 12.0f, 16.0f};
+static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
+                                                 0.1f,  0.05f, 0.03f, 0.02f};
+#define BINS_PRIOR_PLOTS 4.0f
+#define REACH_SIGMAS 16.0f
+/* Units of work: two plots near each other. */
+#define PAIR_UNITS 12u
+
+/* Prior second plots a claimed plot, and its weight in looks. */
+#define RATE_PRIOR 0.01f
+#define RATE_PRIOR_LOOKS 10.0f
+/* Weight of the sensor's rate in a track's own, in looks. */
+#define TRACK_PRIOR_LOOKS 10.0f
+/* Sums are halved at so many looks. */
+#define LOOKS_REMEMBERED 1000.0f
+#define TRACK_LOOKS_REMEMBERED 50.0f
+/* Hits from which a track teaches: another target beside it has its own track by then. */
+#define TEACHER_HITS 8
+
+/* A track that has been seen more often is not taken for another's twin. */
+#define TWIN_HITS_MAX 12
+/*
+ * ln of the odds of one target against two: where the younger track ends, the least that is
+ * remembered, and the most that one scan may add or take.
+ */
+#define TWIN_END_NAT 3.0f
+#define TWIN_LEAST_NAT (-4.0f)
+#define TWIN_STEP_NAT 3.0f
+
+/*
+ * Evidence of a scan in which both have taken one plot (merged_plots), and of one in which the
+ * younger has none, though the elder's is not in its gate.
+ */
+#define SHARED_NAT 0.3f
+#define MISS_NAT 1.0f
+#define LOG_TWO 0.69314718f
+
+/* ---- learned rates --------------------------------------------------------------------------- */
+
+/* NULL: no room for another sensor. */
+static struct rho_second_plots *table_of(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct rho_second_plots *table = &tracker->second_plots[i];
+        if (!(table->looks > 0.0f)) {
+            table->sensor_id = sensor_id;
+            return table;
+        }
+        if (table->sensor_id == sensor_id) {
+            return table;
+        }
+    }
+    return 0;
+}
+
+/* Tables in use come first. */
+void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    struct rho_second_plots *tables = tracker->second_plots;
+    unsigned num = 0, place = RHO_MAX_SENSORS;
+    while (num < RHO_MAX_SENSORS && tables[num].looks > 0.0f) {
+        place = tables[num].sensor_id == sensor_id ? num : place;
+        num++;
+    }
+    if (place < num) {
+        tables[place] = tables[num - 1u];
+        memset(&tables[num - 1u], 0, sizeof tables[0]);
+    }
+}
+
+static float rate_of(const struct rho_second_plots *table, const struct rho_track *track)
+{
+    const float rate =
+        (table->plots + RATE_PRIOR_LOOKS * RATE_PRIOR) / (table->looks + RATE_PRIOR_LOOKS);
+    return track ? (track->second_plots + TRACK_PRIOR_LOOKS * rate) /
+                       (track->second_looks + TRACK_PRIOR_LOOKS)
+                 : rate;
+}
+
+static unsigned bin_of(float sigmas)
+{
+    unsigned bin = 0;
+    while (bin < RHO_SECOND_BINS && sigmas > bin_end[bin]) {
+        bin++;
+    }
+    return bin;
+}
+
+/* Share of second plots in a bin, an axis and sigma, on both sides. */
+static float share_in(const struct rho_second_plots *table, const float *sums, unsigned bin)
+{
+    const float width = bin_end[bin] - (bin > 0 ? bin_end[bin - 1u] : 0.0f);
+    return 0.5f * (sums[bin] + BINS_PRIOR_PLOTS * bin_prior[bin]) /
+           ((table->plots + BINS_PRIOR_PLOTS) * width);
+}
+
+/* Where another plot lies from a claimed one. */
+struct offset {
+    unsigned along, across; /* bins; RHO_SECOND_BINS: beyond them */
+};
+
+static int is_near(struct offset offset)
+{
+    return offset.along < RHO_SECOND_BINS && offset.across < RHO_SECOND_BINS;
+}
+
+static struct offset offset_of(const struct rho_sensor *sensor, const struct rho_plot *first,
+                               const struct rho_plot *second)
+{
+    const struct echo_view view = rho_clutter_map_view(sensor, first->x_m, first->y_m);
+    const float dx_m = second->x_m - first->x_m, dy_m = second->y_m - first->y_m;
+    const float along_m = dx_m * view.along_x + dy_m * view.along_y;
+    const float across_m = dy_m * view.along_x - dx_m * view.along_y;
+    return (struct offset){
+        bin_of((along_m < 0.0f ? -along_m : along_m) / first->sigma_range_m),
+        bin_of((across_m < 0.0f ? -across_m : across_m) / first->sigma_cross_m),
+    };
+}
+
+/* Density of a second plot there, 1/m^2, if there is one. */
+static float density_at(const struct rho_second_plots *table, struct offset offset,
+                        const struct rho_plot *first)
+{
+    return share_in(table, table->along, offset.along) *
+           share_in(table, table->across, offset.across) /
+           (first->sigma_range_m * first->sigma_cross_m);
+}
+
+/* Likelihood ratio of the range rates of two plots of one target. */
+static float range_rate_ratio(const struct step *step, uint32_t measures,
+                              const struct rho_plot *first, const struct rho_plot *second)
+{
+    if (!(measures & RHO_MEASURES_RANGE_RATE)) {
+        return 1.0f;
+    }
+    return rho_tracker_rate_ratio(step, second->range_rate_mps - first->range_rate_mps,
+                                  first->sigma_range_rate_mps * first->sigma_range_rate_mps +
+                                      second->sigma_range_rate_mps * second->sigma_range_rate_mps);
+}
+
+/* The code of ln(e^repeats + ratio). */
+static uint8_t repeats_with(uint8_t repeats, float ratio)
+{
+    const float was = rho_exp((float)repeats / RHO_WINDOW_REPEATS_PER_NAT);
+    const float is = RHO_WINDOW_REPEATS_PER_NAT * rho_log(was + ratio) + 0.5f;
+    return (uint8_t)(is < 255.0f ? is : 255.0f);
+}
+
+/* ---- pairs of tracks ------------------------------------------------------------------------- */
+
+/* Tracks stand in the order of their identities. */
+static struct rho_track *track_of(struct rho_tracker *tracker, uint32_t track_id, unsigned end)
+{
+    unsigned first = 0;
+    while (first < end) {
+        const unsigned middle = (first + end) / 2u;
+        if (tracker->tracks[middle].track_id < track_id) {
+            first = middle + 1u;
+        } else {
+            end = middle;
+        }
+    }
+    struct rho_track *track = &tracker->tracks[first];
+    return track->track_id == track_id && track->status != RHO_TRACK_FREE ? track : 0;
+}
+
+static float chance_of_twin(const struct rho_track *track)
+{
+    return 1.0f / (1.0f + rho_exp(-track->twin_nat));
+}
+
+/* Both have a plot: the younger's is a second plot, or its target's. */
+static float both_nat(const struct step *step, const struct rho_second_plots *table,
+                      unsigned elder_row, unsigned row)
+{
+    const struct rho_track *elder = &step->tracker->tracks[elder_row];
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_plot *first = &step->scan->plots[elder->plot];
+    const struct rho_plot *second = &step->scan->plots[track->plot];
+    const struct offset offset = offset_of(step->sensor, first, second);
+    float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
+    (void)rho_tracker_gain_offered(step, row, track->plot, &gain_nat);
+    /*
+     * the elder's target may have made the younger's plot: then the elder's is the second, or the
+     * younger's target made it
+     */
+    float ways = 1.0f, elder_ways = 1.0f;
+    if (rho_tracker_gain_offered(step, elder_row, elder->plot, &own_nat) &&
+        rho_tracker_gain_offered(step, elder_row, track->plot, &swap_nat)) {
+        float other_nat;
+        elder_ways += rho_exp(swap_nat - own_nat);
+        if (rho_tracker_gain_offered(step, row, elder->plot, &other_nat)) {
+            ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
+        }
+    }
+    if (is_near(offset)) {
+        ratio = rate_of(table, elder) * density_at(table, offset, first) *
+                range_rate_ratio(step, step->scan->measures, first, second) /
+                rho_tracker_believed_density(step, second) *
+                rho_exp(-rho_tracker_repeats_nat(step, (uint32_t)track->plot));
+    }
+    return rho_log(1.0f + ratio) + rho_log(elder_ways / ways) - gain_nat;
+}
+
+/*
+ * One has a plot, or both the same. Where either could have it, two targets explain it in two ways.
+ */
+static float one_nat(const struct step *step, const struct rho_second_plots *table,
+                     unsigned elder_row, unsigned row)
+{
+    const struct rho_track *elder = &step->tracker->tracks[elder_row];
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const int plot = elder->plot >= 0 ? elder->plot : track->plot;
+    float gain_nat = 0.0f, elder_gain_nat = 0.0f, nat = -rate_of(table, elder);
+    if (elder->plot == track->plot) {
+        return SHARED_NAT;
+    }
+    const int is_in_gate = rho_tracker_gain_offered(step, row, plot, &gain_nat);
+    const int is_in_elders = rho_tracker_gain_offered(step, elder_row, plot, &elder_gain_nat);
+    if (elder->plot < 0) {
+        if (!is_in_elders) {
+            /*
+             * a second plot, of a first that another track has; or clutter, if it was not the
+             * younger's target
+             */
+            struct rho_plot place = step->scan->plots[plot];
+            place.x_m = elder->kalman.state[0];
+            place.y_m = elder->kalman.state[1];
+            return is_near(offset_of(step->sensor, &place, &step->scan->plots[plot])) ? 0.0f
+                                                                                      : -gain_nat;
+        }
+        nat += elder_gain_nat - gain_nat;
+    }
+    if (!is_in_gate) {
+        return MISS_NAT;
+    }
+    return nat - rho_tracker_detection(step, track).log_miss - (is_in_elders ? LOG_TWO : 0.0f);
+}
+
+static void add_nat(struct rho_track *track, float nat)
+{
+    nat = nat < TWIN_STEP_NAT ? nat : TWIN_STEP_NAT;
+    track->twin_nat += nat > -TWIN_STEP_NAT ? nat : -TWIN_STEP_NAT;
+    track->twin_nat = track->twin_nat > TWIN_LEAST_NAT ? track->twin_nat : TWIN_LEAST_NAT;
+}
+
+static void decide_twin(struct step *step, const struct rho_second_plots *table, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track *track = &tracker->tracks[row];
+    struct rho_track *elder = track_of(tracker, track->twin_id, row);
+    if (!elder) {
+        track->twin_id = 0;
+        track->twin_nat = 0.0f;
+        return;
+    }
+    const unsigned elder_row = (unsigned)(elder - tracker->tracks);
+    const float share = chance_of_twin(track);
+    elder->second_share = share < elder->second_share ? share : elder->second_share;
+    if (!rho_tracker_is_reached(step, row) || !rho_tracker_is_reached(step, elder_row) ||
+        !rho_tracker_scan_looked_at(step, track) || !rho_tracker_scan_looked_at(step, elder) ||
+        (track->plot < 0 && elder->plot < 0)) {
+        return;
+    }
+    const float nat = track->plot >= 0 && elder->plot >= 0 && track->plot != elder->plot
+                          ? both_nat(step, table, elder_row, row)
+                          : one_nat(step, table, elder_row, row);
+    add_nat(track, nat);
+    if (track->twin_nat > TWIN_END_NAT) {
+        track->twin_nat = TWIN_END_NAT;
+        if (elder->plot >= 0) {
+            rho_tracker_end_track(step, track);
+        }
+    }
+}
+
+/* ---- plots near a claimed one ---------------------------------------------------------------- */
+
+struct found {
+    float plots;
+    float along[RHO_SECOND_BINS], across[RHO_SECOND_BINS];
+};
+
+static int is_teacher(const struct rho_track *track)
+{
+    return track->is_believed && track->hits >= TEACHER_HITS;
+}
+
+/* Another plot near the track's: its share that is the target's second one. */
+static float score_second_plot(struct step *step, const struct rho_second_plots *table,
+                               unsigned row, uint32_t other, struct offset offset)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[row];
+    const struct rho_plot *first = &step->scan->plots[track->plot];
+    const struct rho_plot *second = &step->scan->plots[other];
+    const int owner = tracker->assignment.column_row[other];
+    float share = 1.0f;
+    if (step->report->fates[other] != RHO_FATE_HELD) {
+        if (owner <= (int)row || tracker->tracks[owner].plot != (int)other ||
+            tracker->config.gate == RHO_TRACKER_HOUGH) {
+            /* an elder's, or no plot at all; the Hough gate's gains are no likelihoods */
+            return 0.0f;
+        }
+        struct rho_track *younger = &tracker->tracks[owner];
+        if (younger->twin_id == 0 && younger->hits <= TWIN_HITS_MAX && track->is_believed) {
+            younger->twin_id = track->track_id;
+            younger->twin_nat = 0.0f;
+            add_nat(younger, both_nat(step, table, row, (unsigned)owner));
+        }
+        share = younger->twin_id == track->track_id ? chance_of_twin(younger) : 0.0f;
+    }
+    const float ratio = rate_of(table, track) * density_at(table, offset, first) *
+                        range_rate_ratio(step, step->scan->measures, first, second) /
+                        rho_tracker_believed_density(step, second);
+    float *denser = &tracker->clutter_map.denser[other];
+    const float known = rho_exp(*denser);
+    if (step->report->fates[other] == RHO_FATE_HELD) {
+        *denser = rho_log(known + ratio);
+    }
+    return share * ratio / (known + ratio);
+}
+
+static void score_plots_near(struct step *step, const struct rho_second_plots *table, unsigned row,
+                             struct found *found)
+{
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_plot *first = &step->scan->plots[track->plot];
+    const float half_m = REACH_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
+    struct plots_near near = rho_tracker_plots_near(step, first->x_m - half_m, first->x_m + half_m,
+                                                    first->y_m - half_m, first->y_m + half_m);
+    uint32_t passed = 0;
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i); passed++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
+        if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
+            (int)i == track->plot || step->report->fates[i] == RHO_FATE_INVALID) {
+            continue;
+        }
+        const struct offset offset = offset_of(step->sensor, first, plot);
+        rho_tracker_spend(step, PAIR_UNITS);
+        if (is_near(offset)) {
+            const float share = score_second_plot(step, table, row, i, offset);
+            found->plots += share;
+            found->along[offset.along] += share;
+            found->across[offset.across] += share;
+        }
+    }
+    rho_tracker_spend(step, passed / RHO_WORK_PASSED_A_UNIT);
+}
+
+static void teach_track(struct rho_track *track, float plots, float share)
+{
+    if (track->second_looks >= TRACK_LOOKS_REMEMBERED) {
+        track->second_looks *= 0.5f;
+        track->second_plots *= 0.5f;
+    }
+    track->second_looks += share;
+    track->second_plots += share * plots;
+}
+
+static void teach_sensor(struct rho_second_plots *table, const struct found *found, float looks)
+{
+    const float keep = table->looks >= LOOKS_REMEMBERED ? 0.5f : 1.0f;
+    table->looks = keep * table->looks + looks;
+    table->plots = keep * table->plots + found->plots;
+    for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
+        table->along[bin] = keep * table->along[bin] + found->along[bin];
+        table->across[bin] = keep * table->across[bin] + found->across[bin];
+    }
+}
+
+/* No work is left for the plots near this one: none counts as its second. */
+static void count_not_tried(struct step *step)
+{
+    step->is_partial = 1;
+    step->plots_not_tried = rho_count(step->plots_not_tried, 1);
+}
+
+void rho_tracker_expect_second_plots(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_second_plots *table = table_of(tracker, step->scan->sensor_id);
+    struct found found = {.plots = 0.0f};
+    float looks = 0.0f;
+    if (!table || step->is_late || step->num_inputs > RHO_MAX_PLOTS) {
+        return;
+    }
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        tracker->tracks[row].second_share = 1.0f;
+    }
+    /* the Hough gate's gains are no likelihoods */
+    for (unsigned row = 1; row < tracker->num_tracks && tracker->config.gate != RHO_TRACKER_HOUGH;
+         row++) {
+        if (tracker->tracks[row].twin_id > 0 && tracker->tracks[row].status != RHO_TRACK_FREE) {
+            decide_twin(step, table, row);
+        }
+    }
+    rho_tracker_begin_share(step, RHO_WORK_SECOND_SHARE);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status == RHO_TRACK_FREE || track->plot < 0) {
+            continue;
+        }
+        if (rho_tracker_is_spent(step)) {
+            count_not_tried(step);
+            continue;
+        }
+        struct found near = {.plots = 0.0f};
+        score_plots_near(step, table, row, &near);
+        if (is_teacher(track)) {
+            const float share = track->second_share;
+            teach_track(track, near.plots, share);
+            looks += share;
+            found.plots += share * near.plots;
+            for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
+                found.along[bin] += share * near.along[bin];
+                found.across[bin] += share * near.across[bin];
+            }
+        }
+    }
+    if (looks > 0.0f) {
+        teach_sensor(table, &found, looks);
+    }
+}
+
+/* ---- plots in the window --------------------------------------------------------------------- */
+
+static void score_window_plots_near(struct step *step, const struct rho_second_plots *table,
+                                    struct rho_window_scan *scan, unsigned own)
+{
+    const struct rho_plot first = rho_window_plot_of(scan, own);
+    const struct rho_sensor *sensor = rho_window_sensor(scan);
+    const float half_m = REACH_SIGMAS * 1.4142136f * rho_plot_sigma_m(&first);
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const float dx_m = scan->plots[i].x_m - first.x_m, dy_m = scan->plots[i].y_m - first.y_m;
+        if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
+            (scan->marks[i] & RHO_WINDOW_INITIATED)) {
+            continue;
+        }
+        const struct rho_plot plot = rho_window_plot_of(scan, i);
+        const struct offset offset = offset_of(sensor, &first, &plot);
+        rho_tracker_spend(step, PAIR_UNITS);
+        if (is_near(offset)) {
+            const float ratio = rate_of(table, 0) * density_at(table, offset, &first) *
+                                range_rate_ratio(step, scan->measures, &first, &plot) /
+                                rho_tracker_believed_density(step, &plot);
+            scan->repeats[i] = repeats_with(scan->repeats[i], ratio);
+        }
+    }
+}
+
+void rho_tracker_expect_earlier_second_plots(struct step *step,
+                                             const struct rho_candidate *candidate)
+{
+    struct rho_window *window = &step->initiator->window;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        const struct rho_second_plots *table = table_of(step->tracker, scan->sensor.sensor_id);
+        if (((unsigned)candidate->mask >> m & 1u) && table && rho_tracker_is_spent(step)) {
+            count_not_tried(step);
+        } else if (((unsigned)candidate->mask >> m & 1u) && table) {
+            rho_tracker_spend(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
+            score_window_plots_near(step, table, scan, candidate->plot[m]);
+        }
+    }
+}
+
+/* ---- snapshots ------------------------------------------------------------------------------- */
+
+int rho_tracker_has_sound_twin(const struct rho_track *track)
+{
+    return rho_is_within(track->second_looks, 0.0f, 1e6f) &&
+           rho_is_within(track->second_plots, 0.0f, 1e6f) &&
+           rho_is_within(track->twin_nat, -1e3f, 1e3f) && rho_are_finite(&track->second_share, 1);
+}
+
+int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_second_plots *table = &tracker->second_plots[i];
+        if (!rho_is_within(table->looks, 0.0f, 1e9f) || !rho_is_within(table->plots, 0.0f, 1e9f)) {
+            return 0;
+        }
+        for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
+            if (!rho_is_within(table->along[bin], 0.0f, 1e9f) ||
+                !rho_is_within(table->across[bin], 0.0f, 1e9f)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+#endif

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * step: one scan goes through the six phases.
+ */
+#include "step.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/measurement.h"
+
+static enum rho_status check_step(const struct rho_tracker *tracker,
+                                  const struct rho_initiator *initiator,
+                                  const struct rho_scan *scan, const struct rho_report *report)
+{
+    if (!tracker || !scan || !report || (scan->num_plots && !scan->plots)) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+        !rho_tracker_is_time(scan->time_us)) {
+        return RHO_ERROR_VALUE;
+    }
+    /* an out-of-sequence scan is not pushed, but the density is asked for */
+    return !initiator ||
+                   rho_initiator_accepts(initiator, rho_tracker_is_late(tracker, scan->time_us)
+                                                        ? RHO_LIMIT_TIME_US
+                                                        : scan->time_us)
+               ? RHO_OK
+               : RHO_ERROR_STATE;
+}
+
+/* Applies what is known of the sensor, before any track is moved. */
+static void open_scan(struct step *step)
+{
+    const struct rho_sensor nowhere = {.sensor_id = step->scan->sensor_id};
+    const unsigned place = rho_tracker_place_of_sensor(step->tracker, step->scan->sensor_id);
+    if (place < step->tracker->num_sensors) {
+        step->sensor = &step->tracker->sensors[place];
+        step->learned = &step->tracker->learned[place];
+    }
+    rho_tracker_set_pd(step);
+    if (RHO_SECTORS) {
+        rho_tracker_note_look(step);
+    }
+    if (!step->is_late) {
+        rho_tracker_note_pace(step->tracker, step->sensor ? step->sensor : &nowhere, step->time_us,
+                              step->scan->sector_from_rad, step->scan->sector_to_rad);
+    }
+    rho_tracker_set_noise(step, RHO_SECTORS ? rho_tracker_find_suspect(step) : 1.0f);
+    step->log_range_rates -=
+        rho_measurement_log_aliases(step->sensor, step->tracker->config.v_max_mps);
+    step->range_rates_mps = rho_exp(step->log_range_rates);
+}
+
+enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiator *initiator,
+                                 const struct rho_scan *scan, struct rho_report *report)
+{
+    enum rho_status status = check_step(tracker, initiator, scan, report);
+    if (status != RHO_OK) {
+        return status;
+    }
+    struct step step = {
+        .tracker = tracker,
+        .initiator = initiator,
+        .scan = scan,
+        .report = report,
+        .time_us = scan->time_us,
+        .num_inputs = scan->num_plots,
+    };
+    if (rho_tracker_begin(&step)) {
+        open_scan(&step);
+        rho_tracker_predict(&step);
+        if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
+            rho_tracker_claim_parts(&step); /* claims and updates, part by part */
+        } else {
+            rho_tracker_claim(&step);
+            rho_tracker_update(&step);
+        }
+        rho_tracker_age(&step);
+        if (RHO_SECTORS && step.is_late) {
+            rho_tracker_end_late(&step); /* no track starts from it */
+        } else {
+            rho_tracker_initiate(&step);
+            rho_tracker_merge_estimates(&step);
+        }
+        rho_tracker_end_work(&step);
+    }
+    rho_tracker_report(&step);
+    return RHO_OK;
+}

@@ -1,0 +1,478 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * step: what the files of one step share. Private to src/tracker.
+ *
+ * A step runs the six phases in their order. Each phase is a file: predict.c, claim.c, update.c,
+ * age.c, initiate.c, report.c. step.c calls them for a scan of plots, bearing_frame.c for a frame
+ * of bearings. Every other file is below the phases: it is called by them and calls none of them.
+ *
+ * Options of config.h: functions are declared in every build, their callers ask the option first
+ * (`if (RHO_SECTORS)`), and a file is compiled only where the fields exist that it works on.
+ */
+#ifndef RHOTRACK_STEP_H
+#define RHOTRACK_STEP_H
+
+#include "rhotrack/tracker.h"
+
+#define RHO_TRACKER_MAGIC 0x5452434bu /* "TRCK" */
+
+#define LOG_TWO_PI 1.83787707f
+
+/* The least side of an area that clutter is spread over. */
+#define RHO_CLUTTER_SIDE_MIN_M 1000.0f
+
+/* The work of a phase; each track that waits has a share of it. */
+struct work_share {
+    uint32_t end, kept; /* units: total at which the phase ends; reserved for each waiting track */
+    unsigned waiting;
+};
+
+/* Limits of places, inclusive. */
+struct plot_box {
+    float x_min_m, x_max_m, y_min_m, y_max_m;
+};
+
+#define RHO_PLOT_BOXES 8
+
+struct step {
+    struct rho_tracker *tracker;
+    int64_t time_us;
+    /* a scan of plots, and the initiator that starts tracks from them, or NULL */
+    const struct rho_scan *scan;
+    struct rho_initiator *initiator;
+    /* or a frame of bearings, and the initiator of these, or NULL */
+    const struct rho_frame *frame;
+    struct rho_passive *passive;
+    struct rho_report *report;
+    const struct rho_sensor *sensor;     /* of the scan; NULL: not described */
+    struct rho_tracker_learned *learned; /* of it; NULL: likewise, or of a frame */
+    int is_suspect;                      /* the sensor contradicts the others */
+    uint16_t look;                       /* count of the sensor's scans; 0: not known */
+    /* the scan is the sector after the one before: 1 counter-clockwise, -1 clockwise; else 0 */
+    float turning;
+    int is_late;         /* out of sequence: older than the newest step */
+    uint32_t num_inputs; /* plots or bearings */
+    uint32_t num_gated;  /* of them: have a place in report->fates */
+    /* of the plots that have none: claimed, invalid */
+    uint32_t num_beyond_claimed, num_beyond_invalid;
+    uint32_t first_row; /* in the whole scan, of the part that is claimed (scan_overflow) */
+    int has_more_parts; /* tracks without a plot may find one in a later part */
+    /* of a later part: its own clutter density, and the whole scan's plots over the first part's */
+    float part_per_m2, part_share;
+    /* of the scan's valid plots, the largest: noise on any axis, own time either way */
+    float sigma_max_m, offset_max_s;
+    uint32_t work, plots_not_tried; /* units; plots */
+    struct work_share share;        /* of the phase that runs */
+    int is_partial;
+    /* bit i: track i is in the scan's field of view and was predicted */
+    uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
+#if RHO_PLOT_STRIPS == 1
+    struct plot_box boxes[RHO_PLOT_BOXES]; /* of plots that follow each other, as many in each */
+    uint32_t plots_of_box;
+#endif
+    struct rho_track_model model;
+    float log_pd;
+    float log_miss;  /* ln(1 - pd) */
+    float asked_nat; /* evidence that a young track needs to be believed; 0: none is asked */
+    float miss_nat;  /* what a miss takes from it */
+    /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; velocities of one axis, m/s */
+    float log_height, log_rates;
+    float log_range_rates; /* range rates that the sensor tells apart, m/s */
+    float range_rates_mps; /* the same without the logarithm */
+};
+
+static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
+{
+    return tracker->magic == RHO_TRACKER_MAGIC;
+}
+
+/* Scores may be added and subtracted. */
+#define RHO_SCORE_MAX_MNAT 1000000000
+
+static inline int rho_tracker_is_score(int32_t mnat)
+{
+    return mnat >= -RHO_SCORE_MAX_MNAT && mnat <= RHO_SCORE_MAX_MNAT;
+}
+
+/* ---- the phases ------------------------------------------------------------------------------ */
+
+/*
+ * step_begin.c: the report begins; 0 where the inputs are too late for the tracker and have their
+ * fates. rho_tracker_report ends the step in either case.
+ */
+int rho_tracker_begin(struct step *step);
+/* Uses the pd of step->sensor. */
+void rho_tracker_set_pd(struct step *step);
+int rho_tracker_is_time(int64_t time_us);
+int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
+
+/* predict.c: the tracks that the scan can see; one track */
+void rho_tracker_predict(struct step *step);
+void rho_tracker_predict_track(struct step *step, struct rho_track *track);
+
+/* claim.c: gates the plots and assigns them to tracks; changes no track */
+void rho_tracker_claim(struct step *step);
+
+/* update.c: tracks take the plots that they were assigned */
+void rho_tracker_update(struct step *step);
+
+/* age.c: misses, ends and confirmations of all tracks; of one, after its miss was counted */
+void rho_tracker_age(struct step *step);
+void rho_tracker_age_track(struct step *step, struct rho_track *track, int is_missed,
+                           const struct rho_track_limits *limits);
+
+/* initiate.c, bearing_initiation.c: tracks start from what no track claimed */
+void rho_tracker_initiate(struct step *step);
+void rho_tracker_initiate_passive(struct step *step);
+
+/* report.c: one estimate for each track at the step's time; fates, counters and tracks */
+void rho_tracker_merge_estimates(struct step *step);
+void rho_tracker_report(struct step *step);
+
+/* ---- scans ----------------------------------------------------------------------------------- */
+
+/* scan_overflow.c: claim and update in parts, of a scan of more than RHO_MAX_PLOTS plots */
+#define RHO_TRACKER_PARTS_MAX 4u /* plots beyond are ignored */
+void rho_tracker_claim_parts(struct step *step);
+
+/* out_of_sequence.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
+void rho_tracker_set_late_default(struct rho_tracker_config *config);
+int rho_tracker_is_late_usable(const struct rho_tracker_config *config);
+int rho_tracker_takes_late(const struct step *step);
+void rho_tracker_count_late(struct step *step);
+/* Remembers the time that an out-of-sequence scan moves the track back from. */
+void rho_tracker_note_ahead(struct rho_track *track);
+int rho_tracker_is_sound_ahead(const struct rho_track *track);
+/* Ends such a scan: tracks return to the newest time, its unclaimed plots are stale. */
+void rho_tracker_end_late(struct step *step);
+
+/*
+ * plot_index.c: the rows of the plots near a place. Those between these limits are among them:
+ *     struct plots_near near = rho_tracker_plots_near(step, x_min_m, x_max_m, y_min_m, y_max_m);
+ *     for (uint32_t row; rho_tracker_next_plot(step, &near, &row);)
+ */
+struct plots_near {
+    uint32_t next, end; /* places in the order of the strip or box that is read */
+    unsigned box;       /* the next one */
+    struct plot_box within;
+};
+
+void rho_tracker_sort_plots(struct step *step);
+struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
+                                         float y_min_m, float y_max_m);
+#if RHO_PLOT_STRIPS > 1
+static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
+                                        uint32_t *row)
+{
+    if (near->next >= near->end) {
+        return 0;
+    }
+    *row = step->tracker->strips.plots[near->next++];
+    return 1;
+}
+
+/* An upper bound of their number. */
+static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
+{
+    (void)step;
+    return near->end - near->next;
+}
+#else
+int rho_tracker_next_box(const struct step *step, struct plots_near *near);
+
+static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
+                                        uint32_t *row)
+{
+    if (near->next >= near->end && !rho_tracker_next_box(step, near)) {
+        return 0;
+    }
+    *row = near->next++;
+    return 1;
+}
+
+static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
+{
+    (void)near;
+    return step->num_gated;
+}
+#endif
+
+/* ---- sensors --------------------------------------------------------------------------------- */
+
+/* sensor_table.c: sensors that were described. Place in the table: num_sensors where it is none */
+unsigned rho_tracker_place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id);
+const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
+                                                 int32_t sensor_id); /* NULL: not described */
+int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
+
+/*
+ * coverage.c: whether a plot may be a target's in the sensor's stated coverage (NULL: not known);
+ * a bearing whose noise is within the margin; whether the scan can see a track at all, and as
+ * rho_tracker_predict found that, by the track's row
+ */
+int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                       uint32_t measures);
+int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_rad,
+                               float margin_rad);
+int rho_tracker_reaches(const struct step *step, const struct rho_track *track);
+int rho_tracker_is_reached(const struct step *step, unsigned row);
+/* The sensor looked where the track is: in this sector; in the scan, so that no plot is a miss. */
+int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
+                          const struct rho_track *track);
+int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track);
+
+/* sectors.c (RHO_SECTORS): how the sectors of one turn follow each other */
+#define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
+/* What is known of the scan's sensor; NULL: nothing. */
+struct rho_tracker_look *rho_tracker_own_look(struct step *step);
+void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
+int rho_tracker_has_sound_looks(const struct rho_tracker *tracker);
+void rho_tracker_note_look(struct step *step);
+/* Remembers that the track has a plot of this scan, if it has one. */
+void rho_tracker_note_sight(const struct step *step, struct rho_track *track);
+/* One of the two sensors that saw the track last. */
+int rho_tracker_saw_last(const struct rho_track *track, int32_t sensor_id);
+/* The tracker's thresholds: the initiator's, and those of the other sensors'. */
+void rho_tracker_note_thresholds(struct step *step);
+/* The track took a plot in the sector before: the antenna is still at the same pass. */
+int rho_tracker_was_seen(const struct step *step, const struct rho_track *track);
+/*
+ * The antenna has passed all of the track's gate in this scan, or the sensor looked there at once.
+ */
+int rho_tracker_has_passed(const struct step *step, const struct rho_track *track);
+/* How many such scans make a turn, where they do. */
+float rho_tracker_turns(const struct step *step);
+/* A held plot came with an earlier sector of the turn that the window's scan is. */
+int rho_tracker_is_of_earlier_sector(const struct rho_window *window,
+                                     const struct rho_window_scan *scan, unsigned plot);
+
+/* sensor_health.c (RHO_SECTORS): whether the sensor agrees with the others */
+/* Finds whether it is suspect. Returns how many times its variances count. */
+float rho_tracker_find_suspect(struct step *step);
+/* Compares the assigned plots with the tracks' predictions, before tracks are updated. */
+void rho_tracker_update_sensor_health(struct step *step);
+/* No other sensor has seen the track, and this one is suspect. */
+static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *step,
+                                                             const struct rho_track *track)
+{
+    return step->is_suspect && !track->is_shared;
+}
+
+/*
+ * sensor_learning.c: the sensor's noise and pd as tracks show them. The noise is set before plots
+ * are gated, and learned between assignment and update. suspicion: factor of sensor_health
+ */
+void rho_tracker_set_noise(struct step *step, float suspicion);
+/* Writes the learned noise, times the factor, into a copy of the sensor. */
+void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_sensor *sensor);
+void rho_tracker_learn(struct step *step);
+int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
+/* Of the scan's sensor, for its initiator: over all ranges. */
+float rho_tracker_mean_pd(const struct step *step);
+/* ln of the probability that the sensor detects this track, and that it misses it. */
+struct detection {
+    float log_pd, log_miss;
+};
+struct detection rho_tracker_detection(const struct step *step, const struct rho_track *track);
+
+/* ---- work ------------------------------------------------------------------------------------ */
+
+/*
+ * work_budget.c: which of the plots near a track are scored within work_max. A phase begins; then
+ * for each track that waits a choice is made: where there may be more plots than `most`, all near
+ * it are counted, and the choice is made by distance
+ */
+#define RHO_WORK_OCTAVES 40u
+/* Shares of work_max, 1 / N: of echoes; of claims and of updates each; of second plots; of the
+ * tracks that start. */
+#define RHO_WORK_ECHOES_SHARE 8u
+#define RHO_WORK_TRACKS_SHARE 4u
+#define RHO_WORK_SECOND_SHARE 16u
+#define RHO_WORK_STARTS_SHARE 16u
+/* So many plots that a box passes over cost one unit. */
+#define RHO_WORK_PASSED_A_UNIT 4u
+struct plot_choice {
+    uint32_t most, units; /* plots; units for each */
+    uint32_t num_near;
+    int is_partial;
+    unsigned last; /* all plots of the octaves of distance before; of this one: */
+    uint32_t of_last;
+    uint16_t in_octave[RHO_WORK_OCTAVES];
+};
+/* Begins the tracks' share of a phase. */
+void rho_tracker_begin_work(struct step *step);
+/* Begins another phase's share. */
+void rho_tracker_begin_share(struct step *step, uint32_t part);
+static inline void rho_tracker_spend(struct step *step, uint32_t units)
+{
+    step->work = rho_count(step->work, units);
+}
+
+/* One waiting track needs no share. */
+static inline void rho_tracker_release_share(struct step *step)
+{
+    step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
+}
+
+static inline int rho_tracker_is_spent(const struct step *step)
+{
+    return step->work > step->share.end;
+}
+
+struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track);
+void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
+                             const struct rho_plot *plot);
+void rho_tracker_end_choice(struct step *step, struct plot_choice *choice);
+/* True where the plot is to be scored: it costs its units. */
+int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
+                          const struct rho_track *track, const struct rho_plot *plot);
+/* What is left for the search. */
+uint32_t rho_tracker_work_left(const struct step *step);
+void rho_tracker_end_work(struct step *step);
+
+/* ---- clutter --------------------------------------------------------------------------------- */
+
+/* expected_clutter.c: density of false plots, 1/m^2. Of clutter that does not come back */
+float rho_tracker_usual_density(const struct step *step, float x_m, float y_m);
+/* The same where a plot is, but never 0. */
+float rho_tracker_believed_density(const struct step *step, const struct rho_plot *plot);
+/* ln of the density where the track is, in the part of the scan that is claimed. */
+float rho_tracker_log_density(const struct step *step, const struct rho_track *track);
+/* False plots expected within three standard deviations of the track's place; 0 in a frame. */
+float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track);
+/* Measures the density of a later part of the scan. */
+void rho_tracker_measure_part(struct step *step);
+/* The smoothed number of unclaimed plots, after the starts; any such mean. */
+void rho_tracker_learn_unclaimed(struct step *step);
+void rho_tracker_smooth(float *mean, float newest);
+
+/* clutter_update.c (RHO_MAX_ECHOES): the map of clutter that comes back */
+void rho_tracker_open_clutter_map(struct rho_tracker *tracker);
+int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker);
+int rho_tracker_has_sound_returns(const struct rho_track *track);
+/* Before claims, of a whole scan or its first part. */
+void rho_tracker_look_at_clutter(struct step *step);
+/* ln of how much denser clutter is at this plot than near it; 0 in later parts of a scan. */
+float rho_tracker_repeats_nat(const struct step *step, uint32_t row);
+/* The plots that are held for initiation keep it. */
+void rho_tracker_keep_repeats(struct step *step);
+/* After starts. */
+void rho_tracker_learn_clutter(struct step *step);
+/*
+ * Likelihood of a range rate that differs so much from the expected one, over its likelihood as
+ * clutter, which is spread over all rates: half of such rates are as expected, with 1 m/s beside
+ * the variance, and half are any.
+ */
+float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance);
+/* Where a track starts; how far echoes explained its candidate's plots. */
+void rho_tracker_note_place(struct rho_track *track);
+void rho_tracker_note_start(struct step *step, const struct rho_candidate *candidate,
+                            struct rho_track *track);
+/* The track has moved as targets do, and not only from echo to echo. */
+int rho_tracker_has_moved(const struct rho_track *track);
+
+/*
+ * split_plots.c (RHO_MAX_ECHOES): second plots of one target near those that tracks have just
+ * claimed; of two tracks of one target the younger ends. Before tracks age
+ */
+void rho_tracker_expect_second_plots(struct step *step);
+void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id);
+int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker);
+int rho_tracker_has_sound_twin(const struct rho_track *track);
+/*
+ * A track has started with the candidate's plots: others near them, in the window, may be its own.
+ */
+void rho_tracker_expect_earlier_second_plots(struct step *step,
+                                             const struct rho_candidate *candidate);
+
+/* ---- plots and tracks ------------------------------------------------------------------------ */
+
+/* plot_scores.c: pairs of a track and a plot or bearing are offered to the assignment */
+/* Thousandths of a nat, within the assignment's range. */
+int32_t rho_tracker_mnat(float nat);
+/* The gate of a track at its one estimate. measures: of the scan; 0 of bearings. */
+void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
+                           uint32_t measures, struct rho_gate *gate);
+/* What is in the gate always costs less than no plot. gain_nat: over a miss. */
+void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);
+/* The gain of an offer over clutter, not over a miss; 0 where there was none, *gain_nat stays. */
+int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat);
+/* Solves the assignment, and counts the plots that gates had no room for. */
+void rho_tracker_assign(struct step *step);
+
+/*
+ * ln of how much likelier a plot is the track's than clutter. With a Kalman filter,
+ * of a plot in its gate; log_density: rho_tracker_log_density
+ */
+float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
+                             const struct rho_gate_result *result, float log_density, uint32_t row);
+/* ln of the probability of a miss; 0 where the sensor did not look. */
+float rho_tracker_log_miss(const struct step *step, const struct rho_track *track);
+/*
+ * With hypotheses: every plot near the track that no other track has been assigned is scored by
+ * each hypothesis.
+ *     rho_tracker_begin_scores(step, row, &scores);
+ *     while (rho_tracker_next_score(step, &scores, &plot, &gain_nat))
+ */
+struct plot_scores {
+    unsigned track_row;
+    float log_pd;
+    struct rho_hypotheses_clutter clutter;
+    struct rho_hypotheses_box box;
+    struct plots_near near;
+    struct plot_choice choice;
+};
+void rho_tracker_begin_scores(struct step *step, unsigned row, struct plot_scores *scores);
+int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
+                           float *gain_nat);
+/* The plot as a track takes it. */
+struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row);
+
+/* merged_plots.c: pairs of tracks take one plot, before the others take theirs */
+void rho_tracker_share_merged_plots(struct step *step);
+
+/* ---- life cycle ------------------------------------------------------------------------------ */
+
+/* life_cycle.c: thresholds confirm and end tracks. Ended ones are FREE until they are removed */
+struct rho_track_limits rho_tracker_limits(const struct step *step);
+void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
+                                  const struct rho_track_limits *limits);
+void rho_tracker_end_track(struct step *step, struct rho_track *track);
+void rho_tracker_remove_ended(struct rho_tracker *tracker);
+
+/* early_deaths.c: evidence that is asked of young tracks, found once a step */
+#define RHO_GROWN_HITS 16
+static inline int rho_tracker_is_grown(const struct rho_track *track)
+{
+    return track->hits >= RHO_GROWN_HITS;
+}
+void rho_tracker_find_asked_evidence(struct step *step);
+int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track);
+void rho_tracker_note_growth(struct step *step, const struct rho_track *track);
+void rho_tracker_note_death(struct step *step, const struct rho_track *track);
+
+/* manoeuvre_interval.c: mean time between manoeuvres; learned from grown tracks over dt_s */
+void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
+/* After a silence it is the default again. */
+void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t time_us);
+
+/* unobserved_tracks.c: how often sensors look; 1 where a track was not observed for too long */
+void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id);
+void rho_tracker_note_pace(struct rho_tracker *tracker, const struct rho_sensor *sensor,
+                           int64_t time_us, float sector_from_rad, float sector_to_rad);
+int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *track, int is_missed,
+                                   const struct rho_track_limits *limits);
+/* The track's place is less well known than the range of its sensor. */
+int rho_tracker_is_place_unknown(const struct step *step, const struct rho_track *track);
+
+/* track_starts.c: any initiator's candidate becomes a track where there is room; else 0 */
+int rho_tracker_admit(struct step *step, struct rho_track *track,
+                      const struct rho_track_limits *limits);
+/* Without an initiator, unclaimed plots and bearings are held nowhere. */
+void rho_tracker_refuse_unclaimed(struct step *step);
+
+/* tracker.c: the filter of tracks of plots */
+enum rho_track_filter rho_tracker_filter_of(const struct rho_tracker_config *config);
+int rho_tracker_is_usable(const struct rho_tracker_config *config);
+
+#endif

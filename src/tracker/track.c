@@ -1,0 +1,646 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * track: one target's life cycle, its evidence, and its estimate by the filter that it was started
+ * with.
+ */
+#include "rhotrack/track.h"
+
+#include <string.h>
+
+#include "rhotrack/detail/approx.h"
+
+#define SCORE_LIMIT_MNAT 1000000000
+#define SCORE_LIMIT_NAT 1.0e6f
+
+/* ---- life cycle ------------------------------------------------------------------------------ */
+
+const char *rho_track_status_name(enum rho_track_status status)
+{
+    static const char *const names[RHO_NUM_TRACK_STATUS] = {
+        [RHO_TRACK_FREE] = "free",
+        [RHO_TRACK_TENTATIVE] = "tentative",
+        [RHO_TRACK_CONFIRMED] = "confirmed",
+        [RHO_TRACK_COASTING] = "coasting",
+    };
+    return (unsigned)status < RHO_NUM_TRACK_STATUS ? names[status] : "unknown";
+}
+
+enum rho_track_status rho_track_next_status(enum rho_track_status status,
+                                            enum rho_track_event event)
+{
+    /* one row a status, one column an event: start, confirm, update, miss, doubt, drop */
+    static const uint8_t next[RHO_NUM_TRACK_STATUS][RHO_NUM_TRACK_EVENTS] = {
+        [RHO_TRACK_FREE] = {RHO_TRACK_TENTATIVE, RHO_TRACK_FREE, RHO_TRACK_FREE, RHO_TRACK_FREE,
+                            RHO_TRACK_FREE, RHO_TRACK_FREE},
+        /* neither plots nor misses are belief: only the score's threshold makes it, or ends it */
+        [RHO_TRACK_TENTATIVE] = {RHO_TRACK_TENTATIVE, RHO_TRACK_CONFIRMED, RHO_TRACK_TENTATIVE,
+                                 RHO_TRACK_TENTATIVE, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
+        [RHO_TRACK_CONFIRMED] = {RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED,
+                                 RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
+        /* once believed, a plot is enough to go on */
+        [RHO_TRACK_COASTING] = {RHO_TRACK_COASTING, RHO_TRACK_COASTING, RHO_TRACK_CONFIRMED,
+                                RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
+    };
+    if ((unsigned)status >= RHO_NUM_TRACK_STATUS || (unsigned)event >= RHO_NUM_TRACK_EVENTS) {
+        return status;
+    }
+    return (enum rho_track_status)next[status][event];
+}
+
+static void apply_event(struct rho_track *track, enum rho_track_event event)
+{
+    track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status, event);
+}
+
+/* ---- evidence -------------------------------------------------------------------------------- */
+
+static void add_score(struct rho_track *track, int32_t mnat)
+{
+    int64_t score = (int64_t)track->score_mnat + mnat;
+    score = score > SCORE_LIMIT_MNAT ? SCORE_LIMIT_MNAT : score;
+    score = score < -SCORE_LIMIT_MNAT ? -SCORE_LIMIT_MNAT : score;
+    track->score_mnat = (int32_t)score;
+    if (track->score_mnat > track->score_max_mnat) {
+        track->score_max_mnat = track->score_mnat;
+    }
+}
+
+static void count_hit(struct rho_track *track)
+{
+    track->hits = (uint16_t)(track->hits < UINT16_MAX ? track->hits + 1 : UINT16_MAX);
+    track->misses_in_row = 0;
+}
+
+void rho_track_miss(struct rho_track *track, int32_t loss_mnat)
+{
+    track->misses = (uint16_t)(track->misses < UINT16_MAX ? track->misses + 1 : UINT16_MAX);
+    track->misses_in_row =
+        (uint8_t)(track->misses_in_row < UINT8_MAX ? track->misses_in_row + 1 : UINT8_MAX);
+    track->plot = -1;
+    add_score(track, -loss_mnat);
+    apply_event(track, RHO_TRACK_MISS);
+}
+
+void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat)
+{
+    add_score(track, -loss_mnat);
+}
+
+/* How far the evidence has fallen since it was best. */
+static int32_t fall_of(const struct rho_track *track)
+{
+    return track->score_max_mnat - track->score_mnat;
+}
+
+static int has_ended(const struct rho_track *track, const struct rho_track_limits *limits)
+{
+    if (track->misses_in_row >= limits->misses_in_row_max) {
+        return 1;
+    }
+    return track->is_believed ? fall_of(track) >= limits->fall_mnat
+                              : track->score_mnat < limits->tentative_mnat;
+}
+
+enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
+                                                 const struct rho_track_limits *limits)
+{
+    enum rho_track_event event = RHO_TRACK_DOUBT; /* of what was never believed, too */
+    if (fall_of(track) < limits->doubt_mnat &&
+        (track->is_believed || track->score_mnat >= limits->confirm_mnat)) {
+        event = RHO_TRACK_CONFIRM;
+        track->is_believed = 1;
+    }
+    apply_event(track, has_ended(track, limits) ? RHO_TRACK_DROP : event);
+    return (enum rho_track_status)track->status;
+}
+
+/* ---- accuracy -------------------------------------------------------------------------------- */
+
+static float root_mean_variance(const struct rho_kalman *kalman, int first)
+{
+    float sum = 0.0f;
+    int axes = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        if (rho_kalman_is_open(kalman, axis)) {
+            sum += kalman->covariance[RHO_AT(first + axis, first + axis)];
+            axes++;
+        }
+    }
+    return axes ? rho_sqrt(sum / (float)axes) : 0.0f;
+}
+
+float rho_track_sigma_m(const struct rho_track *track)
+{
+    return root_mean_variance(&track->kalman, 0);
+}
+
+float rho_track_sigma_mps(const struct rho_track *track)
+{
+    return root_mean_variance(&track->kalman, 3);
+}
+
+/* ---- a plain Kalman filter ------------------------------------------------------------------- */
+
+static enum rho_status measure_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
+                                        int has_z)
+{
+    float variance = plot->sigma_mps * plot->sigma_mps;
+    enum rho_status status = rho_kalman_update(kalman, 3, plot->vx_mps, variance, 0);
+    if (status == RHO_OK) {
+        status = rho_kalman_update(kalman, 4, plot->vy_mps, variance, 0);
+    }
+    if (status == RHO_OK && has_z) {
+        status = rho_kalman_update(kalman, 5, plot->vz_mps, variance, 0);
+    }
+    return status;
+}
+
+/*
+ * Takes all that a plot measures, at its own time; the range rate last, linearised at the position
+ * found.
+ */
+static enum rho_status measure(struct rho_kalman *kalman, const struct rho_track_plot *seen,
+                               const struct rho_track_model *model)
+{
+    const struct rho_plot *plot = &seen->plot;
+    struct rho_measurement measurement;
+    rho_measurement_open(plot, seen->measures, seen->sensor, &measurement);
+    enum rho_status status = rho_kalman_update_position(
+        kalman, &measurement, model->speed_sigma_mps * model->speed_sigma_mps);
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
+        status = measure_velocity(kalman, plot, measurement.has_z);
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status =
+            rho_kalman_update_range_rate(kalman, seen->sensor, plot->range_rate_mps,
+                                         plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
+    }
+    return status;
+}
+
+static enum rho_status update_kalman(struct rho_track *track, const struct rho_track_plot *seen,
+                                     const struct rho_track_model *model)
+{
+    struct rho_kalman kalman = track->kalman;
+    enum rho_status status = rho_kalman_predict(
+        &kalman, rho_seconds_between(track->time_us, seen->time_us), model->noise_density);
+    if (status == RHO_OK) {
+        status = measure(&kalman, seen, model);
+    }
+    if (status == RHO_OK) {
+        track->kalman = kalman;
+    }
+    return status;
+}
+
+/* ---- with input estimation ------------------------------------------------------------------- */
+
+/* Copies the filter's estimate to the track. */
+static void show_input(struct rho_track *track)
+{
+    rho_input_estimate(&track->input, &track->kalman);
+    for (int axis = 0; axis < 3; axis++) {
+        int is_present = (track->input.present >> axis & 1u) != 0;
+        track->accel_mps2[axis] = is_present ? track->input.input_mps2[axis] : 0.0f;
+    }
+    track->maneuver_probability = track->input.present ? 1.0f : 0.0f;
+}
+
+static enum rho_status measure_input(struct rho_input *input, const struct rho_track_plot *seen,
+                                     const struct rho_input_config *config)
+{
+    const struct rho_plot *plot = &seen->plot;
+    const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+    struct rho_measurement measurement;
+    rho_measurement_open(plot, seen->measures, seen->sensor, &measurement);
+    enum rho_status status = rho_input_update_position(input, config, &measurement);
+    int num_velocities = !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement.has_z ? 3 : 2;
+    for (int axis = 0; axis < num_velocities && status == RHO_OK; axis++) {
+        status = rho_input_update(input, config, 3 + axis, velocity_mps[axis],
+                                  plot->sigma_mps * plot->sigma_mps);
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status =
+            rho_input_update_range_rate(input, config, seen->sensor, plot->range_rate_mps,
+                                        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
+    }
+    return status;
+}
+
+static enum rho_status update_input(struct rho_track *track, const struct rho_track_plot *seen,
+                                    const struct rho_track_model *model)
+{
+    struct rho_input input = track->input;
+    enum rho_status status =
+        rho_input_predict(&input, model->input, rho_seconds_between(track->time_us, seen->time_us));
+    if (status == RHO_OK) {
+        status = measure_input(&input, seen, model->input);
+    }
+    if (status == RHO_OK) {
+        rho_input_decide(&input, model->input);
+        track->input = input;
+        track->is_undecided = 0;
+        show_input(track);
+    }
+    return status;
+}
+
+/* A bearing alone says nothing along its line: only those of all sensors show an input. */
+static void decide_on_bearings(struct rho_track *track, const struct rho_track_model *model)
+{
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
+        rho_input_decide(&track->input, model->input);
+        show_input(track);
+        track->is_undecided = 0;
+    }
+}
+
+/* ---- hypotheses ------------------------------------------------------------------------------ */
+
+static enum rho_status update_hypotheses(struct rho_track *track, const struct rho_track_plot *seen,
+                                         const struct rho_track_model *model)
+{
+    struct rho_imm_plot plot;
+    enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, seen->time_us);
+    if (status == RHO_OK) {
+        rho_imm_open_plot(&plot, &seen->plot, seen->measures, seen->sensor);
+        status = rho_hypotheses_update(model->hypotheses, track->slot, &plot, seen->time_us);
+    }
+    return status;
+}
+
+void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
+                               const struct rho_track_model *model)
+{
+    struct rho_hypotheses_estimate estimate;
+    decide_on_bearings(track, model);
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) ||
+        rho_hypotheses_estimate(model->hypotheses, track->slot, time_us, &estimate) != RHO_OK) {
+        return;
+    }
+    track->kalman = estimate.kalman;
+    track->time_us = time_us;
+    for (int axis = 0; axis < 3; axis++) {
+        track->accel_mps2[axis] = estimate.accel_mps2[axis];
+    }
+    track->maneuver_probability = estimate.maneuver_probability;
+}
+
+void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected)
+{
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        rho_input_expect(&track->input, expected);
+    } else {
+        *expected = track->kalman;
+    }
+}
+
+/* ---- start and end --------------------------------------------------------------------------- */
+
+static enum rho_status update_filter(struct rho_track *track, const struct rho_track_plot *seen,
+                                     const struct rho_track_model *model)
+{
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return update_hypotheses(track, seen, model);
+    }
+    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? update_input(track, seen, model)
+                                                   : update_kalman(track, seen, model);
+}
+
+/* The filter that the model asks for. */
+static enum rho_track_filter filter_of(const struct rho_track_model *model)
+{
+    if (model->hypotheses) {
+        return RHO_TRACK_HYPOTHESES;
+    }
+    return model->input ? RHO_TRACK_INPUT : RHO_TRACK_KALMAN;
+}
+
+/* Opens the filter at the estimate of one plot. */
+static enum rho_status open_filter(struct rho_track *track, const struct rho_track_model *model)
+{
+    const enum rho_track_filter filter = filter_of(model);
+    if (!RHO_HAS_FILTER(filter)) {
+        return RHO_ERROR_CONFIG;
+    }
+    track->filter = (uint8_t)filter;
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return rho_hypotheses_open(model->hypotheses, &track->kalman, track->time_us, &track->slot);
+    }
+    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)
+               ? rho_input_start(&track->input, model->input, &track->kalman)
+               : RHO_OK;
+}
+
+/* After a hit; a plot of another sensor in the same step only refines the newest velocity. */
+static void note_velocity(struct rho_track *track, int is_first)
+{
+    if (is_first && track->num_velocities < UINT8_MAX) {
+        track->num_velocities++;
+    }
+    for (int axis = 0; axis < 3 && RHO_HAS_FILTER(RHO_TRACK_INPUT); axis++) {
+        if (is_first) {
+            track->before_mps[axis] = track->newest_mps[axis];
+        }
+        track->newest_mps[axis] = track->kalman.state[3 + axis];
+    }
+}
+
+static enum rho_status run_filter(struct rho_track *track, const struct rho_track_plot *plots,
+                                  unsigned num_plots, const struct rho_track_model *model)
+{
+    enum rho_status status = RHO_OK;
+    note_velocity(track, 1);
+    for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
+        status = update_filter(track, &plots[i], model);
+        track->time_us = plots[i].time_us;
+        note_velocity(track, 1);
+    }
+    rho_track_merge_estimates(track, track->time_us, model);
+    return status;
+}
+
+/* Clears its padding, too: the same plots give the same bytes. */
+static void clear_track(struct rho_track *track, uint32_t track_id, int32_t score_mnat)
+{
+    memset(track, 0, sizeof *track);
+    track->track_id = track_id;
+    track->status = RHO_TRACK_FREE;
+    track->score_mnat = score_mnat;
+    track->score_max_mnat = score_mnat;
+}
+
+enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
+                                const struct rho_track_plot *plots, unsigned num_plots,
+                                const struct rho_track_model *model, int32_t score_mnat)
+{
+    if (!track || !plots || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (num_plots < 1) {
+        return RHO_ERROR_VALUE;
+    }
+    const struct rho_track_plot *last = &plots[num_plots - 1];
+    struct rho_track start;
+    clear_track(&start, track_id, score_mnat);
+    start.hits = (uint16_t)num_plots;
+    start.plot = last->row;
+    start.sensor_id = last->sensor_id;
+    start.time_us = plots[0].time_us;
+    start.updated_us = last->time_us;
+    rho_kalman_init(&start.kalman);
+    enum rho_status status = measure(&start.kalman, &plots[0], model);
+    if (status == RHO_OK) {
+        status = open_filter(&start, model);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    status = run_filter(&start, plots, num_plots, model);
+    if (status != RHO_OK) {
+        rho_track_end(&start, model);
+        return status;
+    }
+    for (unsigned i = 0; RHO_SECTORS && i + 1 < num_plots; i++) {
+        start.is_shared |= (uint8_t)(plots[i].sensor_id != last->sensor_id);
+    }
+    apply_event(&start, RHO_TRACK_START);
+    *track = start;
+    return RHO_OK;
+}
+
+enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
+                                         const struct rho_kalman *estimate, int64_t time_us,
+                                         int32_t sensor_id, uint16_t hits, int32_t score_mnat)
+{
+    if (!track || !estimate) {
+        return RHO_ERROR_NULL;
+    }
+    if (!RHO_HAS_FILTER(RHO_TRACK_KALMAN)) {
+        return RHO_ERROR_CONFIG;
+    }
+    if (hits < 1 || !rho_kalman_is_open(estimate, 0) || !rho_kalman_is_open(estimate, 1)) {
+        return RHO_ERROR_VALUE;
+    }
+    struct rho_track start;
+    clear_track(&start, track_id, score_mnat);
+    start.hits = hits;
+    start.plot = -1;
+    start.sensor_id = sensor_id;
+    start.time_us = time_us;
+    start.updated_us = time_us;
+    start.kalman = *estimate;
+    note_velocity(&start, 1);
+    apply_event(&start, RHO_TRACK_START);
+    *track = start;
+    return RHO_OK;
+}
+
+void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
+{
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        rho_hypotheses_close(model->hypotheses, track->slot);
+        track->slot = RHO_HYPOTHESES_SLOTS; /* none: it may be another's soon */
+    }
+}
+
+/* ---- predict and update ---------------------------------------------------------------------- */
+
+/*
+ * Hypotheses have moved: the one estimate follows roughly; rho_track_merge_estimates finds it once
+ * a step.
+ */
+static enum rho_status move_estimate(struct rho_track *track, int64_t time_us,
+                                     enum rho_status status)
+{
+    return status == RHO_OK ? rho_kalman_predict(&track->kalman,
+                                                 rho_seconds_between(track->time_us, time_us), 0.0f)
+                            : status;
+}
+
+enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
+                                  const struct rho_track_model *model)
+{
+    enum rho_status status;
+    if (!track || !model) {
+        return RHO_ERROR_NULL;
+    }
+    float dt_s = rho_seconds_between(track->time_us, time_us);
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        status = move_estimate(track, time_us,
+                               rho_hypotheses_predict(model->hypotheses, track->slot, time_us));
+    } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        status = rho_input_predict(&track->input, model->input, dt_s);
+        show_input(track);
+    } else {
+        status = rho_kalman_predict(&track->kalman, dt_s, model->noise_density);
+    }
+    if (status == RHO_OK) {
+        track->time_us = time_us;
+    }
+    return status;
+}
+
+enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
+                                 const struct rho_track_model *model)
+{
+    if (!track || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        return rho_track_predict(track, time_us, model); /* its noise is a scan's, not a second's */
+    }
+    enum rho_status status =
+        RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
+            ? move_estimate(track, time_us,
+                            rho_hypotheses_return(model->hypotheses, track->slot, time_us))
+            : rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us),
+                                 0.0f);
+    if (status == RHO_OK) {
+        track->time_us = time_us;
+    }
+    return status;
+}
+
+/* A plot of an out-of-sequence scan is not the last one. */
+static int64_t last_seen_us(const struct rho_track *track, int64_t time_us)
+{
+    return RHO_SECTORS && time_us < track->updated_us ? track->updated_us : time_us;
+}
+
+static void note_hit(struct rho_track *track, int64_t time_us, int32_t sensor_id, int16_t row)
+{
+    track->is_shared |= (uint8_t)(RHO_SECTORS && track->sensor_id != sensor_id);
+    track->updated_us = time_us;
+    track->sensor_id = sensor_id;
+    track->plot = row;
+}
+
+enum rho_status rho_track_update(struct rho_track *track, const struct rho_track_plot *plot,
+                                 const struct rho_track_model *model, int32_t gain_mnat)
+{
+    if (!track || !plot || !model) {
+        return RHO_ERROR_NULL;
+    }
+    enum rho_status status = update_filter(track, plot, model);
+    if (status != RHO_OK) {
+        return status;
+    }
+    track->time_us = plot->time_us;
+    if (!RHO_SECTORS || plot->time_us >= track->updated_us) {
+        note_velocity(track, 1); /* one that came late does not come between the last two */
+    }
+    note_hit(track, last_seen_us(track, plot->time_us), plot->sensor_id, plot->row);
+    count_hit(track);
+    add_score(track, gain_mnat);
+    apply_event(track, RHO_TRACK_UPDATE);
+    return RHO_OK;
+}
+
+enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypotheses_scan *scan,
+                                 int32_t sensor_id, const struct rho_track_model *model)
+{
+    struct rho_hypotheses_outcome outcome;
+    if (!track || !scan || !model) {
+        return RHO_ERROR_NULL;
+    }
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = rho_hypotheses_commit(model->hypotheses, track->slot, scan, &outcome);
+    if (status != RHO_OK) {
+        return status;
+    }
+    track->plot = -1;
+    add_score(track,
+              (int32_t)(1000.0f * (outcome.gain_nat < -SCORE_LIMIT_NAT  ? -SCORE_LIMIT_NAT
+                                   : outcome.gain_nat > SCORE_LIMIT_NAT ? SCORE_LIMIT_NAT
+                                                                        : outcome.gain_nat)));
+    if (outcome.row >= 0) {
+        note_hit(track, last_seen_us(track, scan->time_us + scan->plots[outcome.row].offset_us),
+                 sensor_id, outcome.row);
+        count_hit(track);
+        apply_event(track, RHO_TRACK_UPDATE);
+    }
+    return RHO_OK;
+}
+
+/* ---- bearings -------------------------------------------------------------------------------- */
+
+static enum rho_status update_kalman_by_bearing(struct rho_track *track,
+                                                const struct rho_track_bearing *bearing,
+                                                const struct rho_track_model *model)
+{
+    struct rho_kalman kalman = track->kalman;
+    float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
+    enum rho_status status = rho_kalman_predict(&kalman, dt_s, model->noise_density);
+    if (status == RHO_OK) {
+        status = rho_kalman_update_bearing(&kalman, bearing->x_m, bearing->y_m,
+                                           bearing->bearing_rad, bearing->sigma_rad);
+    }
+    if (status == RHO_OK) {
+        track->kalman = kalman;
+    }
+    return status;
+}
+
+static enum rho_status update_input_by_bearing(struct rho_track *track,
+                                               const struct rho_track_bearing *bearing,
+                                               const struct rho_track_model *model)
+{
+    struct rho_input input = track->input;
+    float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
+    enum rho_status status = rho_input_predict(&input, model->input, dt_s);
+    if (status == RHO_OK) {
+        status = rho_input_update_bearing(&input, model->input, bearing->x_m, bearing->y_m,
+                                          bearing->bearing_rad, bearing->sigma_rad);
+    }
+    if (status == RHO_OK) {
+        track->input = input;
+        track->is_undecided = 1;
+        show_input(track);
+    }
+    return status;
+}
+
+static enum rho_status update_by_bearing(struct rho_track *track,
+                                         const struct rho_track_bearing *bearing,
+                                         const struct rho_track_model *model)
+{
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        return update_input_by_bearing(track, bearing, model);
+    }
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return update_kalman_by_bearing(track, bearing, model);
+    }
+    enum rho_status status = rho_hypotheses_update_bearing(
+        model->hypotheses, track->slot, bearing->time_us, bearing->x_m, bearing->y_m,
+        bearing->bearing_rad, bearing->sigma_rad);
+    /* the next sensor's gate is to be the narrower for it */
+    rho_track_merge_estimates(track, bearing->time_us, model);
+    return status;
+}
+
+enum rho_status rho_track_update_bearing(struct rho_track *track,
+                                         const struct rho_track_bearing *bearing,
+                                         const struct rho_track_model *model, int32_t gain_mnat)
+{
+    if (!track || !bearing || !model) {
+        return RHO_ERROR_NULL;
+    }
+    enum rho_status status = update_by_bearing(track, bearing, model);
+    if (status != RHO_OK) {
+        return status;
+    }
+    note_velocity(track, track->plot < 0);
+    if (track->plot < 0) {
+        count_hit(track);
+    }
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) { /* these have settled there */
+        track->time_us = bearing->time_us;
+    }
+    note_hit(track, bearing->time_us, bearing->sensor_id, bearing->row);
+    add_score(track, gain_mnat);
+    apply_event(track, RHO_TRACK_UPDATE);
+    return RHO_OK;
+}

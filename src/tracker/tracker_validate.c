@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_validate: whether a tracker of unknown origin (a snapshot) can be worked with.
+ */
+#include "rhotrack/detail/angle.h"
+#include "step.h"
+
+/* Slots that one pass over the tracks checks. */
+#define PASS_SLOTS 256u
+
+/* ---- tracks ---------------------------------------------------------------------------------- */
+
+/* The configured filter of tracks of plots, or that of tracks of bearings. */
+static int is_sound_filter(const struct rho_tracker *tracker, const struct rho_track *track)
+{
+    const unsigned own = (unsigned)rho_tracker_filter_of(&tracker->config);
+    return (track->filter == own || track->filter == RHO_TRACK_KALMAN) &&
+           RHO_HAS_FILTER(track->filter) &&
+           (track->filter != RHO_TRACK_HYPOTHESES || track->slot < RHO_HYPOTHESES_SLOTS);
+}
+
+static int is_sound_input(const struct rho_track *track)
+{
+    const struct rho_input *input = &track->input;
+    if (track->filter != RHO_TRACK_INPUT) {
+        return 1;
+    }
+    for (int axis = 0; axis < RHO_INPUT_AXES; axis++) {
+        if (!rho_are_finite(input->sensitivity[axis], RHO_KALMAN_STATES)) {
+            return 0;
+        }
+    }
+    return rho_are_finite(input->bare.state, RHO_KALMAN_STATES) &&
+           rho_are_finite(input->bare.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
+           rho_are_finite(input->input_mps2, RHO_INPUT_AXES) &&
+           rho_are_finite(input->variance, RHO_TRIANGLE(RHO_INPUT_AXES)) &&
+           input->present < 1u << RHO_INPUT_AXES;
+}
+
+static int is_sound_track(const struct rho_tracker *tracker, const struct rho_track *track)
+{
+    return (!RHO_SECTORS || rho_tracker_is_sound_ahead(track)) &&
+           (RHO_MAX_ECHOES == 0 ||
+            (rho_tracker_has_sound_returns(track) && rho_tracker_has_sound_twin(track))) &&
+           track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&
+           rho_tracker_is_score(track->score_mnat) && rho_tracker_is_score(track->score_max_mnat) &&
+           rho_is_stored_time(track->time_us) && rho_is_stored_time(track->updated_us) &&
+           rho_is_stored_time(track->seen_us) && rho_is_within(track->seen_every_s, 0.0f, 1e13f) &&
+           is_sound_filter(tracker, track) && is_sound_input(track) &&
+           rho_are_finite(track->kalman.state, RHO_KALMAN_STATES) &&
+           rho_are_finite(track->kalman.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
+           rho_are_finite(track->accel_mps2, 3) && rho_are_finite(track->newest_mps, 3) &&
+           rho_are_finite(track->before_mps, 3) &&
+           rho_is_within(track->maneuver_probability, 0.0f, 1.0f);
+}
+
+/* No two tracks have the same hypotheses. */
+static int has_own_slots(const struct rho_tracker *tracker)
+{
+    for (unsigned first = 0; first < RHO_HYPOTHESES_SLOTS; first += PASS_SLOTS) {
+        uint8_t is_met[PASS_SLOTS] = {0};
+        for (unsigned i = 0; i < tracker->num_tracks; i++) {
+            const struct rho_track *track = &tracker->tracks[i];
+            if (track->filter != RHO_TRACK_HYPOTHESES || track->slot < first ||
+                track->slot - first >= PASS_SLOTS) {
+                continue;
+            }
+            if (is_met[track->slot - first]++) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static int has_sound_tracks(const struct rho_tracker *tracker)
+{
+    if (tracker->num_tracks > RHO_MAX_TRACKS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        if (!is_sound_track(tracker, &tracker->tracks[i])) {
+            return 0;
+        }
+    }
+    return !RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ||
+           (rho_hypotheses_is_sound(&tracker->hypotheses) && has_own_slots(tracker));
+}
+
+/* ---- sensors --------------------------------------------------------------------------------- */
+
+static int has_sound_sensors(const struct rho_tracker *tracker)
+{
+    if (tracker->num_sensors > RHO_MAX_SENSORS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < tracker->num_sensors; i++) {
+        if (!rho_tracker_is_usable_sensor(&tracker->sensors[i]) ||
+            !rho_tracker_is_sound_learned(&tracker->learned[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int has_sound_paces(const struct rho_tracker *tracker)
+{
+    if (tracker->num_paces > RHO_MAX_SENSORS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < tracker->num_paces; i++) {
+        const struct rho_tracker_pace *pace = &tracker->paces[i];
+        if (!rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) ||
+            !rho_is_within(pace->interval_s, 0.0f, 1e13f) || !rho_is_coordinate(pace->x_m) ||
+            !rho_is_coordinate(pace->y_m) || !rho_is_stored_time(pace->time_us)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* ---- all ------------------------------------------------------------------------------------- */
+
+static int is_sound_extent(const struct rho_extent *extent)
+{
+    return rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
+           rho_is_coordinate(extent->y_min_m) && rho_is_coordinate(extent->y_max_m);
+}
+
+int rho_tracker_is_sound(const struct rho_tracker *tracker)
+{
+    return rho_tracker_is_ready(tracker) && rho_tracker_is_usable(&tracker->config) &&
+           rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
+           rho_is_stored_time(tracker->time_us) && rho_tracker_is_score(tracker->start_mnat) &&
+           rho_tracker_is_score(tracker->confirm_mnat) && tracker->looks_max > 0 &&
+           rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
+           rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
+           rho_is_within(tracker->died_young, 0.0f, 1e9f) &&
+           rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&
+           rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&
+           rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
+           rho_is_within(tracker->grown, 0.0f, 1e9f) && rho_is_stored_time(tracker->youth_us) &&
+           is_sound_extent(&tracker->extent) && has_sound_sensors(tracker) &&
+           has_sound_paces(tracker) && (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
+           (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
+                                    rho_tracker_has_sound_second_plots(tracker))) &&
+           has_sound_tracks(tracker);
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * update: tracks take the plots that they were assigned, and sensors are compared with the
+ * predictions.
+ */
+#include "step.h"
+
+/* ---- tracks with a Kalman filter ------------------------------------------------------------- */
+
+/* 0 where the plot is not in the gate that the update meets. */
+static int32_t gain_of(const struct step *step, const struct rho_track *track, uint32_t plot)
+{
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    rho_tracker_open_gate(step, track, step->scan->measures, &gate);
+    if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
+        return 0;
+    }
+    return rho_tracker_mnat(
+        rho_tracker_score_plot(step, track, &result, rho_tracker_log_density(step, track), plot));
+}
+
+static void take_plot(struct step *step, struct rho_track *track, int plot)
+{
+    struct rho_tracker_counters *counters = &step->tracker->counters;
+    const int32_t gain = gain_of(step, track, (uint32_t)plot);
+    const struct rho_track_plot seen = rho_tracker_plot_of(step, plot);
+    if (rho_track_update(track, &seen, &step->model, gain) == RHO_OK) {
+        step->report->fates[plot] = RHO_FATE_CLAIMED;
+    } else {
+        counters->updates_refused = rho_count(counters->updates_refused, 1);
+    }
+}
+
+/* ---- tracks with hypotheses ------------------------------------------------------------------ */
+
+/*
+ * Each hypothesis lists its best plots only. Where other tracks were assigned some of them, plots
+ * that are not on the list may be better than what is left, even the track's assigned one.
+ */
+static int lacks_plots(const struct step *step, unsigned row)
+{
+    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
+    const int16_t *claims = step->tracker->assignment.column_row;
+    const uint16_t slot = step->tracker->tracks[row].slot;
+    for (unsigned i = 0; i < rho_hypotheses_count(pool, slot); i++) {
+        const struct rho_hypothesis *at = rho_hypotheses_at(pool, slot, i);
+        for (unsigned k = 0;
+             at->num_candidates == RHO_HYPOTHESES_CHILDREN && k < RHO_HYPOTHESES_CHILDREN; k++) {
+            int claim = claims[at->candidates[k].row];
+            if (claim >= 0 && claim != (int)row) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* Scores the plots anew, without those of other tracks. */
+static void score_free_plots(struct step *step, unsigned row)
+{
+    struct plot_scores scores;
+    uint32_t plot;
+    float gain_nat;
+    rho_tracker_begin_scores(step, row, &scores);
+    while (rho_tracker_next_score(step, &scores, &plot, &gain_nat)) {
+    }
+}
+
+/*
+ * Hypotheses go on with any plots that no other track was assigned; the plot of the best one is
+ * claimed. By the assignment's optimum that is the one assigned, or none.
+ */
+static void take_scored_plots(struct step *step, unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track *track = &tracker->tracks[row];
+    struct rho_assignment *assignment = &tracker->assignment;
+    uint32_t refused = tracker->hypotheses.updates_refused;
+    const float log_miss = rho_tracker_log_miss(step, track);
+    const int assigned = rho_assignment_column(assignment, row);
+    const struct rho_hypotheses_scan scan = {
+        .time_us = step->time_us,
+        .measures = step->scan->measures,
+        .plots = step->scan->plots,
+        .sensor = step->sensor,
+        .log_miss = log_miss,
+        .claims = assignment->column_row,
+        .own = (int16_t)row,
+    };
+    if (!(log_miss < 0.0f) && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
+        return;
+    }
+    if (lacks_plots(step, row)) {
+        score_free_plots(step, row);
+    } else {
+        rho_tracker_release_share(step);
+    }
+    /* the track is one of hypotheses: nothing to refuse */
+    (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);
+    refused = tracker->hypotheses.updates_refused - refused;
+    tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
+    if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {
+        assignment->column_row[assigned] = RHO_ASSIGNMENT_NONE; /* not taken after all */
+    }
+    if (track->plot >= 0) {
+        assignment->column_row[track->plot] = (int16_t)row;
+        step->report->fates[track->plot] = RHO_FATE_CLAIMED;
+    }
+}
+
+/* ---- the phase ------------------------------------------------------------------------------- */
+
+void rho_tracker_update(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    if (RHO_SECTORS) {
+        rho_tracker_update_sensor_health(step);
+    }
+    rho_tracker_learn(step);
+    rho_tracker_begin_work(step);
+    if (RHO_SHARES_PLOTS) {
+        rho_tracker_share_merged_plots(step);
+    }
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        const int plot = rho_assignment_column(&tracker->assignment, row);
+        const int may_wait =
+            RHO_CLAIMS_BEYOND && step->has_more_parts && plot == RHO_ASSIGNMENT_NONE;
+        if (track->status == RHO_TRACK_FREE || track->plot >= 0 || may_wait ||
+            !rho_tracker_is_reached(step, row)) {
+            continue;
+        }
+        if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+            take_scored_plots(step, row);
+        } else if (plot != RHO_ASSIGNMENT_NONE) {
+            take_plot(step, track, plot);
+        }
+    }
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * work_budget: how much work the tracks of a step may do, and on which plots it is spent first.
+ *
+ * A quarter of work_max is for claims, another for tracks that score plots again because others
+ * were assigned theirs. Half of each quarter is reserved, in even shares for the tracks that wait;
+ * of the rest a track takes a quarter at most. A track that has more plots near it than it may
+ * score takes those nearest to its expected place. Before the claims an eighth of work_max is for
+ * echoes of clutter; after them a sixteenth is for second plots, and another is reserved for those
+ * of tracks that start. The search has what is left.
+ */
+#include "step.h"
+
+#define KEPT_SHARE 2u
+#define FREE_PARTS 4u
+
+/*
+ * Units of scoring a plot with one hypothesis; more of them at the plot's own time, to which the
+ * hypothesis is moved; with a velocity in two or three axes; with a Kalman filter's gate.
+ */
+#define WEIGH_UNITS 20u
+#define MOVE_UNITS 60u
+#define VELOCITY_UNITS 70u
+#define VELOCITY_3D_UNITS 140u
+#define GATE_UNITS 12u
+
+/* A scan of more plots than there is room for is claimed part by part, in as many phases. */
+static uint32_t num_parts(const struct step *step)
+{
+    const uint32_t parts = (step->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
+    return !RHO_CLAIMS_BEYOND || parts < 1u ? 1u
+           : parts < RHO_TRACKER_PARTS_MAX  ? parts
+                                            : RHO_TRACKER_PARTS_MAX;
+}
+
+void rho_tracker_begin_share(struct step *step, uint32_t part)
+{
+    const uint32_t work_max = step->tracker->config.work_max;
+    step->share.end = work_max > 0 ? rho_count(step->work, work_max / part) : UINT32_MAX;
+}
+
+void rho_tracker_begin_work(struct step *step)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts(step);
+    unsigned waiting = 0;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        waiting +=
+            tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_reached(step, row);
+    }
+    rho_tracker_begin_share(step, part);
+    step->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
+    step->share.waiting = waiting;
+}
+
+static uint32_t units_of_plot(const struct step *step, const struct rho_track *track)
+{
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return GATE_UNITS;
+    }
+    uint32_t units = WEIGH_UNITS + (step->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
+    if (step->scan->measures & RHO_MEASURES_VELOCITY) {
+        units += step->scan->measures & RHO_MEASURES_Z ? VELOCITY_3D_UNITS : VELOCITY_UNITS;
+    }
+    return units * rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
+}
+
+/* Units that the next track may spend. */
+static uint32_t next_share(struct step *step)
+{
+    struct work_share *share = &step->share;
+    if (share->end == UINT32_MAX) {
+        return UINT32_MAX;
+    }
+    rho_tracker_release_share(step);
+    const uint32_t used = step->work + share->kept * (share->waiting + 1u);
+    const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
+    return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
+}
+
+struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track)
+{
+    struct plot_choice choice = {.units = units_of_plot(step, track)};
+    choice.most = next_share(step) / choice.units;
+    return choice;
+}
+
+/* By octaves of the squared distance from the expected place, the nearest first. */
+static unsigned octave_of(const struct rho_track *track, const struct rho_plot *plot)
+{
+    const float dx_m = plot->x_m - track->kalman.state[0];
+    const float dy_m = plot->y_m - track->kalman.state[1];
+    float end_m2 = 1.0f;
+    unsigned octave = 0;
+    while (octave + 1u < RHO_WORK_OCTAVES && dx_m * dx_m + dy_m * dy_m >= end_m2) {
+        end_m2 *= 2.0f;
+        octave++;
+    }
+    return octave;
+}
+
+void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
+                             const struct rho_plot *plot)
+{
+    choice->in_octave[octave_of(track, plot)]++;
+    choice->num_near++;
+}
+
+void rho_tracker_end_choice(struct step *step, struct plot_choice *choice)
+{
+    uint32_t left = choice->most;
+    if (choice->num_near <= choice->most) {
+        return;
+    }
+    choice->is_partial = 1;
+    while (choice->in_octave[choice->last] <= left) {
+        left -= choice->in_octave[choice->last++];
+    }
+    choice->of_last = left;
+    step->is_partial = 1;
+    step->plots_not_tried = rho_count(step->plots_not_tried, choice->num_near - choice->most);
+}
+
+int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
+                          const struct rho_track *track, const struct rho_plot *plot)
+{
+    if (choice->is_partial) {
+        const unsigned octave = octave_of(track, plot);
+        if (octave > choice->last || (octave == choice->last && choice->of_last == 0)) {
+            return 0;
+        }
+        choice->of_last -= octave == choice->last ? 1u : 0u;
+    }
+    rho_tracker_spend(step, choice->units);
+    return 1;
+}
+
+uint32_t rho_tracker_work_left(const struct step *step)
+{
+    const uint32_t most = step->initiator->config.work_max, all = step->tracker->config.work_max;
+    if (all == 0) {
+        return most;
+    }
+    const uint32_t kept = all / RHO_WORK_STARTS_SHARE, used = rho_count(step->work, kept);
+    const uint32_t left = all > used ? all - used : 1u; /* 0 is no limit */
+    return most > 0 && most < left ? most : left;
+}
+
+void rho_tracker_end_work(struct step *step)
+{
+    struct rho_tracker_work *work = &step->tracker->work;
+    work->work = step->work;
+    work->work_worst = work->work > work->work_worst ? work->work : work->work_worst;
+    work->partial_steps = rho_count(work->partial_steps, step->is_partial ? 1u : 0u);
+    work->plots_not_tried = rho_count(work->plots_not_tried, step->plots_not_tried);
+    step->report->is_partial = step->is_partial ? 1u : 0u;
+}

@@ -1,0 +1,552 @@
+/* SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "scan_assembler_parts.h"
+
+#define SECOND_US 1000000
+#define SEEN_SCANS 32   /* bits of source.seen */
+#define JITTER_US 10000 /* of a sensor's scans, at any interval */
+#define CLOCK_OFFSET_SHARE                                                                         \
+    8 /* of jump_max: tolerated difference of sensors' clocks, on top of hold */
+
+/* ---- Times ---- */
+
+static int is_near(int64_t a_us, int64_t b_us, int64_t most_us)
+{
+    return rho_elapsed_us(a_us, b_us) <= (uint64_t)most_us &&
+           rho_elapsed_us(b_us, a_us) <= (uint64_t)most_us;
+}
+
+/* ---- Flood ---- */
+
+int rho_scan_assembler_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count,
+                                   uint32_t per_s, int64_t now_us)
+{
+    /* A clock that went back must not leave the bucket empty until it has caught up. */
+    if (rho_elapsed_us(now_us, bucket->full_us) >= SECOND_US || now_us < bucket->full_us) {
+        bucket->full_us = now_us;
+        bucket->left = per_s;
+    }
+    if (bucket->left < count) {
+        return 0;
+    }
+    bucket->left -= count;
+    return 1;
+}
+
+/* ---- Numbers ---- */
+
+/* Difference of two numbers, which wrap. */
+static int32_t number_difference(int32_t scan, int32_t from)
+{
+    int64_t difference = (int64_t)scan - from;
+
+    if (difference > INT32_MAX) {
+        difference -= (int64_t)1 << 32;
+    } else if (difference < INT32_MIN) {
+        difference += (int64_t)1 << 32;
+    }
+    return (int32_t)difference;
+}
+
+static int is_later(const struct rho_scan_assembler_config *config, int64_t time_us,
+                    int64_t from_us)
+{
+    return time_us > from_us && is_near(time_us, from_us, config->jump_max_us);
+}
+
+/* The scan may be the next one after that at `from`. */
+static int may_follow(const struct rho_scan_assembler_config *config,
+                      const struct rho_scan_assembler_place *place,
+                      const struct rho_scan_assembler_place *from)
+{
+    int32_t ahead = number_difference(place->scan, from->scan);
+
+    return place->epoch == from->epoch && ahead >= 1 && ahead <= RHO_SCAN_ASSEMBLER_SKIP_MAX &&
+           is_later(config, place->time_us, from->time_us);
+}
+
+/* Above 3/2 of the other time; the product may exceed 64 bits. */
+static int is_much_longer(uint64_t took_us, uint64_t longest_us)
+{
+    return took_us > longest_us && took_us - longest_us > longest_us / 2;
+}
+
+/*
+ * Numbers and times of a sensor advance together. A scan that took longer than its numbers, or the
+ * silence before it, explain has a wrong time; a scan that skips more numbers than there was time
+ * for has a wrong number. Accepted, either would make the scans that follow look old.
+ */
+static enum scan_verdict classify_pace(const struct rho_scan_assembler_config *config,
+                                       const struct rho_scan_assembler_source *source,
+                                       const struct rho_scan_assembler_place *place, int64_t now_us)
+{
+    int32_t ahead = number_difference(place->scan, source->place.scan);
+    uint64_t took_us = rho_elapsed_us(place->time_us, source->place.time_us);
+    uint64_t usual_us = (uint64_t)ahead * source->interval_us;
+    uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
+    uint64_t longest_us = usual_us > silent_us ? usual_us : silent_us;
+
+    if (!is_later(config, place->time_us, source->place.time_us)) {
+        return SCAN_WRONG_TIME;
+    }
+    if (source->interval_us == 0) {
+        return SCAN_NEXT;
+    }
+    if (took_us > JITTER_US && is_much_longer(took_us - JITTER_US, longest_us)) {
+        return SCAN_WRONG_TIME;
+    }
+    return ahead > 1 && took_us + JITTER_US < usual_us - usual_us / 4 ? SCAN_WRONG_NUMBER
+                                                                      : SCAN_NEXT;
+}
+
+static enum scan_verdict classify_number(const struct rho_scan_assembler_config *config,
+                                         const struct rho_scan_assembler_source *source,
+                                         const struct rho_scan_assembler_place *place,
+                                         int64_t now_us)
+{
+    const struct rho_scan_assembler_place *newest = &source->place;
+    int32_t ahead = number_difference(place->scan, newest->scan);
+
+    if (place->epoch != newest->epoch || ahead > RHO_SCAN_ASSEMBLER_SKIP_MAX ||
+        ahead <= -SEEN_SCANS) {
+        return SCAN_WRONG_NUMBER;
+    }
+    if (ahead > 0) {
+        return classify_pace(config, source, place, now_us);
+    }
+    /*
+     * An old number with a new time: the sensor's numbering was set back. With a time far back its
+     * clock was set, too.
+     */
+    if (ahead < 0 && place->time_us > newest->time_us) {
+        return SCAN_WRONG_NUMBER;
+    }
+    if (!is_near(place->time_us, newest->time_us, config->jump_max_us)) {
+        return SCAN_WRONG_TIME;
+    }
+    return source->seen >> -ahead & 1u ? SCAN_DUPLICATE : SCAN_TOO_LATE;
+}
+
+/* The longest series of refused scans that this scan may continue; NULL: none. */
+static const struct rho_scan_assembler_stray *
+find_agreeing_stray(const struct rho_scan_assembler_config *config,
+                    const struct rho_scan_assembler_source *source,
+                    const struct rho_scan_assembler_place *place)
+{
+    const struct rho_scan_assembler_stray *most = NULL;
+
+    for (unsigned i = 0; i < RHO_SCAN_ASSEMBLER_STRAYS; i++) {
+        const struct rho_scan_assembler_stray *stray = &source->strays[i];
+
+        if (stray->scans > (most ? most->scans : 0) && may_follow(config, place, &stray->place)) {
+            most = stray;
+        }
+    }
+    return most;
+}
+
+int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler,
+                                      enum rho_scan_assembler_kind kind, int64_t time_us)
+{
+    int64_t late_max_us = RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_BEARINGS)
+                              ? 0
+                              : assembler->config.late_max_us;
+
+    return rho_elapsed_us(assembler->out_us, time_us) <= (uint64_t)late_max_us;
+}
+
+/*
+ * An out-of-sequence scan is usable where its number was skipped, its time fits the number, and the
+ * tracker still takes it. Otherwise its number stays skipped: the right scan may still come.
+ */
+static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
+                                     const struct rho_scan_assembler_source *source,
+                                     const struct rho_scan_assembler_place *place)
+{
+    uint32_t behind =
+        (uint32_t)number_difference(source->place.scan, place->scan); /* 1 .. SEEN_SCANS - 1 */
+    uint64_t before_us = rho_elapsed_us(source->place.time_us, place->time_us);
+    uint64_t usual_us = (uint64_t)behind * source->interval_us;
+
+    return source->off_clock == 0 && (source->skipped >> behind & 1u) && before_us > 0 &&
+           before_us + JITTER_US >= usual_us - usual_us / 4 &&
+           !(before_us > JITTER_US && is_much_longer(before_us - JITTER_US, usual_us)) &&
+           rho_scan_assembler_is_usable_time(assembler, (enum rho_scan_assembler_kind)source->kind,
+                                             place->time_us);
+}
+
+enum scan_verdict rho_scan_assembler_classify(const struct rho_scan_assembler *assembler,
+                                              const struct rho_scan_assembler_source *source,
+                                              const struct rho_scan_assembler_place *place,
+                                              int64_t now_us)
+{
+    const struct rho_scan_assembler_config *config = &assembler->config;
+    const struct rho_scan_assembler_stray *stray;
+    enum scan_verdict verdict;
+
+    if (source->scans == 0) {
+        return SCAN_NEXT;
+    }
+    verdict = classify_number(config, source, place, now_us);
+    if (verdict == SCAN_WRONG_NUMBER || verdict == SCAN_WRONG_TIME) {
+        stray = find_agreeing_stray(config, source, place);
+        if (stray && stray->scans + 1 >= config->follow_scans) {
+            return SCAN_RESTARTS_SENSOR;
+        }
+    }
+    return verdict == SCAN_TOO_LATE && is_usable_out_of_sequence(assembler, source, place)
+               ? SCAN_OUT_OF_SEQUENCE
+               : verdict;
+}
+
+/* The series to be replaced by another one: the shortest, of equal ones the oldest. */
+static unsigned stray_to_replace(const struct rho_scan_assembler_source *source)
+{
+    unsigned least = 0;
+
+    for (unsigned i = 1; i < RHO_SCAN_ASSEMBLER_STRAYS; i++) {
+        least = source->strays[i].scans <= source->strays[least].scans ? i : least;
+    }
+    return least;
+}
+
+void rho_scan_assembler_note_stray(const struct rho_scan_assembler_config *config,
+                                   struct rho_scan_assembler_source *source,
+                                   const struct rho_scan_assembler_place *place)
+{
+    const struct rho_scan_assembler_stray *agrees = find_agreeing_stray(config, source, place);
+    unsigned at = agrees ? (unsigned)(agrees - source->strays) : stray_to_replace(source);
+    /* below follow_scans, at which it is accepted */
+    uint32_t scans = agrees ? agrees->scans + 1 : 1;
+
+    for (unsigned i = 0; i < RHO_SCAN_ASSEMBLER_STRAYS; i++) {
+        const struct rho_scan_assembler_place *stray = &source->strays[i].place;
+
+        if (source->strays[i].scans > 0 && place->scan == stray->scan &&
+            place->epoch == stray->epoch && place->time_us == stray->time_us) {
+            return; /* another part of it, or a duplicate */
+        }
+    }
+    memmove(source->strays + 1, source->strays, at * sizeof *source->strays);
+    source->strays[0] = (struct rho_scan_assembler_stray){.place = *place, .scans = scans};
+}
+
+/*
+ * Division by a divisor below 65536, sixteen bits at a time: the compiler's division of 64 bits is
+ * 900 bytes of code.
+ */
+static uint64_t divide(uint64_t value, uint32_t by)
+{
+    uint64_t quotient = 0;
+    uint32_t rest = 0;
+
+    for (int shift = 48; shift >= 0; shift -= 16) {
+        rest = rest << 16 | (uint32_t)(value >> shift & 0xffffu);
+        quotient |= (uint64_t)(rest / by) << shift;
+        rest %= by;
+    }
+    return quotient;
+}
+
+static void note_interval(struct rho_scan_assembler_source *source, int64_t took_us, int32_t ahead,
+                          int is_known)
+{
+    /* both are above 0 for a scan and the one before it */
+    int64_t interval_us = (int64_t)divide((uint64_t)took_us, (uint32_t)ahead);
+    int64_t mean_us = source->interval_us;
+
+    mean_us = is_known && mean_us > 0 ? mean_us + (interval_us - mean_us) / 4 : interval_us;
+    source->interval_us = (uint32_t)(mean_us > 0 ? mean_us : 1);
+}
+
+/* Silence beyond jump_max does not count as time that the sensor was heard. */
+static void note_heard(const struct rho_scan_assembler_config *config,
+                       struct rho_scan_assembler_source *source, int64_t now_us)
+{
+    uint64_t more_us = source->scans > 0 ? rho_elapsed_us(now_us, source->heard_us) : 0;
+    uint32_t room_us = RHO_SCAN_ASSEMBLER_TRUST_US - source->known_us;
+
+    if (more_us <= (uint64_t)config->jump_max_us) {
+        source->known_us += more_us < room_us ? (uint32_t)more_us : room_us;
+    }
+    source->heard_us = now_us;
+}
+
+uint32_t rho_scan_assembler_advance_source(const struct rho_scan_assembler_config *config,
+                                           struct rho_scan_assembler_source *source,
+                                           const struct rho_scan_assembler_place *place,
+                                           enum scan_verdict verdict, int64_t now_us)
+{
+    const struct rho_scan_assembler_stray *stray =
+        verdict == SCAN_RESTARTS_SENSOR ? find_agreeing_stray(config, source, place) : NULL;
+    const struct rho_scan_assembler_place *from = stray ? &stray->place : &source->place;
+    int is_next = verdict == SCAN_NEXT && source->scans > 0;
+    int32_t ahead = number_difference(place->scan, from->scan);
+
+    if (is_next || stray) {
+        note_interval(source, place->time_us - from->time_us, ahead, is_next);
+    }
+    source->seen = is_next && ahead < SEEN_SCANS ? source->seen << ahead | 1u : 1u;
+    source->skipped = !is_next             ? 0u
+                      : ahead < SEEN_SCANS ? source->skipped << ahead | ((1u << ahead) - 2u)
+                                           : ~1u;
+    source->place = *place;
+    source->check = CHECK_NONE;
+    note_heard(config, source, now_us);
+    memset(source->strays, 0, sizeof source->strays);
+    source->scans = (uint16_t)(source->scans + (source->scans < UINT16_MAX));
+    return is_next ? (uint32_t)(ahead - 1) : 0;
+}
+
+void rho_scan_assembler_mark_received(struct rho_scan_assembler_source *source, int32_t scan)
+{
+    uint32_t bit = 1u << number_difference(source->place.scan, scan);
+
+    source->seen |= bit;
+    source->skipped &= ~bit;
+}
+
+int rho_scan_assembler_awaits_previous(const struct rho_scan_assembler_source *source, int32_t scan)
+{
+    int32_t behind = number_difference(source->place.scan, scan);
+
+    return behind >= 0 && behind < SEEN_SCANS - 1 && (source->skipped >> (behind + 1) & 1u);
+}
+
+int rho_scan_assembler_is_proven(const struct rho_scan_assembler_config *config,
+                                 const struct rho_scan_assembler_source *source)
+{
+    return source->scans >= config->follow_scans;
+}
+
+/* ---- Newcomers ---- */
+
+#define PRESENT_INTERVALS 3ull
+
+static int is_live(const struct rho_scan_assembler *assembler,
+                   const struct rho_scan_assembler_source *source, int64_t now_us)
+{
+    return source->is_used && source->scans > 0 &&
+           rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)assembler->config.jump_max_us;
+}
+
+/*
+ * The sensor still sends. One that has fallen silent must make no other one a newcomer: its clock
+ * would hold their scans for ever.
+ */
+static int is_still_sending(const struct rho_scan_assembler *assembler,
+                            const struct rho_scan_assembler_source *source, int64_t now_us)
+{
+    uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
+    uint64_t jump_max_us = (uint64_t)assembler->config.jump_max_us;
+
+    return is_live(assembler, source, now_us) && silent_us <= jump_max_us / 2 &&
+           (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
+            silent_us <= PRESENT_INTERVALS * source->interval_us);
+}
+
+uint32_t rho_scan_assembler_longest_known_us(const struct rho_scan_assembler *assembler,
+                                             int64_t now_us)
+{
+    uint32_t eldest_us = 0;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS && !assembler->config.is_record; i++) {
+        const struct rho_scan_assembler_source *source = &assembler->sources[i];
+
+        if (source->known_us > eldest_us &&
+            rho_scan_assembler_is_proven(&assembler->config, source) &&
+            is_still_sending(assembler, source, now_us)) {
+            eldest_us = source->known_us;
+        }
+    }
+    return eldest_us;
+}
+
+int rho_scan_assembler_is_newcomer(uint32_t known_us, uint32_t eldest_us)
+{
+    return eldest_us >= RHO_SCAN_ASSEMBLER_EQUALS_US && known_us < eldest_us / 2;
+}
+
+/* The sensor is on the common clock, and is neither a newcomer nor unproven. */
+static int votes_on_clock(const struct rho_scan_assembler *assembler,
+                          const struct rho_scan_assembler_source *source, uint32_t eldest_us,
+                          int64_t now_us)
+{
+    return source->off_clock == 0 && is_live(assembler, source, now_us) &&
+           rho_scan_assembler_is_proven(&assembler->config, source) &&
+           !rho_scan_assembler_is_newcomer(source->known_us, eldest_us);
+}
+
+/* When it is time_us by the sensor's own clock, and its own scan of that time would be here. */
+static int64_t clock_reaches_us(const struct rho_scan_assembler *assembler,
+                                const struct rho_scan_assembler_source *source, int64_t time_us)
+{
+    uint64_t ahead_us = rho_elapsed_us(time_us, source->place.time_us);
+    int64_t wait_us =
+        (int64_t)ahead_us + assembler->config.hold_us; /* times are within their limit */
+
+    if (ahead_us == 0) {
+        return INT64_MIN;
+    }
+    return source->heard_us > INT64_MAX - wait_us ? INT64_MAX : source->heard_us + wait_us;
+}
+
+int64_t rho_scan_assembler_newcomer_release_us(const struct rho_scan_assembler *assembler,
+                                               const struct rho_scan_assembler_slot *slot)
+{
+    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, slot->heard_us);
+    int64_t first_us = INT64_MAX, until_us;
+    int is_asked = 0;
+
+    if (!rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us, eldest_us)) {
+        return INT64_MIN;
+    }
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        if (votes_on_clock(assembler, &assembler->sources[i], eldest_us, slot->heard_us)) {
+            until_us = clock_reaches_us(assembler, &assembler->sources[i], slot->place.time_us);
+            first_us = until_us < first_us ? until_us : first_us;
+            is_asked = 1;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        const struct rho_scan_assembler_slot *other = &assembler->slots[i];
+
+        if (other->state == SLOT_OPEN && other->place.time_us < slot->place.time_us &&
+            !rho_scan_assembler_is_newcomer(assembler->sources[other->source].known_us,
+                                            eldest_us)) {
+            return INT64_MAX;
+        }
+    }
+    return is_asked ? first_us : INT64_MIN;
+}
+
+/* ---- The common clock ---- */
+
+/*
+ * The time is not on this sensor's clock: it is farther ahead of the sensor's newest scan than that
+ * is old, or far before it. For a sensor with one scan so far its interval is unknown, and how fast
+ * a record is played.
+ */
+static int disagrees_on_time(const struct rho_scan_assembler_config *config,
+                             const struct rho_scan_assembler_source *other, int64_t time_us,
+                             int64_t now_us)
+{
+    int64_t share_us =
+        other->interval_us > 0 ? config->jump_max_us / CLOCK_OFFSET_SHARE : config->jump_max_us;
+    uint64_t offset_max_us = (uint64_t)(config->hold_us + share_us);
+    uint64_t ahead_us = rho_elapsed_us(time_us, other->place.time_us);
+    uint64_t old_us = rho_elapsed_us(now_us, other->heard_us);
+
+    old_us = old_us > 2ull * other->interval_us ? old_us : 2ull * other->interval_us;
+    return (ahead_us > offset_max_us && ahead_us - offset_max_us > old_us) ||
+           rho_elapsed_us(other->place.time_us, time_us) > offset_max_us;
+}
+
+/*
+ * Most live sensors on the common clock disagree on the time. Where none of them votes, newcomers
+ * and unproven sensors do.
+ */
+static int is_contradicted(const struct rho_scan_assembler *assembler,
+                           const struct rho_scan_assembler_source *source, int64_t time_us,
+                           int64_t now_us)
+{
+    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
+    int votes[2] = {0}, balance[2] = {0}, counts;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *other = &assembler->sources[i];
+
+        if (other != source && other->off_clock == 0 && is_live(assembler, other, now_us)) {
+            counts = votes_on_clock(assembler, other, eldest_us, now_us);
+            votes[counts]++;
+            balance[counts] +=
+                disagrees_on_time(&assembler->config, other, time_us, now_us) ? 1 : -1;
+        }
+    }
+    return balance[votes[1] > 0] > 0;
+}
+
+/*
+ * More live sensors agree on the new time than proven ones on the common clock, newcomers left out.
+ * Of equally many the reception clock decides.
+ */
+static int has_majority(const struct rho_scan_assembler *assembler,
+                        const struct rho_scan_assembler_source *source, int64_t time_us,
+                        int64_t now_us)
+{
+    int64_t offset_max_us =
+        assembler->config.hold_us + assembler->config.jump_max_us / CLOCK_OFFSET_SHARE;
+    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
+    unsigned with = 1, against = 0;
+
+    if (rho_scan_assembler_is_newcomer(source->known_us, eldest_us)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *other = &assembler->sources[i];
+
+        if (other == source || !is_live(assembler, other, now_us) ||
+            rho_scan_assembler_is_newcomer(other->known_us, eldest_us)) {
+            continue;
+        }
+        if (other->off_clock == 0) {
+            against += (unsigned)rho_scan_assembler_is_proven(&assembler->config, other);
+        } else if (other->off_clock >= assembler->config.follow_scans) {
+            with += !disagrees_on_time(&assembler->config, other, time_us, now_us);
+        }
+    }
+    return with > against || (with == against && is_near(time_us, now_us, offset_max_us) &&
+                              !is_near(assembler->clock_us, now_us, offset_max_us));
+}
+
+/* Sensors that tell the new time are on the common clock from now on, all others are off it. */
+static void set_common_clock(struct rho_scan_assembler *assembler, int64_t time_us, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct rho_scan_assembler_source *source = &assembler->sources[i];
+
+        if (!disagrees_on_time(&assembler->config, source, time_us, now_us)) {
+            source->off_clock = 0;
+        } else if (source->off_clock == 0) {
+            source->off_clock = 1;
+        }
+    }
+    assembler->is_restart = 1;
+    assembler->out_us = INT64_MIN;
+}
+
+enum scan_clock rho_scan_assembler_check_clock(struct rho_scan_assembler *assembler,
+                                               struct rho_scan_assembler_source *source,
+                                               int64_t time_us, enum scan_verdict verdict,
+                                               int64_t now_us)
+{
+    enum scan_clock clock = CLOCK_COMMON;
+
+    if (assembler->has_clock &&
+        (!is_near(time_us, assembler->clock_us, assembler->config.jump_max_us) ||
+         is_contradicted(assembler, source, time_us, now_us))) {
+        /*
+         * The scans that made the sensor's new numbering accepted have shown its new time as well.
+         */
+        if (verdict == SCAN_RESTARTS_SENSOR && source->off_clock < assembler->config.follow_scans) {
+            source->off_clock = (uint8_t)assembler->config.follow_scans;
+        } else if (source->off_clock < UINT8_MAX) {
+            source->off_clock++;
+        }
+        if (source->off_clock < assembler->config.follow_scans ||
+            !has_majority(assembler, source, time_us, now_us)) {
+            return CLOCK_OTHER;
+        }
+        set_common_clock(assembler, time_us, now_us);
+        clock = CLOCK_SET;
+    }
+    source->off_clock = 0;
+    if (!assembler->has_clock ||
+        !rho_scan_assembler_is_newcomer(source->known_us,
+                                        rho_scan_assembler_longest_known_us(assembler, now_us))) {
+        assembler->clock_us = time_us;
+    }
+    assembler->has_clock = 1;
+    return clock;
+}

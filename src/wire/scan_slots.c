@@ -1,0 +1,460 @@
+/* SPDX-License-Identifier: MIT */
+/* Scans that are assembled, and the order in which they go out. */
+#include <string.h>
+
+#include "scan_assembler_parts.h"
+
+void rho_scan_assembler_count_one(uint32_t *counter)
+{
+    *counter = rho_count(*counter, 1);
+}
+
+struct rho_scan_assembler_slot *rho_scan_assembler_find_slot(struct rho_scan_assembler *assembler,
+                                                             enum slot_state state)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (assembler->slots[i].state == state) {
+            return &assembler->slots[i];
+        }
+    }
+    return NULL;
+}
+
+static int is_open_scan_of(const struct rho_scan_assembler *assembler,
+                           const struct rho_scan_assembler_slot *slot,
+                           const struct rho_scan_assembler_source *source)
+{
+    return slot->state == SLOT_OPEN && &assembler->sources[slot->source] == source;
+}
+
+struct rho_scan_assembler_slot *
+rho_scan_assembler_find_open_scan(struct rho_scan_assembler *assembler,
+                                  const struct rho_scan_assembler_source *source,
+                                  const struct scan_heading *heading)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (is_open_scan_of(assembler, slot, source) && slot->place.scan == heading->place.scan &&
+            slot->place.epoch == heading->place.epoch) {
+            return slot;
+        }
+    }
+    return NULL;
+}
+
+int rho_scan_assembler_has_open_out_of_sequence(const struct rho_scan_assembler *assembler,
+                                                const struct rho_scan_assembler_source *source)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (is_open_scan_of(assembler, &assembler->slots[i], source) &&
+            assembler->slots[i].order == ORDER_OUT_OF_SEQUENCE) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The scan waits for parts, or to go out. */
+static int is_waiting(const struct rho_scan_assembler_slot *slot)
+{
+    return slot->state == SLOT_OPEN || slot->state == SLOT_COMPLETE;
+}
+
+void rho_scan_assembler_complete_scan(struct rho_scan_assembler *assembler,
+                                      struct rho_scan_assembler_slot *slot)
+{
+    if (slot->parts_here < slot->num_parts) {
+        rho_scan_assembler_count_one(&assembler->counters.scans_incomplete);
+    }
+    slot->state = SLOT_COMPLETE;
+}
+
+void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler,
+                                            const struct rho_scan_assembler_source *source,
+                                            int is_over)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (is_open_scan_of(assembler, slot, source)) {
+            rho_scan_assembler_complete_scan(assembler, slot);
+        }
+        if (is_over && slot->order == ORDER_NEXT && &assembler->sources[slot->source] == source) {
+            slot->order = ORDER_OF_OLD_NUMBERS;
+        }
+    }
+}
+
+static int is_held_as_newcomer(const struct rho_scan_assembler *assembler,
+                               const struct rho_scan_assembler_slot *slot, int64_t now_us)
+{
+    return now_us < rho_scan_assembler_newcomer_release_us(assembler, slot);
+}
+
+static int is_of_no_newcomer(const struct rho_scan_assembler *assembler,
+                             const struct rho_scan_assembler_slot *slot, int64_t now_us)
+{
+    return !rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us,
+                                           rho_scan_assembler_longest_known_us(assembler, now_us));
+}
+
+struct rho_scan_assembler_slot *
+rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int is_new, int64_t now_us)
+{
+    struct rho_scan_assembler_slot *room = rho_scan_assembler_find_slot(assembler, SLOT_FREE);
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !room; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (is_waiting(slot) && !is_new && is_held_as_newcomer(assembler, slot, now_us)) {
+            rho_scan_assembler_count_one(&assembler->counters.sensors_no_room);
+            slot->state = SLOT_FREE;
+            room = slot;
+        } else if (is_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
+                   !(is_new && is_of_no_newcomer(assembler, slot, now_us))) {
+            slot->state = SLOT_FREE; /* it was counted when it came */
+            room = slot;
+        }
+    }
+    return room;
+}
+
+/* Scans on the clock that is given up cannot be stepped any more. */
+void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (is_waiting(slot)) {
+            /* an out-of-sequence one was counted when it came */
+            assembler->counters.scans_late =
+                rho_count(assembler->counters.scans_late, slot->order != ORDER_OUT_OF_SEQUENCE);
+            slot->state = SLOT_FREE;
+        }
+    }
+}
+
+static void describe_sensor(const struct rho_scan_assembler *assembler,
+                            struct rho_scan_assembler_slot *slot,
+                            const struct scan_heading *heading)
+{
+    const struct rho_scan_assembler_sensor *known =
+        rho_scan_assembler_description_of(assembler, heading->sensor_id);
+    int has_place = heading->x_m < 0.0f || heading->x_m > 0.0f || heading->y_m < 0.0f ||
+                    heading->y_m > 0.0f || heading->z_m < 0.0f || heading->z_m > 0.0f;
+
+    slot->sensor = known->sensor;
+    slot->sensor.sensor_id = heading->sensor_id;
+    if (has_place || RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
+        slot->sensor.x_m = heading->x_m;
+        slot->sensor.y_m = heading->y_m;
+        slot->sensor.z_m = heading->z_m;
+    }
+    slot->has_sensor = (uint8_t)(known != &assembler->config.other || assembler->config.is_told ||
+                                 (has_place && !RHO_SCAN_ASSEMBLER_IS(
+                                                   heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)));
+}
+
+void rho_scan_assembler_open_scan(struct rho_scan_assembler *assembler,
+                                  struct rho_scan_assembler_slot *slot,
+                                  const struct rho_scan_assembler_source *source,
+                                  const struct scan_heading *heading, enum slot_order order)
+{
+    slot->place = heading->place;
+    slot->measures = heading->measures;
+    slot->sector_from_rad = heading->sector_from_rad;
+    slot->sector_to_rad = heading->sector_to_rad;
+    slot->source = (uint16_t)(source - assembler->sources);
+    slot->num_parts = heading->num_parts;
+    slot->parts_here = 0;
+    slot->num_inputs = 0;
+    slot->kind = heading->kind;
+    slot->order = (uint8_t)order;
+    memset(slot->parts, 0, sizeof slot->parts);
+    describe_sensor(assembler, slot, heading);
+    slot->state = SLOT_OPEN;
+}
+
+/* ---- Parts ---- */
+
+static int is_equal(float a, float b)
+{
+    return a <= b && a >= b;
+}
+
+/* All parts of a scan must agree on its time, parts, measures, sector and place. */
+static int matches_slot(const struct rho_scan_assembler_slot *slot,
+                        const struct scan_heading *heading)
+{
+    int has_place = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_POLAR);
+
+    return slot->place.time_us == heading->place.time_us && slot->num_parts == heading->num_parts &&
+           slot->measures == heading->measures &&
+           is_equal(slot->sector_from_rad, heading->sector_from_rad) &&
+           is_equal(slot->sector_to_rad, heading->sector_to_rad) &&
+           (!has_place || ((is_equal(slot->sensor.x_m, heading->x_m) &&
+                            is_equal(slot->sensor.y_m, heading->y_m) &&
+                            is_equal(slot->sensor.z_m, heading->z_m)) ||
+                           (is_equal(heading->x_m, 0.0f) && is_equal(heading->y_m, 0.0f) &&
+                            is_equal(heading->z_m, 0.0f))));
+}
+
+void rho_scan_assembler_count_duplicate(struct rho_scan_assembler *assembler,
+                                        struct rho_scan_assembler_source *source,
+                                        const struct scan_heading *heading)
+{
+    if (heading->part == 0 && heading->place.scan == source->place.scan &&
+        source->check > CHECK_NOT_ADMITTED && source->check != heading->check) {
+        source->has_twin = 1;
+        rho_scan_assembler_count_one(&assembler->counters.scans_other);
+    } else {
+        rho_scan_assembler_count_one(&assembler->counters.scans_duplicate);
+    }
+}
+
+void rho_scan_assembler_add_part(struct rho_scan_assembler *assembler,
+                                 struct rho_scan_assembler_slot *slot,
+                                 const struct scan_heading *heading,
+                                 const union scan_message *message, int64_t now_us)
+{
+    struct rho_scan_assembler_source *source = &assembler->sources[slot->source];
+
+    if (slot->parts[heading->part] > 0) {
+        rho_scan_assembler_count_duplicate(assembler, source, heading);
+        return;
+    }
+    if (slot->parts_here > 0 && !matches_slot(slot, heading)) {
+        rho_scan_assembler_count_one(&assembler->counters.scans_bad);
+        return;
+    }
+    rho_scan_assembler_add_measurements(assembler, slot, heading, message);
+    if (heading->part == 0 && heading->place.scan == source->place.scan) {
+        source->check = heading->check;
+    }
+    slot->heard_us = now_us;
+    if (slot->parts_here == slot->num_parts) {
+        rho_scan_assembler_complete_scan(assembler, slot);
+    }
+}
+
+/* ---- Scans that are due ---- */
+
+/* The number before the slot's was skipped; if it comes, it is likely to be older than time_us. */
+static int awaits_older(const struct rho_scan_assembler *assembler,
+                        const struct rho_scan_assembler_slot *slot, int64_t time_us)
+{
+    const struct rho_scan_assembler_source *source = &assembler->sources[slot->source];
+
+    return is_waiting(slot) && slot->order == ORDER_NEXT &&
+           rho_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
+           rho_scan_assembler_awaits_previous(source, slot->place.scan);
+}
+
+/*
+ * Every other live sensor has sent a scan that is not older, none has skipped a number that may be
+ * older, and no older scan waits for parts.
+ */
+static int is_next_in_time(const struct rho_scan_assembler *assembler,
+                           const struct rho_scan_assembler_slot *slot, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *source = &assembler->sources[i];
+
+        if (source->is_used && source->off_clock == 0 &&
+            source->place.time_us < slot->place.time_us &&
+            rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)assembler->config.jump_max_us) {
+            return 0;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        const struct rho_scan_assembler_slot *other = &assembler->slots[i];
+
+        if ((other->state == SLOT_OPEN && other->place.time_us < slot->place.time_us) ||
+            awaits_older(assembler, other, slot->place.time_us)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int has_waited_hold(const struct rho_scan_assembler *assembler,
+                           const struct rho_scan_assembler_slot *slot, int64_t now_us)
+{
+    uint64_t hold_us = (uint64_t)assembler->config.hold_us;
+
+    /* Where the reception clock was set back, a scan does not wait until it has caught up. */
+    return now_us == INT64_MAX || rho_elapsed_us(now_us, slot->heard_us) >= hold_us ||
+           rho_elapsed_us(slot->heard_us, now_us) > hold_us;
+}
+
+/*
+ * A scan that has waited hold_us goes out, and older ones before it, however long they have waited.
+ * A newcomer's scan that waits for others does not count.
+ */
+static int has_any_waited_hold(const struct rho_scan_assembler *assembler, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        if (assembler->slots[i].state == SLOT_COMPLETE &&
+            has_waited_hold(assembler, &assembler->slots[i], now_us) &&
+            !is_held_as_newcomer(assembler, &assembler->slots[i], now_us)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void complete_overdue(struct rho_scan_assembler *assembler, int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (slot->state == SLOT_OPEN && has_waited_hold(assembler, slot, now_us) &&
+            (assembler->config.hold_us > 0 || now_us == INT64_MAX)) {
+            rho_scan_assembler_complete_scan(assembler, slot);
+        }
+    }
+}
+
+/* Of equal times the lower sensor_id comes first, and of one sensor the lower kind. */
+static int comes_before(const struct rho_scan_assembler_slot *a,
+                        const struct rho_scan_assembler_slot *b)
+{
+    if (a->place.time_us != b->place.time_us) {
+        return a->place.time_us < b->place.time_us;
+    }
+    return a->sensor.sensor_id != b->sensor.sensor_id ? a->sensor.sensor_id < b->sensor.sensor_id
+                                                      : a->kind < b->kind;
+}
+
+/* Newcomers' scans that wait for others are left out. */
+static struct rho_scan_assembler_slot *find_first(struct rho_scan_assembler *assembler,
+                                                  enum slot_state state, int64_t now_us)
+{
+    struct rho_scan_assembler_slot *first = NULL;
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (slot->state == state && (!first || comes_before(slot, first)) &&
+            !is_held_as_newcomer(assembler, slot, now_us)) {
+            first = slot;
+        }
+    }
+    return first;
+}
+
+/*
+ * A scan that goes out makes older ones out of sequence, so an older one whose parts are still
+ * coming goes out before it, incomplete.
+ */
+static struct rho_scan_assembler_slot *older_open_scan_or(struct rho_scan_assembler *assembler,
+                                                          struct rho_scan_assembler_slot *slot,
+                                                          int64_t now_us)
+{
+    struct rho_scan_assembler_slot *open = find_first(assembler, SLOT_OPEN, now_us);
+
+    if (!open || open->place.time_us >= slot->place.time_us) {
+        return slot;
+    }
+    rho_scan_assembler_complete_scan(assembler, open);
+    return open;
+}
+
+struct rho_scan_assembler_slot *
+rho_scan_assembler_find_releasable(struct rho_scan_assembler *assembler, int64_t now_us)
+{
+    struct rho_scan_assembler_slot *spare = find_first(assembler, SLOT_COMPLETE, now_us),
+                                   *weak = NULL;
+    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
+
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (slot->state != SLOT_OPEN) {
+            continue;
+        }
+        if (!rho_scan_assembler_is_proven(&assembler->config, &assembler->sources[slot->source]) ||
+            rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us, eldest_us)) {
+            weak = weak ? weak : slot;
+        } else if (spare && slot->place.time_us < spare->place.time_us) {
+            spare = NULL;
+        }
+    }
+    return spare ? spare : weak;
+}
+
+static struct rho_scan_assembler_slot *release_for_room(struct rho_scan_assembler *assembler,
+                                                        int64_t now_us)
+{
+    struct rho_scan_assembler_slot *slot = rho_scan_assembler_find_releasable(assembler, now_us);
+
+    slot = slot ? slot : find_first(assembler, SLOT_COMPLETE, now_us);
+    slot = slot ? slot : find_first(assembler, SLOT_OPEN, now_us);
+    if (slot && slot->state == SLOT_OPEN) {
+        rho_scan_assembler_complete_scan(assembler, slot);
+    }
+    return slot;
+}
+
+/* Drops out-of-sequence scans that have become too old while they waited. */
+static void drop_unusable(struct rho_scan_assembler *assembler)
+{
+    for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct rho_scan_assembler_slot *slot = &assembler->slots[i];
+
+        if (is_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
+            !rho_scan_assembler_is_usable_time(assembler, (enum rho_scan_assembler_kind)slot->kind,
+                                               slot->place.time_us)) {
+            slot->state = SLOT_FREE; /* it was counted when it came */
+        }
+    }
+}
+
+struct rho_scan_assembler_slot *rho_scan_assembler_find_due(struct rho_scan_assembler *assembler,
+                                                            int64_t now_us)
+{
+    struct rho_scan_assembler_slot *slot;
+
+    drop_unusable(assembler);
+    complete_overdue(assembler, now_us);
+    if (assembler->is_pressed) {
+        return release_for_room(assembler, now_us);
+    }
+    slot = find_first(assembler, SLOT_COMPLETE, now_us);
+    if (!slot) {
+        return NULL;
+    }
+    if (has_any_waited_hold(assembler, now_us)) {
+        return assembler->config.hold_us > 0 ? older_open_scan_or(assembler, slot, now_us) : slot;
+    }
+    return is_next_in_time(assembler, slot, now_us) ? slot : NULL;
+}
+
+void rho_scan_assembler_fill_item(const struct rho_scan_assembler_slot *slot,
+                                  struct rho_scan_assembler_item *item)
+{
+    *item = (struct rho_scan_assembler_item){
+        .kind = (enum rho_scan_assembler_kind)slot->kind,
+        .sensor = slot->sensor,
+        .has_sensor = slot->has_sensor,
+        .parts_missing = (uint16_t)(slot->num_parts - slot->parts_here),
+        .heard_us = slot->heard_us,
+    };
+    if (RHO_SCAN_ASSEMBLER_IS(slot->kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
+        item->bearings = (struct rho_bearing_scan){.time_us = slot->place.time_us,
+                                                   .sensor_id = slot->sensor.sensor_id,
+                                                   .x_m = slot->sensor.x_m,
+                                                   .y_m = slot->sensor.y_m,
+                                                   .num_bearings = slot->num_inputs,
+                                                   .bearings = slot->bearings};
+    } else {
+        item->scan = (struct rho_scan){.time_us = slot->place.time_us,
+                                       .sensor_id = slot->sensor.sensor_id,
+                                       .measures = slot->measures,
+                                       .sector_from_rad = slot->sector_from_rad,
+                                       .sector_to_rad = slot->sector_to_rad,
+                                       .num_plots = slot->num_inputs,
+                                       .plots = slot->plots};
+    }
+}

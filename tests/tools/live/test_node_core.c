@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The live tracker without its network: passive sensors that were there first do not keep others
+ * out for ever.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "live/node_core.h"
+#include "rhotrack/message.h"
+
+#define SECOND_US INT64_C(1000000)
+#define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
+
+struct heard {
+    unsigned lists, tracks; /* tracks: in the last list */
+    struct rho_message_status status;
+    struct rho_message_work work;
+};
+
+static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
+{
+    static struct rho_message_track_list list;
+    struct heard *heard = context;
+
+    if (strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0) {
+        assert_int_equal(rho_message_track_list_decode(data, size, &list), RHO_OK);
+        assert_int_equal(rho_message_track_list_validate(&list, NULL), RHO_OK);
+        heard->lists++;
+        heard->tracks = (unsigned)list.num_tracks_total;
+    } else if (strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
+        assert_int_equal(rho_message_status_decode(data, size, &heard->status), RHO_OK);
+        assert_int_equal(rho_message_status_validate(&heard->status, NULL), RHO_OK);
+    } else if (strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0) {
+        assert_int_equal(rho_message_work_decode(data, size, &heard->work), RHO_OK);
+        assert_int_equal(rho_message_work_validate(&heard->work, NULL), RHO_OK);
+    }
+}
+
+struct live {
+    struct parameters parameters;
+    struct heard heard;
+    struct node_core *core;
+};
+
+static void start(struct live *live)
+{
+    const struct node_core_events events = {.context = &live->heard, .send = on_send};
+
+    *live = (struct live){.core = NULL};
+    parameters_default(&live->parameters);
+    live->core = node_core_open(&live->parameters, 1, &events);
+}
+
+/* The k-th look of a sensor at a target that flies north at 200 m/s, 30 km east. */
+static void look(struct live *live, int16_t sensor_id, float x_m, float y_m, int32_t k)
+{
+    static struct rho_message_bearing_scan scan;
+    uint8_t buffer[RHO_MESSAGE_BEARING_SCAN_MAX_SIZE];
+    char channel[32];
+    size_t size;
+
+    scan = (struct rho_message_bearing_scan){.utime = START_US + k * SECOND_US,
+                                             .scan = k,
+                                             .sensor_id = sensor_id,
+                                             .sensor_x_m = x_m,
+                                             .sensor_y_m = y_m,
+                                             .num_bearings = 1};
+    scan.bearing_rad[0] = atan2f(200.0f * (float)k - y_m, 30000.0f - x_m);
+    assert_int_equal(rho_message_bearing_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
+    snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id);
+    node_core_take(live->core, channel, buffer, size, START_US + k * SECOND_US);
+}
+
+static void sensors_that_are_gone_make_room(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    for (int16_t i = 0; i < RHO_MAX_PASSIVE_SENSORS; i++) {
+        look(&live, (int16_t)(100 + i), 1000.0f * (float)i, 5000.0f, 0);
+    }
+    for (int32_t k = 1; k < 90; k++) {
+        look(&live, 1, 0.0f, -10000.0f, k);
+        look(&live, 2, 0.0f, 10000.0f, k);
+    }
+    /* heard for 30 s, they are in the way for as long */
+    assert_in_range(node_core_counters(live.core)->bearings_refused, 30, 70);
+    assert_int_equal(node_core_counters(live.core)->restarts, 0);
+    assert_int_equal(node_core_frames(live.core)->scans_off_clock, 0);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+static void sensors_that_are_heard_stay(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    for (int32_t k = 0; k < 90; k++) {
+        for (int16_t i = 0; i < RHO_MAX_PASSIVE_SENSORS; i++) {
+            look(&live, i, 0.0f, -15000.0f + 10000.0f * (float)i, k);
+        }
+        if (k > 20 && k % 4 == 0) { /* one too many; the others are heard in between */
+            look(&live, 50, 3000.0f, 3000.0f, k);
+        }
+    }
+    assert_true(node_core_counters(live.core)->bearings_refused > 10);
+    assert_int_equal(node_core_frames(live.core)->frames_incomplete, 0);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+static void a_sensor_that_has_moved_is_believed_in_the_end(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    look(&live, 1, 7000.0f, 0.0f, 0); /* a wrong place, or not the sensor's own word */
+    for (int32_t k = 1; k < 60; k++) {
+        look(&live, 1, 0.0f, -10000.0f, k);
+        look(&live, 2, 0.0f, 10000.0f, k);
+    }
+    assert_in_range(node_core_counters(live.core)->bearings_refused, 10, 17);
+    assert_int_equal(node_core_counters(live.core)->restarts, 0);
+    assert_int_equal(node_core_frames(live.core)->scans_off_clock, 0);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+/* Each is refused after the other, and both are heard: neither is in the way of the other one. */
+static void sensors_that_have_moved_together_are_believed(void **state)
+{
+    struct live live;
+
+    (void)state;
+    start(&live);
+    for (int32_t k = 0; k < 80; k++) {
+        look(&live, 1, k < 20 ? 7000.0f : 0.0f, -10000.0f, k);
+        look(&live, 2, k < 20 ? 7000.0f : 0.0f, 10000.0f, k);
+    }
+    assert_in_range(node_core_counters(live.core)->bearings_refused, 20, 33);
+    assert_int_equal(node_core_counters(live.core)->restarts, 0);
+    assert_int_equal(live.heard.tracks, 1);
+    node_core_close(live.core);
+}
+
+/*
+ * A radar's plot of a target that flies north from 5 km north of it: what stands for ever is
+ * clutter.
+ */
+static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
+{
+    static struct rho_message_polar_scan scan;
+    uint8_t buffer[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
+    char channel[32];
+    size_t size;
+
+    scan = (struct rho_message_polar_scan){.utime = START_US + k * SECOND_US,
+                                           .scan = k,
+                                           .sensor_id = sensor_id,
+                                           .num_parts = 1,
+                                           .sensor_x_m = x_m,
+                                           .num_polar_plots = 1};
+    scan.polar_plots[0].range_m = 5000.0f + 50.0f * (float)k;
+    scan.polar_plots[0].azimuth_rad = 1.5707964f;
+    assert_int_equal(rho_message_polar_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
+    snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id);
+    node_core_take(live->core, channel, buffer, size, START_US + k * SECOND_US);
+}
+
+static void radars_that_are_gone_make_room(void **state)
+{
+    struct live live;
+    const struct rho_report *report;
+
+    (void)state;
+    start(&live);
+    for (int16_t i = 0; i < RHO_MAX_SENSORS; i++) {
+        plot(&live, (int16_t)(1000 + i), 50000.0f + 1000.0f * (float)i, 0);
+    }
+    for (int32_t k = 1; k < 60; k++) {
+        plot(&live, 1, -20000.0f, k);
+    }
+    assert_true(node_core_counters(live.core)->sensors_forgotten > 0);
+    assert_int_equal(node_core_counters(live.core)->scans_refused, 0);
+    report = node_core_report(live.core);
+    assert_int_equal(report->num_tracks, 1);
+    assert_float_equal(report->tracks[0].state[0], -20000.0f, 50.0f);
+    node_core_close(live.core);
+}
+
+static void a_status_says_the_origin(void **state)
+{
+    struct live live;
+    char reason[PARAMETER_REASON_BYTES];
+    const struct rho_message_status *status = &live.heard.status;
+    const struct node_core_losses losses = {.datagrams_refused = 0};
+
+    (void)state;
+    start(&live);
+    node_core_status(live.core, &losses);
+    assert_true(status->origin_lat_1e7deg == 0 && status->origin_lon_1e7deg == 0);
+    assert_true(parameters_assign(&live.parameters, "origin_lat_deg", "-33.9461234", SOURCE_CONFIG,
+                                  reason));
+    assert_true(parameters_assign(&live.parameters, "origin_lon_deg", "151.1771234", SOURCE_CONFIG,
+                                  reason));
+    assert_true(
+        parameters_assign(&live.parameters, "origin_alt_m", "27.4321", SOURCE_CONFIG, reason));
+    node_core_status(live.core, &losses);
+    assert_int_equal(status->origin_lat_1e7deg, -339461234);
+    assert_int_equal(status->origin_lon_1e7deg, 1511771234);
+    assert_int_equal(status->origin_alt_mm, 27432);
+    node_core_close(live.core);
+}
+
+static void the_limits_have_a_message_of_their_own(void **state)
+{
+    struct live live;
+    const struct node_core_losses losses = {
+        .datagrams_refused = 3, .reports_not_printed = 5, .events_not_logged = UINT64_MAX};
+    const struct rho_message_work *work = &live.heard.work;
+
+    (void)state;
+    start(&live);
+    for (int32_t k = 0; k < 4; k++) {
+        look(&live, 1, 0.0f, 0.0f, k);
+        look(&live, 2, 0.0f, 20000.0f, k);
+    }
+    node_core_flush(live.core);
+    node_core_status(live.core, &losses);
+    assert_int_equal(live.heard.status.fragments_refused, 3);
+    assert_true(work->num_steps > 0);
+    assert_int_equal(work->num_steps, node_core_counters(live.core)->steps);
+    assert_int_equal(work->scan, live.heard.status.scan);
+    assert_int_equal(work->utime, live.heard.status.utime);
+    assert_int_equal(work->work_max, RHO_WORK_MAX);
+    assert_int_equal(work->reports_not_printed, 5);
+    assert_true(work->events_not_logged == INT64_MAX);
+    node_core_close(live.core);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sensors_that_are_gone_make_room),
+        cmocka_unit_test(sensors_that_are_heard_stay),
+        cmocka_unit_test(radars_that_are_gone_make_room),
+        cmocka_unit_test(a_sensor_that_has_moved_is_believed_in_the_end),
+        cmocka_unit_test(sensors_that_have_moved_together_are_believed),
+        cmocka_unit_test(a_status_says_the_origin),
+        cmocka_unit_test(the_limits_have_a_message_of_their_own),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

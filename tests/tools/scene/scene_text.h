@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scene_text: scenes out of texts, for the tests of scenes. A number off by more than four standard
+ * deviations fails.
+ */
+#ifndef TESTS_SCENE_TEXT_H
+#define TESTS_SCENE_TEXT_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/common.h" /* before cmocka, which has a macro of the name fail */
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/portable_math.h"
+#include "scene/scene_mover.h"
+#include "scene/scene_watch.h"
+
+/*
+ * A radar of 80 km in the origin, 30 m, 3 mrad, 4 s a turn from north on, clockwise; and these
+ * further keys.
+ */
+#define RADAR(more)                                                                                \
+    "{\"turn_s\": 4, \"range_m\": [1000, 80000], \"sigma_range_m\": 30, \"sigma_azimuth_rad\": "   \
+    "0.003" more "}"
+#define SCENE(duration, radars, rest)                                                              \
+    "{\"version\": 1, \"duration_s\": " duration ", \"radars\": [" radars "]" rest "}"
+
+static inline struct scene *scene_of(const char *text)
+{
+    return scene_read("test.json", must_copy(text), strlen(text), NULL, 0);
+}
+
+struct moments {
+    double count, sum, squares;
+};
+
+static inline void add_moment(struct moments *moments, double value)
+{
+    moments->count += 1.0;
+    moments->sum += value;
+    moments->squares += value * value;
+}
+
+static inline double mean_of(const struct moments *moments)
+{
+    return moments->sum / moments->count;
+}
+
+static inline double sigma_of(const struct moments *moments)
+{
+    double mean = mean_of(moments);
+
+    return sqrt(moments->squares / moments->count - mean * mean);
+}
+
+#define assert_near(value, expected, tolerance)                                                    \
+    do {                                                                                           \
+        double near_value = (value), near_expected = (expected);                                   \
+        if (!(fabs(near_value - near_expected) <= (tolerance))) {                                  \
+            fail_msg("%s is %.9g, not %.9g +- %.3g", #value, near_value, near_expected,            \
+                     (double)(tolerance));                                                         \
+        }                                                                                          \
+    } while (0)
+
+/* A count of independent things that is `expected` in the mean. */
+#define assert_poisson(count, expected) assert_near(count, expected, 4.0 * sqrt(expected) + 1.0)
+
+/* A share of so many. */
+#define assert_share(count, total, share)                                                          \
+    assert_near((double)(count) / (double)(total), share,                                          \
+                4.0 * sqrt((share) * (1.0 - (share)) / (double)(total)) + 1e-9)
+
+#endif

@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What a scene's sensors see of its targets: when the antenna meets them, noise, biases,
+ * detections, coverage, resolution, and what events do. Seeds are fixed; bounds are four standard
+ * deviations.
+ */
+#include "scene_text.h"
+
+#define FLYERS                                                                                     \
+    "\"targets\": [{\"count\": 40, \"range_m\": [5000, 60000], \"speed_mps\": [100, 300], "        \
+    "\"keep_range_m\": [2000, 79000], \"turns\": {\"every_s\": [50, 100], \"across_mps2\": 5}}]"
+#define STANDING_ONE                                                                               \
+    "\"targets\": [{\"at_m\": [30000, 40000], \"speed_mps\": 0, \"heading_rad\": 0}]"
+
+static struct scene_run *watch_text(const char *text, struct scene **scene, uint64_t seed)
+{
+    *scene = scene_of(text);
+    return scene_watch(*scene, seed, 0);
+}
+
+static void end_watch(struct scene_run *run, struct scene *scene)
+{
+    scene_run_free(run);
+    scene_free(scene);
+}
+
+static size_t all_plots(const struct scene_run *run)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        count += run->scans[i].num_plots;
+    }
+    return count;
+}
+
+/*
+ * Errors of all plots against the truth at their own times, in sigmas; and where the antenna was.
+ */
+static void check_plots(const char *text, const double bias[2], bool turns)
+{
+    struct scene *scene;
+    struct scene_run *run = watch_text(text, &scene, 1);
+    struct moments range = {0}, azimuth = {0}, rate = {0};
+    const struct scene_sensor *sensor = &scene->sensors[0];
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        const struct scene_scan *scan = &run->scans[i];
+
+        for (size_t k = 0; k < scan->num_plots; k++) {
+            const struct scene_plot *plot = &scan->plots[k];
+            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            double x_m = at.x_m - sensor->x_m, y_m = at.y_m - sensor->y_m,
+                   range_m = hypot(x_m, y_m);
+            double azimuth_rad = atan2(y_m, x_m);
+            double looked_rad =
+                sensor->start_rad - (plot->t_s - sensor->start_s) / sensor->turn_s * PORTABLE_TURN;
+
+            add_moment(&range, (plot->range_m - range_m - bias[0]) / 30);
+            add_moment(&azimuth,
+                       remainder(plot->azimuth_rad - azimuth_rad - bias[1], PORTABLE_TURN) / 0.003);
+            add_moment(&rate, plot->range_rate_mps - (x_m * at.vx_mps + y_m * at.vy_mps) / range_m);
+            assert_true(plot->t_s <= scan->end_s + 1e-9);
+            assert_true(plot->t_s >= scan->end_s -
+                                         (turns ? sensor->turn_s / (double)sensor->sectors : 0) -
+                                         1e-9);
+            if (turns) { /* the antenna says the target's azimuth, with its bias */
+                assert_near(remainder(looked_rad - azimuth_rad - bias[1], PORTABLE_TURN), 0, 1e-9);
+            }
+        }
+    }
+    assert_true(range.count > 3000);
+    assert_share(range.count, 40 * 100, 0.9);
+    assert_near(mean_of(&range), 0, 4 / sqrt(range.count));
+    assert_near(mean_of(&azimuth), 0, 4 / sqrt(range.count));
+    assert_near(sigma_of(&range), 1, 4 / sqrt(2 * range.count));
+    assert_near(sigma_of(&azimuth), 1, 4 / sqrt(2 * range.count));
+    if (sensor->has_range_rate) {
+        assert_near(mean_of(&rate), 0, 8 / sqrt(range.count));
+        assert_near(sigma_of(&rate), 2, 8 / sqrt(2 * range.count));
+    }
+    end_watch(run, scene);
+}
+
+static void turning_radars_measure(void **state)
+{
+    (void)state;
+    const double none[2] = {0, 0}, some[2] = {70, -0.01};
+
+    check_plots(SCENE("400", RADAR(""), "," FLYERS), none, true);
+    check_plots(SCENE("402",
+                      RADAR(", \"sectors\": 32, \"start_s\": 1.7, \"sigma_range_rate_mps\": 2"),
+                      "," FLYERS),
+                none, true);
+    check_plots(
+        SCENE("400", RADAR(", \"range_bias_m\": 70, \"azimuth_bias_rad\": -0.01"), "," FLYERS),
+        some, true);
+}
+
+static void others_look_everywhere_at_once(void **state)
+{
+    (void)state;
+    const double none[2] = {0, 0};
+
+    check_plots(SCENE("200",
+                      "{\"interval_s\": 2, \"range_m\": [1000, 80000], \"sigma_range_m\": 30, "
+                      "\"sigma_azimuth_rad\": 0.003}",
+                      "," FLYERS),
+                none, false);
+}
+
+/* A radar that measures x and y has no place of its own: what passes the origin is seen, too. */
+static void planes_have_no_blind_spot(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run =
+        watch_text(SCENE("7", "{\"interval_s\": 1, \"sigma_m\": 1, \"pd\": 1}",
+                         ", \"targets\": [{\"at_m\": [-300, 0], \"velocity_mps\": [100, 0]}]"),
+                   &scene, 1);
+
+    assert_int_equal(all_plots(run), 7);
+    end_watch(run, scene);
+}
+
+static void ambiguous_range_rates_are_folded(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        SCENE("400", RADAR(", \"sigma_range_rate_mps\": 0.001, \"range_rate_span_mps\": 40"),
+              "," FLYERS),
+        &scene, 1);
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            const struct scene_plot *plot = &run->scans[i].plots[k];
+            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            double rate = (at.x_m * at.vx_mps + at.y_m * at.vy_mps) / hypot(at.x_m, at.y_m);
+
+            assert_true(fabs(plot->range_rate_mps) <= 20);
+            assert_near(remainder(plot->range_rate_mps - rate, 40), 0, 0.01);
+        }
+    }
+    end_watch(run, scene);
+}
+
+static void coverage_ends(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(SCENE("4000", RADAR(", \"sector_rad\": [3, -2], \"pd\": 1"),
+                                             ",\"targets\": [{\"count\": 100, \"range_m\": [0, "
+                                             "100000], \"speed_mps\": [100, 300]}]"),
+                                       &scene, 1);
+    size_t covered = 0;
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->num_paths; k++) {
+            struct motion at = path_at(&run->paths[k], run->scans[i].end_s);
+
+            covered += scene_covers(scene, at.x_m, at.y_m);
+        }
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            const struct scene_plot *plot = &run->scans[i].plots[k];
+            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            double range_m = hypot(at.x_m, at.y_m), azimuth_rad = atan2(at.y_m, at.x_m);
+
+            assert_true(range_m >= 1000 && range_m <= 80000);
+            assert_true(azimuth_rad >= 3 || azimuth_rad <= -2);
+        }
+        assert_near(run->scans[i].from_rad, 3, 1e-12);
+        assert_near(run->scans[i].to_rad, -2, 1e-12);
+    }
+    assert_true(covered > 1000);
+    assert_near((double)all_plots(run), (double)covered, 200); /* each end of a life by a turn */
+    end_watch(run, scene);
+}
+
+static void pd_follows_the_range(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        SCENE("8000", RADAR(", \"pd\": [[20000, 0.9], [60000, 0.5]]"),
+              ",\"targets\": [{\"at_m\": [10000, 0], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [0, 40000], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [-70000, 0], \"speed_mps\": 0, \"heading_rad\": 0}]"),
+        &scene, 1);
+    size_t seen[3] = {0};
+
+    assert_int_equal(run->num_scans, 2000);
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            seen[run->scans[i].plots[k].target_id]++;
+        }
+    }
+    assert_share(seen[0], 2000, 0.9);
+    assert_share(seen[1], 2000, 0.7);
+    assert_share(seen[2], 2000, 0.5);
+    end_watch(run, scene);
+}
+
+static void outages_masks_and_fades(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        SCENE("4000", RADAR(", \"pd\": 1"),
+              "," STANDING_ONE
+              ", \"events\": [{\"kind\": \"outage\", \"from_s\": 401, \"until_s\": 500},"
+              "{\"kind\": \"outage\", \"from_s\": 600, \"until_s\": 700, \"is_silent\": false},"
+              "{\"kind\": \"mask\", \"from_s\": 1000, \"until_s\": 1200, \"sector_rad\": [0.9, 1]},"
+              "{\"kind\": \"mask\", \"from_s\": 1300, \"until_s\": 1400, \"range_m\": [0, 49000]},"
+              "{\"kind\": \"fades\", \"from_s\": 2000, \"until_s\": 4000, \"pd\": 0.25}]"),
+        &scene, 1);
+    size_t faded = 0;
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        double end_s = run->scans[i].end_s;
+        size_t expected =
+            !(end_s >= 600.1 && end_s < 703.9) && !(end_s >= 1000.1 && end_s < 1203.9);
+
+        assert_false(end_s >= 401 && end_s - 4 < 500);
+        if (end_s < 2000) {
+            if (end_s > 604 && end_s <= 700) {
+                assert_int_equal(run->scans[i].num_plots, 0);
+            } else if (end_s > 1004 && end_s <= 1200) {
+                assert_int_equal(run->scans[i].num_plots, 0);
+            } else if (expected) {
+                assert_int_equal(run->scans[i].num_plots, 1);
+            }
+        } else if (end_s > 2004) {
+            faded += run->scans[i].num_plots;
+        }
+    }
+    assert_int_equal(run->num_scans, 1000 - 25); /* those that began after 396 s and before 500 s */
+    assert_share(faded, 499, 0.25);
+    end_watch(run, scene);
+}
+
+static void fades_come_and_go(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        SCENE("40000", RADAR(", \"pd\": 1"),
+              ",\"targets\": [{\"count\": 20, \"range_m\": [5000, 70000], \"speed_mps\": 0},"
+              "{\"count\": 20, \"range_m\": [5000, 70000], \"speed_mps\": 0}],"
+              "\"events\": [{\"kind\": \"fades\", \"per_hour\": 6, \"for_s\": [40, 80],"
+              "\"targets\": [1]}]"),
+        &scene, 1);
+    size_t seen[2] = {0};
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            seen[run->scans[i].plots[k].target_id / 20]++;
+        }
+    }
+    assert_int_equal(seen[0], 20 * 10000);
+    /*
+     * of 1333 fades, 60 s each, of a target some overlap: the share that is free is exp(-6 * 60 /
+     * 3600)
+     */
+    assert_near((double)seen[1] / 200000, exp(-0.1), 0.01);
+    end_watch(run, scene);
+}
+
+static void targets_split(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        SCENE("16000", RADAR(""),
+              "," STANDING_ONE
+              ", \"events\": [{\"kind\": \"split\", \"share\": 0.3, \"range_m\": [400, 600],"
+              "\"azimuth_sigmas\": [20, 20]}]"),
+        &scene, 1);
+    struct moments first = {0}, second = {0}, azimuth = {0};
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        assert_true(run->scans[i].num_plots <= 2);
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            const struct scene_plot *plot = &run->scans[i].plots[k];
+
+            assert_int_equal(plot->target_id, 0);
+            add_moment(plot->range_m > 50200 ? &second : &first, plot->range_m - 50000);
+            if (plot->range_m > 50200) {
+                add_moment(&azimuth, plot->azimuth_rad - atan2(4, 3));
+            }
+        }
+    }
+    assert_share(first.count, 4000, 0.9);
+    assert_share(second.count, first.count, 0.3);
+    assert_near(mean_of(&second), 500, 4 * 65 / sqrt(second.count));
+    assert_near(sigma_of(&second), sqrt(30 * 30 + 200 * 200 / 12.), 5);
+    assert_near(mean_of(&azimuth), 0.06, 4 * 0.003 / sqrt(second.count));
+    end_watch(run, scene);
+}
+
+static void what_is_not_resolved_is_one_plot(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        SCENE("8000", RADAR(", \"resolution_m\": 200, \"resolution_rad\": 0.014, \"pd\": 0.6"),
+              ",\"targets\": [{\"at_m\": [30000, 0], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [30150, 200], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [29700, 0], \"speed_mps\": 0, \"heading_rad\": 0},"
+              "{\"at_m\": [30000, -600], \"speed_mps\": 0, \"heading_rad\": 0}]"),
+        &scene, 1);
+    size_t seen[4] = {0};
+    struct moments range = {0};
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            const struct scene_plot *plot = &run->scans[i].plots[k];
+
+            seen[plot->target_id]++;
+            if (plot->target_id < 2) {
+                add_moment(&range, plot->range_m);
+            }
+        }
+    }
+    assert_share(seen[0] + seen[1], 2000, 1 - 0.4 * 0.4);
+    assert_share(seen[2], 2000, 0.6);
+    assert_share(seen[3], 2000, 0.6);
+    assert_near(mean_of(&range), (30000 + hypot(30150, 200)) / 2, 4 * 30 / sqrt(range.count));
+    end_watch(run, scene);
+}
+
+static void passive_sensors_measure_bearings(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        "{\"version\": 1, \"duration_s\": 8000, \"passive\": [{\"at_m\": [0, -10000], "
+        "\"interval_s\": 4,"
+        "\"sigma_rad\": 0.002, \"pd\": 0.8, \"false_bearings\": 1.5, \"false_sector_rad\": [-1, "
+        "1]}],"
+        "\"targets\": [{\"at_m\": [30000, 30000], \"speed_mps\": 0, \"heading_rad\": 0}],"
+        "\"clutter\": [{\"kind\": \"uniform\", \"plots\": 50}]}",
+        &scene, 1);
+    struct moments right = {0}, wrong = {0};
+
+    assert_int_equal(run->num_scans, 2000);
+    for (size_t i = 0; i < run->num_scans; i++) {
+        for (size_t k = 0; k < run->scans[i].num_plots; k++) {
+            const struct scene_plot *plot = &run->scans[i].plots[k];
+
+            add_moment(plot->target_id < 0 ? &wrong : &right, plot->azimuth_rad);
+        }
+    }
+    assert_share(right.count, 2000, 0.8);
+    assert_near(mean_of(&right), atan2(40000, 30000), 4 * 0.002 / sqrt(right.count));
+    assert_near(sigma_of(&right), 0.002, 4 * 0.002 / sqrt(2 * right.count));
+    assert_poisson(wrong.count, 3000);
+    assert_near(mean_of(&wrong), 0, 4 * 0.577 / sqrt(wrong.count));
+    assert_near(sigma_of(&wrong), 0.577, 0.03);
+    end_watch(run, scene);
+}
+
+static void scans_come_in_the_order_of_their_ends(void **state)
+{
+    (void)state;
+    struct scene *scene;
+    struct scene_run *run = watch_text(
+        SCENE("400", RADAR("") "," RADAR(", \"start_s\": 1.7, \"late_share\": 0.25, \"late_s\": 5"),
+              "," FLYERS),
+        &scene, 1);
+    size_t late = 0, second = 0;
+
+    for (size_t i = 0; i < run->num_scans; i++) {
+        const struct scene_scan *scan = &run->scans[i];
+
+        assert_near(scan->end_s, 4.0 * (double)(scan->number + 1) + (scan->sensor ? 1.7 : 0), 1e-9);
+        assert_true(i == 0 || scan->received_s >= run->scans[i - 1].received_s);
+        late += scan->received_s > scan->end_s + 4.9;
+        second += scan->sensor == 1;
+    }
+    assert_int_equal(second, 99);
+    assert_share(late, 99, 0.25);
+    end_watch(run, scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(turning_radars_measure),
+        cmocka_unit_test(others_look_everywhere_at_once),
+        cmocka_unit_test(planes_have_no_blind_spot),
+        cmocka_unit_test(ambiguous_range_rates_are_folded),
+        cmocka_unit_test(coverage_ends),
+        cmocka_unit_test(pd_follows_the_range),
+        cmocka_unit_test(outages_masks_and_fades),
+        cmocka_unit_test(fades_come_and_go),
+        cmocka_unit_test(targets_split),
+        cmocka_unit_test(what_is_not_resolved_is_one_plot),
+        cmocka_unit_test(passive_sensors_measure_bearings),
+        cmocka_unit_test(scans_come_in_the_order_of_their_ends),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The gate of bearings: distance, determinant, limit and own times, against the linearised filter
+ * in double precision.
+ */
+#include "dense_bearing.h"
+#include "kalman_checks.h"
+#include "rhotrack/detail/gate.h"
+
+#define NUM_CASES 6000
+#define NOISE 2.0f /* white acceleration, m^2/s^3 */
+
+/* Shares of 1 + the distance, and of the logarithm. Worst of the cases below: 7e-4, 2e-6. */
+#define DISTANCE_ERROR 2e-3
+#define LOG_ERROR 1e-5
+
+/* What the gate should say, at the bearing's own time. */
+struct expected {
+    double distance2, log_det;
+};
+
+static struct expected judge(const struct rho_kalman *kalman, const struct rho_bearing *bearing,
+                             const double place[2])
+{
+    const double offset_s = bearing->offset_us * 1e-6;
+    struct dense at = dense_of(kalman->state, kalman->covariance);
+
+    dense_predict(&at, offset_s, offset_s > 0.0 ? (double)NOISE : 0.0);
+    const struct dense_measurement m =
+        dense_bearing(&at, place, bearing->bearing_rad, bearing->sigma_rad);
+    const double range = hypot(at.x[0] - place[0], at.x[1] - place[1]);
+    double variance = m.r[0][0];
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            variance += m.h[0][i] * m.h[0][j] * at.p[i][j];
+        }
+    }
+    return (struct expected){m.y[0] * m.y[0] / variance, log(variance / (range * range))};
+}
+
+/* A level estimate with correlated elements, 5 to 100 km from the place, any way round. */
+static struct rho_kalman some_estimate(const double place[2])
+{
+    struct rho_kalman kalman;
+    const double range = pow(10.0, uniform(3.7, 5.0)), direction = uniform(-DENSE_PI, DENSE_PI);
+
+    random_covariance(kalman.covariance, 2.0);
+    for (int i = 0; i < STATES; ++i) {
+        kalman.covariance[RHO_AT(5, i)] = 0.0f;
+        kalman.covariance[RHO_AT(i < 2 ? 2 : i, i < 2 ? i : 2)] = 0.0f;
+        kalman.state[i] = i == 3 || i == 4 ? (float)uniform(-300.0, 300.0) : 0.0f;
+    }
+    kalman.state[0] = (float)(place[0] + range * cos(direction));
+    kalman.state[1] = (float)(place[1] + range * sin(direction));
+    return kalman;
+}
+
+/*
+ * A bearing some sigmas off the estimate; of three one at the scan's time, one before it, one
+ * after.
+ */
+static struct rho_bearing bearing_around(const struct rho_kalman *kalman, const double place[2],
+                                         int n)
+{
+    struct dense at = dense_of(kalman->state, kalman->covariance);
+    struct rho_bearing bearing = {.snr_db = 3.0f};
+
+    bearing.offset_us = n % 3 == 0 ? 0 : (int32_t)uniform(n % 3 == 1 ? -5e6 : 0.0, 5e6);
+    dense_predict(&at, bearing.offset_us * 1e-6, 0.0);
+    bearing.sigma_rad = (float)pow(10.0, uniform(-4.0, -1.5));
+    const double range = hypot(at.x[0] - place[0], at.x[1] - place[1]);
+    const double spread = hypot(sqrt(at.p[0][0] + at.p[1][1]) / range, (double)bearing.sigma_rad);
+    const double off = 2.5 * spread * normal();
+    bearing.bearing_rad = (float)remainder(dense_bearing_of(at.x, place) + off, 2.0 * DENSE_PI);
+    return bearing;
+}
+
+static void the_distance_is_that_of_the_linearised_bearing(void **state)
+{
+    int inside = 0;
+
+    (void)state;
+    for (int n = 0; n < NUM_CASES; ++n) {
+        const double place[2] = {2000.0, -7000.0};
+        const struct rho_kalman kalman = some_estimate(place);
+        const struct rho_bearing bearing = bearing_around(&kalman, place, n);
+        const struct expected expected = judge(&kalman, &bearing, place);
+        struct rho_gate gate;
+        struct rho_gate_result result = {.has_z = 1, .has_range_rate = 1};
+
+        rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+        const int is_in = rho_gate_test_bearing(&gate, &bearing, 2000.0f, -7000.0f, &result);
+        if (fabs(expected.distance2 / (double)RHO_GATE_CHI2_1D - 1.0) > 2e-3) {
+            assert_int_equal(is_in, expected.distance2 < (double)RHO_GATE_CHI2_1D);
+        }
+        if (is_in) {
+            inside++;
+            assert_float_equal(result.distance2, expected.distance2,
+                               DISTANCE_ERROR * (1.0 + expected.distance2));
+            assert_float_equal(result.log_det, expected.log_det,
+                               LOG_ERROR * fabs(expected.log_det));
+            assert_int_equal(result.has_z + result.has_range_rate, 0);
+        }
+    }
+    assert_in_range(inside, NUM_CASES / 2, NUM_CASES * 9 / 10);
+}
+
+/* Places drawn from the covariance, and bearings with their noise: one in a thousand is outside. */
+static void one_in_a_thousand_is_outside(void **state)
+{
+    struct rho_kalman kalman = opened(2, 2500.0f, 100.0f);
+    struct rho_gate gate;
+    int outside = 0;
+
+    (void)state;
+    kalman.state[0] = -40000.0f; /* west, where bearings wrap */
+    kalman.state[1] = 0.0f;
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    for (int n = 0; n < 100000; ++n) {
+        const double x = -40000.0 + 50.0 * normal();
+        const double y = 50.0 * normal();
+        const double error = 0.002 * normal();
+        const struct rho_bearing bearing = {
+            .bearing_rad = (float)remainder(atan2(y, x) + error, 2.0 * DENSE_PI),
+            .sigma_rad = 0.002f};
+        struct rho_gate_result result;
+
+        outside += !rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result);
+    }
+    print_message("outside the gate: %d of 100000\n", outside);
+    assert_in_range(outside, 60, 140); /* 100 expected, sd 10 */
+}
+
+/* North-east at the scan's time, farther to the east at the bearing's. */
+static void own_times_count(void **state)
+{
+    struct rho_kalman kalman = opened(2, 100.0f, 1.0f);
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    struct rho_bearing bearing = {.bearing_rad = 0.5f, .sigma_rad = 0.001f};
+
+    (void)state;
+    kalman.state[0] = 1000.0f;
+    kalman.state[1] = 1000.0f;
+    kalman.state[3] = 400.0f;
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 0);
+    bearing.offset_us = 2076000; /* it is at (1830, 1000) m then */
+    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
+    assert_true(result.distance2 < 0.1f);
+    bearing.offset_us = -2076000;
+    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 0);
+}
+
+static void assert_outside(const struct rho_kalman *kalman, struct rho_bearing bearing, float x_m)
+{
+    struct rho_gate gate;
+    struct rho_gate_result result, guard;
+
+    memset(&guard, 0x5a, sizeof guard);
+    result = guard;
+    rho_gate_open(&gate, kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, x_m, 0.0f, &result), 0);
+    assert_memory_equal(&result, &guard, sizeof result);
+}
+
+static void what_is_no_number_or_no_bearing_is_outside(void **state)
+{
+    const float bad[] = {NAN, INFINITY, -INFINITY, 1e30f};
+    struct rho_bearing bearing = {.bearing_rad = 1.1f, .sigma_rad = 0.01f};
+    struct rho_kalman kalman = opened(2, 100.0f, 1.0f); /* at (100, 200) m */
+    struct rho_gate gate;
+    struct rho_gate_result result;
+
+    (void)state;
+    rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
+    assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
+    kalman.state[1] = 0.4f;
+    assert_outside(&kalman, bearing, 100.5f); /* in the sensor's place */
+    kalman.state[1] = 200.0f;
+    for (size_t k = 0; k < NUM(bad); ++k) {
+        assert_outside(&kalman, (struct rho_bearing){.bearing_rad = bad[k], .sigma_rad = 0.01f},
+                       0.0f);
+        assert_outside(&kalman, bearing, bad[k]);
+        struct rho_kalman worse = kalman;
+        worse.state[0] = bad[k];
+        assert_outside(&worse, bearing, 0.0f);
+    }
+    assert_outside(&kalman, (struct rho_bearing){.bearing_rad = 1.1f, .sigma_rad = NAN}, 0.0f);
+    assert_outside(&kalman, (struct rho_bearing){.bearing_rad = 1.1f, .sigma_rad = INFINITY}, 0.0f);
+    kalman.covariance[0] = NAN;
+    assert_outside(&kalman, bearing, 0.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_distance_is_that_of_the_linearised_bearing),
+        cmocka_unit_test(one_in_a_thousand_is_outside),
+        cmocka_unit_test(own_times_count),
+        cmocka_unit_test(what_is_no_number_or_no_bearing_is_outside),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,752 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Hypotheses at their limits: a full pool, plots of others, plots that are known, what is refused.
+ */
+#include <string.h>
+
+#include "dense.h"
+
+#include "rhotrack/detail/hypotheses.h"
+
+#define NUM(array) (sizeof(array) / sizeof((array)[0]))
+
+static struct rho_hypotheses pool, copy;
+
+static const struct rho_hypotheses_clutter thin = {-11.0f, -6.0f, -6.0f, -6.0f};
+
+static struct rho_imm_model some_model(void)
+{
+    struct rho_imm_model model;
+
+    rho_imm_model_default(&model, 60.0f, 600.0f);
+    return model;
+}
+
+static void begin(void)
+{
+    const struct rho_imm_model model = some_model();
+
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
+}
+
+static struct rho_kalman estimate_at(float x_m, float y_m, float vx_mps)
+{
+    struct rho_kalman first;
+
+    rho_kalman_init(&first);
+    assert_int_equal(rho_kalman_open_axis(&first, 0, x_m, 100.0f, 100.0f), RHO_OK);
+    assert_int_equal(rho_kalman_open_axis(&first, 1, y_m, 100.0f, 100.0f), RHO_OK);
+    first.state[3] = vx_mps;
+    return first;
+}
+
+static uint16_t open_at(struct rho_hypotheses *of, float x_m, float y_m, float vx_mps)
+{
+    const struct rho_kalman first = estimate_at(x_m, y_m, vx_mps);
+    uint16_t slot = RHO_HYPOTHESES_SLOTS;
+
+    assert_int_equal(rho_hypotheses_open(of, &first, 0, &slot), RHO_OK);
+    assert_true(slot < RHO_HYPOTHESES_SLOTS);
+    return slot;
+}
+
+static struct rho_plot plot_at(float x_m, float y_m)
+{
+    return (struct rho_plot){.x_m = x_m,
+                             .y_m = y_m,
+                             .sigma_range_m = 10.0f,
+                             .sigma_cross_m = 10.0f,
+                             .sigma_up_m = 10.0f,
+                             .sigma_mps = 5.0f,
+                             .sigma_range_rate_mps = 2.0f};
+}
+
+static void predict(struct rho_hypotheses *of, uint16_t slot, double time_s)
+{
+    assert_int_equal(rho_hypotheses_predict(of, slot, (int64_t)(1e6 * time_s)), RHO_OK);
+}
+
+static int weigh(struct rho_hypotheses *of, uint16_t slot, double time_s,
+                 const struct rho_plot *plots, int num, float *gain_nat)
+{
+    int num_near = 0;
+
+    rho_hypotheses_begin_scan(of, slot, NULL);
+    for (int row = 0; row < num; ++row) {
+        struct rho_imm_plot seen;
+
+        rho_imm_open_plot(&seen, &plots[row], 0, NULL);
+        num_near += rho_hypotheses_score_plot(of, slot, &seen,
+                                              (int64_t)(1e6 * time_s) + plots[row].offset_us,
+                                              (int16_t)row, -0.105f, &thin, gain_nat);
+    }
+    return num_near;
+}
+
+static struct rho_hypotheses_outcome commit(struct rho_hypotheses *of, uint16_t slot, double time_s,
+                                            const struct rho_plot *plots, const int16_t *claims,
+                                            int16_t own)
+{
+    const struct rho_hypotheses_scan scan = {.time_us = (int64_t)(1e6 * time_s),
+                                             .plots = plots,
+                                             .log_miss = -2.3f,
+                                             .claims = claims,
+                                             .own = own};
+    struct rho_hypotheses_outcome outcome = {.row = 77};
+
+    assert_int_equal(rho_hypotheses_commit(of, slot, &scan, &outcome), RHO_OK);
+    return outcome;
+}
+
+static struct rho_hypotheses_outcome scan_all(struct rho_hypotheses *of, uint16_t slot,
+                                              double time_s, const struct rho_plot *plots, int num)
+{
+    float gain_nat = 0.0f;
+
+    predict(of, slot, time_s);
+    (void)weigh(of, slot, time_s, plots, num, &gain_nat);
+    return commit(of, slot, time_s, plots, NULL, 0);
+}
+
+/* Every node is somebody's, and nobody else's. */
+static void assert_no_node_is_lost(const struct rho_hypotheses *of)
+{
+    static uint8_t uses[RHO_MAX_HYPOTHESES];
+
+    memset(uses, 0, sizeof uses);
+    for (unsigned i = 0; i < of->num_free; ++i) {
+        uses[of->spare[i]]++;
+    }
+    for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; ++slot) {
+        for (unsigned i = 0; i < rho_hypotheses_count(of, slot); ++i) {
+            uses[rho_hypotheses_at(of, slot, i) - of->nodes]++;
+        }
+    }
+    for (unsigned i = 0; i < RHO_MAX_HYPOTHESES; ++i) {
+        assert_int_equal(uses[i], 1);
+    }
+}
+
+static void assert_ranked(const struct rho_hypotheses *of, uint16_t slot)
+{
+    const unsigned num = rho_hypotheses_count(of, slot);
+
+    assert_in_range(num, 1, RHO_HYPOTHESES_OF_TRACK);
+    assert_true(rho_hypotheses_at(of, slot, 0)->weight_nat == 0.0f);
+    for (unsigned i = 1; i < num; ++i) {
+        assert_true(rho_hypotheses_at(of, slot, i)->weight_nat <=
+                    rho_hypotheses_at(of, slot, i - 1)->weight_nat);
+    }
+}
+
+/* ---- decisions that are undone --------------------------------------------------------------- */
+
+/*
+ * A target at 100 m/s; at the third scan it is missed, and a plot of clutter lies 60 m beside its
+ * path. That is taken, and two scans later it never was.
+ */
+static void a_plot_of_clutter_that_was_taken_is_undone(void **state)
+{
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    struct rho_imm clean = rho_hypotheses_at(&pool, slot, 0)->imm;
+    const struct rho_imm_model model = some_model();
+    struct rho_imm_step step;
+
+    rho_imm_step_open(&step, &model, 1.0f);
+    for (int k = 1; k <= 7; ++k) {
+        const struct rho_plot plot = plot_at(100.0f * (float)k, k == 3 ? 60.0f : 0.0f);
+        const struct rho_hypotheses_outcome outcome = scan_all(&pool, slot, k, &plot, 1);
+
+        assert_int_equal(outcome.row, 0);
+        assert_ranked(&pool, slot);
+        assert_int_equal(rho_imm_predict(&clean, &step), RHO_OK);
+        if (k != 3) {
+            struct rho_imm_plot seen;
+            struct rho_imm_match match;
+
+            rho_imm_open_plot(&seen, &plot, 0, NULL);
+            assert_true(rho_imm_score_plot(&clean, &seen, &match));
+            assert_int_equal(rho_imm_update(&clean, &model, &seen, &match), RHO_OK);
+        }
+    }
+    const struct rho_hypothesis *best = rho_hypotheses_at(&pool, slot, 0);
+    for (int i = 0; i < RHO_IMM_STATES; ++i) {
+        assert_float_equal(best->imm.state[i], clean.state[i],
+                           1e-3 * sqrt(1e-6 + clean.covariance[RHO_AT(i, i)]));
+    }
+}
+
+/*
+ * Of two that took the same plots lately only the better one goes on: wrong picks do not crowd out
+ * what is new.
+ */
+static void wrong_picks_do_not_survive(void **state)
+{
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+
+    for (int k = 1; k <= 3; ++k) { /* clutter on both sides */
+        const struct rho_plot plots[3] = {plot_at(100.0f * (float)k, 0.0f),
+                                          plot_at(100.0f * (float)k, 30.0f),
+                                          plot_at(100.0f * (float)k, -30.0f)};
+
+        (void)scan_all(&pool, slot, k, plots, 3);
+        for (unsigned i = 0; i < rho_hypotheses_count(&pool, slot); ++i) {
+            for (unsigned j = 0; j < i; ++j) {
+                assert_memory_not_equal(rho_hypotheses_at(&pool, slot, i)->picks,
+                                        rho_hypotheses_at(&pool, slot, j)->picks,
+                                        sizeof pool.nodes[0].picks);
+            }
+        }
+    }
+    assert_true(rho_hypotheses_count(&pool, slot) > 3);
+    for (int k = 4; k <= 12; ++k) {
+        const struct rho_plot plot = plot_at(100.0f * (float)k, 0.0f);
+
+        assert_int_equal(scan_all(&pool, slot, k, &plot, 1).row, 0);
+    }
+    for (unsigned i = 0; i < rho_hypotheses_count(&pool, slot); ++i) {
+        assert_float_equal(rho_hypotheses_at(&pool, slot, i)->imm.steady.state[1], 0.0, 1.0);
+    }
+}
+
+static void plots_of_others_are_left_out(void **state)
+{
+    const struct rho_plot plots[2] = {plot_at(100.0f, 1.0f), plot_at(100.0f, 12.0f)};
+    static const struct {
+        int16_t claims[2];
+        int16_t row;
+    } cases[] = {{{-1, -1}, 0}, {{5, -1}, 0}, {{3, -1}, 1},
+                 {{-1, 3}, 0},  {{3, 3}, -1}, {{0, 5}, 1}};
+    float gain_nat;
+
+    (void)state;
+    for (size_t k = 0; k < NUM(cases); ++k) {
+        begin();
+        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+
+        predict(&pool, slot, 1.0);
+        assert_int_equal(weigh(&pool, slot, 1.0, plots, 2, &gain_nat), 2);
+        assert_int_equal(commit(&pool, slot, 1.0, plots, cases[k].claims, 5).row, cases[k].row);
+    }
+}
+
+/* However good the plot of another was: a miss goes on. */
+static void a_plot_of_another_does_not_make_a_miss_too_light(void **state)
+{
+    static const int16_t claims[1] = {3};
+    static const struct rho_hypotheses_clutter none = {-70.0f, 0.0f, 0.0f, 0.0f};
+    const struct rho_plot plot = plot_at(100.0f, 0.0f);
+    struct rho_imm_plot seen;
+    float gain_nat = 0.0f;
+
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict(&pool, slot, 1.0);
+    rho_hypotheses_begin_scan(&pool, slot, NULL);
+    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    assert_true(rho_hypotheses_score_plot(&pool, slot, &seen, 1000000, 0, -0.1f, &none, &gain_nat));
+    assert_true(gain_nat > 40.0f);
+    const struct rho_hypotheses_outcome outcome = commit(&pool, slot, 1.0, &plot, claims, 5);
+    assert_int_equal(outcome.row, RHO_HYPOTHESES_MISS);
+    assert_float_equal(outcome.gain_nat, -2.3, 1e-5);
+    assert_ranked(&pool, slot);
+}
+
+/* ---- the box --------------------------------------------------------------------------------- */
+
+/*
+ * Whatever is in a gate is in the box: own times either way, heights, thin ellipses, poor sensors.
+ */
+static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
+{
+    unsigned num_near = 0, num_late = 0, num_outside = 0;
+
+    (void)state;
+    for (int n = 0; n < 3000; ++n) {
+        struct rho_imm_model model;
+        struct rho_hypotheses_box reach;
+        const float accel_mps2 = (float)pow(10.0, uniform(0.0, 2.5));
+        const uint32_t z = n % 5 ? 0u : RHO_MEASURES_Z;
+
+        rho_imm_model_default(&model, accel_mps2, 600.0f);
+        assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
+        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, (float)uniform(-300.0, 300.0));
+        const double time_s = pow(10.0, uniform(-1.0, 1.0)), lag_s = n % 3 ? time_s : 0.0;
+
+        for (int k = 1; k <= n % 8; ++k) { /* an acceleration is known, and how fast it is */
+            const double t = 0.25 * k;
+            const struct rho_plot plot = plot_at((float)(0.4 * accel_mps2 * t * t), 0.0f);
+            struct rho_imm_plot seen;
+
+            predict(&pool, slot, t);
+            rho_imm_open_plot(&seen, &plot, z, NULL);
+            assert_int_equal(rho_hypotheses_update(&pool, slot, &seen, (int64_t)(1e6 * t)), RHO_OK);
+        }
+        predict(&pool, slot, 2.0 + time_s);
+        rho_hypotheses_begin_scan(&pool, slot, &reach);
+        const struct rho_imm *imm = &rho_hypotheses_at(&pool, slot, 0)->imm;
+        for (int k = 0; k < 40; ++k) {
+            const double offset_s = uniform(-lag_s, lag_s), far = uniform(0.5, 5.0);
+            const double noise = pow(10.0, uniform(0.0, 2.0));
+            struct rho_plot plot = plot_at(0.0f, 0.0f);
+            struct rho_imm_plot seen;
+            struct rho_imm_step step;
+            struct rho_imm moved = *imm;
+            float gain_nat;
+
+            rho_imm_step_open(&step, &model, (float)offset_s);
+            if (rho_imm_predict_unmixed(&moved, &step) != RHO_OK) {
+                continue;
+            }
+            const double spread = sqrt(moved.covariance[0] + noise * noise);
+            plot.x_m = moved.state[0] + (float)(far * spread * (k % 2 ? 1.0 : -1.0));
+            plot.y_m = moved.state[1] + (float)(0.3 * far * spread * normal());
+            plot.z_m = moved.state[2] +
+                       (float)(0.3 * far * sqrt(moved.covariance[5] + noise * noise) * normal());
+            plot.z_m += moved.covariance[5] > 0.0f ? 0.0f : 3000.0f; /* a track without a height */
+            plot.offset_us = (int32_t)(1e6 * offset_s);
+            plot.sigma_range_m = (float)noise;
+            plot.sigma_cross_m = (float)(n % 2 ? noise : pow(10.0, uniform(0.0, 2.0)));
+            plot.sigma_up_m = plot.sigma_cross_m;
+            rho_imm_open_plot(&seen, &plot, z, NULL);
+            if (rho_hypotheses_score_plot(&pool, slot, &seen,
+                                          (int64_t)(1e6 * (2.0 + time_s)) + plot.offset_us, 0,
+                                          -0.1f, &thin, &gain_nat)) {
+                num_near++;
+                num_late += lag_s > 0.0;
+                num_outside += !rho_hypotheses_is_in_box(&pool, slot, &reach, &plot, z);
+            }
+        }
+    }
+    assert_true(num_near > 10000 && num_late > 10000);
+    assert_int_equal(num_outside, 0);
+}
+
+/* ---- the pool -------------------------------------------------------------------------------- */
+
+/* As many plots around each track as make it take eight hypotheses. */
+static void crowd(struct rho_hypotheses *of, uint16_t slot, double time_s, float x_m, float y_m)
+{
+    struct rho_plot plots[5];
+
+    for (int i = 0; i < 5; ++i) {
+        plots[i] = plot_at(x_m + 14.0f * (float)(i - 2), y_m + 9.0f * (float)(i % 2));
+    }
+    (void)scan_all(of, slot, time_s, plots, 5);
+}
+
+static void a_full_pool_takes_from_the_richest(void **state)
+{
+    const unsigned num_tracks = RHO_MAX_TRACKS;
+    unsigned least = 99, most = 0;
+    uint16_t slots[RHO_MAX_TRACKS];
+
+    (void)state;
+    begin();
+    for (unsigned i = 0; i < num_tracks; ++i) {
+        slots[i] = open_at(&pool, 0.0f, 1000.0f * (float)i, 0.0f);
+    }
+    for (int k = 1; k <= 3; ++k) {
+        for (unsigned i = 0; i < num_tracks; ++i) {
+            const struct rho_hypothesis *best = rho_hypotheses_at(&pool, slots[i], 0);
+            const float weight = best->weight_nat;
+
+            assert_true(weight == 0.0f);
+            crowd(&pool, slots[i], k, 0.0f, 1000.0f * (float)i);
+            assert_ranked(&pool, slots[i]);
+        }
+        assert_no_node_is_lost(&pool);
+    }
+    for (unsigned i = 0; i < num_tracks; ++i) {
+        const unsigned num = rho_hypotheses_count(&pool, slots[i]);
+
+        assert_ranked(&pool, slots[i]);
+        least = num < least ? num : least;
+        most = num > most ? num : most;
+    }
+    /* all are shared out: nobody has two more than another */
+    assert_int_equal(pool.num_free, 0);
+    assert_true(pool.hypotheses_cut > 0);
+    assert_true(most <= least + 1);
+}
+
+/* A track that needs but one hypothesis gets it, while any other has two. */
+static void a_new_track_gets_its_hypothesis_from_others(void **state)
+{
+    unsigned num = 0, num_given = 0;
+
+    (void)state;
+    begin();
+    while (num < RHO_HYPOTHESES_SLOTS && num < RHO_MAX_HYPOTHESES) {
+        struct rho_kalman first = estimate_at(0.0f, 1000.0f * (float)num, 0.0f);
+        const uint32_t cut = pool.hypotheses_cut + (pool.num_free == 0);
+        uint16_t slot;
+
+        if (rho_hypotheses_open(&pool, &first, 0, &slot) != RHO_OK) {
+            break;
+        }
+        assert_int_equal(slot, num++);
+        assert_int_equal(pool.hypotheses_cut, cut);
+        num_given += pool.num_free == 0;
+        if (num <= RHO_MAX_HYPOTHESES / RHO_HYPOTHESES_OF_TRACK) {
+            for (int k = 1; k <= 3; ++k) {
+                crowd(&pool, slot, k, 0.0f, 1000.0f * (float)slot);
+            }
+        }
+        assert_int_equal(rho_hypotheses_count(&pool, slot) > 0, 1);
+    }
+    assert_int_equal(num, RHO_HYPOTHESES_SLOTS);
+    assert_true(num_given > 0);
+    assert_no_node_is_lost(&pool);
+    for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; ++slot) {
+        assert_true(rho_hypotheses_count(&pool, slot) >= 1);
+    }
+    const struct rho_kalman one_more = estimate_at(0.0f, 0.0f, 0.0f);
+    uint16_t slot = 12345;
+    memcpy(&copy, &pool, sizeof pool);
+    assert_int_equal(rho_hypotheses_open(&pool, &one_more, 0, &slot), RHO_ERROR_CAPACITY);
+    assert_int_equal(slot, 12345);
+    assert_memory_equal(&copy, &pool, sizeof pool);
+    rho_hypotheses_close(&pool, 3);
+    assert_int_equal(rho_hypotheses_open(&pool, &one_more, 0, &slot), RHO_OK);
+    assert_int_equal(slot, 3);
+}
+
+/*
+ * Opened, closed, crowded, thinned out at random; a copy of the object that meets the same does the
+ * same.
+ */
+static void random_calls(struct rho_hypotheses *of, int num_calls, int32_t *now_s)
+{
+    for (int n = 0; n < num_calls; ++n) {
+        const uint16_t slot =
+            (uint16_t)uniform(0.0, RHO_HYPOTHESES_SLOTS < 40.0 ? RHO_HYPOTHESES_SLOTS : 40.0);
+        const double choice = uniform(0.0, 1.0);
+
+        if (rho_hypotheses_count(of, slot) == 0) {
+            const struct rho_kalman first = estimate_at(0.0f, (float)(int)uniform(-9.0, 9.0), 1.0f);
+            uint16_t opened;
+
+            assert_int_equal(rho_hypotheses_open(of, &first, INT64_C(1000000) * *now_s, &opened),
+                             RHO_OK);
+        } else if (choice < 0.03) {
+            rho_hypotheses_close(of, slot);
+            assert_int_equal(rho_hypotheses_count(of, slot), 0);
+        } else {
+            struct rho_plot plots[5];
+            const int num = choice < 0.5 ? 5 : (int)uniform(0.0, 3.0);
+            const struct rho_imm *imm = &rho_hypotheses_at(of, slot, 0)->imm;
+
+            for (int i = 0; i < num; ++i) {
+                const float x_m = imm->state[0] + (float)(30.0 * normal());
+
+                plots[i] = plot_at(x_m, imm->state[1] + (float)(30.0 * normal()));
+                plots[i].offset_us = choice < 0.2 ? (int32_t)uniform(-3e5, 3e5) : 0;
+            }
+            (void)scan_all(of, slot, *now_s, plots, num);
+            assert_ranked(of, slot);
+        }
+        *now_s += n % 40 == 39;
+    }
+}
+
+static void no_node_is_lost_and_a_copy_does_the_same(void **state)
+{
+    int32_t now_s = 1;
+
+    (void)state;
+    begin();
+    for (int k = 0; k < 20; ++k) {
+        random_calls(&pool, 200, &now_s);
+        assert_no_node_is_lost(&pool);
+    }
+    memcpy(&copy, &pool, sizeof pool);
+    const uint64_t seed = dense_seed;
+    int32_t later_s = now_s;
+    random_calls(&pool, 500, &now_s);
+    dense_seed = seed;
+    random_calls(&copy, 500, &later_s);
+    assert_memory_equal(&copy, &pool, sizeof pool);
+    for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; ++slot) {
+        rho_hypotheses_close(&pool, slot);
+    }
+    assert_int_equal(pool.num_free, RHO_MAX_HYPOTHESES);
+    assert_no_node_is_lost(&pool);
+}
+
+/* ---- what is refused ------------------------------------------------------------------------- */
+
+/*
+ * A plot that is no number when it is to be taken: the hypothesis is as it was predicted, and has
+ * missed.
+ */
+static void a_refused_update_is_a_miss_and_counted(void **state)
+{
+    (void)state;
+    for (int has_own_time = 0; has_own_time < 2; ++has_own_time) {
+        float gain_nat;
+
+        begin();
+        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+        struct rho_plot plots[2] = {plot_at(100.0f, 3.0f), plot_at(100.0f, 5.0f)};
+
+        predict(&pool, slot, 1.0);
+        const struct rho_imm predicted = rho_hypotheses_at(&pool, slot, 0)->imm;
+        plots[0].offset_us = plots[1].offset_us = has_own_time ? 100000 : 0;
+        assert_int_equal(weigh(&pool, slot, 1.0, plots, 2, &gain_nat), 2);
+        plots[0].x_m = NAN;
+        plots[1].y_m = INFINITY;
+        assert_int_equal(commit(&pool, slot, 1.0, plots, NULL, 0).row, RHO_HYPOTHESES_MISS);
+        assert_int_equal(pool.updates_refused, 2);
+        for (unsigned i = 0; i < rho_hypotheses_count(&pool, slot); ++i) {
+            const struct rho_hypothesis *at = rho_hypotheses_at(&pool, slot, i);
+
+            assert_memory_equal(&at->imm, &predicted, sizeof predicted);
+            assert_true(at->time_us == 1000000);
+            assert_int_equal(at->picks[RHO_HYPOTHESES_MEMORY - 1], RHO_HYPOTHESES_MISS);
+        }
+        pool.updates_refused = UINT32_MAX - 1;
+        plots[0] = plots[1] = plot_at(200.0f, 0.0f);
+        predict(&pool, slot, 2.0);
+        assert_true(weigh(&pool, slot, 2.0, plots, 2, &gain_nat) > 0);
+        plots[0].x_m = plots[1].x_m = NAN;
+        (void)commit(&pool, slot, 2.0, plots, NULL, 0);
+        assert_true(pool.updates_refused == UINT32_MAX);
+    }
+}
+
+static void what_cannot_be_predicted_is_given_up(void **state)
+{
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+
+    crowd(&pool, slot, 1.0, 100.0f, 0.0f);
+    const unsigned num = rho_hypotheses_count(&pool, slot);
+    assert_true(num > 2);
+    pool.nodes[rho_hypotheses_at(&pool, slot, 0) - pool.nodes].imm.state[0] = NAN;
+    predict(&pool, slot, 2.0);
+    assert_int_equal(rho_hypotheses_count(&pool, slot), num - 1);
+    assert_ranked(&pool, slot);
+    assert_no_node_is_lost(&pool);
+    assert_int_equal(rho_hypotheses_predict(&pool, slot, INT64_C(90000000000)), RHO_ERROR_VALUE);
+    assert_int_equal(rho_hypotheses_count(&pool, slot), 0);
+    assert_no_node_is_lost(&pool);
+    assert_int_equal(pool.num_free, RHO_MAX_HYPOTHESES);
+}
+
+/* ---- what is known to be the target's -------------------------------------------------------- */
+
+static void all_hypotheses_take_what_is_known(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 4; ++n) {
+        const double offset_s = n % 2 ? -0.2 : 0.0;
+        struct rho_imm expected[RHO_HYPOTHESES_OF_TRACK];
+        struct rho_hypothesis before[RHO_HYPOTHESES_OF_TRACK];
+        const struct rho_imm_model model = some_model();
+        /* far from all predictions it is taken all the same */
+        const struct rho_plot plot = plot_at(n < 2 ? 200.0f : 2000.0f, 10.0f);
+        struct rho_imm_plot seen;
+        struct rho_imm_step step;
+
+        begin();
+        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+        crowd(&pool, slot, 1.0, 100.0f, 0.0f);
+        predict(&pool, slot, 2.0);
+        rho_imm_open_plot(&seen, &plot, 0, NULL);
+        rho_imm_step_open(&step, &model, (float)offset_s);
+        const unsigned num = rho_hypotheses_count(&pool, slot);
+        for (unsigned i = 0; i < num; ++i) {
+            struct rho_imm_match match;
+
+            before[i] = *rho_hypotheses_at(&pool, slot, i);
+            expected[i] = before[i].imm;
+            if (offset_s < 0.0) {
+                assert_int_equal(rho_imm_predict_unmixed(&expected[i], &step), RHO_OK);
+            }
+            if (!rho_imm_score_plot(&expected[i], &seen, &match)) {
+                match.probability = expected[i].probability;
+            }
+            assert_int_equal(rho_imm_update(&expected[i], &model, &seen, &match), RHO_OK);
+        }
+        const int64_t time_us = 2000000 + (offset_s < 0.0 ? -200000 : 0);
+        assert_int_equal(rho_hypotheses_update(&pool, slot, &seen, time_us), RHO_OK);
+        assert_int_equal(rho_hypotheses_count(&pool, slot), num);
+        for (unsigned i = 0; i < num; ++i) {
+            const struct rho_hypothesis *at = rho_hypotheses_at(&pool, slot, i);
+
+            assert_memory_equal(&at->imm, &expected[i], sizeof expected[i]);
+            assert_true(at->time_us == time_us && at->weight_nat == before[i].weight_nat);
+        }
+    }
+}
+
+/*
+ * Backwards by many memories of an acceleration there is no estimate: nothing is taken, and nothing
+ * changes.
+ */
+static void what_is_too_old_to_be_known_changes_nothing(void **state)
+{
+    const struct rho_plot plot = plot_at(100.0f, 0.0f);
+    struct rho_imm_plot seen;
+
+    (void)state;
+    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    for (int is_bearing = 0; is_bearing < 2; ++is_bearing) {
+        begin();
+        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+
+        crowd(&pool, slot, 1.0, 100.0f, 0.0f);
+        const unsigned num = rho_hypotheses_count(&pool, slot);
+        memcpy(&copy, &pool, sizeof pool);
+        const enum rho_status status =
+            is_bearing ? rho_hypotheses_update_bearing(&pool, slot, INT64_C(-300000000), 0.0f,
+                                                       -5000.0f, 1.57f, 0.01f)
+                       : rho_hypotheses_update(&pool, slot, &seen, INT64_C(-300000000));
+        assert_int_equal(status, RHO_ERROR_VALUE);
+        assert_int_equal(pool.updates_refused, num);
+        for (unsigned i = 0; i < num; ++i) {
+            assert_memory_equal(rho_hypotheses_at(&pool, slot, i),
+                                rho_hypotheses_at(&copy, slot, i), sizeof(struct rho_hypothesis));
+        }
+        predict(&pool, slot, 2.0);
+        assert_int_equal(rho_hypotheses_count(&pool, slot), num);
+    }
+}
+
+/* Weights move by how well a bearing was predicted: what lay beside it falls behind. */
+static void a_bearing_orders_the_hypotheses(void **state)
+{
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 0.0f);
+    const struct rho_plot plots[2] = {plot_at(20.0f, 0.0f), plot_at(-21.0f, 0.0f)};
+    double expected[RHO_HYPOTHESES_OF_TRACK], best = -1e9;
+
+    (void)scan_all(&pool, slot, 1.0, plots, 2);
+    predict(&pool, slot, 2.0);
+    const unsigned num = rho_hypotheses_count(&pool, slot);
+    assert_true(num >= 2 && rho_hypotheses_at(&pool, slot, 0)->picks[2] == 0);
+    for (unsigned i = 0; i < num; ++i) {
+        struct rho_imm imm = rho_hypotheses_at(&pool, slot, i)->imm;
+        float gain_nat;
+
+        assert_int_equal(
+            rho_imm_update_bearing(&imm, -21.0f, -9000.0f, 1.5707963f, 1e-4f, &gain_nat), RHO_OK);
+        expected[i] = (double)rho_hypotheses_at(&pool, slot, i)->weight_nat + gain_nat;
+        best = fmax(best, expected[i]);
+    }
+    memcpy(&copy, &pool, sizeof pool);
+    assert_int_equal(
+        rho_hypotheses_update_bearing(&pool, slot, 2000000, -21.0f, -9000.0f, 1.5707963f, 1e-4f),
+        RHO_OK);
+    assert_int_equal(rho_hypotheses_at(&pool, slot, 0)->picks[2], 1);
+    assert_ranked(&pool, slot);
+    for (unsigned i = 0; i < num; ++i) {
+        const struct rho_hypothesis *was = rho_hypotheses_at(&copy, slot, i);
+
+        for (unsigned k = 0; k < num; ++k) {
+            const struct rho_hypothesis *at = rho_hypotheses_at(&pool, slot, k);
+
+            if (at->picks[2] == was->picks[2]) {
+                assert_float_equal(at->weight_nat, expected[i] - best, 1e-4);
+            }
+        }
+    }
+    assert_no_node_is_lost(&pool);
+}
+
+/* ---- arguments ------------------------------------------------------------------------------- */
+
+static void arguments_are_checked(void **state)
+{
+    const struct rho_imm_model model = some_model();
+    struct rho_imm_model bad = model;
+    const struct rho_kalman first = estimate_at(0.0f, 0.0f, 0.0f);
+    const struct rho_plot plot = plot_at(0.0f, 0.0f);
+    const struct rho_hypotheses_scan scan = {.plots = &plot};
+    struct rho_hypotheses_outcome outcome;
+    struct rho_hypotheses_estimate estimate;
+    struct rho_imm_plot seen;
+    uint16_t slot = 7;
+    float gain_nat = 7.0f;
+
+    (void)state;
+    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    bad.memory_s = 0.0f;
+    assert_int_equal(rho_hypotheses_init(NULL, sizeof pool, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool - 1, &model), RHO_ERROR_SIZE);
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &bad), RHO_ERROR_CONFIG);
+    memset(&pool, 0, sizeof pool);
+    assert_int_equal(rho_hypotheses_open(&pool, &first, 0, &slot), RHO_ERROR_STATE);
+    begin();
+    assert_int_equal(rho_hypotheses_open(NULL, &first, 0, &slot), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_open(&pool, NULL, 0, &slot), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_open(&pool, &first, 0, NULL), RHO_ERROR_NULL);
+    memcpy(&copy, &pool, sizeof pool);
+    for (int k = 0; k < 3; ++k) {
+        static const uint16_t no_slots[] = {0, RHO_HYPOTHESES_SLOTS, UINT16_MAX};
+        const uint16_t none = no_slots[k];
+
+        assert_int_equal(rho_hypotheses_predict(&pool, none, 0), RHO_ERROR_STATE);
+        assert_int_equal(rho_hypotheses_commit(&pool, none, &scan, &outcome), RHO_ERROR_STATE);
+        assert_int_equal(rho_hypotheses_update(&pool, none, &seen, 0), RHO_ERROR_STATE);
+        assert_int_equal(rho_hypotheses_update_bearing(&pool, none, 0, 0.0f, 0.0f, 0.0f, 0.1f),
+                         RHO_ERROR_STATE);
+        assert_int_equal(rho_hypotheses_estimate(&pool, none, 0, &estimate), RHO_ERROR_STATE);
+        assert_int_equal(
+            rho_hypotheses_score_plot(&pool, none, &seen, 0, 0, 0.0f, &thin, &gain_nat), 0);
+        assert_int_equal(rho_hypotheses_count(&pool, none), 0);
+        assert_null(rho_hypotheses_at(&pool, none, 0));
+        rho_hypotheses_close(&pool, none);
+        rho_hypotheses_begin_scan(&pool, none, NULL);
+    }
+    assert_memory_equal(&copy, &pool, sizeof pool);
+    assert_int_equal(rho_hypotheses_open(&pool, &first, 0, &slot), RHO_OK);
+    assert_int_equal(rho_hypotheses_predict(NULL, slot, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_commit(NULL, slot, &scan, &outcome), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_commit(&pool, slot, NULL, &outcome), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_update(NULL, slot, &seen, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_update(&pool, slot, NULL, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_update_bearing(NULL, slot, 0, 0.0f, 0.0f, 0.0f, 0.1f),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_estimate(NULL, slot, 0, &estimate), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_estimate(&pool, slot, 0, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_score_plot(NULL, slot, &seen, 0, 0, 0.0f, &thin, &gain_nat), 0);
+    assert_int_equal(rho_hypotheses_score_plot(&pool, slot, NULL, 0, 0, 0.0f, &thin, &gain_nat), 0);
+    assert_int_equal(rho_hypotheses_count(NULL, slot), 0);
+    rho_hypotheses_close(NULL, slot);
+    rho_hypotheses_begin_scan(NULL, slot, NULL);
+    assert_true(gain_nat == 7.0f);
+    assert_int_equal(rho_hypotheses_count(&pool, slot), 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_plot_of_clutter_that_was_taken_is_undone),
+        cmocka_unit_test(wrong_picks_do_not_survive),
+        cmocka_unit_test(plots_of_others_are_left_out),
+        cmocka_unit_test(a_plot_of_another_does_not_make_a_miss_too_light),
+        cmocka_unit_test(no_plot_in_a_gate_is_outside_of_the_box),
+        cmocka_unit_test(a_full_pool_takes_from_the_richest),
+        cmocka_unit_test(a_new_track_gets_its_hypothesis_from_others),
+        cmocka_unit_test(no_node_is_lost_and_a_copy_does_the_same),
+        cmocka_unit_test(a_refused_update_is_a_miss_and_counted),
+        cmocka_unit_test(what_cannot_be_predicted_is_given_up),
+        cmocka_unit_test(all_hypotheses_take_what_is_known),
+        cmocka_unit_test(what_is_too_old_to_be_known_changes_nothing),
+        cmocka_unit_test(a_bearing_orders_the_hypotheses),
+        cmocka_unit_test(arguments_are_checked),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

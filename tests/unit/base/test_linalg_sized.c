@@ -1,0 +1,569 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Scalar updates and distances for states of 1 to 12 elements, against full matrices in double
+ * precision.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "dense.h"
+#include "kalman_checks.h"
+
+/* In sigmas of the estimate before. */
+#define UPDATE_RELATIVE 4e-6 /* worst of the cases below: 1.2e-6 */
+
+/* Of a matrix correlated by 0.99 the distance loses two digits or three. */
+#define DISTANCE_RELATIVE 6e-5 /* worst of the cases below: 1.4e-5 */
+#define LOG_DET_ABSOLUTE 1e-4  /* 2.4e-5 */
+
+#define MOST RHO_LINALG_MAX
+#define MOST_PACKED RHO_TRIANGLE(MOST)
+#define CASES_OF_SIZE 300
+
+struct sized {
+    int n;
+    float x[MOST], p[MOST_PACKED];
+};
+
+struct wide {
+    double x[MOST], p[MOST][MOST];
+};
+
+/* --- references ------------------------------------------------------------------------------ */
+
+/* Correlated by up to 0.99 or so, sigmas of 1 to 1000. What lies beyond is guarded. */
+static struct sized some_estimate(int n)
+{
+    struct sized e = {.n = n};
+    double w[MOST][MOST], scale[MOST];
+
+    for (int i = 0; i < MOST; ++i) {
+        e.x[i] = i < n ? (float)(100.0 * normal()) : GUARD;
+        scale[i] = pow(10.0, uniform(0.0, 3.0));
+        for (int k = 0; k < MOST; ++k) {
+            w[i][k] = normal();
+        }
+    }
+    for (int i = 0; i < MOST; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            double sum = i == j ? 0.05 : 0.0;
+
+            for (int k = 0; k < n; ++k) {
+                sum += w[i][k] * w[j][k];
+            }
+            e.p[RHO_AT(i, j)] = i < n ? (float)(sum * scale[i] * scale[j]) : GUARD;
+        }
+    }
+    return e;
+}
+
+static struct wide wide_of(const struct sized *e)
+{
+    struct wide d = {.x = {0.0}};
+
+    for (int i = 0; i < e->n; ++i) {
+        d.x[i] = e->x[i];
+        for (int j = 0; j < e->n; ++j) {
+            d.p[i][j] = e->p[RHO_AT(i, j)];
+        }
+    }
+    return d;
+}
+
+/* P - k s k^T and what Joseph's form adds to it, element by element. */
+static struct wide updated(int n, const struct wide *d, const double *h, double y, double r)
+{
+    struct wide out = {.x = {0.0}};
+    double ph[MOST] = {0.0}, s = r;
+
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < n; ++k) {
+            ph[i] += d->p[i][k] * h[k];
+        }
+        s += ph[i] * h[i];
+    }
+    for (int i = 0; i < n; ++i) {
+        out.x[i] = d->x[i] + ph[i] / s * y;
+        for (int j = 0; j < n; ++j) {
+            const double ki = ph[i] / s, kj = ph[j] / s;
+
+            out.p[i][j] = d->p[i][j] - ki * ph[j] - kj * ph[i] + ki * kj * s;
+        }
+    }
+    return out;
+}
+
+static double worst_update;
+
+static void assert_near(const struct sized *e, const struct wide *expected,
+                        const struct wide *before)
+{
+    for (int i = 0; i < e->n; ++i) {
+        const double sigma = sqrt(before->p[i][i]);
+
+        worst_update =
+            fmax(worst_update,
+                 (fabs(e->x[i] - expected->x[i]) - DENSE_ROUNDING * fabs(expected->x[i])) / sigma);
+        for (int j = 0; j <= i; ++j) {
+            worst_update = fmax(worst_update, fabs(e->p[RHO_AT(i, j)] - expected->p[i][j]) / sigma /
+                                                  sqrt(before->p[j][j]));
+        }
+    }
+    assert_true(worst_update <= UPDATE_RELATIVE);
+    for (int i = e->n; i < MOST; ++i) {
+        assert_true(e->x[i] == GUARD);
+    }
+    for (int i = RHO_TRIANGLE(e->n); i < MOST_PACKED; ++i) {
+        assert_true(e->p[i] == GUARD);
+    }
+}
+
+/* A Cholesky of the open elements. */
+static int is_definite(const struct sized *e)
+{
+    double l[MOST][MOST] = {{0.0}};
+
+    for (int i = 0; i < e->n; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            double rest = e->p[RHO_AT(i, j)];
+
+            for (int k = 0; k < j; ++k) {
+                rest -= l[i][k] * l[j][k];
+            }
+            if (i == j && !(rest > 0.0)) {
+                return 0;
+            }
+            l[i][j] = i == j ? sqrt(rest) : rest / l[j][j];
+        }
+    }
+    return 1;
+}
+
+/* --- updates --------------------------------------------------------------------------------- */
+
+static void an_update_of_an_element_is_that_of_full_matrices(void **state)
+{
+    (void)state;
+    worst_update = 0.0;
+    for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
+        struct sized e = some_estimate(1 + c % MOST);
+        const int index = (int)uniform(0.0, e.n);
+        const float own = e.p[RHO_AT(index, index)];
+        const float variance = own * (float)pow(10.0, uniform(-6.0, 3.0));
+        const float innovation = (float)(normal() * sqrt((double)own + variance));
+        const struct wide before = wide_of(&e);
+        double h[MOST] = {0.0};
+
+        h[index] = 1.0;
+        const struct wide expected = updated(e.n, &before, h, innovation, variance);
+        assert_int_equal(rho_linalg_update_at(e.n, e.x, e.p, index, innovation, variance), RHO_OK);
+        assert_near(&e, &expected, &before);
+    }
+}
+
+static void an_update_along_a_row_is_that_of_full_matrices(void **state)
+{
+    (void)state;
+    worst_update = 0.0;
+    for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
+        struct sized e = some_estimate(1 + c % MOST);
+        const int num = 1 + (int)uniform(0.0, e.n);
+        const float variance = (float)pow(10.0, uniform(-1.0, 2.0));
+        const float innovation = (float)(normal() * 2.0);
+        const struct wide before = wide_of(&e);
+        float row[MOST];
+        double h[MOST] = {0.0};
+
+        for (int i = 0; i < MOST; ++i) { /* what lies beyond num is not read */
+            row[i] = i < num ? (float)(normal() / sqrt(before.p[i][i])) : NAN;
+            h[i] = i < num ? row[i] : 0.0;
+        }
+        const struct wide expected = updated(e.n, &before, h, innovation, variance);
+        assert_int_equal(rho_linalg_update_along(e.n, e.x, e.p, num, row, innovation, variance),
+                         RHO_OK);
+        assert_near(&e, &expected, &before);
+    }
+}
+
+static void six_elements_are_updated_as_by_the_routine_for_six(void **state)
+{
+    (void)state;
+    for (int c = 0; c < CASES_OF_SIZE; ++c) {
+        struct sized e = some_estimate(6), other = e;
+        const int index = c % 6;
+
+        assert_int_equal(rho_linalg_update_at(6, e.x, e.p, index, 3.0f, 2.0f), RHO_OK);
+        assert_int_equal(rho_linalg_update6(other.x, other.p, index, 3.0f, 2.0f, NULL), RHO_OK);
+        const struct wide before = wide_of(&e), expected = wide_of(&other);
+        assert_near(&e, &expected, &before);
+    }
+}
+
+/* Measured 10^8 times better than predicted, again and again: every digit cancels along the row. */
+static void sharp_measurements_leave_a_vague_estimate_positive_definite(void **state)
+{
+    (void)state;
+    for (int c = 0; c < MOST * 60; ++c) {
+        struct sized e = {.n = 1 + c % MOST};
+
+        for (int i = 0; i < e.n; ++i) {
+            e.p[RHO_AT(i, i)] = 1e8f;
+        }
+        for (int k = 0; k < 3 * e.n; ++k) {
+            float row[MOST];
+
+            for (int i = 0; i < e.n; ++i) {
+                row[i] = c % 2 == 0 ? (float)normal() : (float)(int)uniform(-2.0, 2.0);
+            }
+            if (c % 3 == 0) {
+                assert_int_equal(
+                    rho_linalg_update_at(e.n, e.x, e.p, k % e.n, (float)normal(), 1.0f), RHO_OK);
+            }
+            assert_int_equal(
+                rho_linalg_update_along(e.n, e.x, e.p, e.n, row, (float)normal(), 1.0f), RHO_OK);
+            assert_true(is_definite(&e));
+        }
+    }
+}
+
+/* Measured elements one by one; what they are to each other was known before. */
+static void sharp_elements_leave_a_correlated_estimate_positive_definite(void **state)
+{
+    (void)state;
+    for (int c = 0; c < MOST * 60; ++c) {
+        const struct sized before = some_estimate(1 + c % MOST);
+        struct sized e = before;
+
+        for (int k = 0; k < 3 * e.n; ++k) {
+            const int index = (int)uniform(0.0, e.n);
+            const float variance = e.p[RHO_AT(index, index)] * 1e-8f;
+
+            assert_int_equal(rho_linalg_update_at(e.n, e.x, e.p, index, (float)normal(), variance),
+                             RHO_OK);
+            assert_true(e.p[RHO_AT(index, index)] <= variance * 1.000001f);
+            assert_true(is_definite(&e));
+            for (int i = 0; i < e.n; ++i) { /* a step's noise: the next one is vague again */
+                e.p[RHO_AT(i, i)] += 0.01f * before.p[RHO_AT(i, i)];
+            }
+        }
+    }
+}
+
+static void no_variance_grows_by_more_than_rounding(void **state)
+{
+    (void)state;
+    for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
+        const struct sized before = some_estimate(1 + c % MOST);
+        struct sized e = before;
+        float row[MOST];
+
+        for (int i = 0; i < e.n; ++i) {
+            row[i] = (float)(normal() / sqrt(e.p[RHO_AT(i, i)]));
+        }
+        const enum rho_status status =
+            c % 2 == 0 ? rho_linalg_update_at(e.n, e.x, e.p, c / 2 % e.n, 1.0f, 1e12f)
+                       : rho_linalg_update_along(e.n, e.x, e.p, e.n, row, 1.0f, 1e12f);
+        assert_int_equal(status, RHO_OK);
+        for (int i = 0; i < e.n; ++i) {
+            assert_true(e.p[RHO_AT(i, i)] <= before.p[RHO_AT(i, i)] * (1.0f + 1.0f / 1048576.0f));
+        }
+    }
+}
+
+/* A row of 0 tells nothing and costs nothing; an element that is coupled to none changes none. */
+static void what_is_not_coupled_keeps_its_bytes(void **state)
+{
+    struct sized e = {.n = 3, .x = {1.0f, 2.0f, 3.0f}};
+    const float nothing[3] = {0.0f, 0.0f, 0.0f};
+
+    (void)state;
+    e.p[RHO_AT(0, 0)] = 4.0f;
+    e.p[RHO_AT(1, 1)] = 9.0f;
+    e.p[RHO_AT(2, 2)] = 0.1f;
+    const struct sized before = e;
+    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 3, nothing, 7.0f, 1.0f), RHO_OK);
+    assert_memory_equal(&e, &before, sizeof e);
+    assert_int_equal(rho_linalg_update_at(3, e.x, e.p, 1, 1.0f, 9.0f), RHO_OK);
+    assert_true(e.x[1] == 2.5f && e.p[RHO_AT(1, 1)] == 4.5f);
+    e.x[1] = before.x[1];
+    e.p[RHO_AT(1, 1)] = before.p[RHO_AT(1, 1)];
+    assert_memory_equal(&e, &before, sizeof e);
+}
+
+/* --- what updates refuse ---------------------------------------------------------------------- */
+
+static void assert_update_refused(const struct sized *before, int index, const float *row,
+                                  float innovation, float variance, enum rho_status expected)
+{
+    struct sized e = *before;
+
+    assert_int_equal(rho_linalg_update_at(e.n, e.x, e.p, index, innovation, variance), expected);
+    assert_memory_equal(&e, before, sizeof e);
+    assert_int_equal(rho_linalg_update_along(e.n, e.x, e.p, e.n, row, innovation, variance),
+                     expected);
+    assert_memory_equal(&e, before, sizeof e);
+}
+
+static void an_update_refuses_bad_numbers_untouched(void **state)
+{
+    static const float no_variance[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY, FLT_MAX};
+    static const float no_innovation[] = {NAN, INFINITY, -INFINITY, FLT_MAX, 1e30f};
+
+    (void)state;
+    for (int n = 1; n <= MOST; ++n) {
+        struct sized e = some_estimate(n);
+        float row[MOST] = {0.0f};
+
+        e.p[0] = 1e33f;
+        row[0] = 1.0f;
+        for (size_t k = 0; k < NUM(no_variance); ++k) {
+            if (!(no_variance[k] <= FLT_MAX) || !(no_variance[k] > 0.0f)) {
+                assert_update_refused(&e, 0, row, 1.0f, no_variance[k], RHO_ERROR_SINGULAR);
+            }
+        }
+        e.p[0] = FLT_MAX; /* the sum is no number */
+        assert_update_refused(&e, 0, row, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR);
+        e.p[0] = 0.0f; /* nor its inverse */
+        assert_update_refused(&e, 0, row, 1.0f, FLT_TRUE_MIN, RHO_ERROR_SINGULAR);
+        e.p[0] = -1.0f;
+        assert_update_refused(&e, 0, row, 1.0f, 0.5f, RHO_ERROR_SINGULAR);
+        assert_update_refused(&e, 0, row, 1.0f, 1e6f, RHO_ERROR_SINGULAR);
+        e.p[0] = 4.0f;
+        for (size_t k = 0; k < NUM(no_innovation); ++k) {
+            assert_update_refused(&e, 0, row, no_innovation[k], 1.0f, RHO_ERROR_VALUE);
+        }
+    }
+}
+
+static void an_update_refuses_a_bad_estimate_untouched(void **state)
+{
+    static const float bad[] = {NAN, INFINITY, -INFINITY};
+
+    (void)state;
+    for (int n = 1; n <= MOST; ++n) {
+        for (size_t k = 0; k < NUM(bad); ++k) {
+            struct sized e = some_estimate(n);
+            float row[MOST] = {0.0f};
+
+            row[n - 1] = 1.0f;
+            e.x[0] = bad[k];
+            assert_update_refused(&e, n - 1, row, 1.0f, 1.0f, RHO_ERROR_VALUE);
+            e = some_estimate(n);
+            e.p[RHO_AT(n - 1, n - 1)] = bad[k];
+            assert_update_refused(&e, n - 1, row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
+            if (n > 1) { /* what would spread into the state */
+                e = some_estimate(n);
+                e.p[RHO_AT(n - 1, 0)] = bad[k];
+                struct sized after = e;
+                assert_int_equal(rho_linalg_update_at(n, after.x, after.p, n - 1, 1.0f, 1.0f),
+                                 RHO_ERROR_VALUE);
+                assert_int_not_equal(
+                    rho_linalg_update_along(n, after.x, after.p, n, row, 1.0f, 1.0f), RHO_OK);
+                assert_memory_equal(&after, &e, sizeof e);
+            }
+        }
+    }
+}
+
+static void an_update_checks_sizes_and_pointers(void **state)
+{
+    struct sized e = some_estimate(MOST);
+    const struct sized before = e;
+    float row[MOST] = {1.0f};
+
+    (void)state;
+    assert_int_equal(rho_linalg_update_at(3, NULL, e.p, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_at(3, e.x, NULL, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_at(0, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_at(-1, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_at(MOST + 1, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_at(3, e.x, e.p, -1, 1.0f, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_linalg_update_at(3, e.x, e.p, 3, 1.0f, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_linalg_update_along(3, NULL, e.p, 3, row, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_along(3, e.x, NULL, 3, row, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 3, NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_along(0, e.x, e.p, 0, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_along(MOST + 1, e.x, e.p, 3, row, 1.0f, 1.0f),
+                     RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 4, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 0, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_memory_equal(&e, &before, sizeof e);
+}
+
+/* --- distances -------------------------------------------------------------------------------- */
+
+/* Gauss and Jordan with the largest pivot: the inverse and the determinant. */
+static double invert(int n, double a[MOST][2 * MOST])
+{
+    double log_det = 0.0;
+
+    for (int k = 0; k < n; ++k) {
+        int best = k;
+
+        for (int i = k; i < n; ++i) {
+            best = fabs(a[i][k]) > fabs(a[best][k]) ? i : best;
+        }
+        for (int j = 0; j < 2 * n; ++j) {
+            const double swapped = a[k][j];
+
+            a[k][j] = a[best][j];
+            a[best][j] = swapped;
+        }
+        const double pivot = a[k][k];
+        log_det += log(fabs(pivot));
+        for (int j = 0; j < 2 * n; ++j) {
+            a[k][j] /= pivot;
+        }
+        for (int i = 0; i < n; ++i) {
+            const double factor = a[i][k];
+
+            for (int j = 0; j < 2 * n && i != k; ++j) {
+                a[i][j] -= factor * a[k][j];
+            }
+        }
+    }
+    return log_det;
+}
+
+static double distance2_of(const struct sized *e, double *log_det)
+{
+    double a[MOST][2 * MOST] = {{0.0}}, distance2 = 0.0;
+
+    for (int i = 0; i < e->n; ++i) {
+        a[i][e->n + i] = 1.0;
+        for (int j = 0; j < e->n; ++j) {
+            a[i][j] = e->p[RHO_AT(i, j)];
+        }
+    }
+    *log_det = invert(e->n, a);
+    for (int i = 0; i < e->n; ++i) {
+        for (int j = 0; j < e->n; ++j) {
+            distance2 += (double)e->x[i] * a[i][e->n + j] * e->x[j];
+        }
+    }
+    return distance2;
+}
+
+static void a_match_is_the_mahalanobis_distance_and_the_determinant(void **state)
+{
+    (void)state;
+    for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
+        struct sized e = some_estimate(1 + c % MOST);
+        float distance2 = GUARD, log_det = GUARD;
+        double expected_log_det;
+
+        for (int i = 0; i < e.n; ++i) {
+            e.x[i] = (float)(normal() * sqrt(e.p[RHO_AT(i, i)]));
+        }
+        const double expected = distance2_of(&e, &expected_log_det);
+        assert_true(rho_linalg_match(e.n, e.p, e.x, FLT_MAX, &distance2, &log_det));
+        assert_float_equal(distance2, expected, DISTANCE_RELATIVE * expected);
+        assert_float_equal(log_det, expected_log_det, LOG_DET_ABSOLUTE);
+    }
+}
+
+/* On the border and beside it: exact numbers. */
+static void a_match_is_within_a_distance_that_counts(void **state)
+{
+    (void)state;
+    for (int n = 1; n <= MOST; ++n) {
+        for (int k = 0; k < 2; ++k) {
+            struct sized e = {.n = n};
+            float distance2 = GUARD, log_det = GUARD;
+
+            for (int i = 0; i < n; ++i) {
+                e.p[RHO_AT(i, i)] = 4.0f;
+                e.x[i] = 2.0f;
+            }
+            const int is_matched =
+                rho_linalg_match(n, e.p, e.x, (float)n - 0.25f * (float)k, &distance2, &log_det);
+            assert_int_equal(is_matched, k == 0);
+            assert_true(distance2 == (k == 0 ? (float)n : GUARD));
+            assert_true(k == 0 ? fabs(log_det - n * log(4.0)) < 1e-5 : log_det == GUARD);
+        }
+    }
+}
+
+/* Products of all variances would be no numbers. */
+static void the_determinant_of_large_and_small_variances_is_a_number(void **state)
+{
+    static const float variances[] = {1e12f, 1e-9f};
+
+    (void)state;
+    for (size_t k = 0; k < NUM(variances); ++k) {
+        for (int n = 1; n <= MOST; ++n) {
+            struct sized e = {.n = n};
+            float distance2 = GUARD, log_det = GUARD;
+
+            for (int i = 0; i < n; ++i) {
+                e.p[RHO_AT(i, i)] = variances[k];
+            }
+            assert_true(rho_linalg_match(n, e.p, e.x, 30.0f, &distance2, &log_det));
+            assert_true(distance2 == 0.0f);
+            assert_float_equal(log_det, n * log((double)variances[k]), 1e-4);
+        }
+    }
+}
+
+static void a_match_refuses_what_is_not_positive_definite(void **state)
+{
+    static const float bad[] = {0.0f, -1.0f, NAN, INFINITY, -INFINITY};
+
+    (void)state;
+    for (int n = 1; n <= MOST; ++n) {
+        for (int c = 0; c < n * (int)NUM(bad); ++c) {
+            struct sized e = some_estimate(n);
+            float distance2 = GUARD, log_det = GUARD;
+
+            e.p[RHO_AT(c % n, c % n)] = bad[c / n];
+            assert_false(rho_linalg_match(n, e.p, e.x, FLT_MAX, &distance2, &log_det));
+            assert_true(distance2 == GUARD && log_det == GUARD);
+        }
+        for (int i = 0; i < n; ++i) {
+            struct sized e = some_estimate(n);
+            float distance2 = GUARD, log_det = GUARD;
+
+            e.x[i] = NAN;
+            assert_false(rho_linalg_match(n, e.p, e.x, FLT_MAX, &distance2, &log_det));
+            assert_true(distance2 == GUARD && log_det == GUARD);
+        }
+    }
+}
+
+static void a_match_checks_sizes_and_pointers(void **state)
+{
+    struct sized e = some_estimate(MOST);
+    float distance2 = GUARD, log_det = GUARD;
+
+    (void)state;
+    assert_false(rho_linalg_match(0, e.p, e.x, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_match(MOST + 1, e.p, e.x, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_match(2, NULL, e.x, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_match(2, e.p, NULL, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_match(2, e.p, e.x, 30.0f, NULL, &log_det));
+    assert_false(rho_linalg_match(2, e.p, e.x, 30.0f, &distance2, NULL));
+    assert_true(distance2 == GUARD && log_det == GUARD);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_update_of_an_element_is_that_of_full_matrices),
+        cmocka_unit_test(an_update_along_a_row_is_that_of_full_matrices),
+        cmocka_unit_test(six_elements_are_updated_as_by_the_routine_for_six),
+        cmocka_unit_test(sharp_measurements_leave_a_vague_estimate_positive_definite),
+        cmocka_unit_test(sharp_elements_leave_a_correlated_estimate_positive_definite),
+        cmocka_unit_test(no_variance_grows_by_more_than_rounding),
+        cmocka_unit_test(what_is_not_coupled_keeps_its_bytes),
+        cmocka_unit_test(an_update_refuses_bad_numbers_untouched),
+        cmocka_unit_test(an_update_refuses_a_bad_estimate_untouched),
+        cmocka_unit_test(an_update_checks_sizes_and_pointers),
+        cmocka_unit_test(a_match_is_the_mahalanobis_distance_and_the_determinant),
+        cmocka_unit_test(a_match_is_within_a_distance_that_counts),
+        cmocka_unit_test(the_determinant_of_large_and_small_variances_is_a_number),
+        cmocka_unit_test(a_match_refuses_what_is_not_positive_definite),
+        cmocka_unit_test(a_match_checks_sizes_and_pointers),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

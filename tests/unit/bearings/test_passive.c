@@ -1,0 +1,716 @@
+/* SPDX-License-Identifier: MIT */
+/* Tracks from bearings: what is found in many scenes, how well, and what a batch is. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "passive_scene.h"
+#include "rhotrack/passive.h"
+
+static struct rho_passive passive, other;
+static struct scene scene;
+
+/* ---- the best fit there is ------------------------------------------------------------------- */
+
+/*
+ * Maximum likelihood with the true association: place at mid-batch and velocity, in double
+ * precision.
+ */
+struct fit {
+    double state[4], covariance[4][4];
+};
+
+static double middle_s(void)
+{
+    return 0.5 * (scene.time_s[0] + scene.time_s[scene.scans - 1]);
+}
+
+/* Gauss-Jordan; a is positive definite. */
+static void invert(double a[4][4], double inverse[4][4])
+{
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+            inverse[i][j] = i == j;
+        }
+    }
+    for (int i = 0; i < 4; i++) {
+        double pivot = a[i][i];
+        for (int j = 0; j < 4; j++) {
+            a[i][j] /= pivot;
+            inverse[i][j] /= pivot;
+        }
+        for (int row = 0; row < 4; row++) {
+            double factor = row == i ? 0.0 : a[row][i];
+            for (int j = 0; j < 4; j++) {
+                a[row][j] -= factor * a[i][j];
+                inverse[row][j] -= factor * inverse[i][j];
+            }
+        }
+    }
+}
+
+struct normal_equations {
+    double a[4][4], b[4];
+};
+
+static void add_seen(struct normal_equations *equations, const double state[4], unsigned k,
+                     unsigned s, const struct rho_bearing *seen)
+{
+    double t_s = scene.time_s[k] - middle_s();
+    double dx_m = state[0] + t_s * state[2] - scene.sensor_x_m[s];
+    double dy_m = state[1] + t_s * state[3] - scene.sensor_y_m[s];
+    double range2 = dx_m * dx_m + dy_m * dy_m, weight = 1.0 / pow(seen->sigma_rad, 2.0);
+    double off_rad = remainder(seen->bearing_rad - atan2(dy_m, dx_m), 2.0 * PI);
+    double row[4] = {-dy_m / range2, dx_m / range2, -t_s * dy_m / range2, t_s * dx_m / range2};
+    for (int i = 0; i < 4; i++) {
+        equations->b[i] += weight * row[i] * off_rad;
+        for (int j = 0; j < 4; j++) {
+            equations->a[i][j] += weight * row[i] * row[j];
+        }
+    }
+}
+
+static struct normal_equations equations_of(int target, const double state[4])
+{
+    struct normal_equations equations = {.b = {0}};
+    for (int i = 2; i < 4; i++) {
+        equations.a[i][i] = 1.0 / (500.0 * 500.0);
+        equations.b[i] = -state[i] / (500.0 * 500.0);
+    }
+    for (unsigned k = 0; k < scene.scans; k++) {
+        for (unsigned s = 0; s < scene.sensors; s++) {
+            const struct look *look = &scene.look[k][s];
+            for (unsigned i = 0; i < look->count; i++) {
+                if (look->target[i] == target && !look->is_absent) {
+                    add_seen(&equations, state, k, s, &look->bearings[i]);
+                }
+            }
+        }
+    }
+    return equations;
+}
+
+static struct fit best_fit(unsigned target)
+{
+    const struct target *truth = &scene.target[target];
+    struct fit fit = {.state = {target_x_m(truth, middle_s()), target_y_m(truth, middle_s()),
+                                truth->vx_mps, truth->vy_mps}};
+    for (int step = 0; step < 12; step++) {
+        struct normal_equations equations = equations_of((int)target, fit.state);
+        invert(equations.a, fit.covariance);
+        for (int i = 0; i < 4; i++) {
+            for (int j = 0; j < 4; j++) {
+                fit.state[i] += fit.covariance[i][j] * equations.b[j];
+            }
+        }
+    }
+    return fit;
+}
+
+/* ---- many scenes ----------------------------------------------------------------------------- */
+
+struct figures {
+    unsigned runs, targets, found, ghosts;
+    double error2, best_error2, nees;
+};
+
+static double nees_of(const struct rho_passive_track *track, const struct target *truth)
+{
+    double last_s = scene.time_s[scene.scans - 1];
+    double off[4] = {track->x_m - target_x_m(truth, last_s), track->y_m - target_y_m(truth, last_s),
+                     track->vx_mps - truth->vx_mps, track->vy_mps - truth->vy_mps};
+    double a[4][4], inverse[4][4], sum = 0.0;
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+            int row = i > j ? i : j, column = i > j ? j : i;
+            a[i][j] = track->covariance[row * (row + 1) / 2 + column];
+        }
+    }
+    invert(a, inverse);
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+            sum += off[i] * inverse[i][j] * off[j];
+        }
+    }
+    return sum;
+}
+
+/* How far a track is from a target at mid-batch. */
+static double miss_m(const struct rho_passive_track *track, const struct target *truth)
+{
+    double half_s = 0.5 * scene_span_s(&scene);
+    return hypot(track->x_m - half_s * track->vx_mps - target_x_m(truth, middle_s()),
+                 track->y_m - half_s * track->vy_mps - target_y_m(truth, middle_s()));
+}
+
+/*
+ * The nearest track within max(1 km, 4 sd) that is no other target's; num_tracks where there is
+ * none.
+ */
+static unsigned find_track(unsigned target, const struct fit *best, const uint8_t *is_taken)
+{
+    double least_m = fmax(1000.0, 4.0 * sqrt(best->covariance[0][0] + best->covariance[1][1]));
+    unsigned nearest = passive.num_tracks;
+    for (unsigned i = 0; i < passive.num_tracks; i++) {
+        double off_m = miss_m(&passive.tracks[i], &scene.target[target]);
+        if (!is_taken[i] && off_m < least_m) {
+            least_m = off_m;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+static void add_figures(struct figures *figures)
+{
+    uint8_t is_taken[RHO_MAX_PASSIVE_TRACKS] = {0};
+    unsigned found = 0;
+    for (unsigned i = 0; i < scene.targets; i++) {
+        const struct target *truth = &scene.target[i];
+        struct fit best = best_fit(i);
+        unsigned at = find_track(i, &best, is_taken);
+        if (at < passive.num_tracks) {
+            is_taken[at] = 1;
+            found++;
+            figures->error2 += pow(miss_m(&passive.tracks[at], truth), 2.0);
+            figures->best_error2 += pow(best.state[0] - target_x_m(truth, middle_s()), 2.0) +
+                                    pow(best.state[1] - target_y_m(truth, middle_s()), 2.0);
+            double nees = nees_of(&passive.tracks[at], truth);
+            assert_true(nees > 0.0);
+            figures->nees += nees;
+        }
+    }
+    figures->runs++;
+    figures->targets += scene.targets;
+    figures->found += found;
+    figures->ghosts += passive.num_tracks - found;
+}
+
+/* `from` is the scene to draw again and again. */
+static struct figures figures_of(const struct scene *from, unsigned runs)
+{
+    struct figures figures = {0};
+    for (unsigned run = 0; run < runs; run++) {
+        scene = *from;
+        draw_scene(&scene);
+        assert_int_equal(search_scene(&passive, &scene), RHO_OK);
+        assert_true(are_tracks_sound(&passive));
+        add_figures(&figures);
+    }
+    return figures;
+}
+
+static double found_share(const struct figures *figures)
+{
+    return figures->targets > 0 ? (double)figures->found / figures->targets : 0.0;
+}
+
+static double ghosts_a_run(const struct figures *figures)
+{
+    return (double)figures->ghosts / figures->runs;
+}
+
+static double error_ratio(const struct figures *figures)
+{
+    return sqrt(figures->error2 / figures->best_error2);
+}
+
+static void print_figures(const char *what, const struct figures *figures)
+{
+    print_message("%s: found %.4f, ghosts a run %.4f, rmse %.0f m (%.3f of the best), NEES %.2f\n",
+                  what, found_share(figures), ghosts_a_run(figures),
+                  sqrt(figures->error2 / figures->found), error_ratio(figures),
+                  figures->nees / figures->found);
+}
+
+static void add_all(struct figures *sum, const struct figures *figures)
+{
+    sum->runs += figures->runs;
+    sum->targets += figures->targets;
+    sum->found += figures->found;
+    sum->ghosts += figures->ghosts;
+    sum->error2 += figures->error2;
+    sum->best_error2 += figures->best_error2;
+    sum->nees += figures->nees;
+}
+
+/*
+ * Two targets can be such that their ghosts fly straight too and fit the noisy bearings better,
+ * once in some hundred scenes: the figures are of many.
+ */
+static void clean_scenes_yield_their_targets_and_no_ghosts(void **state)
+{
+    (void)state;
+    static const double sigmas_deg[3] = {0.05, 0.1, 0.2};
+    struct figures sum = {0};
+    random_state = 77;
+    for (int i = 0; i < 3; i++) {
+        struct scene from = scene_of(2, 2, sigmas_deg[i], 1.0, 0.0);
+        struct figures figures = figures_of(&from, 300);
+        print_figures("2 sensors, 2 targets, clean", &figures);
+        assert_true(found_share(&figures) >= 0.99);
+        assert_true(ghosts_a_run(&figures) <= 0.02);
+        assert_true(error_ratio(&figures) <= 1.08);
+        add_all(&sum, &figures);
+    }
+    assert_true(sum.found >= 1780);
+    assert_in_range((int)(100.0 * sum.nees / sum.found), 350, 470);
+}
+
+static void misses_and_false_bearings_leave_two_sensors_most_targets(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 4, 0.1, 0.9, 1.0);
+    random_state = 2;
+    struct figures figures = figures_of(&from, 60);
+    print_figures("2 sensors, 4 targets, P_D 0.9, 1 false", &figures);
+    assert_true(found_share(&figures) >= 0.94);
+    assert_true(ghosts_a_run(&figures) <= 0.12);
+    assert_true(error_ratio(&figures) <= 1.08);
+    assert_in_range((int)(100.0 * figures.nees / figures.found), 350, 470);
+}
+
+static void three_sensors_find_them_all(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(3, 4, 0.1, 0.9, 1.0);
+    random_state = 3;
+    struct figures figures = figures_of(&from, 60);
+    print_figures("3 sensors, 4 targets, P_D 0.9, 1 false", &figures);
+    assert_true(found_share(&figures) >= 0.99);
+    assert_true(ghosts_a_run(&figures) <= 0.02);
+    assert_true(error_ratio(&figures) <= 1.08);
+    assert_in_range((int)(100.0 * figures.nees / figures.found), 350, 470);
+}
+
+static void false_bearings_alone_are_no_track(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 0, 0.1, 0.9, 4.0);
+    random_state = 4;
+    struct figures figures = figures_of(&from, 60);
+    assert_int_equal(figures.ghosts, 0);
+}
+
+static void scans_may_come_at_unequal_intervals(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
+    from.jitter_s = 7.0;
+    random_state = 5;
+    struct figures figures = figures_of(&from, 25);
+    print_figures("unequal intervals", &figures);
+    assert_true(found_share(&figures) >= 0.98 && ghosts_a_run(&figures) <= 0.04);
+    assert_true(error_ratio(&figures) <= 1.08);
+    assert_in_range((int)(100.0 * figures.nees / figures.found), 300, 500);
+}
+
+static void every_bearing_counts_by_its_own_sigma(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
+    from.sigma_from_rad = 0.02 * DEG_RAD;
+    from.sigma_to_rad = 0.3 * DEG_RAD;
+    random_state = 6;
+    struct figures figures = figures_of(&from, 40);
+    print_figures("own sigmas", &figures);
+    assert_true(found_share(&figures) >= 0.98 && ghosts_a_run(&figures) <= 0.04);
+    assert_true(error_ratio(&figures) <= 1.08);
+    assert_in_range((int)(100.0 * figures.nees / figures.found), 320, 500);
+}
+
+/* ---- one scene ------------------------------------------------------------------------------- */
+
+static void draw(const struct scene *from, uint64_t seed)
+{
+    random_state = seed;
+    scene = *from;
+    draw_scene(&scene);
+}
+
+static void search_into(struct rho_passive *into)
+{
+    assert_int_equal(search_scene(into, &scene), RHO_OK);
+    assert_true(are_tracks_sound(into));
+}
+
+/* A track of the unmoved scene where it is in the moved one. */
+static struct rho_passive_track moved(const struct rho_passive_track *from, double turn_rad,
+                                      double x_m, double y_m)
+{
+    double c = cos(turn_rad), s = sin(turn_rad);
+    struct rho_passive_track to = *from;
+    to.x_m = (float)(c * from->x_m - s * from->y_m + x_m);
+    to.y_m = (float)(s * from->x_m + c * from->y_m + y_m);
+    to.vx_mps = (float)(c * from->vx_mps - s * from->vy_mps);
+    to.vy_mps = (float)(s * from->vx_mps + c * from->vy_mps);
+    return to;
+}
+
+static int is_among(const struct rho_passive *tracks, const struct rho_passive_track *sought)
+{
+    for (unsigned i = 0; i < tracks->num_tracks; i++) {
+        const struct rho_passive_track *track = &tracks->tracks[i];
+        if (fabsf(track->x_m - sought->x_m) < 5.0f && fabsf(track->y_m - sought->y_m) < 5.0f &&
+            fabsf(track->vx_mps - sought->vx_mps) < 0.2f &&
+            fabsf(track->vy_mps - sought->vy_mps) < 0.2f && track->hits == sought->hits) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void expect_moved(double turn_rad, double x_m, double y_m)
+{
+    move_scene(&scene, turn_rad, x_m, y_m);
+    search_into(&other);
+    assert_int_equal(other.num_tracks, passive.num_tracks);
+    for (unsigned i = 0; i < passive.num_tracks; i++) {
+        struct rho_passive_track sought = moved(&passive.tracks[i], turn_rad, x_m, y_m);
+        assert_true(is_among(&other, &sought));
+    }
+}
+
+static void a_scene_may_lie_anywhere_and_any_way_round(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
+    for (unsigned i = 0; i < 16; i++) {
+        draw(&from, 100 + i);
+        search_into(&passive);
+        assert_int_equal(passive.num_tracks, 2);
+        expect_moved(i * 2.0 * PI / 16.0 + 0.01, 300e3, -200e3);
+    }
+}
+
+static int same_tracks(void)
+{
+    return passive.num_tracks == other.num_tracks &&
+           memcmp(passive.tracks, other.tracks, passive.num_tracks * sizeof passive.tracks[0]) ==
+               0 &&
+           memcmp(&passive.work, &other.work, sizeof passive.work) == 0;
+}
+
+static void the_same_input_makes_the_same_bytes(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(3, 4, 0.1, 0.9, 1.0);
+    draw(&from, 8);
+    memset(&other, 0xa5, sizeof other);
+    search_into(&passive);
+    search_into(&other);
+    assert_true(passive.num_tracks >= 3);
+    assert_true(same_tracks());
+    assert_int_equal(rho_passive_search(&other), RHO_OK);
+    assert_true(same_tracks());
+}
+
+static void the_order_of_bearings_is_no_matter(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(3, 3, 0.1, 0.9, 1.0);
+    draw(&from, 9);
+    search_into(&passive);
+    for (unsigned k = 0; k < scene.scans; k++) {
+        for (unsigned s = 0; s < scene.sensors; s++) {
+            shuffle(&scene.look[k][s]);
+        }
+    }
+    assert_true(passive.num_tracks >= 2);
+    expect_moved(0.0, 0.0, 0.0);
+}
+
+/* ---- the batch ------------------------------------------------------------------------------- */
+
+static void a_ninth_frame_lets_the_oldest_leave(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
+    from.scans = 9;
+    draw(&from, 10);
+    search_into(&passive);
+    assert_int_equal(passive.batch.num_scans, 8);
+    assert_true(passive.batch.time_us[0] == 10000000 && passive.batch.time_us[7] == 80000000);
+    assert_int_equal(start_passive(&other), RHO_OK);
+    assert_int_equal(push_from(&other, &scene, 1), RHO_OK);
+    assert_int_equal(rho_passive_search(&other), RHO_OK);
+    assert_int_equal(passive.num_tracks, 2);
+    assert_true(same_tracks());
+}
+
+static void a_track_is_at_the_newest_scan(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
+    draw(&from, 11);
+    search_into(&passive);
+    const struct target *truth = &scene.target[0];
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].hits, 24);
+    assert_int_equal(passive.tracks[0].scans, 0xff);
+    assert_true(fabs(passive.tracks[0].x_m - target_x_m(truth, 70.0)) <
+                4.0 * sqrt(passive.tracks[0].covariance[0]));
+    assert_true(fabs(passive.tracks[0].y_m - target_y_m(truth, 70.0)) <
+                4.0 * sqrt(passive.tracks[0].covariance[2]));
+}
+
+static void a_push_forgets_the_last_search(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
+    from.scans = 9;
+    draw(&from, 12);
+    assert_int_equal(start_passive(&passive), RHO_OK);
+    scene.scans = 8;
+    assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+    assert_int_equal(passive.num_tracks, 0);
+    assert_int_equal(rho_passive_search(&passive), RHO_OK);
+    assert_int_equal(passive.num_tracks, 2);
+    assert_int_equal(push_scan(&passive, &scene, 8), RHO_OK);
+    assert_int_equal(passive.num_tracks, 0);
+}
+
+static void four_scans_are_the_fewest(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
+    for (from.scans = 3; from.scans <= 4; from.scans++) {
+        draw(&from, 13);
+        search_into(&passive);
+        assert_int_equal(passive.num_tracks, from.scans == 4);
+    }
+}
+
+enum third { SAW_NOTHING, WAS_ABSENT, LOOKED_AWAY, LOOKED_THERE };
+
+/*
+ * Sensor 2 sees the target at the first scan only: the other two alone have two thirds of the
+ * bearings.
+ */
+static void search_without_third(enum third third, float hits_min)
+{
+    struct rho_passive_config config;
+    struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
+    draw(&from, 14);
+    for (unsigned k = 1; k < scene.scans; k++) {
+        scene.look[k][2].count = 0;
+        scene.look[k][2].is_absent = third == WAS_ABSENT;
+        scene.look[k][2].sector_from_rad = third == LOOKED_AWAY ? 2.0 : -0.5 * PI;
+        scene.look[k][2].sector_to_rad = third == LOOKED_AWAY    ? 4.0
+                                         : third == LOOKED_THERE ? 0.5 * PI
+                                                                 : -0.5 * PI;
+    }
+    rho_passive_config_default(&config);
+    config.hits_min = hits_min;
+    config.field_of_view_rad = (float)(2.0 * PI); /* the density's lower limit, in either case */
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+    assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+    assert_int_equal(rho_passive_search(&passive), RHO_OK);
+    assert_true(are_tracks_sound(&passive));
+}
+
+static void what_a_sensor_did_not_look_at_is_no_miss(void **state)
+{
+    (void)state;
+    search_without_third(WAS_ABSENT, 0.9f);
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].hits, 17);
+    int32_t score_mnat = passive.tracks[0].score_mnat;
+    search_without_third(LOOKED_AWAY, 0.9f);
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].hits, 17);
+    assert_int_equal(passive.tracks[0].score_mnat, score_mnat);
+    search_without_third(SAW_NOTHING, 0.9f);
+    assert_int_equal(passive.num_tracks, 0);
+    search_without_third(LOOKED_THERE, 0.9f);
+    assert_int_equal(passive.num_tracks, 0);
+}
+
+static void a_miss_costs_the_logarithm_of_its_probability(void **state)
+{
+    (void)state;
+    search_without_third(WAS_ABSENT, 0.65f);
+    assert_int_equal(passive.num_tracks, 1);
+    int32_t score_mnat = passive.tracks[0].score_mnat;
+    search_without_third(SAW_NOTHING, 0.65f);
+    assert_int_equal(passive.num_tracks, 1);
+    assert_in_range(score_mnat - passive.tracks[0].score_mnat, 16118 - 20, 16118 + 20);
+}
+
+static void one_sensor_makes_no_track(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(1, 2, 0.1, 1.0, 1.0);
+    draw(&from, 15);
+    search_into(&passive);
+    assert_int_equal(passive.batch.num_sensors, 1);
+    assert_int_equal(passive.num_tracks, 0);
+}
+
+static void the_work_is_counted(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
+    draw(&from, 16);
+    search_into(&passive);
+    assert_int_equal(passive.work.crossings, 32);
+    assert_in_range(passive.work.ghosts, 1, 16);
+    assert_int_equal(passive.work.points_dropped, 0);
+    assert_true(passive.work.peaks > 0 && passive.work.hypotheses > 0 && passive.work.fits > 0);
+}
+
+/* ---- figures that must hold together --------------------------------------------------------- */
+
+static void the_best_score_comes_first(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(3, 4, 0.1, 0.9, 1.0);
+    for (unsigned run = 0; run < 60; run++) {
+        draw(&from, 1 + run);
+        search_into(&passive);
+        for (unsigned i = 1; i < passive.num_tracks; i++) {
+            assert_true(passive.tracks[i - 1].score_mnat >= passive.tracks[i].score_mnat);
+        }
+    }
+}
+
+/* One target of two sensors of such sigmas. Returns how often it was found. */
+static unsigned find_with(double sigma_a_rad, double sigma_b_rad, unsigned runs)
+{
+    unsigned found = 0;
+    random_state = 5;
+    for (unsigned run = 0; run < runs; run++) {
+        scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+        set_scan_times(&scene);
+        scene.target[0] = random_target(scene_span_s(&scene));
+        for (unsigned k = 0; k < scene.scans; k++) {
+            for (unsigned s = 0; s < 2; s++) {
+                scene.sigma_from_rad = scene.sigma_to_rad = s ? sigma_b_rad : sigma_a_rad;
+                see(&scene, k, s);
+            }
+        }
+        search_into(&passive); /* its tracks have a covariance */
+        found += passive.num_tracks == 1;
+    }
+    return found;
+}
+
+static void a_coarse_sensor_helps_a_precise_one(void **state)
+{
+    (void)state;
+    assert_true(find_with(1e-4, 0.01, 30) >= 29);
+    assert_true(find_with(1e-5, 0.01, 30) >= 29);
+}
+
+static void targets_beyond_200_km_are_found(void **state)
+{
+    (void)state;
+    unsigned found = 0;
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.range_max_m = 400e3f;
+    config.rho_cell_m = 8000.0f;
+    for (unsigned run = 0; run < 10; run++) {
+        random_state = 300 + run;
+        scene = scene_of(2, 1, 0.05, 1.0, 0.0);
+        scene.sensor_y_m[0] = -40e3;
+        scene.sensor_y_m[1] = 40e3;
+        set_scan_times(&scene);
+        scene.target[0] =
+            (struct target){.x_m = 250e3, .y_m = 5e3, .vx_mps = -250.0, .vy_mps = 40.0};
+        see_all(&scene);
+        assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+        assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+        assert_int_equal(rho_passive_search(&passive), RHO_OK);
+        found += passive.num_tracks == 1 && miss_m(&passive.tracks[0], &scene.target[0]) < 15e3;
+    }
+    assert_int_equal(found, 10);
+}
+
+/* They say nothing of range and speed, whatever share of the bearings is asked for. */
+static void bearings_of_one_sensor_alone_are_no_track(void **state)
+{
+    (void)state;
+    struct scene from = scene_of(2, 2, 0.1, 0.9, 1.0);
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.hits_min = 0.4f;
+    for (unsigned run = 0; run < 60; run++) {
+        draw(&from, 200 + run);
+        assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+        assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+        assert_int_equal(rho_passive_search(&passive), RHO_OK);
+        for (unsigned i = 0; i < passive.num_tracks; i++) {
+            unsigned hits[2] = {0, 0};
+            for (unsigned k = 0; k < scene.scans; k++) {
+                hits[0] += passive.tracks[i].claim[k][0] > 0;
+                hits[1] += passive.tracks[i].claim[k][1] > 0;
+            }
+            assert_true(hits[0] >= 2 && hits[1] >= 2);
+        }
+    }
+}
+
+/* Each bearing is so many of its sigmas off, to either side by turns. */
+static void scatter(double sigmas)
+{
+    struct scene from = scene_of(2, 1, 0.1, 1.0, 0.0);
+    draw(&from, 21);
+    for (unsigned k = 0; k < scene.scans; k++) {
+        for (unsigned s = 0; s < scene.sensors; s++) {
+            double dx_m = target_x_m(&scene.target[0], scene.time_s[k]) - scene.sensor_x_m[s];
+            double dy_m = target_y_m(&scene.target[0], scene.time_s[k]) - scene.sensor_y_m[s];
+            double off_rad = (k % 2 ? sigmas : -sigmas) * scene.sigma_from_rad;
+            scene.look[k][s].bearings[0].bearing_rad = (float)(atan2(dy_m, dx_m) + off_rad);
+        }
+    }
+    search_into(&passive);
+}
+
+/*
+ * 16 bearings within their gates, 12 degrees of freedom: chi-square of 16 and 77 at most, 99.9 %
+ * are below 33.
+ */
+static void bearings_that_scatter_too_much_are_no_track(void **state)
+{
+    (void)state;
+    scatter(1.0);
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].hits, 16);
+    scatter(2.2);
+    assert_int_equal(passive.num_tracks, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clean_scenes_yield_their_targets_and_no_ghosts),
+        cmocka_unit_test(misses_and_false_bearings_leave_two_sensors_most_targets),
+        cmocka_unit_test(three_sensors_find_them_all),
+        cmocka_unit_test(false_bearings_alone_are_no_track),
+        cmocka_unit_test(scans_may_come_at_unequal_intervals),
+        cmocka_unit_test(every_bearing_counts_by_its_own_sigma),
+        cmocka_unit_test(a_scene_may_lie_anywhere_and_any_way_round),
+        cmocka_unit_test(the_same_input_makes_the_same_bytes),
+        cmocka_unit_test(the_order_of_bearings_is_no_matter),
+        cmocka_unit_test(a_ninth_frame_lets_the_oldest_leave),
+        cmocka_unit_test(a_track_is_at_the_newest_scan),
+        cmocka_unit_test(a_push_forgets_the_last_search),
+        cmocka_unit_test(four_scans_are_the_fewest),
+        cmocka_unit_test(what_a_sensor_did_not_look_at_is_no_miss),
+        cmocka_unit_test(a_miss_costs_the_logarithm_of_its_probability),
+        cmocka_unit_test(one_sensor_makes_no_track),
+        cmocka_unit_test(the_work_is_counted),
+        cmocka_unit_test(the_best_score_comes_first),
+        cmocka_unit_test(a_coarse_sensor_helps_a_precise_one),
+        cmocka_unit_test(targets_beyond_200_km_are_found),
+        cmocka_unit_test(bearings_of_one_sensor_alone_are_no_track),
+        cmocka_unit_test(bearings_that_scatter_too_much_are_no_track),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

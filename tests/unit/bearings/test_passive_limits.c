@@ -1,0 +1,779 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Tracks from bearings: what is refused, what becomes of bad bearings, full capacities and hostile
+ * input.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "passive_scene.h"
+#include "rhotrack/passive.h"
+
+static struct rho_passive passive, before;
+static struct scene scene;
+static struct full_frame full;
+
+static void start_with(const struct rho_passive_config *config)
+{
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, config), RHO_OK);
+}
+
+static void start(void)
+{
+    assert_int_equal(start_passive(&passive), RHO_OK);
+}
+
+/* A drawn scene, its first 5 frames pushed and searched, its sixth in `full`. */
+static void start_batch(void)
+{
+    random_state = 3;
+    scene = scene_of(2, 2, 0.1, 1.0, 0.0);
+    draw_scene(&scene);
+    start();
+    for (unsigned k = 0; k < 5; k++) {
+        assert_int_equal(push_scan(&passive, &scene, k), RHO_OK);
+    }
+    assert_int_equal(rho_passive_search(&passive), RHO_OK);
+    fill_frame(&scene, 5, &full);
+    before = passive;
+}
+
+static void expect_refused(enum rho_status status)
+{
+    uint8_t fates[sizeof full.fates];
+    memcpy(fates, full.fates, sizeof fates);
+    assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), status);
+    assert_memory_equal(&passive, &before, sizeof passive);
+    assert_memory_equal(full.fates, fates, sizeof fates);
+}
+
+/* ---- configuration --------------------------------------------------------------------------- */
+
+static void expect_config(const struct rho_passive_config *config, enum rho_status status)
+{
+    memset(&passive, 0x5a, sizeof passive);
+    before = passive;
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, config), status);
+    if (status != RHO_OK) {
+        assert_memory_equal(&passive, &before, sizeof passive);
+    }
+}
+
+#define EXPECT_FIELD(field, value, status)                                                         \
+    do {                                                                                           \
+        struct rho_passive_config config;                                                          \
+        rho_passive_config_default(&config);                                                       \
+        config.field = (value);                                                                    \
+        expect_config(&config, (status));                                                          \
+    } while (0)
+
+static void scans_and_rules_have_limits(void **state)
+{
+    (void)state;
+    EXPECT_FIELD(scans, 3, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(scans, 4, RHO_OK);
+    EXPECT_FIELD(scans, RHO_MAX_PASSIVE_SCANS, RHO_OK);
+    EXPECT_FIELD(scans, RHO_MAX_PASSIVE_SCANS + 1, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(scans, 0, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(rule, RHO_GHOST_NO_RULE, RHO_OK);
+    EXPECT_FIELD(rule, RHO_GHOST_LITERAL, RHO_OK);
+    EXPECT_FIELD(rule, (enum rho_ghost_rule)(RHO_GHOST_SAFE + 1), RHO_ERROR_CONFIG);
+    EXPECT_FIELD(rule, (enum rho_ghost_rule) - 1, RHO_ERROR_CONFIG);
+}
+
+static void what_targets_and_sensors_are_has_limits(void **state)
+{
+    (void)state;
+    EXPECT_FIELD(range_max_m, 999.0f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(range_max_m, 1000.0f, RHO_OK);
+    EXPECT_FIELD(range_max_m, 500001.0f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(v_max_mps, 0.9f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(v_max_mps, 1.0f, RHO_OK);
+    EXPECT_FIELD(v_max_mps, RHO_LIMIT_SPEED_MPS, RHO_OK);
+    EXPECT_FIELD(v_max_mps, 1.01f * RHO_LIMIT_SPEED_MPS, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(pd, 0.009f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(pd, 0.01f, RHO_OK);
+    EXPECT_FIELD(pd, 0.999f, RHO_OK);
+    EXPECT_FIELD(pd, 1.0f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(field_of_view_rad, 0.009f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(field_of_view_rad, 0.01f, RHO_OK);
+    EXPECT_FIELD(field_of_view_rad, (float)(2.0 * PI), RHO_OK);
+    EXPECT_FIELD(field_of_view_rad, 6.29f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(hits_min, 0.09f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(hits_min, 0.1f, RHO_OK);
+    EXPECT_FIELD(hits_min, 1.0f, RHO_OK);
+    EXPECT_FIELD(hits_min, 1.01f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(false_tracks_per_hour, 0.0f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(false_tracks_per_hour, 0.9e-6f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(false_tracks_per_hour, 1.0e-6f, RHO_OK);
+    EXPECT_FIELD(false_tracks_per_hour, 1.0e6f, RHO_OK);
+    EXPECT_FIELD(false_tracks_per_hour, 1.1e6f, RHO_ERROR_CONFIG);
+}
+
+static void cells_must_hold_what_is_in_range(void **state)
+{
+    (void)state;
+    float least_m = 2.0f * 100000.0f / (float)RHO_PASSIVE_RHO_CELLS;
+    EXPECT_FIELD(rho_cell_m, 0.99f * least_m, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(rho_cell_m, 1.01f * least_m, RHO_OK);
+    EXPECT_FIELD(rho_cell_m, 0.0f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(rho_cell_m, -2000.0f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(theta_cell_rad, 0.9f * (float)PI / RHO_PASSIVE_THETA_CELLS, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(theta_cell_rad, 0.25f, RHO_OK);
+    EXPECT_FIELD(theta_cell_rad, 0.51f, RHO_ERROR_CONFIG);
+    EXPECT_FIELD(theta_cell_rad, 0.0f, RHO_ERROR_CONFIG);
+}
+
+static void parameters_that_are_not_finite_are_refused(void **state)
+{
+    (void)state;
+    const float bad[] = {NAN, INFINITY, -INFINITY};
+    for (int i = 0; i < 3; i++) {
+        EXPECT_FIELD(range_max_m, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(v_max_mps, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(pd, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(field_of_view_rad, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(hits_min, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(false_tracks_per_hour, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(rho_cell_m, bad[i], RHO_ERROR_CONFIG);
+        EXPECT_FIELD(theta_cell_rad, bad[i], RHO_ERROR_CONFIG);
+    }
+}
+
+static void the_default_is_what_the_header_says(void **state)
+{
+    (void)state;
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    assert_int_equal(config.scans, 8);
+    assert_int_equal(config.rule, RHO_GHOST_SAFE);
+    assert_float_equal(config.range_max_m, 100e3, 0.0);
+    assert_float_equal(config.v_max_mps, 450.0, 0.0);
+    assert_float_equal(config.pd, 0.9, 1e-6);
+    assert_float_equal(config.field_of_view_rad, PI, 1e-6);
+    assert_float_equal(config.hits_min, 0.65, 1e-6);
+    assert_float_equal(config.false_tracks_per_hour, 1.0, 0.0);
+    assert_float_equal(config.rho_cell_m, 2000.0, 0.0);
+    assert_float_equal(config.theta_cell_rad, 5.0 * DEG_RAD, 1e-6);
+    expect_config(&config, RHO_OK);
+}
+
+static void a_configuration_may_be_the_objects_own(void **state)
+{
+    (void)state;
+    start_batch();
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, &passive.config), RHO_OK);
+    assert_int_equal(passive.config.scans, 8);
+    assert_int_equal(passive.batch.num_scans + passive.batch.num_sensors, 0);
+}
+
+/* ---- refusals -------------------------------------------------------------------------------- */
+
+static void null_pointers_are_refused(void **state)
+{
+    (void)state;
+    start_batch();
+    assert_int_equal(rho_passive_init(NULL, sizeof passive, &passive.config), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_push(NULL, &full.frame, full.fates), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_push(&passive, NULL, full.fates), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_push(&passive, &full.frame, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_search(NULL), RHO_ERROR_NULL);
+    full.scans[1].bearings = NULL;
+    expect_refused(RHO_ERROR_NULL);
+    full.frame.scans = NULL;
+    expect_refused(RHO_ERROR_NULL);
+}
+
+static void another_size_is_refused(void **state)
+{
+    (void)state;
+    start_batch();
+    assert_int_equal(rho_passive_init(&passive, sizeof passive - 1, &before.config),
+                     RHO_ERROR_SIZE);
+    assert_int_equal(rho_passive_init(&passive, 0, &before.config), RHO_ERROR_SIZE);
+    assert_memory_equal(&passive, &before, sizeof passive);
+}
+
+static void what_was_never_initialised_is_refused(void **state)
+{
+    (void)state;
+    start_batch();
+    memset(&passive, 0, sizeof passive);
+    before = passive;
+    expect_refused(RHO_ERROR_STATE);
+    assert_int_equal(rho_passive_search(&passive), RHO_ERROR_STATE);
+    assert_memory_equal(&passive, &before, sizeof passive);
+}
+
+static void a_frame_must_be_newer_than_the_newest(void **state)
+{
+    (void)state;
+    start_batch();
+    full.frame.time_us = passive.batch.time_us[4];
+    expect_refused(RHO_ERROR_STATE);
+    full.frame.time_us = passive.batch.time_us[0];
+    expect_refused(RHO_ERROR_STATE);
+    full.frame.time_us = INT64_MIN;
+    expect_refused(RHO_ERROR_STATE);
+    full.frame.time_us = passive.batch.time_us[4] + 1;
+    assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
+}
+
+static void a_sensor_that_moved_is_refused(void **state)
+{
+    (void)state;
+    start_batch();
+    full.scans[1].x_m += 0.5f;
+    expect_refused(RHO_ERROR_VALUE);
+    full.scans[1].x_m = NAN;
+    expect_refused(RHO_ERROR_VALUE);
+    full.scans[1].x_m = INFINITY;
+    expect_refused(RHO_ERROR_VALUE);
+}
+
+static void a_sensor_twice_in_a_frame_is_refused(void **state)
+{
+    (void)state;
+    start_batch();
+    full.scans[1] = full.scans[0];
+    expect_refused(RHO_ERROR_VALUE);
+}
+
+static void a_new_sensor_must_have_its_own_place(void **state)
+{
+    (void)state;
+    start_batch();
+    full.scans[1].sensor_id = 99;
+    expect_refused(RHO_ERROR_VALUE); /* where another one stands */
+    full.scans[1].y_m += 0.9f * RHO_CROSSING_BASE_MIN_M;
+    expect_refused(RHO_ERROR_VALUE);
+    full.scans[1].y_m = 3.0e5f; /* lines would leave the cells */
+    expect_refused(RHO_ERROR_VALUE);
+    full.scans[1].y_m = NAN;
+    expect_refused(RHO_ERROR_VALUE);
+    full.scans[1].y_m = 1.1f * RHO_LIMIT_POSITION_M;
+    expect_refused(RHO_ERROR_VALUE);
+    full.scans[1].y_m = 9.0e3f;
+    assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
+    assert_int_equal(passive.batch.num_sensors, 3);
+}
+
+/* Sensors 0 .. count - 1 a kilometre apart, one to a frame; returns the last outcome. */
+static enum rho_status push_sensors(unsigned count)
+{
+    enum rho_status status = RHO_OK;
+    for (unsigned i = 0; i < count && status == RHO_OK; i++) {
+        struct rho_bearing_scan scan = {.sensor_id = (int32_t)i, .x_m = 1000.0f * (float)i};
+        struct rho_frame frame = {.time_us = (int64_t)i + 1, .num_scans = 1, .scans = &scan};
+        uint8_t fate = RHO_FATE_HELD;
+        before = passive;
+        status = rho_passive_push(&passive, &frame, &fate);
+    }
+    return status;
+}
+
+static void too_many_sensors_are_refused(void **state)
+{
+    (void)state;
+    start();
+    assert_int_equal(push_sensors(RHO_MAX_PASSIVE_SENSORS), RHO_OK);
+    start();
+    assert_int_equal(push_sensors(RHO_MAX_PASSIVE_SENSORS + 1), RHO_ERROR_CAPACITY);
+    assert_memory_equal(&passive, &before, sizeof passive);
+}
+
+/* The first of the frame's scans is good, the second is refused. */
+static void a_refused_frame_teaches_no_sensor(void **state)
+{
+    (void)state;
+    start_batch();
+    full.scans[0].sensor_id = full.scans[1].sensor_id = 99;
+    full.scans[0].x_m = 5.0e3f;
+    expect_refused(RHO_ERROR_VALUE);
+}
+
+/* ---- fates ----------------------------------------------------------------------------------- */
+
+/* One sensor's bearings as the first frame; the fates come in `full`. */
+static void push_bearings(const struct rho_bearing *bearings, unsigned count)
+{
+    struct rho_bearing_scan scan = {.sensor_id = 1, .num_bearings = count, .bearings = bearings};
+    struct rho_frame frame = {.num_scans = 1, .scans = &scan};
+    start();
+    assert_int_equal(rho_passive_push(&passive, &frame, full.fates), RHO_OK);
+}
+
+static uint8_t fate_of(float bearing_rad, float sigma_rad)
+{
+    struct rho_bearing bearing = {.bearing_rad = bearing_rad, .sigma_rad = sigma_rad};
+    full.fates[0] = RHO_FATE_HELD;
+    push_bearings(&bearing, 1);
+    assert_int_equal(passive.batch.num_bearings[0][0], full.fates[0] == RHO_FATE_HELD);
+    return full.fates[0];
+}
+
+static void bad_bearings_are_invalid(void **state)
+{
+    (void)state;
+    const float pi = (float)PI, bad[] = {NAN, INFINITY, -INFINITY, 3.1417f, -3.1417f, 1e30f};
+    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_int_equal(fate_of(bad[i], 0.01f), RHO_FATE_INVALID);
+    }
+    assert_int_equal(fate_of(pi, 0.01f), RHO_FATE_HELD);
+    assert_int_equal(fate_of(-pi, 0.01f), RHO_FATE_HELD);
+    assert_int_equal(fate_of(0.0f, 0.01f), RHO_FATE_HELD);
+}
+
+static void bad_sigmas_are_invalid(void **state)
+{
+    (void)state;
+    const float bad[] = {NAN,
+                         INFINITY,
+                         0.0f,
+                         -0.01f,
+                         0.9f * RHO_LIMIT_SIGMA_RAD_MIN,
+                         1.1f * RHO_LIMIT_SIGMA_RAD_MAX};
+    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_int_equal(fate_of(0.1f, bad[i]), RHO_FATE_INVALID);
+    }
+    assert_int_equal(fate_of(0.1f, RHO_LIMIT_SIGMA_RAD_MIN), RHO_FATE_HELD);
+    assert_int_equal(fate_of(0.1f, RHO_LIMIT_SIGMA_RAD_MAX), RHO_FATE_HELD);
+}
+
+static void bearings_beyond_the_capacity_find_no_room(void **state)
+{
+    (void)state;
+    struct rho_bearing bearings[RHO_MAX_BEARINGS + 3];
+    for (unsigned i = 0; i < RHO_MAX_BEARINGS + 3; i++) {
+        bearings[i] = (struct rho_bearing){.bearing_rad = 0.01f * (float)i, .sigma_rad = 0.001f};
+    }
+    bearings[1].bearing_rad = NAN; /* takes no room */
+    memset(full.fates, RHO_FATE_HELD, sizeof full.fates);
+    push_bearings(bearings, RHO_MAX_BEARINGS + 3);
+    for (unsigned i = 0; i < RHO_MAX_BEARINGS + 3; i++) {
+        assert_int_equal(full.fates[i], i == 1                 ? RHO_FATE_INVALID
+                                        : i > RHO_MAX_BEARINGS ? RHO_FATE_NO_ROOM
+                                                               : RHO_FATE_HELD);
+    }
+    assert_int_equal(passive.batch.num_bearings[0][0], RHO_MAX_BEARINGS);
+}
+
+static void bearings_that_are_not_held_are_left_alone(void **state)
+{
+    (void)state;
+    const struct rho_bearing bearings[4] = {{.bearing_rad = 0.1f, .sigma_rad = 0.01f},
+                                            {.bearing_rad = NAN, .sigma_rad = 0.01f},
+                                            {.bearing_rad = 0.3f, .sigma_rad = 0.01f},
+                                            {.bearing_rad = 0.4f, .sigma_rad = 0.01f}};
+    const uint8_t fates[4] = {RHO_FATE_CLAIMED, RHO_FATE_STALE, RHO_FATE_HELD, RHO_FATE_NO_ROOM};
+    memcpy(full.fates, fates, sizeof fates);
+    push_bearings(bearings, 4);
+    assert_memory_equal(full.fates, fates, sizeof fates);
+    assert_int_equal(passive.batch.num_bearings[0][0], 1);
+    assert_float_equal(passive.batch.bearings[0][0][0].bearing_rad, 0.3, 1e-6);
+}
+
+/* The second scan's fates follow the first one's. */
+static void fates_come_in_the_order_of_scans(void **state)
+{
+    (void)state;
+    start_batch();
+    scene.look[5][1].bearings[1].sigma_rad = 0.0f;
+    assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
+    for (unsigned i = 0; i < 4; i++) {
+        assert_int_equal(full.fates[i], i == 3 ? RHO_FATE_INVALID : RHO_FATE_HELD);
+    }
+}
+
+/* ---- full and strange ------------------------------------------------------------------------ */
+
+static void expect_sound_search(void)
+{
+    assert_int_equal(rho_passive_search(&passive), RHO_OK);
+    assert_true(are_tracks_sound(&passive));
+}
+
+static void push_all(void)
+{
+    assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+}
+
+static void fill_looks(void)
+{
+    for (unsigned k = 0; k < scene.scans; k++) {
+        for (unsigned s = 0; s < scene.sensors; s++) {
+            for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
+                add_bearing(&scene.look[k][s], uniform(-1.5, 1.5), 0.5 * DEG_RAD, -1);
+            }
+        }
+    }
+}
+
+/* As many sensors, scans and bearings as there may be, all false. */
+static void search_full(enum rho_ghost_rule rule)
+{
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.scans = RHO_MAX_PASSIVE_SCANS;
+    config.rule = rule;
+    random_state = 20;
+    scene = scene_of(RHO_MAX_PASSIVE_SENSORS, 0, 0.1, 0.9, 0.0);
+    scene.scans = RHO_MAX_PASSIVE_SCANS;
+    set_scan_times(&scene);
+    fill_looks();
+    start_with(&config);
+    push_all();
+    expect_sound_search();
+}
+
+/* As many sensors and scans as there is room for, each look full. */
+static void every_capacity_full_of_false_bearings(void **state)
+{
+    (void)state;
+    const struct rho_passive_work *work = &passive.work;
+    search_full(RHO_GHOST_SAFE);
+    print_message("full: %u crossings, %u dropped, %u lines, %u hypotheses, %u fits, %u tracks\n",
+                  work->crossings, work->points_dropped, work->peaks, work->hypotheses, work->fits,
+                  passive.num_tracks);
+    assert_int_equal(work->crossings, RHO_MAX_PASSIVE_SENSORS * (RHO_MAX_PASSIVE_SENSORS - 1) / 2 *
+                                          RHO_MAX_PASSIVE_SCANS * RHO_MAX_BEARINGS *
+                                          RHO_MAX_BEARINGS);
+    assert_true(work->ghosts > 0 && work->points_dropped > 0);
+    assert_true(work->peaks > 10 && work->hypotheses > 10000 && work->fits > 100);
+    assert_in_range(passive.num_tracks, 0, 1); /* chance */
+}
+
+#define CROSSINGS_MOST                                                                             \
+    (RHO_MAX_PASSIVE_SENSORS * RHO_MAX_PASSIVE_SENSORS * RHO_MAX_PASSIVE_SCANS *                   \
+     RHO_MAX_BEARINGS * RHO_MAX_BEARINGS / 2)
+
+static double traces_m2[CROSSINGS_MOST];
+
+/*
+ * The trace of a crossing's covariance, as far as the rays meet within the range; else -1. In
+ * double precision.
+ */
+static double trace_m2(unsigned a, unsigned b, const struct rho_bearing *of_a,
+                       const struct rho_bearing *of_b)
+{
+    double sine = sin((double)of_b->bearing_rad - (double)of_a->bearing_rad);
+    double dx_m = scene.sensor_x_m[b] - scene.sensor_x_m[a];
+    double dy_m = scene.sensor_y_m[b] - scene.sensor_y_m[a];
+    double a_m = (dx_m * sin(of_b->bearing_rad) - dy_m * cos(of_b->bearing_rad)) / sine;
+    double b_m = (dx_m * sin(of_a->bearing_rad) - dy_m * cos(of_a->bearing_rad)) / sine;
+    double range_max_m = passive.config.range_max_m;
+    double sum_m2 = pow(a_m * (double)of_a->sigma_rad, 2) + pow(b_m * (double)of_b->sigma_rad, 2);
+    return a_m > 0.0 && b_m > 0.0 && a_m <= range_max_m && b_m <= range_max_m
+               ? sum_m2 / (sine * sine)
+               : -1.0;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double first = *(const double *)a, second = *(const double *)b;
+    return (first > second) - (first < second);
+}
+
+static unsigned collect_traces(void)
+{
+    unsigned count = 0;
+    for (unsigned a = 0; a + 1 < scene.sensors; a++) {
+        for (unsigned b = a + 1; b < scene.sensors; b++) {
+            for (unsigned k = 0; k < scene.scans; k++) {
+                for (unsigned i = 0; i < RHO_MAX_BEARINGS * RHO_MAX_BEARINGS; i++) {
+                    double trace = trace_m2(a, b, &scene.look[k][a].bearings[i / RHO_MAX_BEARINGS],
+                                            &scene.look[k][b].bearings[i % RHO_MAX_BEARINGS]);
+                    traces_m2[count] = trace;
+                    count += trace >= 0.0;
+                }
+            }
+        }
+    }
+    qsort(traces_m2, count, sizeof traces_m2[0], compare_doubles);
+    return count;
+}
+
+static void the_most_certain_crossings_are_kept(void **state)
+{
+    (void)state;
+    search_full(RHO_GHOST_NO_RULE);
+    assert_int_equal(passive.num_tracks, 0); /* so that the second pass has all bearings */
+    assert_true(collect_traces() > RHO_MAX_PASSIVE_POINTS);
+    assert_int_equal(passive.num_points, RHO_MAX_PASSIVE_POINTS);
+    double kept_m2 = 0.0, least_m2 = 0.0;
+    for (unsigned i = 0; i < RHO_MAX_PASSIVE_POINTS; i++) {
+        kept_m2 += (double)passive.points[i].xx_m2 + (double)passive.points[i].yy_m2;
+        least_m2 += traces_m2[i];
+    }
+    assert_true(fabs(kept_m2 / least_m2 - 1.0) < 1e-4);
+}
+
+/* All looks have the same bearings. */
+static void push_same(unsigned sensors, const double *bearings_rad, unsigned count,
+                      double sigma_rad)
+{
+    scene = scene_of(sensors, 0, 0.1, 0.9, 0.0);
+    set_scan_times(&scene);
+    for (unsigned k = 0; k < scene.scans; k++) {
+        for (unsigned s = 0; s < scene.sensors; s++) {
+            for (unsigned i = 0; i < count; i++) {
+                add_bearing(&scene.look[k][s], bearings_rad[i], sigma_rad, -1);
+            }
+        }
+    }
+    start();
+    push_all();
+    expect_sound_search();
+}
+
+static void bearings_that_are_all_equal_meet_nowhere(void **state)
+{
+    (void)state;
+    double bearings_rad[RHO_MAX_BEARINGS];
+    for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
+        bearings_rad[i] = 0.3;
+    }
+    push_same(2, bearings_rad, RHO_MAX_BEARINGS, 0.001);
+    assert_int_equal(passive.num_tracks, 0);
+    push_same(2, bearings_rad, 1, RHO_LIMIT_SIGMA_RAD_MIN);
+    assert_int_equal(passive.num_tracks, 0);
+    push_same(3, bearings_rad, RHO_MAX_BEARINGS, RHO_LIMIT_SIGMA_RAD_MAX);
+}
+
+/* Both ways at once, something may lie on the line: nobody knows where. */
+static void bearings_along_the_base_make_no_place(void **state)
+{
+    (void)state;
+    const double along_rad[2] = {0.5 * PI, -0.5 * PI};
+    push_same(2, along_rad, 1, 0.001);
+    assert_int_equal(passive.num_tracks, 0);
+    push_same(2, along_rad + 1, 1, 0.001);
+    assert_int_equal(passive.num_tracks, 0);
+    push_same(2, along_rad, 2, 0.001);
+    for (unsigned i = 0; i < passive.num_tracks; i++) {
+        assert_true(passive.tracks[i].covariance[2] > 50e3f * 50e3f);
+    }
+}
+
+/*
+ * Beyond one end of the base the bearings say nothing of the range: nothing is found of it, or said
+ * to be uncertain.
+ */
+static void targets_on_the_bases_extension_are_no_certain_tracks(void **state)
+{
+    (void)state;
+    for (unsigned run = 0; run < 20; run++) {
+        random_state = 40 + run;
+        scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+        set_scan_times(&scene);
+        scene.target[0] = (struct target){.y_m = uniform(20e3, 70e3), .vy_mps = -200.0};
+        see_all(&scene);
+        start();
+        push_all();
+        expect_sound_search();
+        for (unsigned i = 0; i < passive.num_tracks; i++) {
+            assert_true(passive.tracks[i].covariance[2] > 500.0f * 500.0f);
+        }
+    }
+}
+
+static void a_target_through_a_sensor_does_no_harm(void **state)
+{
+    (void)state;
+    random_state = 60;
+    scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+    set_scan_times(&scene);
+    scene.target[0] = (struct target){.x_m = 4e3, .y_m = -10e3, .vx_mps = -100.0};
+    see_all(&scene); /* it is at sensor 0 at the fifth scan */
+    start();
+    push_all();
+    expect_sound_search();
+}
+
+static void frames_without_scans_or_bearings_are_frames(void **state)
+{
+    (void)state;
+    start();
+    for (unsigned k = 0; k < 10; k++) {
+        struct rho_frame frame = {.time_us = (int64_t)k};
+        assert_int_equal(rho_passive_push(&passive, &frame, NULL), RHO_OK);
+    }
+    assert_int_equal(passive.batch.num_scans, 8);
+    expect_sound_search();
+    push_same(2, NULL, 0, 0.001);
+    assert_int_equal(passive.num_tracks, 0);
+}
+
+/* Steps too small or too large for floats to tell scans apart. */
+static void any_times_do(void **state)
+{
+    (void)state;
+    static const int64_t times_us[8] = {INT64_MIN, -RHO_LIMIT_TIME_US, -1,       0, 1,
+                                        2,         RHO_LIMIT_TIME_US,  INT64_MAX};
+    start_batch();
+    for (unsigned from = 0; from < 3; from++) {
+        start();
+        for (unsigned k = 0; k < 8; k++) {
+            fill_frame(&scene, k, &full);
+            full.frame.time_us = from == 0 ? times_us[k] : from == 1 ? k : times_us[7] - 7 + k;
+            assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
+            assert_true(rho_passive_is_sound(&passive)); /* else it had no image */
+        }
+        expect_sound_search();
+    }
+}
+
+/* ---- fuzz ------------------------------------------------------------------------------------ */
+
+/* Mostly what is believed, sometimes anything. */
+static float some_float(double from, double to)
+{
+    return float_or_any(from, to, 0.1);
+}
+
+static void any_look(struct look *look)
+{
+    look->count = (unsigned)uniform(0.0, RHO_MAX_BEARINGS + 2.0);
+    for (unsigned i = 0; i < look->count; i++) {
+        look->bearings[i].bearing_rad = some_float(-PI, PI);
+        look->bearings[i].sigma_rad = (float)exp(uniform(-7.0, 0.0));
+    }
+}
+
+static void any_frame(unsigned step)
+{
+    for (unsigned s = 0; s < SCENE_SENSORS; s++) {
+        struct rho_bearing_scan *scan = &full.scans[s];
+        any_look(&scene.look[0][s]);
+        scan->sensor_id = (int32_t)(uniform(0.0, 1.0) < 0.95 ? s : random_bits() % 6);
+        scan->x_m = uniform(0.0, 1.0) < 0.03 ? any_float() : 7e3f * (float)(s + 1);
+        scan->y_m = uniform(0.0, 1.0) < 0.03 ? any_float() : -3e3f * (float)(s * s);
+        scan->num_bearings = scene.look[0][s].count;
+        scan->bearings = scene.look[0][s].bearings;
+    }
+    full.frame.time_us = (int64_t)step * (int64_t)exp(uniform(0.0, 17.0));
+    full.frame.num_scans = (uint32_t)uniform(0.0, SCENE_SENSORS + 0.999);
+    full.frame.scans = full.scans;
+}
+
+static void set_fates(void)
+{
+    for (unsigned i = 0; i < sizeof full.fates; i++) {
+        full.fates[i] = uniform(0.0, 1.0) < 0.05 ? (uint8_t)random_bits() : RHO_FATE_HELD;
+    }
+}
+
+static void random_frames_break_nothing(void **state)
+{
+    (void)state;
+    unsigned taken = 0, tracks = 0;
+    memset(&full, 0, sizeof full);
+    random_state = 70;
+    for (unsigned run = 0; run < 12; run++) {
+        start();
+        for (unsigned step = 0; step < 25; step++) {
+            any_frame(step);
+            set_fates();
+            enum rho_status status = rho_passive_push(&passive, &full.frame, full.fates);
+            taken += status == RHO_OK;
+            tracks += passive.num_tracks;
+        }
+        expect_sound_search();
+        tracks += passive.num_tracks;
+    }
+    print_message("fuzz: %u frames taken, %u tracks\n", taken, tracks);
+    assert_true(taken > 40);
+}
+
+static struct rho_passive_config some_config(void)
+{
+    struct rho_passive_config config;
+    config.scans = (uint16_t)uniform(3.0, 10.0);
+    config.range_max_m = some_float(1e3, 2e5);
+    config.v_max_mps = some_float(1.0, 2e3);
+    config.pd = some_float(0.01, 0.999);
+    config.field_of_view_rad = some_float(0.01, 6.28);
+    config.hits_min = (float)uniform(0.55, 1.0); /* of two sensors: bearings of both */
+    config.rho_cell_m = some_float(1e3, 1e4);
+    config.theta_cell_rad = some_float(0.08, 0.5);
+    config.rule = (enum rho_ghost_rule)(random_bits() % 3);
+    config.false_tracks_per_hour = some_float(1e-6, 1e6);
+    return config;
+}
+
+static void random_configurations_break_nothing(void **state)
+{
+    (void)state;
+    unsigned taken = 0;
+    start_batch();
+    for (unsigned run = 0; run < 300; run++) {
+        struct rho_passive_config config = some_config();
+        if (rho_passive_init(&passive, sizeof passive, &config) == RHO_OK) {
+            enum rho_status status = push_from(&passive, &scene, 0);
+            assert_true(status == RHO_OK || status == RHO_ERROR_VALUE);
+            taken += status == RHO_OK;
+            expect_sound_search();
+        }
+    }
+    print_message("fuzz: %u configurations taken\n", taken);
+    assert_true(taken > 30);
+}
+
+static void small_places_hold_a_batch(void **state)
+{
+    (void)state;
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.scans = 4;
+    start_batch();
+    start_with(&config);
+    push_all();
+    assert_int_equal(passive.batch.num_scans, 4);
+    expect_sound_search();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scans_and_rules_have_limits),
+        cmocka_unit_test(what_targets_and_sensors_are_has_limits),
+        cmocka_unit_test(cells_must_hold_what_is_in_range),
+        cmocka_unit_test(parameters_that_are_not_finite_are_refused),
+        cmocka_unit_test(the_default_is_what_the_header_says),
+        cmocka_unit_test(a_configuration_may_be_the_objects_own),
+        cmocka_unit_test(null_pointers_are_refused),
+        cmocka_unit_test(another_size_is_refused),
+        cmocka_unit_test(what_was_never_initialised_is_refused),
+        cmocka_unit_test(a_frame_must_be_newer_than_the_newest),
+        cmocka_unit_test(a_sensor_that_moved_is_refused),
+        cmocka_unit_test(a_sensor_twice_in_a_frame_is_refused),
+        cmocka_unit_test(a_new_sensor_must_have_its_own_place),
+        cmocka_unit_test(too_many_sensors_are_refused),
+        cmocka_unit_test(a_refused_frame_teaches_no_sensor),
+        cmocka_unit_test(bad_bearings_are_invalid),
+        cmocka_unit_test(bad_sigmas_are_invalid),
+        cmocka_unit_test(bearings_beyond_the_capacity_find_no_room),
+        cmocka_unit_test(bearings_that_are_not_held_are_left_alone),
+        cmocka_unit_test(fates_come_in_the_order_of_scans),
+        cmocka_unit_test(every_capacity_full_of_false_bearings),
+        cmocka_unit_test(the_most_certain_crossings_are_kept),
+        cmocka_unit_test(bearings_that_are_all_equal_meet_nowhere),
+        cmocka_unit_test(bearings_along_the_base_make_no_place),
+        cmocka_unit_test(targets_on_the_bases_extension_are_no_certain_tracks),
+        cmocka_unit_test(a_target_through_a_sensor_does_no_harm),
+        cmocka_unit_test(frames_without_scans_or_bearings_are_frames),
+        cmocka_unit_test(any_times_do),
+        cmocka_unit_test(random_frames_break_nothing),
+        cmocka_unit_test(random_configurations_break_nothing),
+        cmocka_unit_test(small_places_hold_a_batch),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

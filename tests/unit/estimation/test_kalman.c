@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "kalman_checks.h"
+#include "vectors/kalman_vectors.h"
+
+/* Against 50 steps of the vector filter in double precision. */
+#define STATE_SIGMAS 2e-3   /* of the estimate's standard deviation, and beside it */
+#define STATE_RELATIVE 4e-7 /* of the state itself: its rounding */
+#define COVARIANCE_RELATIVE 5e-4
+#define NIS_RELATIVE 5e-3
+#define NIS_ABSOLUTE 2e-3
+
+/* --- against the reference ----------------------------------------------------------------- */
+
+static void assert_step(const struct rho_kalman *kalman, const struct kalman_step *step)
+{
+    for (int i = 0; i < STATES; ++i) {
+        const double sigma = sqrt(step->diagonal[i]);
+
+        assert_float_equal(kalman->state[i], step->state[i],
+                           STATE_SIGMAS * sigma + STATE_RELATIVE * fabs(step->state[i]));
+        assert_float_equal(kalman->covariance[RHO_AT(i, i)], step->diagonal[i],
+                           COVARIANCE_RELATIVE * step->diagonal[i]);
+    }
+}
+
+static void run_sequence(const struct kalman_sequence *sequence)
+{
+    struct rho_kalman kalman;
+
+    memcpy(kalman.state, sequence->state, sizeof kalman.state);
+    memcpy(kalman.covariance, sequence->covariance, sizeof kalman.covariance);
+    for (int k = 0; k < KALMAN_STEPS; ++k) {
+        const struct kalman_step *step = &sequence->steps[k];
+        float nis_sum = 0.0f;
+
+        assert_int_equal(rho_kalman_predict(&kalman, step->dt_s, sequence->noise_density), RHO_OK);
+        for (int i = 0; i < sequence->num_elements; ++i) {
+            float nis = GUARD;
+
+            assert_int_equal(
+                rho_kalman_update(&kalman, i, step->values[i], step->variances[i], &nis), RHO_OK);
+            nis_sum += nis; /* the chain rule: the scalar ones add up to the vector's */
+        }
+        assert_step(&kalman, step);
+        assert_float_equal(nis_sum, step->nis, NIS_RELATIVE * step->nis + NIS_ABSOLUTE);
+    }
+    for (int i = 0; i < PACKED; ++i) {
+        int row = 0;
+
+        while (RHO_TRIANGLE(row + 1) <= i) {
+            ++row;
+        }
+        const double scale =
+            sqrt((double)sequence->last_covariance[RHO_AT(row, row)] *
+                 sequence->last_covariance[RHO_AT(i - RHO_TRIANGLE(row), i - RHO_TRIANGLE(row))]);
+
+        assert_float_equal(kalman.covariance[i], sequence->last_covariance[i],
+                           COVARIANCE_RELATIVE * scale);
+    }
+    assert_true(is_positive_definite(&kalman));
+}
+
+static void sequences_agree_with_the_vector_filter(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < NUM(kalman_sequences); ++k) {
+        print_message("           %s\n", kalman_sequences[k].name);
+        run_sequence(&kalman_sequences[k]);
+    }
+}
+
+/* --- axes ---------------------------------------------------------------------------------- */
+
+static void init_measures_nothing(void **state)
+{
+    struct {
+        float before;
+        struct rho_kalman kalman;
+        float after;
+    } cell = {.before = GUARD, .after = GUARD};
+
+    (void)state;
+    memset(&cell.kalman, 0xff, sizeof cell.kalman);
+    rho_kalman_init(&cell.kalman);
+    for (int i = 0; i < STATES; ++i) {
+        assert_true(cell.kalman.state[i] == 0.0f);
+    }
+    for (int i = 0; i < PACKED; ++i) {
+        assert_true(cell.kalman.covariance[i] == 0.0f);
+    }
+    assert_true(cell.before == GUARD && cell.after == GUARD);
+    rho_kalman_init(NULL);
+}
+
+static void axes_are_open_once_opened(void **state)
+{
+    struct rho_kalman kalman;
+
+    (void)state;
+    rho_kalman_init(&kalman);
+    for (int axis = 0; axis < 3; ++axis) {
+        assert_int_equal(rho_kalman_is_open(&kalman, axis), 0);
+        assert_int_equal(rho_kalman_open_axis(&kalman, axis, -5.0f, 4.0f, 9.0f), RHO_OK);
+        assert_int_equal(rho_kalman_is_open(&kalman, axis), 1);
+        assert_true(kalman.state[axis] == -5.0f && kalman.state[axis + 3] == 0.0f);
+        assert_true(kalman.covariance[RHO_AT(axis, axis)] == 4.0f);
+        assert_true(kalman.covariance[RHO_AT(axis + 3, axis + 3)] == 9.0f);
+    }
+    assert_int_equal(rho_kalman_is_open(&kalman, -1), 0);
+    assert_int_equal(rho_kalman_is_open(&kalman, 3), 0);
+    assert_int_equal(rho_kalman_is_open(&kalman, INT32_MAX), 0);
+    assert_int_equal(rho_kalman_is_open(&kalman, INT32_MIN), 0);
+    assert_int_equal(rho_kalman_is_open(NULL, 0), 0);
+}
+
+static void opening_an_axis_uncouples_it(void **state)
+{
+    struct rho_kalman kalman;
+
+    (void)state;
+    memcpy(kalman.state, kalman_sequences[3].state, sizeof kalman.state);
+    memcpy(kalman.covariance, kalman_sequences[3].covariance, sizeof kalman.covariance);
+    const struct rho_kalman before = kalman;
+    assert_int_equal(rho_kalman_open_axis(&kalman, 1, 7.0f, 2.0f, 3.0f), RHO_OK);
+    assert_true(kalman.state[1] == 7.0f && kalman.state[4] == 0.0f);
+    assert_true(kalman.state[2] == before.state[2] && kalman.state[3] == before.state[3]);
+    for (int i = 0; i < STATES; ++i) {
+        for (int j = 0; j < i; ++j) {
+            const int is_touched = i % 3 == 1 || j % 3 == 1;
+
+            assert_true(kalman.covariance[RHO_AT(i, j)] ==
+                        (is_touched ? 0.0f : before.covariance[RHO_AT(i, j)]));
+        }
+    }
+    assert_true(kalman.state[0] == before.state[0] && kalman.state[5] == before.state[5]);
+}
+
+static void a_closed_axis_stays_zero(void **state)
+{
+    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+
+    (void)state;
+    for (int k = 0; k < 20; ++k) {
+        float nis = GUARD;
+
+        assert_int_equal(rho_kalman_predict(&kalman, 1.5f, 3.0f), RHO_OK);
+        assert_int_equal(rho_kalman_update(&kalman, 0, 5.0f, 2.0f, NULL), RHO_OK);
+        const struct rho_kalman before = kalman;
+        assert_int_equal(rho_kalman_update(&kalman, 2, 6.0f, 4.0f, &nis), RHO_OK);
+        assert_int_equal(rho_kalman_update(&kalman, 5, 6.0f, 4.0f, NULL), RHO_OK);
+        for (int i = 0; i < STATES; ++i) {
+            assert_true(kalman.covariance[RHO_AT(2, i)] == 0.0f);
+            assert_true(kalman.covariance[RHO_AT(5, i)] == 0.0f);
+            assert_true(kalman.state[i] == before.state[i]);
+        }
+        assert_true(kalman.state[2] == 0.0f && kalman.state[5] == 0.0f);
+        assert_true(nis == 9.0f);
+        assert_int_equal(rho_kalman_is_open(&kalman, 2), 0);
+    }
+}
+
+/* --- prediction ---------------------------------------------------------------------------- */
+
+static void no_time_changes_nothing(void **state)
+{
+    struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    const struct rho_kalman before = kalman;
+
+    (void)state;
+    assert_int_equal(rho_kalman_predict(&kalman, 0.0f, 100.0f), RHO_OK);
+    assert_int_equal(rho_kalman_predict(&kalman, -0.0f, 100.0f), RHO_OK);
+    assert_changed_nothing(&kalman, &before);
+}
+
+static void one_long_step_equals_several_short_ones(void **state)
+{
+    struct rho_kalman once = opened(3, 25.0f, 400.0f), often = once;
+
+    (void)state;
+    for (int i = 0; i < 3; ++i) {
+        once.state[i + 3] = often.state[i + 3] = 12.5f * (float)(i + 1);
+    }
+    assert_int_equal(rho_kalman_predict(&once, 16.0f, 2.0f), RHO_OK);
+    for (int k = 0; k < 64; ++k) {
+        assert_int_equal(rho_kalman_predict(&often, 0.25f, 2.0f), RHO_OK);
+    }
+    for (int i = 0; i < STATES; ++i) {
+        assert_float_equal(once.state[i], often.state[i], 1e-6 * fabs(once.state[i]));
+    }
+    for (int i = 0; i < PACKED; ++i) {
+        assert_float_equal(once.covariance[i], often.covariance[i], 2e-4 * once.covariance[i]);
+    }
+}
+
+static void forth_and_back_is_the_identity(void **state)
+{
+    struct rho_kalman kalman = opened(3, 25.0f, 400.0f);
+
+    (void)state;
+    kalman.state[3] = 250.0f;
+    const struct rho_kalman before = kalman;
+    assert_int_equal(rho_kalman_predict(&kalman, 4.0f, 0.0f), RHO_OK);
+    assert_float_equal(kalman.state[0], 1100.0, 1e-3);
+    assert_int_equal(rho_kalman_predict(&kalman, -4.0f, 0.0f), RHO_OK);
+    assert_float_equal(kalman.state[0], before.state[0], 1e-3);
+    for (int i = 0; i < 3;
+         ++i) { /* rounding is of the size of dt^2 times the velocity's variance */
+        assert_float_equal(kalman.covariance[RHO_AT(i, i)], 25.0, 0.1);
+        assert_float_equal(kalman.covariance[RHO_AT(i + 3, i)], 0.0, 1e-3);
+        assert_true(kalman.covariance[RHO_AT(i + 3, i + 3)] == 400.0f);
+    }
+    assert_true(is_positive_definite(&kalman));
+}
+
+static void going_back_adds_no_noise(void **state)
+{
+    struct rho_kalman noisy = opened(3, 25.0f, 400.0f), quiet = noisy;
+
+    (void)state;
+    assert_int_equal(rho_kalman_predict(&noisy, -3.0f, 1000.0f), RHO_OK);
+    assert_int_equal(rho_kalman_predict(&quiet, -3.0f, 0.0f), RHO_OK);
+    assert_changed_nothing(&noisy, &quiet);
+}
+
+/* --- update -------------------------------------------------------------------------------- */
+
+static void an_update_by_hand(void **state)
+{
+    struct rho_kalman kalman = opened(1, 12.0f, 9.0f);
+    float nis[2] = {0.0f, GUARD};
+
+    (void)state;
+    assert_int_equal(rho_kalman_update(&kalman, 0, 108.0f, 4.0f, nis), RHO_OK);
+    assert_float_equal(kalman.state[0], 106.0, 1e-5);
+    assert_float_equal(kalman.covariance[0], 3.0, 1e-5);
+    assert_float_equal(nis[0], 4.0, 1e-6);
+    assert_true(nis[1] == GUARD);
+    assert_true(kalman.state[3] == 0.0f && kalman.covariance[RHO_AT(3, 3)] == 9.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sequences_agree_with_the_vector_filter),
+        cmocka_unit_test(init_measures_nothing),
+        cmocka_unit_test(axes_are_open_once_opened),
+        cmocka_unit_test(opening_an_axis_uncouples_it),
+        cmocka_unit_test(a_closed_axis_stays_zero),
+        cmocka_unit_test(no_time_changes_nothing),
+        cmocka_unit_test(one_long_step_equals_several_short_ones),
+        cmocka_unit_test(forth_and_back_is_the_identity),
+        cmocka_unit_test(going_back_adds_no_noise),
+        cmocka_unit_test(an_update_by_hand),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * For tests of single tracks seen by a radar: windows of seven scans over an area east of the
+ * origin, and no set too poor.
+ */
+#ifndef RHOTRACK_TESTS_INITIATOR_EAST_H
+#define RHOTRACK_TESTS_INITIATOR_EAST_H
+
+#include "initiator_setup.h"
+
+#define SCANS 7
+#define SCAN_S 2.0
+#define PD 0.9
+
+static const struct rho_extent east = {1000.0f, 41000.0f, -20000.0f, 20000.0f}; /* not the origin */
+
+static inline struct rho_initiator_config usual(void)
+{
+    struct rho_initiator_config config;
+    rho_initiator_config_default(&config);
+    config.min_scans = 4;
+    config.v_max_mps = 400.0f;
+    config.score_min_nat = -1000.0f;
+    config.area_is_fixed = 1;
+    config.area = east;
+    return config;
+}
+
+#endif

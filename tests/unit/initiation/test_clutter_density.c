@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Where clutter is taken to be dense: the map over the ground or over a radar's range and azimuth,
+ * and each sensor's share.
+ */
+#include "initiator_setup.h"
+
+#define SCANS 6 /* even: two sensors have as many each */
+#define SCAN_S 2.0
+#define RANGE_M 10000.0
+
+static const struct rho_extent around = {-10000.0f, 10000.0f, -10000.0f, 10000.0f};
+static const double around_m2 = 20000.0 * 20000.0;
+
+static struct rho_initiator_config usual(void)
+{
+    struct rho_initiator_config config;
+    rho_initiator_config_default(&config);
+    config.scans = SCANS;
+    config.min_scans = SCANS; /* what is found does not matter here */
+    config.v_max_mps = 400.0f;
+    config.area_is_fixed = 1;
+    config.area = around;
+    return config;
+}
+
+static double density_at(int32_t sensor_id, double x_m, double y_m)
+{
+    double density = rho_initiator_density(&initiator, sensor_id, (float)x_m, (float)y_m);
+    assert_true(isfinite(density));
+    assert_true(density > 0.0);
+    return density;
+}
+
+/* ---- sensors --------------------------------------------------------------------------------- */
+
+/* Sensors 1 and 2 in turn, so many plots a scan; of one or both, as the caller says. */
+static void two_sensors(int first, int second)
+{
+    struct rho_initiator_config config = usual();
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        add_clutter(&around, k % 2 ? second : first);
+        push_scan((struct rho_scan){.sensor_id = k % 2 ? 2 : 1}, SCAN_S * k, NULL);
+    }
+    search(RHO_SEARCH_BATCH);
+}
+
+static void the_sensor_with_more_clutter_has_more_but_not_more_than_it_showed(void **state)
+{
+    (void)state;
+    static const int counts[][2] = {{10, 20}, {10, 40}, {5, 100}, {60, 90}, {0, 30}};
+    for (size_t i = 0; i < NUM(counts); i++) {
+        two_sensors(counts[i][0], counts[i][1]);
+        double first = density_at(1, 3000.0, 3000.0), second = density_at(2, 3000.0, 3000.0);
+        assert_true(second > 1.05 * first);
+        assert_true(second * counts[i][0] < first * counts[i][1]);
+        two_sensors(counts[i][1], counts[i][0]);
+        assert_true(density_at(1, 3000.0, 3000.0) > 1.05 * density_at(2, 3000.0, 3000.0));
+    }
+}
+
+/* Three scans each, one like the mean beside: 16 and 4 of 10 plots a scan count as 14.5 and 5.5. */
+static void a_sensor_s_own_scans_outweigh_the_one_that_is_like_the_mean(void **state)
+{
+    (void)state;
+    two_sensors(4, 16);
+    double mean = density_at(99, 0.0, 0.0);
+    assert_float_equal(mean, 10.0 / around_m2, 0.001 * mean);
+    assert_float_equal(density_at(1, 0.0, 0.0), 5.5 / around_m2, 0.001 * mean);
+    assert_float_equal(density_at(2, 0.0, 0.0), 14.5 / around_m2, 0.001 * mean);
+}
+
+static void one_sensor_and_unknown_ones_have_the_mean(void **state)
+{
+    (void)state;
+    struct rho_initiator_config config = usual();
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        add_clutter(&around, 5 * k); /* uneven scans of one sensor are no sensors */
+        push_scan((struct rho_scan){.sensor_id = -7}, SCAN_S * k, NULL);
+    }
+    search(RHO_SEARCH_BATCH);
+    for (double x_m = -9000.0; x_m < 10000.0; x_m += 1000.0) {
+        double own = density_at(-7, x_m, 2000.0);
+        assert_float_equal(own, density_at(0, x_m, 2000.0), 0.0);
+        assert_float_equal(own, density_at(INT32_MAX, x_m, 2000.0), 0.0);
+    }
+    assert_float_equal(density_at(-7, 0.0, 0.0), 12.5 / around_m2, 0.3 * 12.5 / around_m2);
+    assert_float_equal(initiator.density_per_m2, 12.5 / around_m2, 1e-3 * 12.5 / around_m2);
+}
+
+static void a_search_after_every_scan_knows_the_sensors_too(void **state)
+{
+    (void)state;
+    two_sensors(4, 16);
+    search(RHO_SEARCH_NEWEST);
+    double ratio = density_at(2, 0.0, 0.0) / density_at(1, 0.0, 0.0);
+    assert_float_equal(ratio, 14.5 / 5.5, 0.01);
+}
+
+/* ---- a radar --------------------------------------------------------------------------------- */
+
+/*
+ * Clutter uniform in range and azimuth about the radar; in the hot spot, a tenth of the circle and
+ * a quarter of the range, so many more.
+ */
+static void add_polar_clutter(const struct rho_sensor *radar, int count, int more,
+                              double sigma_cross_m)
+{
+    for (int i = 0; i < count + more; i++) {
+        int hot = i >= count;
+        double range_m = hot ? uniform(0.5, 0.75) * RANGE_M : uniform(0.0, RANGE_M);
+        double azimuth = hot ? uniform(0.2, 0.4) * PI : uniform(-PI, PI);
+        add(radar->x_m + range_m * cos(azimuth), radar->y_m + range_m * sin(azimuth), 10.0,
+            sigma_cross_m);
+    }
+}
+
+static void radar_window(const struct rho_sensor *radar, int count, int more, double sigma_cross_m)
+{
+    struct rho_initiator_config config = usual();
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        add_polar_clutter(radar, count, more, sigma_cross_m);
+        push_scan((struct rho_scan){.sensor_id = radar->sensor_id}, SCAN_S * k, radar);
+    }
+    search(RHO_SEARCH_BATCH);
+}
+
+/*
+ * Mean density at a range, over directions and windows, by what it is: count / (2 pi range
+ * RANGE_M).
+ */
+static double mean_share(const struct rho_sensor *radar, double range_m, int count)
+{
+    double sum = 0.0;
+    for (int window = 0; window < 20; window++) {
+        random_state = (uint64_t)window + 1;
+        radar_window(radar, count, 0, 100.0);
+        for (double azimuth = -3.0; azimuth < 3.1; azimuth += 0.5) {
+            double density = density_at(radar->sensor_id, radar->x_m + range_m * cos(azimuth),
+                                        radar->y_m + range_m * sin(azimuth));
+            sum += density * 2.0 * PI * range_m * RANGE_M / count / 20.0 / 13.0;
+        }
+    }
+    return sum;
+}
+
+static void a_radar_s_clutter_thins_out_with_its_range(void **state)
+{
+    (void)state;
+    const struct rho_sensor middle = sensor_at(0.0, 0.0), beside = sensor_at(-1500.0, 2500.0);
+    static const double ranges_m[] = {300.0, 1000.0, 2500.0, 5000.0, 9000.0};
+    for (size_t i = 0; i < NUM(ranges_m); i++) {
+        assert_float_equal(mean_share(&middle, ranges_m[i], 5), 1.0, 0.1); /* one cell */
+        assert_float_equal(mean_share(&middle, ranges_m[i], 100), 1.0, 0.15);
+        assert_float_equal(mean_share(&beside, ranges_m[i], 100), 1.0, 0.15);
+    }
+}
+
+static void near_the_radar_density_rises_to_a_hundredth_of_its_range_and_no_further(void **state)
+{
+    (void)state;
+    const struct rho_sensor radar = sensor_at(500.0, 500.0);
+    radar_window(&radar, 5, 0, 100.0); /* one cell: the same in all directions */
+    double at_radar = density_at(0, 500.0, 500.0);
+    assert_float_equal(density_at(0, 500.0, 550.0), at_radar, 0.0);
+    assert_float_equal(density_at(0, 500.0, 1500.0) / at_radar, 0.1, 0.01);
+    assert_true(density_at(0, 500.0, 1.0e6) > 0.0);
+    assert_true(density_at(0, 1.0e6, -1.0e6) > 0.0);
+}
+
+/* Nothing to count, and no range but the radar's own place. */
+static void windows_without_ranges_have_a_density_everywhere(void **state)
+{
+    (void)state;
+    struct rho_initiator_config config = usual();
+    const struct rho_sensor radar = sensor_at(0.0, 0.0);
+    for (int count = 0; count < 3; count++) {
+        for (int kind = RHO_SEARCH_BATCH; kind <= RHO_SEARCH_NEWEST; kind++) {
+            start(&config);
+            for (int k = 0; k < SCANS; k++) {
+                for (int i = 0; i < count; i++) {
+                    add(0.0, 0.0, 10.0, 100.0);
+                }
+                push_scan((struct rho_scan){0}, SCAN_S * k, &radar);
+                search((enum rho_search)kind);
+                density_at(0, 0.0, 0.0);
+                density_at(0, 5000.0, -5000.0);
+            }
+        }
+    }
+}
+
+static void a_hot_spot_in_range_and_azimuth_is_seen_where_it_is(void **state)
+{
+    (void)state;
+    const struct rho_sensor radar = sensor_at(0.0, 0.0);
+    double hot = 0.0, cold = 0.0, plain = 0.0;
+    for (int window = 0; window < 20; window++) {
+        radar_window(&radar, 100, 50, 100.0);
+        double range_m = 0.625 * RANGE_M, azimuth = 0.3 * PI;
+        hot += density_at(0, range_m * cos(azimuth), range_m * sin(azimuth)) / 20.0;
+        cold += density_at(0, -range_m * cos(azimuth), range_m * sin(azimuth)) / 20.0;
+        radar_window(&radar, 100, 0, 100.0);
+        plain += density_at(0, range_m * cos(azimuth), range_m * sin(azimuth)) / 20.0;
+    }
+    /* there are 21 times the plots there; a cell is larger than the spot */
+    assert_true(hot > 4.0 * plain);
+    assert_true(hot > 5.0 * cold);
+    assert_float_equal(cold, plain, 0.5 * plain);
+}
+
+/* ---- two radars ------------------------------------------------------------------------------ */
+
+#if RHO_MAX_DENSITY_MAPS > 1
+/* Each with clutter of its own number, even in its own range and azimuth. */
+static void radars_window(const struct rho_sensor radars[2], const int counts[2],
+                          enum rho_search kind)
+{
+    struct rho_initiator_config config = usual();
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        add_polar_clutter(&radars[k % 2], counts[k % 2], 0, 100.0);
+        push_scan((struct rho_scan){.sensor_id = radars[k % 2].sensor_id}, SCAN_S * k,
+                  &radars[k % 2]);
+    }
+    search(kind);
+}
+
+/* The mean of a radar's densities at a range, over what they are, as mean_share. */
+static double share_of(const struct rho_sensor *radar, double range_m, int count)
+{
+    double sum = 0.0;
+    for (double azimuth = -3.0; azimuth < 3.1; azimuth += 0.5) {
+        double density = density_at(radar->sensor_id, radar->x_m + range_m * cos(azimuth),
+                                    radar->y_m + range_m * sin(azimuth));
+        sum += density * 2.0 * PI * range_m * RANGE_M / count / 13.0;
+    }
+    return sum;
+}
+
+static void two_radars_have_their_own_clutter_each(void **state)
+{
+    (void)state;
+    struct rho_sensor radars[2] = {sensor_at(-3000.0, 0.0), sensor_at(3000.0, 0.0)};
+    static const int counts[2] = {100, 30};
+    static const double ranges_m[] = {300.0, 1000.0, 2500.0, 5000.0, 9000.0};
+    double sums[2][NUM(ranges_m)] = {{0.0}};
+    radars[1].sensor_id = 2;
+    for (int window = 0; window < 20; window++) {
+        random_state = (uint64_t)window + 1;
+        radars_window(radars, counts, window % 2 ? RHO_SEARCH_NEWEST : RHO_SEARCH_BATCH);
+        for (size_t i = 0; i < 2 * NUM(ranges_m); i++) {
+            sums[i % 2][i / 2] += share_of(&radars[i % 2], ranges_m[i / 2], counts[i % 2]) / 20.0;
+        }
+    }
+    for (size_t i = 0; i < 2 * NUM(ranges_m); i++) {
+        assert_float_equal(sums[i % 2][i / 2], 1.0, 0.2);
+    }
+}
+
+/*
+ * Where only one of the two sees, the mean scan has half of its clutter; of a third sensor nothing
+ * else is known.
+ */
+static void beyond_a_radar_s_range_the_mean_scan_has_none_of_its_clutter(void **state)
+{
+    (void)state;
+    struct rho_sensor radars[2] = {sensor_at(-3000.0, 0.0), sensor_at(3000.0, 0.0)};
+    static const int counts[2] = {30, 30};
+    radars[0].sensor_id = 1;
+    radars[1].sensor_id = 2;
+    for (int window = 0; window < 10; window++) {
+        radars_window(radars, counts, RHO_SEARCH_BATCH);
+        double own = density_at(2, 10500.0, 0.0);
+        assert_true(density_at(1, 10500.0, 0.0) > 0.0);
+        assert_float_equal(rho_initiator_density(&initiator, 99, 10500.0f, 0.0f), 0.5 * own,
+                           0.05 * own);
+    }
+}
+#endif
+
+/* ---- not a radar's --------------------------------------------------------------------------- */
+
+/* Five plots a scan are one cell, of the same density all over, where the map is the ground's. */
+static void expect_level(double sigma_cross_m, const struct rho_sensor *even,
+                         const struct rho_sensor *odd)
+{
+    struct rho_initiator_config config = usual();
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        const struct rho_sensor *sensor = k % 2 ? odd : even;
+        for (int i = 0; i < 5; i++) {
+            add(uniform(-9000.0, 9000.0), uniform(-9000.0, 9000.0), 10.0, sigma_cross_m);
+        }
+        push_scan((struct rho_scan){.sensor_id = sensor->sensor_id}, SCAN_S * k, sensor);
+    }
+    search(RHO_SEARCH_BATCH);
+    for (double x_m = 0.0; x_m < 10000.0; x_m += 500.0) {
+        double mean = 5.0 / around_m2;
+        assert_float_equal(density_at(even->sensor_id, x_m, x_m), mean, 1e-4 * mean);
+    }
+}
+
+static void isotropic_noise_several_radars_and_radars_outside_make_a_map_of_the_ground(void **state)
+{
+    (void)state;
+    const struct rho_sensor middle = sensor_at(0.0, 0.0), outside = sensor_at(0.0, -10001.0);
+    struct rho_sensor other = sensor_at(100.0, 100.0);
+    other.sensor_id = 2;
+    expect_level(10.0, &middle, &middle);
+    expect_level(100.0, &outside, &outside);
+    expect_level(100.0, &middle, &other);
+}
+
+/*
+ * False alarms of a radar need not be even in range: with 1 / range the corners would look clearer
+ * than they are.
+ */
+static void a_radar_with_clutter_even_on_the_ground_has_a_map_of_the_ground(void **state)
+{
+    (void)state;
+    const struct rho_sensor middle = sensor_at(0.0, 0.0);
+    struct rho_initiator_config config = usual();
+    for (int window = 0; window < 20; window++) {
+        start(&config);
+        for (int k = 0; k < SCANS; k++) {
+            for (int i = 0; i < 30; i++) {
+                add(uniform(-10000.0, 10000.0), uniform(-10000.0, 10000.0), 10.0, 100.0);
+            }
+            push_scan((struct rho_scan){0}, SCAN_S * k, &middle);
+        }
+        search(RHO_SEARCH_BATCH);
+        double mean = 30.0 / around_m2;
+        assert_float_equal(density_at(0, 100.0, 100.0), mean, 0.5 * mean);
+        assert_float_equal(density_at(0, 9000.0, 9000.0), mean, 0.5 * mean);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_sensor_with_more_clutter_has_more_but_not_more_than_it_showed),
+        cmocka_unit_test(a_sensor_s_own_scans_outweigh_the_one_that_is_like_the_mean),
+        cmocka_unit_test(one_sensor_and_unknown_ones_have_the_mean),
+        cmocka_unit_test(a_search_after_every_scan_knows_the_sensors_too),
+        cmocka_unit_test(a_radar_s_clutter_thins_out_with_its_range),
+        cmocka_unit_test(near_the_radar_density_rises_to_a_hundredth_of_its_range_and_no_further),
+        cmocka_unit_test(windows_without_ranges_have_a_density_everywhere),
+        cmocka_unit_test(a_hot_spot_in_range_and_azimuth_is_seen_where_it_is),
+        cmocka_unit_test(
+            isotropic_noise_several_radars_and_radars_outside_make_a_map_of_the_ground),
+        cmocka_unit_test(a_radar_with_clutter_even_on_the_ground_has_a_map_of_the_ground),
+#if RHO_MAX_DENSITY_MAPS > 1
+        cmocka_unit_test(two_radars_have_their_own_clutter_each),
+        cmocka_unit_test(beyond_a_radar_s_range_the_mean_scan_has_none_of_its_clutter),
+#endif
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

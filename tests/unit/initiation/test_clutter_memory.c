@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The long memory of clutter (RHO_MAX_CLUTTER_CELLS): hot spots smaller than the window's map can
+ * tell, how they are learned, where, and how they are forgotten.
+ */
+#include "initiator_setup.h"
+
+#if RHO_MAX_CLUTTER_CELLS > 0
+
+#define SCANS 6
+#define SCAN_S 2.0
+#define HOT_PLOTS 3
+#define COLD_PLOTS 20
+/* Less than a memory's cell of the embedded profile: 20 km and a quarter more either way, by 16. */
+#define HOT_SIDE_M 600.0
+
+static const struct rho_extent around = {-10000.0f, 10000.0f, -10000.0f, 10000.0f};
+static const double around_m2 = 20000.0 * 20000.0;
+static const double cell_m = 30000.0 / RHO_MAX_CLUTTER_CELLS;
+/*
+ * Whether a hundred scans put some plots into a cell even where it is not hot: many small cells
+ * only say that there is more.
+ */
+static const int cells_are_large = RHO_MAX_CLUTTER_CELLS <= 32;
+
+static struct rho_initiator_config usual(int area_is_fixed)
+{
+    struct rho_initiator_config config;
+    rho_initiator_config_default(&config);
+    config.scans = SCANS;
+    config.min_scans = SCANS;
+    config.v_max_mps = 400.0f;
+    config.area_is_fixed = area_is_fixed;
+    config.area = area_is_fixed ? around : (struct rho_extent){0};
+    return config;
+}
+
+/* The middle of a cell of the memory. */
+static double middle_m(double near_m)
+{
+    return -15000.0 + cell_m * (floor((near_m + 15000.0) / cell_m) + 0.5);
+}
+
+static void add_spot(double x_m, double y_m, int count)
+{
+    const double half_m = 0.5 * fmin(HOT_SIDE_M, 0.9 * cell_m);
+    for (int i = 0; i < count; i++) {
+        const double at_m = x_m + uniform(-half_m, half_m);
+        add(at_m, y_m + uniform(-half_m, half_m), 10.0, 10.0);
+    }
+}
+
+static double time_s;
+
+static void push_next(void)
+{
+    push(time_s);
+    time_s += SCAN_S;
+}
+
+/* Scans of clutter all over, and so many plots more in the spot at (5, 5) km. */
+static void feed(int scans, int hot)
+{
+    for (int k = 0; k < scans; k++) {
+        add_clutter(&around, COLD_PLOTS);
+        add_spot(middle_m(5000.0), middle_m(5000.0), hot);
+        push_next();
+    }
+    search(RHO_SEARCH_NEWEST);
+}
+
+static double density_at(double x_m, double y_m)
+{
+    const double density = rho_initiator_density(&initiator, 0, (float)x_m, (float)y_m);
+    assert_true(isfinite(density));
+    assert_true(density > 0.0);
+    return density;
+}
+
+static double hot_density(void)
+{
+    return density_at(middle_m(5000.0), middle_m(5000.0));
+}
+
+static void begin(void)
+{
+    const struct rho_initiator_config config = usual(1);
+    random_state = 1;
+    time_s = 0.0;
+    start(&config);
+}
+
+/* ---- learned --------------------------------------------------------------------------------- */
+
+static void a_hot_spot_is_learned(void **state)
+{
+    const double cold = COLD_PLOTS / around_m2, cell_m2 = cell_m * cell_m;
+    double mean = 0.0;
+    (void)state;
+    begin();
+    feed(SCANS, HOT_PLOTS);
+    const double at_first = hot_density();
+    feed(20, HOT_PLOTS);
+    const double soon = hot_density();
+    feed(100, HOT_PLOTS);
+    const double later = hot_density(), is = cold + HOT_PLOTS / cell_m2;
+    assert_true(soon > 1.2 * at_first);
+    assert_true(later > soon);
+    assert_true(later > (cells_are_large ? 0.6 * is : 20.0 * cold));
+    assert_true(later < 1.6 * is);
+    /* not beside it, and not far */
+    for (int i = 0; i < 10; i++) {
+        mean += density_at(uniform(-9000.0, -5000.0), uniform(-9000.0, -5000.0)) / 10.0;
+    }
+    assert_float_equal(mean, cold, 0.6 * cold);
+    assert_true(density_at(middle_m(5000.0) + 2.0 * cell_m, middle_m(5000.0)) < 0.5 * later);
+    assert_true(density_at(middle_m(5000.0), middle_m(5000.0) - 2.0 * cell_m) < 0.5 * later);
+}
+
+/* Where there is less than the window tells, it is as the window tells; beyond the map, too. */
+static void nothing_is_made_less(void **state)
+{
+    static struct rho_initiator plain;
+    (void)state;
+    begin();
+    feed(60, HOT_PLOTS);
+    plain = initiator;
+    memset(&plain.memory, 0, sizeof plain.memory);
+    for (double x_m = -30000.0; x_m < 30000.0; x_m += 1100.0) {
+        for (double y_m = -30000.0; y_m < 30000.0; y_m += 1300.0) {
+            const double without = rho_initiator_density(&plain, 0, (float)x_m, (float)y_m);
+            assert_true(density_at(x_m, y_m) >= without);
+            if (fabs(x_m) > 15000.0 || fabs(y_m) > 15000.0) {
+                assert_float_equal(density_at(x_m, y_m), without, 0.0);
+            }
+        }
+    }
+}
+
+/*
+ * It is for the initiation as well: what stands still in a hot spot is worth less than elsewhere.
+ */
+static void scores_know_hot_spots(void **state)
+{
+    int32_t score_mnat[2];
+    (void)state;
+    for (int is_hot = 0; is_hot < 2; is_hot++) {
+        begin();
+        for (int k = 0; k < 100; k++) {
+            add_spot(middle_m(5000.0), middle_m(5000.0), is_hot ? HOT_PLOTS : 0);
+            add(-9990.0, -9990.0, 10.0, 10.0);
+            add(9990.0, 9990.0, 10.0, 10.0);
+            push_next();
+        }
+        /* so that the windows are the same */
+        for (int k = 0; k < SCANS; k++) {
+            add(middle_m(5000.0) - 100.0 + 40.0 * k, middle_m(5000.0), 10.0, 10.0);
+            add(-9990.0, -9990.0, 10.0, 10.0);
+            add(9990.0, 9990.0 - 1500.0 * k, 10.0, 10.0);
+            push_next();
+        }
+        search(RHO_SEARCH_NEWEST);
+        score_mnat[is_hot] = 0;
+        for (unsigned i = 0; i < initiator.num_candidates; i++) {
+            if (fabs((double)initiator.candidates[i].x_m - 5000.0) < 2000.0) {
+                score_mnat[is_hot] = initiator.candidates[i].score_mnat;
+            }
+        }
+        assert_int_not_equal(score_mnat[is_hot], 0);
+    }
+    assert_true(score_mnat[1] < score_mnat[0] - 3000);
+}
+
+/* ---- forgotten ------------------------------------------------------------------------------- */
+
+static void a_hot_spot_is_forgotten(void **state)
+{
+    (void)state;
+    begin();
+    feed(130, HOT_PLOTS);
+    const double hot = hot_density();
+    feed(130, 0);
+    const double later = hot_density();
+    feed(270, 0);
+    const double last = hot_density();
+    assert_true(later < 0.8 * hot);
+    assert_true(last < 0.35 * hot);
+    assert_true(last < 5.0 * COLD_PLOTS / around_m2);
+}
+
+/* Counts cannot run over, nor the number of scans. */
+static void it_goes_on_for_long(void **state)
+{
+    (void)state;
+    begin();
+    for (int round = 0; round < 20; round++) {
+        feed(100, 30);
+        assert_in_range(initiator.memory.num_scans, 1, 128);
+    }
+    const double is = 30.0 / (cell_m * cell_m);
+    assert_true(hot_density() < 1.5 * is);
+    assert_true(hot_density() > (cells_are_large ? 0.5 * is : 200.0 * COLD_PLOTS / around_m2));
+}
+
+/* ---- what is remembered ---------------------------------------------------------------------- */
+
+static uint32_t remembered(void)
+{
+    uint32_t sum = 0;
+    for (unsigned c = 0; c < NUM(initiator.memory.count); c++) {
+        sum += initiator.memory.count[c];
+    }
+    return sum;
+}
+
+static void what_left_the_window_is_remembered_once(void **state)
+{
+    (void)state;
+    begin();
+    for (int k = 0; k < 40; k++) {
+        for (int i = 0; i < 1 + k % 3; i++) {
+            add(300.0 * i, 0.0, 10.0, 10.0);
+        }
+        push_next();
+        uint32_t gone = 0;
+        for (int m = 0; m <= k - SCANS; m++) {
+            gone += 1u + (uint32_t)m % 3u;
+        }
+        assert_int_equal(remembered(), gone);
+        assert_int_equal(initiator.memory.num_scans, k < SCANS ? 0 : k - SCANS + 1);
+    }
+}
+
+static void plots_that_started_tracks_are_not_remembered(void **state)
+{
+    (void)state;
+    begin();
+    for (int k = 0; k < SCANS; k++) {
+        add(300.0 * k, 0.0, 10.0, 10.0);
+        add(-9990.0, uniform(-9990.0, 9990.0), 10.0, 10.0);
+        push_next();
+    }
+    search(RHO_SEARCH_NEWEST);
+    assert_int_equal(initiator.num_candidates, 1);
+    assert_int_equal(rho_initiator_consume(&initiator, &initiator.candidates[0]), SCANS);
+    for (int k = 0; k < SCANS; k++) {
+        push_next();
+    }
+    assert_int_equal(remembered(), SCANS); /* the others */
+}
+
+static void refused_scans_are_not_remembered(void **state)
+{
+    static struct rho_initiator then;
+    static uint8_t fates[4] = {RHO_FATE_HELD};
+    const struct rho_plot plot = {.sigma_range_m = 1.0f, .sigma_cross_m = 1.0f};
+    struct rho_scan old = {.num_plots = 1, .plots = &plot};
+    uint32_t unused = 0;
+    (void)state;
+    begin();
+    feed(20, HOT_PLOTS);
+    then = initiator;
+    old.time_us = llround((time_s - 1.5 * SCAN_S) * 1e6);
+    assert_int_equal(rho_initiator_push(&initiator, &old, NULL, fates, &unused), RHO_ERROR_STATE);
+    assert_memory_equal(&initiator, &then, sizeof initiator);
+    old.time_us = llround(time_s * 1e6);
+    assert_int_equal(rho_initiator_push(&initiator, &old, NULL, NULL, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_initiator_push(&initiator, &old, NULL, fates, NULL), RHO_ERROR_NULL);
+    old.plots = NULL;
+    assert_int_equal(rho_initiator_push(&initiator, &old, NULL, fates, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_initiator_push(&initiator, NULL, NULL, fates, &unused), RHO_ERROR_NULL);
+    assert_memory_equal(&initiator, &then, sizeof initiator);
+}
+
+/* ---- the area -------------------------------------------------------------------------------- */
+
+/* The area as it is seen: it grows tenfold, later it is small again. */
+static void an_area_that_changes_lays_it_anew(void **state)
+{
+    static const double sides_m[] = {10000.0, 100000.0, 3000.0, 1.0, 1.9e6, 0.0};
+    const struct rho_initiator_config config = usual(0);
+    (void)state;
+    random_state = 1;
+    time_s = 0.0;
+    start(&config);
+    for (size_t i = 0; i < NUM(sides_m); i++) {
+        const double side_m = sides_m[i];
+        for (int k = 0; k < 150; k++) {
+            for (int n = 0; n < 20; n++) {
+                const double x_m = uniform(-side_m, side_m);
+                add(x_m, uniform(-side_m, side_m), 10.0, 10.0);
+            }
+            push_next();
+            if (k % 10 == 9) {
+                search(RHO_SEARCH_NEWEST);
+                density_at(0.0, 0.0);
+                density_at(side_m, -side_m);
+                density_at(2e6, 2e6);
+            }
+        }
+        const double is = 20.0 / pow(2.0 * side_m, 2);
+        if (side_m >= 3000.0 && side_m <= 1e5) {
+            assert_float_equal(density_at(0.3 * side_m, 0.3 * side_m), is, 0.8 * is);
+        }
+    }
+}
+
+static void feed_wide(double side_m, int scans)
+{
+    for (int k = 0; k < scans; k++) {
+        for (int n = 0; n < COLD_PLOTS; n++) {
+            const double x_m = uniform(-side_m, side_m);
+            add(x_m, uniform(-side_m, side_m), 10.0, 10.0);
+        }
+        for (int n = 0; n < 4; n++) {
+            add(0.5 * side_m, 0.5 * side_m, 10.0, 10.0);
+        }
+        push_next();
+    }
+    search(RHO_SEARCH_NEWEST);
+}
+
+/*
+ * What stood in the middle of a quarter of a small area is not in that of the large one, where
+ * there is something new.
+ */
+static void hot_spots_are_learned_anew_where_the_area_has_grown(void **state)
+{
+    const struct rho_initiator_config config = usual(0);
+    const double wide_m = 1e5, cold = COLD_PLOTS / pow(2.0 * wide_m, 2);
+    double hot_there = 0.0;
+    (void)state;
+    random_state = 1;
+    time_s = 0.0;
+    start(&config);
+    feed_wide(1e4, 100);
+    assert_true(density_at(5e3, 5e3) > 10.0 * density_at(-5e3, -5e3));
+    for (int k = 0; k < 40; k++) {
+        add_clutter(&(struct rho_extent){-1e5f, 1e5f, -1e5f, 1e5f}, COLD_PLOTS);
+        push_next();
+    }
+    search(RHO_SEARCH_NEWEST);
+    for (double x_m = 3e4; x_m <= 7e4; x_m += 1e3) {
+        hot_there = fmax(hot_there, density_at(x_m, x_m));
+    }
+    assert_true(hot_there < 6.0 * cold);
+    feed_wide(wide_m, 40);
+    assert_true(density_at(0.5 * wide_m, 0.5 * wide_m) > 8.0 * cold);
+}
+
+static void scans_without_plots_harm_nothing(void **state)
+{
+    const struct rho_initiator_config config = usual(0);
+    (void)state;
+    start(&config);
+    time_s = 0.0;
+    for (int k = 0; k < 300; k++) {
+        push_next();
+    }
+    search(RHO_SEARCH_NEWEST);
+    add(5.0, 5.0, 10.0, 10.0);
+    push_next();
+    search(RHO_SEARCH_NEWEST);
+    density_at(5.0, 5.0);
+    assert_int_equal(remembered(), 0);
+}
+
+static void sizes_follow_the_capacity(void **state)
+{
+    (void)state;
+    assert_int_equal(NUM(initiator.memory.count), RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS);
+    assert_true(sizeof initiator.memory <= 2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + 24);
+    assert_true(sizeof initiator <= RHO_RAM_INITIATOR_BYTES);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_hot_spot_is_learned),
+        cmocka_unit_test(nothing_is_made_less),
+        cmocka_unit_test(scores_know_hot_spots),
+        cmocka_unit_test(a_hot_spot_is_forgotten),
+        cmocka_unit_test(it_goes_on_for_long),
+        cmocka_unit_test(what_left_the_window_is_remembered_once),
+        cmocka_unit_test(plots_that_started_tracks_are_not_remembered),
+        cmocka_unit_test(refused_scans_are_not_remembered),
+        cmocka_unit_test(an_area_that_changes_lays_it_anew),
+        cmocka_unit_test(hot_spots_are_learned_anew_where_the_area_has_grown),
+        cmocka_unit_test(scans_without_plots_harm_nothing),
+        cmocka_unit_test(sizes_follow_the_capacity),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+int main(void)
+{
+    return 0;
+}
+
+#endif

@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * False tracks an hour: thresholds that follow from clutter, and what they keep. Noise of 10 m,
+ * scans of 2 s, targets of 100 to 400 m/s.
+ */
+#include "initiator_setup.h"
+#include "rhotrack/tracker.h"
+
+#define SCANS 7
+#define SCAN_S 2.0
+#define MNAT 1e-3
+
+static const struct rho_extent square = {-2500.0f, 2500.0f, -2500.0f, 2500.0f};
+static const int counts[] = {0, 1, 5, 25, 100, 250}; /* clutter plots a scan */
+static const float rates[] = {1e-4f, 0.01f, 0.1f, 1.0f, 10.0f, 100.0f, 1e4f};
+
+static struct rho_initiator_config usual(float false_tracks_per_hour)
+{
+    struct rho_initiator_config config;
+    rho_initiator_config_default(&config);
+    config.v_min_mps = 100.0f;
+    config.v_max_mps = 400.0f;
+    config.false_tracks_per_hour = false_tracks_per_hour;
+    config.work_max = 0; /* thresholds, not what there is no time for */
+    config.area_is_fixed = 1;
+    config.area = square;
+    return config;
+}
+
+/*
+ * A window of clutter, the same at every call; and so many targets in a row, the next seen in a
+ * scan less than the last.
+ */
+static void push_window(const struct rho_initiator_config *config, int count, int targets,
+                        double scan_s)
+{
+    random_state = 3;
+    start(config);
+    for (int k = 0; k < SCANS; k++) {
+        add_clutter(&config->area, count);
+        for (int i = 0; i < targets && i <= k; i++) {
+            double y_m = -2000.0 + 1000.0 * i + 8.0 * normal();
+            add(100.0 * scan_s * (k - 3) + 8.0 * normal(), y_m, 10.0, 10.0);
+        }
+        push(scan_s * k);
+    }
+}
+
+static void search_clutter(const struct rho_initiator_config *config, int count)
+{
+    push_window(config, count, 0, SCAN_S);
+    search(RHO_SEARCH_NEWEST);
+}
+
+static void search_targets(const struct rho_initiator_config *config, int count)
+{
+    push_window(config, count, 5, SCAN_S);
+    search(RHO_SEARCH_NEWEST);
+}
+
+static unsigned confirmed(void)
+{
+    unsigned n = 0;
+    for (unsigned i = 0; i < initiator.num_candidates; i++) {
+        n += initiator.candidates[i].score_mnat >= initiator.confirm_mnat;
+    }
+    return n;
+}
+
+/* ---- thresholds ------------------------------------------------------------------------------ */
+
+static void a_clear_sky_confirms_a_target_at_its_third_plot(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 200; i++) {
+        struct rho_initiator_config config = usual(1.0f);
+        double heading = uniform(0.0, 2.0 * PI), v_mps = uniform(120.0, 380.0);
+        start(&config);
+        for (int empty = 0; empty < i % 5; empty++) {
+            push(SCAN_S * empty);
+        }
+        for (int k = 0; k < 3; k++) {
+            double way_m = v_mps * SCAN_S * (k - 1);
+            add(way_m * cos(heading) + uniform(-10.0, 10.0),
+                way_m * sin(heading) + uniform(-10.0, 10.0), 10.0, 10.0);
+            push(SCAN_S * (k + i % 5));
+            search(RHO_SEARCH_NEWEST);
+            assert_int_equal(initiator.num_candidates, k == 2);
+        }
+        assert_int_equal(confirmed(), 1);
+    }
+}
+
+/*
+ * 18 nat of rates move the threshold by about as much, where there is clutter enough to keep any.
+ */
+static void confirming_falls_as_more_false_tracks_are_allowed_but_not_below_starting(void **state)
+{
+    (void)state;
+    for (size_t c = 0; c < NUM(counts); c++) {
+        int32_t before_mnat = INT32_MAX, highest_mnat = 0;
+        for (size_t r = 0; r < NUM(rates); r++) {
+            struct rho_initiator_config config = usual(rates[r]);
+            search_clutter(&config, counts[c]);
+            assert_true(initiator.confirm_mnat <= before_mnat);
+            assert_true(initiator.start_mnat <= initiator.confirm_mnat);
+            before_mnat = initiator.confirm_mnat;
+            highest_mnat = r == 0 ? initiator.confirm_mnat : highest_mnat;
+        }
+        assert_true(counts[c] < 5 || highest_mnat - before_mnat > 8000);
+        assert_int_equal(before_mnat,
+                         initiator.start_mnat); /* 10 000 an hour: what starts is believed */
+    }
+}
+
+static void more_false_tracks_allowed_are_never_fewer_tracks(void **state)
+{
+    (void)state;
+    unsigned first = 0, last = 0, unsure = 0;
+    for (size_t c = 0; c < NUM(counts); c++) {
+        unsigned tracks = 0, candidates = 0;
+        for (size_t r = 0; r < NUM(rates); r++) {
+            struct rho_initiator_config config = usual(rates[r]);
+            search_targets(&config, counts[c]);
+            assert_true(initiator.num_candidates >= candidates);
+            assert_true(confirmed() >= tracks);
+            candidates = initiator.num_candidates;
+            tracks = confirmed();
+            first += r == 0 ? tracks : 0;
+            unsure += r == 0 ? candidates - tracks : 0;
+        }
+        last += tracks;
+    }
+    assert_true(last > first + 5);
+    assert_true(unsure > 5); /* they start all the same */
+}
+
+static void every_candidate_of_a_kept_rate_reaches_the_start_threshold(void **state)
+{
+    (void)state;
+    unsigned found = 0;
+    for (size_t c = 0; c < NUM(counts); c++) {
+        struct rho_initiator_config config = usual(1.0f);
+        search_targets(&config, counts[c]);
+        found += initiator.num_candidates;
+        for (unsigned i = 0; i < initiator.num_candidates; i++) {
+            assert_true(initiator.candidates[i].score_mnat >= initiator.start_mnat);
+            assert_true(initiator.candidates[i].hits >= initiator.min_scans);
+        }
+    }
+    assert_true(found > 10);
+}
+
+static void denser_clutter_asks_for_more_votes(void **state)
+{
+    (void)state;
+    unsigned before = 3;
+    for (size_t c = 1; c < NUM(counts); c++) {
+        struct rho_initiator_config config = usual(1.0f);
+        config.area = (struct rho_extent){-1000.0f, 1000.0f, -1000.0f, 1000.0f};
+        search_clutter(&config, counts[c]);
+        assert_in_range(initiator.min_scans, before, c == 1 ? 3 : SCANS);
+        before = initiator.min_scans;
+    }
+    assert_int_equal(before, SCANS); /* 250 plots in 4 km^2 */
+}
+
+static void without_a_rate_the_least_score_is_the_threshold(void **state)
+{
+    (void)state;
+    static const float scores[] = {-3.0f, 0.0f, 7.25f};
+    for (size_t i = 0; i < NUM(scores); i++) {
+        struct rho_initiator_config config = usual(0.0f);
+        config.score_min_nat = scores[i];
+        config.min_scans = 3;
+        search_targets(&config, 25);
+        assert_true(initiator.num_candidates > 0);
+        assert_int_equal(initiator.start_mnat, (int)(scores[i] * 1000.0f));
+        assert_int_equal(initiator.confirm_mnat, initiator.start_mnat);
+        for (unsigned k = 0; k < initiator.num_candidates; k++) {
+            assert_true(initiator.candidates[k].score_mnat >= initiator.start_mnat);
+        }
+    }
+}
+
+static void a_batch_goes_by_the_least_score_whatever_the_rate(void **state)
+{
+    (void)state;
+    static struct rho_candidate without[RHO_MAX_CANDIDATES];
+    unsigned n = 0;
+    for (size_t r = 0; r <= NUM(rates); r++) {
+        struct rho_initiator_config config = usual(r == 0 ? 0.0f : rates[r - 1]);
+        config.score_min_nat = -12.0f;
+        push_window(&config, 60, 5, SCAN_S);
+        search(RHO_SEARCH_BATCH);
+        assert_int_equal(initiator.start_mnat, -12000);
+        assert_int_equal(initiator.confirm_mnat, -12000);
+        if (r == 0) {
+            n = initiator.num_candidates;
+            memcpy(without, initiator.candidates, sizeof without);
+        }
+        assert_true(n > 0);
+        assert_int_equal(initiator.num_candidates, n);
+        assert_memory_equal(initiator.candidates, without, n * sizeof without[0]);
+    }
+}
+
+static void the_same_scans_give_the_same_thresholds(void **state)
+{
+    (void)state;
+    for (size_t c = 0; c < NUM(counts); c++) {
+        static struct rho_initiator before;
+        struct rho_initiator_config config = usual(0.3f);
+        search_targets(&config, counts[c]);
+        before = initiator;
+        search(RHO_SEARCH_NEWEST);
+        assert_memory_equal(&before, &initiator, sizeof before);
+        search_targets(&config, counts[c]);
+        assert_memory_equal(&before, &initiator, sizeof before);
+    }
+}
+
+/* ---- what they follow from ------------------------------------------------------------------- */
+
+/* Everything twice as fast is the same pictures, twice as many an hour. */
+static void a_shorter_scan_interval_confirms_as_half_the_rate_does(void **state)
+{
+    (void)state;
+    for (size_t c = 2; c < NUM(counts); c++) {
+        struct rho_initiator_config config = usual(0.5f), fast = usual(1.0f);
+        search_clutter(&config, counts[c]);
+        int32_t half_mnat = initiator.confirm_mnat;
+        config.false_tracks_per_hour = 1.0f;
+        search_clutter(&config, counts[c]);
+        assert_true(half_mnat > initiator.confirm_mnat);
+        fast.v_min_mps *= 2.0f;
+        fast.v_max_mps *= 2.0f;
+        push_window(&fast, counts[c], 0, 0.5 * SCAN_S);
+        search(RHO_SEARCH_NEWEST);
+        assert_float_equal(initiator.confirm_mnat, half_mnat, 5.0);
+    }
+}
+
+/*
+ * Four times the area in the same clutter has four times the chances: as if a quarter of the false
+ * tracks were wanted. But scores fall by ln 4, since the prior is spread thinner. Fewer chance
+ * tracks leave a larger area: half a nat.
+ */
+static void a_larger_area_confirms_as_a_smaller_rate_does(void **state)
+{
+    (void)state;
+    static const int few[] = {1, 6, 25, 60};
+    for (size_t c = 0; c < NUM(few); c++) {
+        struct rho_initiator_config config = usual(1.0f), quarter = usual(0.25f);
+        search_clutter(&config, few[c]);
+        double small_nat = MNAT * initiator.confirm_mnat;
+        search_clutter(&quarter, few[c]);
+        double quarter_nat = MNAT * initiator.confirm_mnat;
+        config.area = (struct rho_extent){-5000.0f, 5000.0f, -5000.0f, 5000.0f};
+        search_clutter(&config, 4 * few[c]);
+        double large_nat = MNAT * initiator.confirm_mnat + log(4.0);
+        assert_true(large_nat > small_nat + 0.2);
+        assert_float_equal(large_nat, quarter_nat, 0.7);
+    }
+}
+
+static void search_with_range_rates(uint32_t measures, int count)
+{
+    struct rho_initiator_config config = usual(1.0f);
+    random_state = 3;
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        add_clutter(&square, count);
+        for (uint32_t i = 0; i < num_plots; i++) {
+            plots[i].range_rate_mps = (float)uniform(-400.0, 400.0);
+            plots[i].sigma_range_rate_mps = 1.0f;
+        }
+        push_scan((struct rho_scan){.measures = measures}, SCAN_S * k, NULL);
+    }
+    search(RHO_SEARCH_NEWEST);
+}
+
+static void range_rates_ask_for_fewer_votes_in_the_same_clutter(void **state)
+{
+    (void)state;
+    for (size_t c = 1; c < NUM(counts); c++) {
+        search_with_range_rates(0, counts[c]);
+        int32_t start_mnat = initiator.start_mnat, confirm_mnat = initiator.confirm_mnat;
+        unsigned min_scans = initiator.min_scans;
+        search_with_range_rates(RHO_MEASURES_RANGE_RATE, counts[c]);
+        assert_true(initiator.min_scans <= min_scans);
+        assert_true(initiator.start_mnat < start_mnat ||
+                    start_mnat == -10000); /* the least there is */
+        assert_true(counts[c] > 100 || initiator.confirm_mnat < confirm_mnat - 2000);
+    }
+    assert_true(initiator.min_scans <= 4); /* 250 plots: 5 without */
+}
+
+/* ---- kept ------------------------------------------------------------------------------------ */
+
+/* An hour: a few scans are enough to count, and clutter could start three times as many. */
+#define WANTED 60.0f
+
+/*
+ * Confirmed tracks an hour in 4 x 2.5 km of nothing but clutter, so many plots a scan on average.
+ * Measurements besides places have the noise of a radar 8 km away.
+ */
+static double false_tracks_an_hour(int scans, double mean, uint32_t measures)
+{
+    static struct rho_tracker tracker;
+    static struct rho_report report;
+    const struct rho_sensor away = sensor_at(-8000.0, 0.0);
+    struct rho_initiator_config config = usual(WANTED);
+    struct rho_tracker_config maintain;
+    config.area = (struct rho_extent){0.0f, 4000.0f, -1000.0f, 1500.0f};
+    rho_tracker_config_default(&maintain);
+    maintain.v_max_mps = config.v_max_mps;
+    start(&config);
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &maintain), RHO_OK);
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &away), RHO_OK);
+    for (int k = 0; k < scans; k++) {
+        struct rho_scan scan = {
+            .time_us = (int64_t)(SCAN_S * 1e6) * k, .measures = measures, .plots = plots};
+        num_plots = 0;
+        add_clutter(&config.area, poisson(mean));
+        for (uint32_t i = 0; i < num_plots; i++) {
+            plots[i].sigma_cross_m = measures ? 100.0f : 10.0f;
+            plots[i].z_m = (float)uniform(0.0, 20000.0);
+            plots[i].sigma_up_m = 30.0f;
+            plots[i].range_rate_mps = (float)uniform(-400.0, 400.0);
+            plots[i].sigma_range_rate_mps = 5.0f;
+        }
+        scan.num_plots = num_plots;
+        assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+    }
+    return tracker.counters.tracks_confirmed * 3600.0 / (scans * SCAN_S);
+}
+
+/* About 100, 27 and 23 tracks: standard deviations of 6, 12 and 12 an hour. */
+static void clutter_makes_about_as_many_tracks_as_wanted(void **state)
+{
+    (void)state;
+    random_state = 11;
+    const double found[] = {false_tracks_an_hour(3000, 10.0, 0),
+                            false_tracks_an_hour(800, 30.0, RHO_MEASURES_Z),
+                            false_tracks_an_hour(700, 60.0, RHO_MEASURES_RANGE_RATE)};
+    for (size_t i = 0; i < NUM(found); i++) {
+        print_message("%.0f an hour wanted, confirmed %.0f\n", WANTED, found[i]);
+        assert_true(found[i] > 0.5 * WANTED && found[i] < 2.0 * WANTED);
+    }
+}
+
+/*
+ * Process noise that bends tracks by many sigmas, 100 plots a scan on 95 x 95 km, 10 s: clutter may
+ * start 0.1 tracks a search. It starts 0.02, since what bends so much may be made up of the same
+ * plots in several ways. The variances of the bends differ by a hundred: with their mean in place
+ * of each it would be 0.003.
+ */
+static void clutter_starts_tracks_that_process_noise_bends(void **state)
+{
+    const int searches = 600;
+    struct rho_initiator_config config = usual(20.0f);
+    unsigned starts = 0;
+    (void)state;
+    random_state = 5;
+    config.v_min_mps = 50.0f;
+    config.v_max_mps = 300.0f;
+    config.pd = 0.95f;
+    config.process_noise_mps2 = 10.0f;
+    config.area = (struct rho_extent){-47500.0f, 47500.0f, -47500.0f, 47500.0f};
+    start(&config);
+    for (int k = 0; k < searches; k++) {
+        for (int i = poisson(100.0); i > 0; i--) {
+            add(uniform(-47500.0, 47500.0), uniform(-47500.0, 47500.0), 50.0, 50.0);
+        }
+        push(10.0 * k);
+        search(RHO_SEARCH_NEWEST);
+        starts += initiator.num_candidates;
+        for (unsigned i = 0; i < initiator.num_candidates; i++) {
+            (void)rho_initiator_consume(&initiator, &initiator.candidates[i]);
+        }
+    }
+    print_message("starts a search: 0.1 allowed, %.3f\n", (double)starts / searches);
+    assert_true(starts > 0.01 * searches && starts < 0.2 * searches);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_clear_sky_confirms_a_target_at_its_third_plot),
+        cmocka_unit_test(confirming_falls_as_more_false_tracks_are_allowed_but_not_below_starting),
+        cmocka_unit_test(more_false_tracks_allowed_are_never_fewer_tracks),
+        cmocka_unit_test(every_candidate_of_a_kept_rate_reaches_the_start_threshold),
+        cmocka_unit_test(denser_clutter_asks_for_more_votes),
+        cmocka_unit_test(without_a_rate_the_least_score_is_the_threshold),
+        cmocka_unit_test(a_batch_goes_by_the_least_score_whatever_the_rate),
+        cmocka_unit_test(the_same_scans_give_the_same_thresholds),
+        cmocka_unit_test(a_shorter_scan_interval_confirms_as_half_the_rate_does),
+        cmocka_unit_test(a_larger_area_confirms_as_a_smaller_rate_does),
+        cmocka_unit_test(range_rates_ask_for_fewer_votes_in_the_same_clutter),
+        cmocka_unit_test(clutter_makes_about_as_many_tracks_as_wanted),
+        cmocka_unit_test(clutter_starts_tracks_that_process_noise_bends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,467 @@
+/* SPDX-License-Identifier: MIT */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "rhotrack/measurement.h"
+
+#define PI 3.14159265358979323846
+#define ALL (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)
+
+static uint64_t seed = 1;
+
+static double uniform(double from, double to)
+{
+    seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return from + (to - from) * (double)(seed >> 11) / 9007199254740992.0;
+}
+
+static double normal(void)
+{
+    double radius = sqrt(-2.0 * log(1.0 - uniform(0.0, 1.0)));
+    return radius * cos(uniform(0.0, 2.0 * PI));
+}
+
+static struct rho_polar_plot some_polar(void)
+{
+    return (struct rho_polar_plot){.offset_us = 1500,
+                                   .range_m = (float)uniform(500.0, 90000.0),
+                                   .azimuth_rad = (float)uniform(-PI, PI),
+                                   .elevation_rad = (float)uniform(-1.5, 1.5),
+                                   .range_rate_mps = -77.0f,
+                                   .sigma_range_m = 15.0f,
+                                   .sigma_azimuth_rad = 0.003f,
+                                   .sigma_elevation_rad = 0.005f,
+                                   .sigma_range_rate_mps = 1.5f,
+                                   .snr_db = 12.0f};
+}
+
+static const struct rho_sensor somewhere = {.sensor_id = 3,
+                                            .x_m = 1200.0f,
+                                            .y_m = -3400.0f,
+                                            .z_m = 250.0f,
+                                            .pd = 0.9f,
+                                            .range_max_m = 1e5f,
+                                            .range_bias_m = 50.0f,
+                                            .azimuth_bias_rad = 0.002f,
+                                            .time_bias_s = 0.25f};
+
+/* ---- places ---------------------------------------------------------------------------------- */
+
+static void polar_plots_become_places(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2000; i++) {
+        struct rho_polar_plot polar = some_polar();
+        const struct rho_sensor *sensor = i % 2 ? &somewhere : NULL;
+        int has_z = i % 3 != 0;
+        struct rho_plot plot;
+        assert_int_equal(rho_measurement_from_polar(&polar, has_z ? ALL : 0u, sensor, &plot),
+                         RHO_OK);
+        double range = polar.range_m - (sensor ? 50.0 : 0.0);
+        double azimuth = polar.azimuth_rad - (sensor ? (double)0.002f : 0.0);
+        double elevation = has_z ? polar.elevation_rad : 0.0;
+        double up = has_z ? exp(0.5 * pow(0.005, 2)) : 1.0, round = exp(0.5 * pow(0.003, 2));
+        double level = range * up * cos(elevation);
+        double expected[3] = {level * round * cos(azimuth), level * round * sin(azimuth),
+                              range * up * sin(elevation)};
+        double tolerance = 1e-6 * range + 1e-3;
+        assert_float_equal(plot.x_m, expected[0] + (sensor ? 1200.0 : 0.0), tolerance);
+        assert_float_equal(plot.y_m, expected[1] + (sensor ? -3400.0 : 0.0), tolerance);
+        assert_float_equal(plot.z_m, has_z ? expected[2] + (sensor ? 250.0 : 0.0) : 0.0, tolerance);
+        assert_int_equal(plot.offset_us, sensor ? 1500 - 250000 : 1500);
+        assert_float_equal(plot.range_rate_mps, has_z ? -77.0f : 0.0f, 0.0f);
+        assert_float_equal(plot.sigma_cross_m, level * 0.003, 1e-5 * range + 1e-3);
+        assert_float_equal(plot.snr_db, 12.0f, 0.0f);
+    }
+}
+
+/* What many measurements of one target look like beside the plots made of them. */
+struct spread {
+    double mean[3], covariance[3][3]; /* of the error along, across, up, about its mean */
+    double plain_along;               /* mean error along without debiasing */
+};
+
+static struct spread spread_of(double range_m, double sigma_rad, double elevation, int count)
+{
+    struct spread spread = {{0.0}, {{0.0}}, 0.0};
+    double azimuth = 0.7, ce = cos(elevation), se = sin(elevation);
+    double axis[3][3] = {{ce * cos(azimuth), ce * sin(azimuth), se},
+                         {-sin(azimuth), cos(azimuth), 0.0},
+                         {-se * cos(azimuth), -se * sin(azimuth), ce}};
+    for (int n = 0; n < count; n++) {
+        struct rho_polar_plot polar = {
+            .range_m = (float)(range_m + 15.0 * normal()),
+            .azimuth_rad = (float)(azimuth + sigma_rad * normal()),
+            .elevation_rad = (float)(elevation + sigma_rad * normal()),
+            .sigma_range_m = 15.0f,
+            .sigma_azimuth_rad = (float)sigma_rad,
+            .sigma_elevation_rad = (float)sigma_rad,
+        };
+        struct rho_plot plot;
+        assert_int_equal(rho_measurement_from_polar(&polar, RHO_MEASURES_Z, NULL, &plot), RHO_OK);
+        double error[3] = {plot.x_m - range_m * axis[0][0], plot.y_m - range_m * axis[0][1],
+                           plot.z_m - range_m * axis[0][2]};
+        double seen[3];
+        for (int i = 0; i < 3; i++) {
+            seen[i] = axis[i][0] * error[0] + axis[i][1] * error[1] + axis[i][2] * error[2];
+            spread.mean[i] += seen[i] / count;
+        }
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                spread.covariance[i][j] += seen[i] * seen[j] / count;
+            }
+        }
+        double plain_x = polar.range_m * cos(polar.elevation_rad) * cos(polar.azimuth_rad);
+        double plain_y = polar.range_m * cos(polar.elevation_rad) * sin(polar.azimuth_rad);
+        double plain_z = polar.range_m * sin(polar.elevation_rad);
+        spread.plain_along +=
+            (axis[0][0] * plain_x + axis[0][1] * plain_y + axis[0][2] * plain_z - range_m) / count;
+    }
+    return spread;
+}
+
+/* Unbiased, and with the noise that is said: along, across and up the line of sight. */
+static void check_spread(double range_m, double sigma_rad, double elevation, double bias_m)
+{
+    enum { COUNT = 40000 };
+    struct spread spread = spread_of(range_m, sigma_rad, elevation, COUNT);
+    struct rho_polar_plot polar = {
+        .range_m = (float)range_m,
+        .azimuth_rad = 0.7f,
+        .elevation_rad = (float)elevation,
+        .sigma_range_m = 15.0f,
+        .sigma_azimuth_rad = (float)sigma_rad,
+        .sigma_elevation_rad = (float)sigma_rad,
+    };
+    struct rho_plot plot;
+    assert_int_equal(rho_measurement_from_polar(&polar, RHO_MEASURES_Z, NULL, &plot), RHO_OK);
+    const double said[3] = {plot.sigma_range_m, plot.sigma_cross_m, plot.sigma_up_m};
+    for (int i = 0; i < 3; i++) {
+        assert_float_equal(spread.mean[i], 0.0, 4.0 * said[i] / sqrt(COUNT) + 0.02);
+        assert_float_equal(sqrt(spread.covariance[i][i]) / said[i], 1.0, 0.03);
+        for (int j = 0; j < i; j++) {
+            assert_float_equal(spread.covariance[i][j] / (said[i] * said[j]), 0.0, 0.05);
+        }
+    }
+    assert_float_equal(spread.plain_along, -bias_m, 4.0 * said[0] / sqrt(COUNT) + 0.05 * bias_m);
+}
+
+static void converted_places_are_unbiased(void **state)
+{
+    (void)state;
+    check_spread(60000.0, 0.003, 0.1, 0.54); /* r sigma^2 / 2 for each of two angles */
+    check_spread(100000.0, 0.03, 0.1, 90.0); /* it matters: six times the range's sigma */
+    check_spread(20000.0, 0.03, -0.6, 0.5 * 20000.0 * 0.0009 * (1.0 + pow(cos(0.6), 2)));
+}
+
+/* ---- refusals -------------------------------------------------------------------------------- */
+
+#define REFUSED(what)                                                                              \
+    do {                                                                                           \
+        struct rho_polar_plot bad = good;                                                          \
+        what;                                                                                      \
+        assert_int_equal(rho_measurement_from_polar(&bad, ALL, NULL, &plot), RHO_ERROR_VALUE);     \
+        assert_memory_equal(&plot, &before, sizeof plot);                                          \
+    } while (0)
+
+static void what_no_radar_measures_is_refused(void **state)
+{
+    (void)state;
+    struct rho_polar_plot good = some_polar();
+    struct rho_plot plot, before;
+    memset(&plot, 0x33, sizeof plot);
+    before = plot;
+    good.range_m = 5000.0f;
+    REFUSED(bad.range_m = 0.0f);
+    REFUSED(bad.range_m = -1.0f);
+    REFUSED(bad.range_m = INFINITY);
+    REFUSED(bad.range_m = NAN);
+    REFUSED(bad.range_m = 2.1e6f);
+    REFUSED(bad.azimuth_rad = 3.15f);
+    REFUSED(bad.azimuth_rad = -3.15f);
+    REFUSED(bad.azimuth_rad = NAN);
+    REFUSED(bad.elevation_rad = 1.58f);
+    REFUSED(bad.elevation_rad = -1.58f);
+    REFUSED(bad.elevation_rad = NAN);
+    REFUSED(bad.sigma_range_m = 0.0f);
+    REFUSED(bad.sigma_range_m = -5.0f);
+    REFUSED(bad.sigma_azimuth_rad = 0.0f);
+    REFUSED(bad.sigma_azimuth_rad = 0.6f);
+    REFUSED(bad.sigma_elevation_rad = -0.1f);
+    REFUSED(bad.sigma_range_rate_mps = 0.0f);
+    REFUSED(bad.range_rate_mps = INFINITY);
+    REFUSED(bad.range_rate_mps = NAN);
+    REFUSED(bad.range_rate_mps = -20001.0f);
+    REFUSED(bad.offset_us = RHO_LIMIT_OFFSET_US + 1);
+    assert_int_equal(rho_measurement_from_polar(NULL, 0, NULL, &plot), RHO_ERROR_NULL);
+    assert_int_equal(rho_measurement_from_polar(&good, 0, NULL, NULL), RHO_ERROR_NULL);
+    assert_memory_equal(&plot, &before, sizeof plot);
+}
+
+static void biases_cannot_make_bad_plots(void **state)
+{
+    (void)state;
+    struct rho_polar_plot polar = some_polar();
+    struct rho_plot plot;
+    struct rho_sensor sensor = somewhere;
+    polar.range_m = 50.0f; /* all of it bias */
+    assert_int_equal(rho_measurement_from_polar(&polar, ALL, &sensor, &plot), RHO_ERROR_VALUE);
+    polar.range_m = 51.0f;
+    assert_int_equal(rho_measurement_from_polar(&polar, ALL, &sensor, &plot), RHO_OK);
+    polar.offset_us = -RHO_LIMIT_OFFSET_US;
+    assert_int_equal(rho_measurement_from_polar(&polar, ALL, &sensor, &plot), RHO_ERROR_VALUE);
+    polar.offset_us = 0;
+    polar.range_m = 1.5e6f;
+    polar.azimuth_rad = 0.0f;
+    polar.elevation_rad = 0.0f;
+    sensor.x_m = 1.0e6f;
+    assert_int_equal(rho_measurement_from_polar(&polar, ALL, &sensor, &plot), RHO_ERROR_VALUE);
+}
+
+#define SENSOR_REFUSED(field, value)                                                               \
+    do {                                                                                           \
+        struct rho_sensor bad = somewhere;                                                         \
+        bad.field = (value);                                                                       \
+        assert_int_equal(rho_measurement_from_polar(&good, ALL, &bad, &plot), RHO_ERROR_VALUE);    \
+    } while (0)
+
+static void sensors_without_a_place_or_with_wild_biases_are_refused(void **state)
+{
+    (void)state;
+    const struct rho_polar_plot good = some_polar();
+    struct rho_plot plot;
+    SENSOR_REFUSED(x_m, NAN);
+    SENSOR_REFUSED(y_m, INFINITY);
+    SENSOR_REFUSED(z_m, -3e6f);
+    SENSOR_REFUSED(range_bias_m, NAN);
+    SENSOR_REFUSED(azimuth_bias_rad, 0.6f);
+    SENSOR_REFUSED(time_bias_s, NAN);
+    SENSOR_REFUSED(time_bias_s, 3e38f);
+    SENSOR_REFUSED(time_bias_s, -11.0f);
+}
+
+/* A hundred thousand times as wide as deep, at any azimuth: still an ellipse. */
+static void the_thinnest_covariances_stay_positive_definite(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 360; i++) {
+        double azimuth_rad = i * 0.0174532925;
+        struct rho_plot plot = {.x_m = (float)(1e5 * cos(azimuth_rad)),
+                                .y_m = (float)(1e5 * sin(azimuth_rad)),
+                                .sigma_range_m = 1.0f,
+                                .sigma_cross_m = 1e5f};
+        struct rho_measurement seen;
+        float packed[6];
+        rho_measurement_open(&plot, 0, NULL, &seen);
+        rho_measurement_covariance(&seen, packed);
+        double determinant = (double)packed[0] * packed[2] - (double)packed[1] * packed[1];
+        assert_true(packed[0] > 0.0f && packed[2] > 0.0f && determinant > 0.0);
+    }
+}
+
+static void what_is_not_measured_may_be_anything(void **state)
+{
+    (void)state;
+    struct rho_polar_plot polar = some_polar();
+    struct rho_plot plot;
+    polar.elevation_rad = polar.range_rate_mps = polar.sigma_elevation_rad = NAN;
+    polar.sigma_range_rate_mps = NAN;
+    assert_int_equal(rho_measurement_from_polar(&polar, 0, NULL, &plot), RHO_OK);
+    assert_true(rho_measurement_is_valid(&plot, 0));
+    plot.z_m = plot.sigma_up_m = plot.vx_mps = plot.range_rate_mps = NAN;
+    assert_true(rho_measurement_is_valid(&plot, 0));
+    assert_false(rho_measurement_is_valid(&plot, RHO_MEASURES_Z));
+    assert_false(rho_measurement_is_valid(&plot, RHO_MEASURES_VELOCITY));
+    assert_false(rho_measurement_is_valid(&plot, RHO_MEASURES_RANGE_RATE));
+}
+
+static void a_plot_is_valid_field_by_field(void **state)
+{
+    (void)state;
+    const struct rho_plot good = {.x_m = 1.0f,
+                                  .sigma_range_m = 1.0f,
+                                  .sigma_cross_m = 1.0f,
+                                  .sigma_up_m = 1.0f,
+                                  .sigma_mps = 1.0f,
+                                  .sigma_range_rate_mps = 1.0f};
+    const uint32_t all = ALL | RHO_MEASURES_VELOCITY;
+    const size_t fields[] = {offsetof(struct rho_plot, x_m),
+                             offsetof(struct rho_plot, y_m),
+                             offsetof(struct rho_plot, z_m),
+                             offsetof(struct rho_plot, vx_mps),
+                             offsetof(struct rho_plot, vy_mps),
+                             offsetof(struct rho_plot, vz_mps),
+                             offsetof(struct rho_plot, range_rate_mps),
+                             offsetof(struct rho_plot, sigma_range_m),
+                             offsetof(struct rho_plot, sigma_cross_m),
+                             offsetof(struct rho_plot, sigma_up_m),
+                             offsetof(struct rho_plot, sigma_mps),
+                             offsetof(struct rho_plot, sigma_range_rate_mps)};
+    const float bad[] = {NAN, INFINITY, -INFINITY, 3.0e6f};
+    assert_true(rho_measurement_is_valid(&good, all));
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+        for (size_t k = 0; k < 4; k++) {
+            struct rho_plot plot = good;
+            memcpy((char *)&plot + fields[i], &bad[k], sizeof bad[k]);
+            assert_false(rho_measurement_is_valid(&plot, all));
+        }
+    }
+    struct rho_plot late = good;
+    late.offset_us = INT32_MIN;
+    assert_false(rho_measurement_is_valid(&late, 0));
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+static void the_covariance_has_the_axes_of_the_line_of_sight(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 1000; n++) {
+        struct rho_plot plot = {.x_m = (float)uniform(-5e4, 5e4),
+                                .y_m = (float)uniform(-5e4, 5e4),
+                                .z_m = (float)uniform(-2e4, 2e4),
+                                .sigma_range_m = (float)uniform(1.0, 100.0),
+                                .sigma_cross_m = (float)uniform(1.0, 900.0),
+                                .sigma_up_m = (float)uniform(1.0, 500.0)};
+        struct rho_measurement seen;
+        float packed[6];
+        int has_z = n % 2;
+        rho_measurement_open(&plot, has_z ? RHO_MEASURES_Z : 0u, &somewhere, &seen);
+        rho_measurement_covariance(&seen, packed);
+        double d[3] = {plot.x_m - 1200.0, plot.y_m + 3400.0, has_z ? plot.z_m - 250.0 : 0.0};
+        double ground = hypot(d[0], d[1]), range = hypot(ground, d[2]);
+        double axis[3][3] = {
+            {d[0] / range, d[1] / range, d[2] / range},
+            {-d[1] / ground, d[0] / ground, 0.0},
+            {-d[2] * d[0] / range / ground, -d[2] * d[1] / range / ground, ground / range}};
+        double sigma[3] = {plot.sigma_range_m, plot.sigma_cross_m, has_z ? plot.sigma_up_m : 0.0};
+        double largest = fmax(sigma[0], fmax(sigma[1], sigma[2]));
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j <= i; j++) {
+                double sum = 0.0;
+                for (int k = 0; k < 3; k++) {
+                    sum += sigma[k] * sigma[k] * axis[k][i] * axis[k][j];
+                }
+                assert_float_equal(packed[i * (i + 1) / 2 + j], sum, 2e-6 * largest * largest);
+            }
+        }
+    }
+}
+
+static void plots_without_a_line_of_sight_are_isotropic(void **state)
+{
+    (void)state;
+    struct rho_plot plot = {.x_m = 1200.2f,
+                            .y_m = -3400.0f,
+                            .z_m = 5000.0f,
+                            .sigma_range_m = 10.0f,
+                            .sigma_cross_m = 30.0f,
+                            .sigma_up_m = 20.0f};
+    struct rho_measurement seen;
+    float packed[6];
+    rho_measurement_open(&plot, RHO_MEASURES_Z, &somewhere, &seen);
+    rho_measurement_covariance(&seen, packed);
+    /* overhead: the range is the height, and the other two axes are level, along any azimuth */
+    const float overhead[6] = {400.0f, 0.0f, 900.0f, 0.0f, 0.0f, 100.0f};
+    for (int i = 0; i < 6; i++) {
+        assert_float_equal(packed[i], overhead[i], 1e-3f);
+    }
+    rho_measurement_open(&plot, 0, &somewhere, &seen);
+    rho_measurement_covariance(&seen, packed);
+    assert_true(seen.is_isotropic);
+    const float expected[3] = {900.0f, 0.0f, 900.0f};
+    for (int i = 0; i < 3; i++) {
+        assert_float_equal(packed[i], expected[i], 1e-3f);
+    }
+    plot.x_m = 5000.0f;
+    plot.sigma_cross_m = 10.0f;
+    rho_measurement_open(&plot, 0, &somewhere, &seen);
+    assert_true(seen.is_isotropic);
+    rho_measurement_open(&plot, RHO_MEASURES_Z, &somewhere, &seen);
+    assert_false(seen.is_isotropic);
+}
+
+/* ---- range rate and coverage ----------------------------------------------------------------- */
+
+static double rate_of(const double state[6], int use_z)
+{
+    double d[3] = {state[0] - 1200.0, state[1] + 3400.0, use_z ? state[2] - 250.0 : 0.0};
+    double range = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    return (d[0] * state[3] + d[1] * state[4] + d[2] * (use_z ? state[5] : 0.0)) / range;
+}
+
+static void range_rates_and_their_derivatives(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 500; n++) {
+        double at[6];
+        float single[6], row[6], rate;
+        int use_z = n % 2;
+        for (int i = 0; i < 6; i++) {
+            single[i] = (float)(i < 3 ? uniform(-3e4, 3e4) : uniform(-400.0, 400.0));
+            at[i] = single[i];
+        }
+        assert_int_equal(rho_measurement_range_rate(single, &somewhere, use_z, row, &rate), 1);
+        assert_float_equal(rate, rate_of(at, use_z), 2e-3);
+        for (int i = 0; i < 6; i++) {
+            double step = i < 3 ? 1.0 : 0.01, up[6], down[6];
+            memcpy(up, at, sizeof at);
+            memcpy(down, at, sizeof at);
+            up[i] += step;
+            down[i] -= step;
+            assert_float_equal(row[i], (rate_of(up, use_z) - rate_of(down, use_z)) / (2.0 * step),
+                               1e-5);
+        }
+    }
+    const float there[6] = {1200.5f, -3400.0f, 250.0f, 100.0f, 0.0f, 0.0f};
+    float row[6] = {0.0f}, rate = 5.0f;
+    assert_int_equal(rho_measurement_range_rate(there, &somewhere, 1, row, &rate), 0);
+    assert_float_equal(rate, 5.0f, 0.0f);
+    assert_int_equal(rho_measurement_range_rate(there, NULL, 1, row, &rate), 1);
+}
+
+static void a_scan_looks_within_its_sector_and_range(void **state)
+{
+    (void)state;
+    struct rho_sensor sensor = {.sensor_id = 1,
+                                .x_m = 1000.0f,
+                                .pd = 0.9f,
+                                .range_min_m = 100.0f,
+                                .range_max_m = 5000.0f,
+                                .sector_from_rad = 2.0f,
+                                .sector_to_rad = -2.0f}; /* over pi */
+    assert_true(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -1000.0f, 10.0f));
+    assert_true(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -1000.0f, -10.0f));
+    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, 3000.0f, 0.0f));  /* its sector */
+    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, 950.0f, 0.0f));   /* too near */
+    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -4100.0f, 0.0f)); /* too far */
+    assert_true(rho_measurement_looks_at(&sensor, 3.0f, -3.0f, -1000.0f, 10.0f));
+    assert_false(rho_measurement_looks_at(&sensor, -3.1f, -2.0f, -1000.0f, 10.0f)); /* the scan's */
+    assert_true(rho_measurement_looks_at(NULL, 0.0f, 0.0f, 1e6f, 1e6f));
+    assert_false(rho_measurement_looks_at(NULL, 0.0f, 0.5f, 1e6f, 1e6f));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(polar_plots_become_places),
+        cmocka_unit_test(converted_places_are_unbiased),
+        cmocka_unit_test(what_no_radar_measures_is_refused),
+        cmocka_unit_test(sensors_without_a_place_or_with_wild_biases_are_refused),
+        cmocka_unit_test(the_thinnest_covariances_stay_positive_definite),
+        cmocka_unit_test(biases_cannot_make_bad_plots),
+        cmocka_unit_test(what_is_not_measured_may_be_anything),
+        cmocka_unit_test(a_plot_is_valid_field_by_field),
+        cmocka_unit_test(the_covariance_has_the_axes_of_the_line_of_sight),
+        cmocka_unit_test(plots_without_a_line_of_sight_are_isotropic),
+        cmocka_unit_test(range_rates_and_their_derivatives),
+        cmocka_unit_test(a_scan_looks_within_its_sector_and_range),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

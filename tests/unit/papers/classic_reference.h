@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The papers' initiation methods in double precision, without a thought of speed: every pair
+ * against every pair, all votes in one long list that is sorted by cell. Nothing is shared with the
+ * library but its inputs.
+ *
+ * A line, a length or a kernel so near a limit that float and double may disagree is let fall
+ * either way: a cell has the least and the most votes that it can have, and value, what exact
+ * arithmetic gives it.
+ */
+#ifndef RHOTRACK_TESTS_CLASSIC_REFERENCE_H
+#define RHOTRACK_TESTS_CLASSIC_REFERENCE_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rhotrack/classic.h"
+
+#define REFERENCE_PI 3.14159265358979323846
+#define CELL_SLACK 1e-3 /* of a cell */
+#define EPS_SLACK 1e-3  /* of eps */
+#define GATE_SLACK 1e-6 /* of a length */
+#define VOTE_SLACK 2e-4 /* about the threshold F */
+
+static struct rho_classic_config config;
+
+/* ---- plots ----------------------------------------------------------------------------------- */
+
+#define PLOTS_MAX 70000
+
+static float x_m[PLOTS_MAX], y_m[PLOTS_MAX], t_s[PLOTS_MAX];
+static uint32_t scan_end[RHO_ACCUMULATOR_SCANS_MAX + 1];
+static struct rho_classic_points points = {.at = {.x_m = x_m, .y_m = y_m, .scan_end = scan_end},
+                                           .t_s = t_s};
+static uint64_t random_state = 1;
+
+/* No libm: the same plots everywhere. */
+static inline double uniform(double from, double to)
+{
+    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
+}
+
+static inline double normal(void)
+{
+    double sum = -6.0;
+    for (int i = 0; i < 12; i++) {
+        sum += uniform(0.0, 1.0);
+    }
+    return sum;
+}
+
+static inline unsigned poisson_of_100(void)
+{
+    unsigned count = 0;
+    for (double product = uniform(0.0, 1.0); product > 3.720075976020836e-44; count++) {
+        product *= uniform(0.0, 1.0);
+    }
+    return count;
+}
+
+static inline unsigned num_plots(void)
+{
+    return points.at.num_scans ? scan_end[points.at.num_scans - 1] : 0;
+}
+
+static inline void start_scan(void)
+{
+    unsigned before = num_plots();
+    assert_true(points.at.num_scans < RHO_ACCUMULATOR_SCANS_MAX);
+    scan_end[points.at.num_scans++] = before;
+}
+
+static inline void add_plot(double x, double y, double t)
+{
+    uint32_t *end = &scan_end[points.at.num_scans - 1];
+    assert_true(*end < PLOTS_MAX);
+    x_m[*end] = (float)x;
+    y_m[*end] = (float)y;
+    t_s[(*end)++] = (float)t;
+}
+
+/* x first: the order in which a call's arguments are computed is the compiler's. */
+static inline void add_noisy(double x, double y, double t, double noise_m)
+{
+    double dx = noise_m * normal();
+    add_plot(x + dx, y + noise_m * normal(), t);
+}
+
+static inline void add_anywhere(double x_from, double x_to, double y_from, double y_to, double t)
+{
+    double x = uniform(x_from, x_to);
+    add_plot(x, uniform(y_from, y_to), t);
+}
+
+static inline unsigned scan_start(unsigned scan)
+{
+    return scan ? scan_end[scan - 1] : 0;
+}
+
+static inline unsigned scan_of(unsigned plot)
+{
+    unsigned scan = 0;
+    while (plot >= scan_end[scan]) {
+        scan++;
+    }
+    return scan;
+}
+
+/*
+ * The three targets of the paper's Table 1, 2 s apart, and clutter plots so many times 10 / km^2.
+ */
+static inline void lay_table_1(unsigned num_scans, double noise_m, int has_clutter)
+{
+    const double targets[3][4] = {{300.0, 280.0, 400.0, 49.0},
+                                  {3000.0, -173.2, 300.0, -100.0},
+                                  {2100.0, -173.2, 1300.0, -100.0}};
+    points.at.num_scans = 0;
+    for (unsigned scan = 0; scan < num_scans; scan++) {
+        double t = 2.0 * scan;
+        start_scan();
+        for (int i = 0; i < 3; i++) {
+            const double *at = targets[i];
+            add_noisy(at[0] + at[1] * t, at[2] + at[3] * t, t, noise_m);
+        }
+        for (unsigned n = has_clutter ? poisson_of_100() : 0; n > 0; n--) {
+            add_anywhere(0.0, 4000.0, -1000.0, 1500.0, t);
+        }
+    }
+}
+
+/* ---- lines ----------------------------------------------------------------------------------- */
+
+struct line {
+    double rho, theta;
+};
+
+struct place {
+    long theta, rho;
+};
+
+static inline long num_theta(void)
+{
+    return (long)ceil(REFERENCE_PI / (double)config.theta_cell_rad);
+}
+
+static inline long num_rho(void)
+{
+    return lround(2.0 * (double)config.rho_max_m / (double)config.rho_cell_m);
+}
+
+/* The same line with theta in [0, pi). */
+static inline struct line upright(struct line line)
+{
+    while (line.theta < 0.0) {
+        line = (struct line){-line.rho, line.theta + REFERENCE_PI};
+    }
+    while (line.theta >= REFERENCE_PI) {
+        line = (struct line){-line.rho, line.theta - REFERENCE_PI};
+    }
+    return line;
+}
+
+static inline struct line line_along(double x, double y, double dx, double dy)
+{
+    return upright((struct line){(dx * y - dy * x) / sqrt(dx * dx + dy * dy), atan2(dx, -dy)});
+}
+
+static inline struct line line_of_plots(unsigned a, unsigned b)
+{
+    double x = (double)x_m[a], y = (double)y_m[a];
+    return line_along(x, y, (double)x_m[b] - x, (double)y_m[b] - y);
+}
+
+static inline struct place place_of(struct line line)
+{
+    return (struct place){
+        (long)floor(line.theta / (double)config.theta_cell_rad),
+        (long)floor((line.rho + (double)config.rho_max_m) / (double)config.rho_cell_m)};
+}
+
+static inline int is_in_plane(struct place place)
+{
+    return place.theta >= 0 && place.theta < num_theta() && place.rho >= 0 && place.rho < num_rho();
+}
+
+/* Beyond the ends of theta the same line from the other side. */
+static inline struct place wrapped(struct place place)
+{
+    if (place.theta < 0 || place.theta >= num_theta()) {
+        place.theta += place.theta < 0 ? num_theta() : -num_theta();
+        place.rho = num_rho() - 1 - place.rho;
+    }
+    return place;
+}
+
+static inline uint32_t key_of(struct place place)
+{
+    return (uint32_t)(place.theta * num_rho() + place.rho);
+}
+
+/* How far another line is, by the nearer of its two points. */
+static inline struct line offset(struct line from, struct line to)
+{
+    double dtheta = to.theta - from.theta, rho = to.rho;
+    if (fabs(dtheta) > REFERENCE_PI / 2.0) {
+        dtheta += dtheta > 0.0 ? -REFERENCE_PI : REFERENCE_PI;
+        rho = -rho;
+    }
+    return (struct line){rho - from.rho, dtheta};
+}
+
+static inline double closeness(struct line offset)
+{
+    double rho = offset.rho / (double)config.eps_rho_m;
+    double theta = offset.theta / (double)config.eps_theta_rad;
+    return exp(-(rho * rho + theta * theta) / 2.0);
+}
+
+/* ---- pairs ----------------------------------------------------------------------------------- */
+
+enum verdict { NO, MAYBE, YES };
+
+static inline enum verdict verdict(double value, double limit, double slack)
+{
+    return value <= limit - slack ? YES : value <= limit + slack ? MAYBE : NO;
+}
+
+static inline enum verdict both(enum verdict a, enum verdict b)
+{
+    return a < b ? a : b;
+}
+
+static inline enum verdict is_near(struct line offset)
+{
+    double rho = fabs(offset.rho) / (double)config.eps_rho_m;
+    double theta = fabs(offset.theta) / (double)config.eps_theta_rad;
+    return both(verdict(rho, 2.0, EPS_SLACK), verdict(theta, 2.0, EPS_SLACK));
+}
+
+struct pair {
+    unsigned a, b;
+    struct line line;
+    enum verdict gated;
+};
+
+struct pairs {
+    struct pair *list;
+    size_t num;
+};
+
+static inline double length_of(unsigned a, unsigned b)
+{
+    return hypot((double)x_m[b] - (double)x_m[a], (double)y_m[b] - (double)y_m[a]);
+}
+
+static inline enum verdict is_gated(unsigned a, unsigned b)
+{
+    double dt = (double)t_s[b] - (double)t_s[a], d = length_of(a, b);
+    if (dt <= 0.0) {
+        return NO;
+    }
+    return both(verdict((double)config.v_min_mps * dt, d, GATE_SLACK * d),
+                verdict(d, (double)config.v_max_mps * dt, GATE_SLACK * d));
+}
+
+/* Of scan - 1 and scan, those that may vote; two plots in one place have no line. */
+static inline struct pairs pairs_of(unsigned scan)
+{
+    struct pairs pairs = {NULL, 0};
+    if (scan == 0) {
+        return pairs;
+    }
+    size_t from = scan_start(scan - 1), middle = scan_end[scan - 1], end = scan_end[scan];
+    pairs.list = malloc(((middle - from) * (end - middle) + 1) * sizeof *pairs.list);
+    for (unsigned a = (unsigned)from; a < middle; a++) {
+        for (unsigned b = (unsigned)middle; b < end; b++) {
+            enum verdict gated = is_gated(a, b);
+            if (length_of(a, b) > 0.0 && (gated != NO || config.method == RHO_CLASSIC_MHT)) {
+                pairs.list[pairs.num++] = (struct pair){a, b, line_of_plots(a, b), gated};
+            }
+        }
+    }
+    return pairs;
+}
+
+/* ---- what a pair's vote is worth ------------------------------------------------------------- */
+
+/* Value, and between what limits it is where something is nearly equal. */
+struct worth {
+    double value, least, most;
+};
+
+struct near {
+    const struct pair *kernel;
+    double mu;
+};
+
+struct nearest {
+    struct near best[3];
+    double surely; /* mu of the best that is not at a limit */
+    int is_vague;
+};
+
+static inline void take(struct nearest *nearest, struct near near)
+{
+    for (int i = 0; i < 3; i++) {
+        if (!nearest->best[i].kernel || near.mu > nearest->best[i].mu) {
+            struct near pushed = nearest->best[i];
+            nearest->best[i] = near;
+            near = pushed;
+        }
+        if (!near.kernel) {
+            return;
+        }
+    }
+}
+
+static inline struct nearest nearest_of(const struct pair *pair, const struct pairs *kernels)
+{
+    struct nearest nearest = {.surely = 0.0};
+    for (size_t i = 0; i < kernels->num; i++) {
+        const struct pair *kernel = &kernels->list[i];
+        if (fabs(fabs(pair->line.rho) - fabs(kernel->line.rho)) > 3.0 * (double)config.eps_rho_m) {
+            continue; /* far off, on either side */
+        }
+        struct line away = offset(pair->line, kernel->line);
+        enum verdict counts = both(kernel->gated, is_near(away));
+        if (counts != NO) {
+            take(&nearest, (struct near){kernel, closeness(away)});
+            nearest.is_vague |= counts == MAYBE;
+        }
+        if (counts == YES) {
+            nearest.surely = fmax(nearest.surely, closeness(away));
+        }
+    }
+    return nearest;
+}
+
+static inline struct worth indeterminacy(const struct pair *pair, const struct nearest *nearest)
+{
+    const struct pair *p = nearest->best[0].kernel, *q = nearest->best[1].kernel;
+    if (!q) {
+        return (struct worth){0.0, 0.0, nearest->is_vague ? 1.0 : 0.0};
+    }
+    double x = ((double)x_m[p->a] + (double)x_m[q->a]) / 2.0;
+    double y = ((double)y_m[p->a] + (double)y_m[q->a]) / 2.0;
+    double dx = ((double)x_m[p->b] + (double)x_m[q->b]) / 2.0 - x;
+    double dy = ((double)y_m[p->b] + (double)y_m[q->b]) / 2.0 - y;
+    int is_tied = nearest->best[2].kernel && nearest->best[1].mu - nearest->best[2].mu < 1e-3;
+    if (nearest->is_vague || is_tied || hypot(dx, dy) < 200.0) {
+        return (struct worth){0.0, 0.0, 1.0};
+    }
+    struct line away = offset(pair->line, line_along(x, y, dx, dy));
+    double mu = closeness(away);
+    enum verdict counts = is_near(away);
+    return (struct worth){counts == NO ? 0.0 : mu, counts == YES ? mu : 0.0,
+                          counts == NO ? 0.0 : mu};
+}
+
+static inline struct worth neutrosophic(const struct pair *pair, const struct pairs *kernels)
+{
+    double f = (double)config.lambda_k * (double)config.p_false * (double)config.p_false;
+    struct nearest nearest = nearest_of(pair, kernels);
+    double t = nearest.best[0].mu;
+    struct worth worth = {t, nearest.surely, t};
+    if (nearest.best[0].kernel && config.uses_indeterminacy) {
+        struct worth i = indeterminacy(pair, &nearest);
+        worth = (struct worth){fmax(t, i.value), fmax(worth.least, i.least), fmax(t, i.most)};
+    }
+    worth.value = worth.value < f ? 0.0 : worth.value;
+    worth.least = worth.least < f + VOTE_SLACK ? 0.0 : worth.least;
+    worth.most = worth.most < f - VOTE_SLACK ? 0.0 : worth.most;
+    return worth;
+}
+
+static inline struct worth worth_of(const struct pair *pair, const struct pairs *kernels)
+{
+    struct worth worth = {1.0, 1.0, 1.0};
+    if (config.method == RHO_CLASSIC_MHT) {
+        return worth;
+    }
+    if (config.method != RHO_CLASSIC_IHT) {
+        worth = neutrosophic(pair, kernels);
+    }
+    if (pair->gated != YES) {
+        worth.least = 0.0;
+    }
+    return worth;
+}
+
+#endif

@@ -1,0 +1,378 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The streamed accumulator against one that holds the whole plane (accumulator_plane.h): the same
+ * peaks, cell by cell.
+ */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "accumulator_plane.h"
+#include "rhotrack/detail/accumulator.h"
+#include "rhotrack/types.h"
+
+static uint32_t suppress(uint32_t num_peaks, uint32_t *scratch, uint32_t num_scratch)
+{
+    struct rho_peak_distance distance = {accumulator.theta_cells, accumulator.rho_cells, 8, 8};
+    return rho_peak_list_suppress(peaks, num_peaks, &distance, scratch, num_scratch);
+}
+
+static void peaks_are_those_of_the_whole_plane_at_the_papers_cells(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    scatter(7, 60, 2500.0);
+    expect_the_same(&config);
+    scatter(7, 1500, 2900.0); /* more than are remembered one by one */
+    config.min_votes = 5;
+    expect_the_same(&config);
+}
+
+static void peaks_are_those_of_the_whole_plane_at_coarse_cells(void **state)
+{
+    (void)state;
+    for (int run = 0; run < 120; run++) {
+        struct rho_accumulator_config config = {
+            .rho_max_m = run % 2 ? 60000.0f : 20000.0f, /* some points outside */
+            .rho_cell_m = run % 5 ? 100.0f : 2000.0f,
+            .theta_cell_rad = run % 5 ? 0.5f * DEG_RAD : 5.0f * DEG_RAD,
+            .votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS,
+            .min_votes = (uint16_t)(1 + run % 6),
+            .neighbours = (uint8_t)(4 * (run % 3))};
+        unsigned num_scans = 1 + (unsigned)run % RHO_ACCUMULATOR_SCANS_MAX;
+        unsigned count = (unsigned)uniform(0.0, run % 3 ? 250.0 : POINTS_MAX);
+        scatter(num_scans, count, 25000.0);
+        expect_the_same(&config);
+    }
+}
+
+/* ---- what counts ----------------------------------------------------------------------------- */
+
+/* A target on a line: one point a scan. */
+static void lay_line(unsigned num_scans, double from_x_m, double from_y_m, double dx_m, double dy_m)
+{
+    points.num_scans = num_scans;
+    for (unsigned scan = 0; scan < num_scans; scan++) {
+        x_m[scan] = (float)(from_x_m + dx_m * scan);
+        y_m[scan] = (float)(from_y_m + dy_m * scan);
+        scan_end[scan] = scan + 1;
+    }
+}
+
+static void a_line_is_found_where_it_is(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    for (int heading = 0; heading < 36; heading++) {
+        double course = (10.0 * heading + 3.0) * DEG_RAD;
+        lay_line(7, 800.0, 300.0, 400.0 * cos(course), 400.0 * sin(course));
+        config.min_votes = 7;
+        prepare(&config);
+        find(16);
+        assert_true(result.num_peaks >= 1);
+        assert_int_equal(peaks[0].mask, 0x7f);
+        double theta = rho_accumulator_theta_rad(&accumulator, peaks[0].theta_cell);
+        double rho = rho_accumulator_rho_m(&accumulator, peaks[0].rho_cell);
+        double normal = course + 1.5707963267948966;
+        double turned = sin(theta - normal); /* 0 where parallel, either sense */
+        assert_float_equal(turned, 0.0, 0.004);
+        assert_float_equal(800.0 * cos(theta) + 300.0 * sin(theta), rho, 8.0);
+    }
+}
+
+/* Along the cut of theta a line is in the first row and the last: one peak. */
+static void a_line_at_the_end_of_theta_is_one_peak(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    for (int i = 0; i < 21; i++) {
+        double tilt_rad = (i - 10) * 2e-4;
+        lay_line(7, 2002.5 - 1200.0 * tilt_rad, -1200.0, 400.0 * tilt_rad, 400.0);
+        config.min_votes = 7;
+        prepare(&config);
+        find(PEAKS_MAX);
+        uint32_t kept = suppress(result.num_peaks, NULL, 0);
+        assert_int_equal(kept, 1);
+    }
+}
+
+static void a_scan_votes_once_in_a_cell(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    points.num_scans = 3;
+    for (unsigned i = 0; i < 12; i++) {
+        x_m[i] = 1000.0f + 100.0f * (float)i;
+        y_m[i] = 500.0f;
+    }
+    scan_end[0] = 10;
+    scan_end[1] = 11;
+    scan_end[2] = 12;
+    prepare(&config);
+    find(4);
+    assert_int_equal(peaks[0].votes, 3);
+    config.votes = RHO_VOTES_POINTS;
+    prepare(&config);
+    find(4);
+    assert_int_equal(peaks[0].votes, 12);
+    assert_int_equal(peaks[0].mask, 0);
+}
+
+static void the_best_are_kept_and_the_others_counted(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    scatter(7, 200, 2500.0);
+    config.min_votes = 2;
+    prepare(&config);
+    find(PEAKS_MAX);
+    uint32_t all = result.num_peaks, votes = result.votes;
+    assert_true(all > 100);
+    assert_int_equal(votes, 200u * accumulator.theta_cells);
+    memcpy(expected, peaks, all * sizeof peaks[0]);
+    for (uint32_t most = 0; most < 100; most += 9) {
+        find(most);
+        assert_int_equal(result.num_peaks, most);
+        assert_int_equal(result.peaks_dropped, all - most);
+        assert_memory_equal(peaks, expected, most * sizeof peaks[0]);
+    }
+}
+
+/* However many there is room for, and wherever the most votes are met. */
+static void a_share_of_the_most_votes_is_a_threshold(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    for (int run = 0; run < 8; run++) {
+        scatter(7, run % 2 ? 200 : 1500, 2500.0);
+        config.min_votes = 2;
+        config.min_share = 0.0f;
+        config.neighbours = run % 3 ? 8 : 0;
+        config.votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
+        prepare(&config);
+        find(PEAKS_MAX);
+        uint32_t most = result.votes_max, least = (uint32_t)ceil(0.6 * most), count = 0;
+        while (count < result.num_peaks && peaks[count].votes >= least) {
+            count++;
+        }
+        memcpy(expected, peaks, count * sizeof peaks[0]);
+        config.min_share = 0.6f;
+        prepare(&config);
+        for (uint32_t room = count + 1; room <= PEAKS_MAX;
+             room = room < PEAKS_MAX ? PEAKS_MAX : room + 1) {
+            find(room);
+            assert_int_equal(result.num_peaks, count);
+            assert_int_equal(result.votes_max, most);
+            assert_int_equal(result.peaks_dropped, 0);
+            assert_memory_equal(peaks, expected, count * sizeof peaks[0]);
+        }
+        find(count / 2);
+        assert_int_equal(result.num_peaks, count / 2);
+        assert_true(result.peaks_dropped >= count - count / 2);
+        assert_memory_equal(peaks, expected, count / 2 * sizeof peaks[0]);
+    }
+}
+
+/* Beyond 2^24 a float32 has fewer digits than a number of votes. */
+static void the_most_votes_are_their_own_share(void **state)
+{
+    (void)state;
+    const uint32_t votes[] = {16777219u, 33554435u, 4294967295u, 4000000001u, 1u};
+    for (size_t i = 0; i < sizeof votes / sizeof votes[0]; i++) {
+        struct rho_accumulator_peak room[2];
+        struct rho_peak_list list = {.peaks = room, .max_peaks = 2, .min_share = 1.0f};
+        rho_peak_list_add(&list, (struct rho_accumulator_peak){.votes = votes[i]});
+        rho_peak_list_add(&list, (struct rho_accumulator_peak){.votes = votes[i] / 2u});
+        rho_peak_list_finish(&list);
+        assert_int_equal(list.num_peaks, 1);
+        assert_int_equal(room[0].votes, votes[i]);
+    }
+}
+
+static void points_beyond_the_largest_rho_do_not_vote(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    config.min_votes = 1;
+    config.rho_max_m = 1000.0f;
+    lay_line(1, 3000.0, 0.0, 0.0, 0.0);
+    expect_the_same(&config);
+    /* |3000 cos theta| < 1000: of pi, 2 asin(1 / 3) */
+    double share = 2.0 * asin(1.0 / 3.0) / 3.14159265358979;
+    assert_float_equal(result.votes, share * accumulator.theta_cells, 3.0);
+}
+
+static void what_was_in_it_before_does_not_matter(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    static struct rho_accumulator_peak first[64];
+    scatter(7, 100, 2500.0);
+    prepare(&config);
+    find(64);
+    uint32_t count = result.num_peaks;
+    memcpy(first, peaks, sizeof first);
+    for (int run = 0; run < 2; run++) {
+        memset(accumulator.rows, 0xa5, sizeof accumulator.rows);
+        memset(&accumulator.room, 0xa5, sizeof accumulator.room);
+        memset(accumulator.touched, run ? 0x7f : 0xff, sizeof accumulator.touched);
+        memset(accumulator.num_touched, 0xff, sizeof accumulator.num_touched);
+        find(64);
+        assert_int_equal(result.num_peaks, count);
+        assert_memory_equal(peaks, first, count * sizeof peaks[0]);
+    }
+}
+
+static void nothing_gives_nothing(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    prepare(&config);
+    points.num_scans = 0;
+    find(4);
+    assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
+    scatter(4, 0, 1.0);
+    find(4);
+    assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
+}
+
+/* ---- suppression ----------------------------------------------------------------------------- */
+
+static int is_near(const struct rho_accumulator_peak *a, const struct rho_accumulator_peak *b,
+                   int theta_cells, int rho_cells)
+{
+    for (int turn = -1; turn <= 1; turn++) {
+        int theta = b->theta_cell + turn * num_theta();
+        int rho = turn ? num_rho() - 1 - b->rho_cell : b->rho_cell;
+        if (abs(a->theta_cell - theta) <= theta_cells && abs(a->rho_cell - rho) <= rho_cells) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    static struct rho_accumulator_peak unsuppressed[3000];
+    static uint32_t scratch[4096];
+    const uint32_t sizes[] = {0, 1, 16, 512, 4096}; /* none, and from too small to large */
+    scatter(7, 150, 2500.0);
+    config.min_votes = 3;
+    config.neighbours = 0;
+    prepare(&config);
+    find(3000);
+    uint32_t all = result.num_peaks, kept = 0;
+    for (uint32_t i = 0; i < all; i++) {
+        uint32_t k = 0;
+        while (k < kept && !is_near(&expected[k], &peaks[i], 8, 8)) {
+            k++;
+        }
+        if (k == kept) {
+            expected[kept++] = peaks[i];
+        }
+    }
+    assert_true(all > 500);
+    memcpy(unsuppressed, peaks, all * sizeof peaks[0]);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        memcpy(peaks, unsuppressed, all * sizeof peaks[0]);
+        assert_int_equal(suppress(all, sizes[i] ? scratch : NULL, sizes[i]), kept);
+        assert_memory_equal(peaks, expected, kept * sizeof peaks[0]);
+    }
+    assert_true(kept < all);
+}
+
+/* ---- refusals -------------------------------------------------------------------------------- */
+
+#define REFUSED(field, value)                                                                      \
+    do {                                                                                           \
+        struct rho_accumulator_config bad = paper_cells();                                         \
+        bad.field = (value);                                                                       \
+        assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, &bad),             \
+                         RHO_ERROR_CONFIG);                                                        \
+    } while (0)
+
+static void bad_configs_are_refused(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    assert_int_equal(rho_accumulator_init(NULL, sizeof accumulator, &config), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_init(&accumulator, 7, &config), RHO_ERROR_SIZE);
+    REFUSED(rho_max_m, 0.0f);
+    REFUSED(rho_max_m, NAN);
+    REFUSED(rho_max_m, 2.6f * RHO_MAX_RHO_CELLS);
+    REFUSED(rho_cell_m, 0.0f);
+    REFUSED(rho_cell_m, INFINITY);
+    REFUSED(theta_cell_rad, 9e-5f);
+    REFUSED(theta_cell_rad, 3.2f);
+    REFUSED(theta_cell_rad, 3.14159274f); /* with neighbours */
+    REFUSED(theta_cell_rad, NAN);
+    REFUSED(votes, (enum rho_accumulator_votes)2);
+    REFUSED(min_votes, 0);
+    REFUSED(min_share, 1.1f);
+    REFUSED(min_share, NAN);
+    REFUSED(neighbours, 6);
+    REFUSED(no_pruning, 2);
+}
+
+static void bad_points_are_refused(void **state)
+{
+    (void)state;
+    struct rho_accumulator_config config = paper_cells();
+    struct rho_accumulator_points none = {.num_scans = 1};
+    const float bad[] = {NAN, INFINITY, -INFINITY, 2.1e6f, -FLT_MAX};
+    scatter(3, 30, 1000.0);
+    prepare(&config);
+    assert_int_equal(rho_accumulator_find(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find(&accumulator, NULL, peaks, 4, &result), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find(&accumulator, &points, NULL, 4, &result), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find(&accumulator, &none, peaks, 4, &result), RHO_ERROR_NULL);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        float was = x_m[i];
+        x_m[i] = bad[i];
+        assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+                         RHO_ERROR_VALUE);
+        x_m[i] = was;
+    }
+    points.num_scans = RHO_ACCUMULATOR_SCANS_MAX + 1u;
+    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+                     RHO_ERROR_VALUE);
+    points.num_scans = 3;
+    scan_end[1] = 31; /* beyond the last scan's */
+    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+                     RHO_ERROR_VALUE);
+    accumulator.magic = 0;
+    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+                     RHO_ERROR_STATE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(peaks_are_those_of_the_whole_plane_at_the_papers_cells),
+        cmocka_unit_test(peaks_are_those_of_the_whole_plane_at_coarse_cells),
+        cmocka_unit_test(a_line_is_found_where_it_is),
+        cmocka_unit_test(a_line_at_the_end_of_theta_is_one_peak),
+        cmocka_unit_test(a_scan_votes_once_in_a_cell),
+        cmocka_unit_test(the_best_are_kept_and_the_others_counted),
+        cmocka_unit_test(a_share_of_the_most_votes_is_a_threshold),
+        cmocka_unit_test(the_most_votes_are_their_own_share),
+        cmocka_unit_test(points_beyond_the_largest_rho_do_not_vote),
+        cmocka_unit_test(what_was_in_it_before_does_not_matter),
+        cmocka_unit_test(nothing_gives_nothing),
+        cmocka_unit_test(suppression_keeps_the_best_of_each_neighbourhood),
+        cmocka_unit_test(bad_configs_are_refused),
+        cmocka_unit_test(bad_points_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

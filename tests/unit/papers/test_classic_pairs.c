@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The methods of pairs against the same in double precision, cell by cell: in the paper's clutter,
+ * with other parameters, about the end of theta. The embedded build takes theta in parts there, the
+ * workstation's all at once.
+ */
+#include "classic_cells.h"
+
+#define PARTS 4.0 /* of a vote, 2^-14, that a voter may be off */
+
+static const enum rho_classic_method methods[] = {RHO_CLASSIC_MHT, RHO_CLASSIC_IHT,
+                                                  RHO_CLASSIC_NHT_A, RHO_CLASSIC_NHT_C};
+
+#define NUM(array) (sizeof(array) / sizeof((array)[0]))
+
+/* Midpoints of kernels are rounded once more. */
+static double slack(void)
+{
+    return config.method == RHO_CLASSIC_MHT || config.method == RHO_CLASSIC_IHT ? 0.0
+           : config.uses_indeterminacy                                          ? 4.0 * PARTS
+                                                                                : PARTS;
+}
+
+/* All cells, then the peaks that follow from them at half the most votes. */
+static void expect_the_same(void)
+{
+    find();
+    expect();
+    expect_cells(slack());
+    expect_counts();
+    config.tau = 0.5f;
+    config.keeps_all_cells = 0;
+    size_t num = choose_from_listed();
+    find();
+    expect_peaks(num);
+}
+
+static void clutter_votes_as_in_double_precision(void **state)
+{
+    (void)state;
+    uint64_t pairs = 0, at_limits = 0;
+    random_state = 11;
+    memset(&seen, 0, sizeof seen);
+    for (int run = 0; run < 2; run++) {
+        lay_table_1(7, 10.0, 1);
+        for (size_t i = 0; i < NUM(methods); i++) {
+            paper_all(methods[i]);
+            expect_the_same();
+            pairs += counted.voters;
+            at_limits += counted.at_limits;
+        }
+    }
+    print_message("%llu of %llu voters at a limit, %.3f of the cells exact, off by %.2f parts\n",
+                  (unsigned long long)at_limits, (unsigned long long)pairs,
+                  (double)seen.exact / (double)seen.cells, seen.worst);
+    assert_true(pairs > 100000);
+    assert_true((double)at_limits < 0.008 * (double)pairs);
+    assert_true((double)seen.exact > 0.97 * (double)seen.cells);
+}
+
+static void the_embedded_build_takes_theta_in_parts(void **state)
+{
+    (void)state;
+    random_state = 12;
+    lay_table_1(7, 10.0, 1);
+    for (size_t i = 0; i < NUM(methods); i++) {
+        paper_all(methods[i]);
+        config.lambda_k = 10.0f;
+        find();
+        expect();
+        expect_cells(slack());
+#ifdef RHO_PROFILE_WORKSTATION
+        assert_true(result.passes >= 1);
+#else
+        assert_true(result.passes > 1 || config.method == RHO_CLASSIC_IHT);
+        assert_true(result.passes <= 200);
+#endif
+    }
+}
+
+static void other_cells_and_limits_vote_as_in_double_precision(void **state)
+{
+    (void)state;
+    random_state = 13;
+    for (int run = 0; run < 12; run++) {
+        lay_table_1(3 + (unsigned)run % 5, run % 2 ? 10.0 : 0.5, run % 4 != 3);
+        paper_all(methods[run % 4]);
+        config.rho_max_m = run % 3 ? 5000.0f : 2000.0f; /* some lines beyond it */
+        config.rho_cell_m = run % 3 ? 20.0f : 4.0f;
+        config.theta_cell_rad = (float)uniform(0.0008, 0.02);
+        config.eps_rho_m = (float)uniform(5.0, 60.0);
+        config.eps_theta_rad = (float)uniform(0.001, 0.03);
+        config.v_min_mps = (float)uniform(0.0, 200.0);
+        config.v_max_mps = (float)uniform(250.0, 500.0);
+        config.lambda_k = (float)uniform(0.0, 3000.0);
+        config.uses_indeterminacy = run / 4 % 2;
+        if (config.method == RHO_CLASSIC_NHT_A || config.method == RHO_CLASSIC_NHT_C) {
+            config.rho_max_m = 5000.0f;
+            config.rho_cell_m = fmaxf(config.rho_cell_m, 5.0f);
+        }
+        expect_the_same();
+    }
+}
+
+static void lay_crowd(int num)
+{
+    points.at.num_scans = 0;
+    for (unsigned scan = 0; scan < 5; scan++) {
+        start_scan();
+        for (int i = 0; i < num; i++) {
+            add_anywhere(-600.0, 600.0, -600.0, 600.0, 2.0 * scan);
+        }
+    }
+}
+
+/*
+ * From 4 rows to hundreds, reach from none to a quarter of them; the last row is a sliver, or
+ * nearly whole.
+ */
+static void few_rows_vote_as_in_double_precision(void **state)
+{
+    (void)state;
+    random_state = 19;
+    for (int run = 0; run < 48; run++) {
+        int rows = run < 24 ? 3 + run : 20 + 19 * (run - 24);
+        double part = run % 3 ? uniform(0.0, 1.0) : run % 2 ? 0.02 : 0.98;
+        lay_crowd(12);
+        paper_all(methods[run % 4]);
+        config.theta_cell_rad = (float)(REFERENCE_PI / (rows + part));
+        config.eps_theta_rad =
+            (float)fmin(uniform(0.2, run % 7 ? 8.0 : 100.0) * (double)config.theta_cell_rad, 0.5);
+        config.eps_rho_m = (float)uniform(1.0, run % 7 ? 100.0 : 20.0);
+        config.uses_indeterminacy = run & 4;
+        expect_the_same();
+    }
+}
+
+/*
+ * The same in the parts that the embedded build has to take: all round, each in sight of the next.
+ */
+static void parts_of_theta_vote_as_in_double_precision(void **state)
+{
+    (void)state;
+    random_state = 21;
+    for (int run = 0; run < 16; run++) {
+        double part = run % 8 < 4 ? 0.02 : 0.98;
+        lay_crowd(60);
+        paper_all(methods[run % 4]);
+        config.theta_cell_rad = (float)(REFERENCE_PI / ((run < 8 ? 200.0 : 260.0) + part));
+        config.eps_theta_rad = (run < 8 ? 0.6f : 1.1f) * config.theta_cell_rad;
+        expect_the_same();
+#ifndef RHO_PROFILE_WORKSTATION
+        assert_true(result.passes > 1);
+#endif
+    }
+}
+
+/*
+ * Numbers of lists that any build and profile must give: 32-bit FNV-1a of all cells, their places
+ * and votes.
+ */
+static void all_builds_give_the_same_lists(void **state)
+{
+    (void)state;
+    const uint32_t known[] = {0xcca5ed50, 0x994fa7e5, 0xd65131f6, 0x4ba4b3d6};
+    random_state = 20;
+    lay_table_1(7, 10.0, 1);
+    for (size_t i = 0; i < NUM(methods); i++) {
+        uint32_t hash = 2166136261u;
+        paper_all(methods[i]);
+        find();
+        for (uint32_t k = 0; k < result.num_peaks; k++) {
+            const uint32_t words[] = {peaks[k].theta_cell, peaks[k].rho_cell, peaks[k].votes};
+            for (size_t byte = 0; byte < 12; byte++) {
+                hash = (hash ^ (words[byte / 4] >> byte % 4 * 8 & 255u)) * 16777619u;
+            }
+        }
+        assert_int_equal(hash, known[i]);
+    }
+}
+
+/* ---- the end of theta ------------------------------------------------------------------------ */
+
+static void lay_columns(double noise_m, double lean)
+{
+    points.at.num_scans = 0;
+    for (unsigned scan = 0; scan < 7; scan++) {
+        start_scan();
+        for (int i = 0; i < 8; i++) {
+            double along = (i % 2 ? -1.0 : 1.0) * (-1400.0 + 450.0 * scan);
+            double x = -3502.5 + 1000.0 * i + (i % 3 - 1) * lean * along;
+            add_noisy(x, along, 2.0 * scan, noise_m);
+        }
+    }
+}
+
+static void lines_about_the_end_of_theta_vote_as_in_double_precision(void **state)
+{
+    (void)state;
+    random_state = 16;
+    for (int run = 0; run < 24; run++) {
+        lay_columns(run % 3 * 0.8, run / 3 % 2 * 0.001);
+        paper_all(methods[run % 4]);
+        config.uses_indeterminacy = run & 8;
+        expect_the_same();
+    }
+}
+
+/*
+ * Columns 1 km apart, plots a little off either way: all pairs of a column support each other, and
+ * it is one peak.
+ */
+static void a_vertical_target_is_one_peak(void **state)
+{
+    (void)state;
+    random_state = 17;
+    unsigned kernels_beyond = 0;
+    for (int run = 0; run < 10; run++) {
+        lay_columns(0.1, 0.0);
+        paper(RHO_CLASSIC_NHT_A);
+        config.tau = 0.25f;
+        config.votes_min = 1.8f;
+        find();
+        assert_int_equal(result.num_peaks, 8);
+        assert_int_equal(result.votes, 40); /* 8 columns, 5 links each */
+        assert_int_equal(result.candidates, 48);
+        for (uint32_t i = 0; i < result.num_peaks; i++) {
+            for (uint32_t k = 0; k < i; k++) {
+                double other = rho_classic_rho_m(&classic, peaks[k].rho_cell);
+                other = abs(peaks[i].theta_cell - peaks[k].theta_cell) > 1571 ? -other : other;
+                assert_true(fabs(rho_classic_rho_m(&classic, peaks[i].rho_cell) - other) > 400.0);
+            }
+            kernels_beyond += peaks[i].theta_cell > 1571;
+        }
+    }
+    assert_true(kernels_beyond > 5);
+}
+
+/* Exactly vertical, up or down, on either side: theta is 0, rho is x. */
+static void a_vertical_line_is_in_the_first_row(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        double x = i & 1 ? -1502.5 : 1502.5, dy = i & 2 ? -500.0 : 500.0;
+        points.at.num_scans = 0;
+        for (unsigned scan = 0; scan < 5; scan++) {
+            start_scan();
+            add_plot(x, dy * (scan - 2.0), 2.0 * scan);
+        }
+        for (size_t m = 0; m < 3; m++) {
+            paper(methods[m]);
+            find();
+            assert_int_equal(result.num_peaks, 1);
+            assert_int_equal(peaks[0].theta_cell, 0);
+            assert_int_equal(peaks[0].rho_cell, i & 1 ? 699 : 1300);
+            assert_int_equal(peaks[0].votes, RHO_CLASSIC_VOTE * (m < 2 ? 4u : 3u));
+        }
+    }
+}
+
+/* Reading C spreads a vote over 17 x 17 cells; beyond the end of theta they lie mirrored. */
+static void a_vote_is_spread_round_the_end_of_theta(void **state)
+{
+    (void)state;
+    points.at.num_scans = 0;
+    for (unsigned scan = 0; scan < 3; scan++) {
+        start_scan();
+        add_plot(1502.5, 500.0 * scan, 2.0 * scan);
+    }
+    paper_all(RHO_CLASSIC_NHT_C);
+    find();
+    assert_int_equal(result.votes, 289);
+    assert_int_equal(result.num_peaks, 289);
+    assert_int_equal(peaks[0].votes, RHO_CLASSIC_VOTE);
+    unsigned mirrored = 0;
+    for (uint32_t i = 0; i < result.num_peaks; i++) {
+        int is_beyond = peaks[i].theta_cell > 1571, centre = is_beyond ? 1999 - 1300 : 1300;
+        int a = is_beyond ? peaks[i].theta_cell - 3142 : peaks[i].theta_cell;
+        int b = peaks[i].rho_cell - centre;
+        double weight = exp(-(a * a / 32.0 + b * b / 32.0));
+        mirrored += is_beyond;
+        assert_in_range(abs(b), 0, 8);
+        assert_float_equal(peaks[i].votes, 65536.0 * weight, 2.0);
+    }
+    assert_int_equal(mirrored, 8 * 17);
+}
+
+static void a_vote_is_not_spread_beyond_the_largest_rho(void **state)
+{
+    (void)state;
+    points.at.num_scans = 0;
+    for (unsigned scan = 0; scan < 3; scan++) {
+        start_scan();
+        add_plot(500.0 * scan, 4982.5, 2.0 * scan); /* the fourth cell from the end */
+    }
+    paper_all(RHO_CLASSIC_NHT_C);
+    find();
+    assert_int_equal(result.votes, 17 * (9 + 3));
+    expect();
+    expect_cells(slack());
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clutter_votes_as_in_double_precision),
+        cmocka_unit_test(the_embedded_build_takes_theta_in_parts),
+        cmocka_unit_test(other_cells_and_limits_vote_as_in_double_precision),
+        cmocka_unit_test(few_rows_vote_as_in_double_precision),
+        cmocka_unit_test(parts_of_theta_vote_as_in_double_precision),
+        cmocka_unit_test(all_builds_give_the_same_lists),
+        cmocka_unit_test(lines_about_the_end_of_theta_vote_as_in_double_precision),
+        cmocka_unit_test(a_vertical_target_is_one_peak),
+        cmocka_unit_test(a_vertical_line_is_in_the_first_row),
+        cmocka_unit_test(a_vote_is_spread_round_the_end_of_theta),
+        cmocka_unit_test(a_vote_is_not_spread_beyond_the_largest_rho),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Frames of bearings, in many scenes: targets are found, followed as well as they can be, kept
+ * apart, and let go.
+ */
+#include "frame_chain.h"
+
+/*
+ * Of 1000 runs: 999 targets found with the first full batch and all soon, errors 1.001 to 1.015 of
+ * the filter's, NEES 4.02 to 4.09, 2.2 where the filter is too careful.
+ */
+#define RUNS 20u
+
+/* ---- found ----------------------------------------------------------------------------------- */
+
+static void expect_found_with(unsigned sensors)
+{
+    unsigned runs = 0;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        random_state = seed;
+        scene = scene_of(sensors, 1, 0.1, 1.0, 0.0);
+        scene.target[0] = random_target(120.0);
+        start_chain(5.0f);
+        for (unsigned k = 0; k < BATCH - 1; k++) {
+            fly_frame(k, 10.0);
+            assert_int_equal(report.num_tracks, 0);
+            assert_int_equal(report.fates_total[RHO_FATE_HELD], sensors);
+        }
+        fly_frame(BATCH - 1, 10.0);
+        assert_int_equal(report.num_tracks, 1);
+        const struct rho_track_report *track = &report.tracks[0];
+        assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
+        assert_int_equal(track->track_id, 1);
+        assert_int_equal(track->hits, BATCH);
+        assert_int_equal(track->misses, 0);
+        assert_int_equal(track->plot, -1);
+        assert_int_equal(track->sensor_id, 10 + (int)sensors - 1);
+        assert_true(error_m(track, &scene.target[0], 70.0) < 5.0 * (double)track->sigma_m);
+        assert_int_equal(tracker.counters.tracks_started, 1);
+        assert_int_equal(tracker.counters.tracks_confirmed, 1);
+        assert_int_equal(tracker.counters.plots_initiated, sensors * BATCH);
+        fly_frame(BATCH, 10.0);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].hits, BATCH + 1);
+        assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], sensors);
+        runs++;
+    }
+    assert_int_equal(runs, 20);
+}
+
+static void a_target_is_found_when_the_batch_is_full(void **state)
+{
+    (void)state;
+    expect_found_with(2);
+    expect_found_with(3);
+}
+
+/*
+ * Seen in all frames but `missing` ones: a bit a frame. Found by the search, of the full batch, and
+ * a track or not.
+ */
+static void expect_start_without(unsigned missing, int starts)
+{
+    random_state = 2;
+    scene = scene_of(3, 1, 0.1, 1.0, 0.0);
+    scene.target[0] = random_target(120.0);
+    start_chain(5.0f);
+    for (unsigned k = 0; k < BATCH; k++) {
+        scene.targets = missing >> k & 1u ? 0 : 1;
+        fly_frame(k, 10.0);
+    }
+    assert_int_equal(passive.num_tracks, 1);
+    assert_int_equal(passive.tracks[0].scans, 0xff & ~missing);
+    assert_true(passive.tracks[0].score_mnat >= passive.start_mnat);
+    assert_int_equal(report.num_tracks, starts);
+    assert_int_equal(tracker.counters.tracks_started, starts);
+}
+
+/* What the last two frames do not have is gone, or is a track's that claims its bearings. */
+static void a_track_starts_from_what_was_just_seen(void **state)
+{
+    (void)state;
+    expect_start_without(0x00, 1);
+    expect_start_without(0x80, 1);
+    expect_start_without(0x60, 1);
+    expect_start_without(0xc0, 0);
+}
+
+/* Two are followed from the start; the third comes at frame 14. */
+static void a_later_target_is_found_while_others_are_followed(void **state)
+{
+    (void)state;
+    unsigned found = 0;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        random_state = seed;
+        scene = scene_of(2, 3, 0.1, 0.98, 0.2);
+        for (unsigned i = 0; i < 3; i++) {
+            scene.target[i] = random_target(270.0);
+        }
+        start_chain(5.0f);
+        scene.targets = 2;
+        fly(0, 14, 10.0);
+        uint32_t started = tracker.counters.tracks_started;
+        scene.targets = 3;
+        fly(14, 14 + BATCH + 4, 10.0);
+        double time_s = 10.0 * (14 + BATCH + 3);
+        const struct rho_track_report *track = track_of(&scene.target[2], time_s);
+        found += started == 2 && tracker.counters.tracks_started == 3 && track &&
+                 track->track_id == 3 && track_of(&scene.target[0], time_s) &&
+                 track_of(&scene.target[1], time_s);
+    }
+    print_message("a third target found while two are followed: %u of 20 runs\n", found);
+    assert_true(found >= 17);
+}
+
+/* Four false bearings in each look, and no target. */
+static void false_bearings_alone_make_no_track(void **state)
+{
+    (void)state;
+    uint32_t started = 0;
+    for (unsigned seed = 1; seed <= 6; seed++) {
+        random_state = seed;
+        scene = scene_of(seed % 2 ? 2 : 3, 0, 0.1, 0.9, 4.0);
+        start_chain(5.0f);
+        fly(0, 60, 10.0);
+        started += tracker.counters.tracks_started;
+        assert_int_equal(
+            tracker.counters.fates[RHO_FATE_HELD] + tracker.counters.fates[RHO_FATE_GHOST],
+            tracker.counters.plots_initiated + tracker.counters.plots_clutter + count_held());
+    }
+    assert_int_equal(started, 0);
+}
+
+/* ---- followed -------------------------------------------------------------------------------- */
+
+/*
+ * Over many runs: squared errors of the tracks and of the filter beside them, and of the tracks by
+ * their covariance.
+ */
+struct figures {
+    unsigned found, kept, rows;
+    double error2, ekf_error2, nees;
+};
+
+static void add_row(struct figures *figures, const struct rho_track_report *track,
+                    const struct ekf *ekf, const struct target *target, double time_s)
+{
+    const double truth[4] = {target_x_m(target, time_s), target_y_m(target, time_s), target->vx_mps,
+                             target->vy_mps};
+    figures->error2 += pow(error_m(track, target, time_s), 2.0);
+    figures->ekf_error2 += pow(ekf_error_m(ekf, target, time_s), 2.0);
+    figures->nees += nees_of(track, truth);
+    figures->rows++;
+}
+
+/*
+ * Targets whose velocity wanders by white acceleration once the batch is full: the filter's own
+ * model.
+ */
+static void wander(struct target *target, double dt_s, double density, double time_s)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        double along = normal(), apart = normal();
+        double v = sqrt(density * dt_s) * along;
+        double p = dt_s * (0.5 * v + sqrt(density * dt_s / 12.0) * apart);
+        double *place_m = axis ? &target->y_m : &target->x_m;
+        double *velocity_mps = axis ? &target->vy_mps : &target->vx_mps;
+        *velocity_mps += v;
+        *place_m += p - v * time_s; /* its place is told from time 0 on, and goes on from here */
+    }
+}
+
+/* One run of one target: all its bearings are the filter's, the track finds them by itself. */
+static void follow(unsigned sensors, double density, double truth_density, struct figures *figures)
+{
+    const double interval_s = 6.0;
+    const unsigned frames = 34;
+    scene = scene_of(sensors, 1, 0.1, 0.95, 0.0);
+    start_chain(2.0f * (float)sqrt(density));
+    scene.target[0] = random_target(frames * interval_s);
+    struct ekf ekf = ekf_of(&scene.target[0]);
+    for (unsigned k = 0; k < frames; k++) {
+        ekf_predict(&ekf, k ? interval_s : 0.0, k < BATCH ? 0.0 : density);
+        if (k >= BATCH && truth_density > 0.0) {
+            wander(&scene.target[0], interval_s, truth_density, interval_s * k);
+        }
+        fly_frame(k, interval_s);
+        ekf_take_frame(&ekf, k, 0);
+        const struct rho_track_report *track = track_with_id(1);
+        figures->found += k == BATCH && track;
+        if (k > BATCH && track) {
+            add_row(figures, track, &ekf, &scene.target[0], interval_s * k);
+        }
+    }
+    figures->kept += report.num_tracks == 1 && report.tracks[0].track_id == 1;
+}
+
+/* Bounds: of the ratio of errors, and of NEES, 4 where the covariance is right. */
+struct bounds {
+    double ratio_max, nees_min, nees_max;
+};
+
+static void follow_runs(unsigned sensors, double density, double truth_density,
+                        const struct bounds *bounds)
+{
+    struct figures figures = {0};
+    for (unsigned run = 0; run < RUNS; run++) {
+        random_state = 100 + run;
+        follow(sensors, density, truth_density, &figures);
+    }
+    double ratio = sqrt(figures.error2 / figures.ekf_error2), nees = figures.nees / figures.rows;
+    print_message("%u sensors, noise %.2f, target's %.2f: %u of %u found, %u kept, rms %.1f m, "
+                  "%.4f of the filter's, NEES %.2f\n",
+                  sensors, density, truth_density, figures.found, RUNS, figures.kept,
+                  sqrt(figures.error2 / figures.rows), ratio, nees);
+    assert_true(figures.found >= RUNS - 1);
+    assert_int_equal(figures.kept, RUNS);
+    assert_true(ratio > 0.97 && ratio < bounds->ratio_max);
+    assert_true(nees > bounds->nees_min && nees < bounds->nees_max);
+}
+
+static void a_straight_target_is_followed_as_well_as_by_the_filter(void **state)
+{
+    (void)state;
+    const struct bounds bounds = {1.05, 2.5, 6.0};
+    follow_runs(2, 0.0, 0.0, &bounds);
+    follow_runs(3, 0.0, 0.0, &bounds);
+}
+
+/* The filter is ready for more than the target does: it is too careful. */
+static void a_filter_for_manoeuvres_follows_a_straight_target(void **state)
+{
+    (void)state;
+    const struct bounds bounds = {1.05, 1.0, 4.0};
+    follow_runs(2, 6.25, 0.0, &bounds);
+    follow_runs(3, 6.25, 0.0, &bounds);
+}
+
+static void a_wandering_target_is_followed_as_well_as_by_the_filter(void **state)
+{
+    (void)state;
+    const struct bounds bounds = {1.05, 2.5, 6.0};
+    follow_runs(2, 6.25, 6.25, &bounds);
+    follow_runs(3, 6.25, 6.25, &bounds);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_target_is_found_when_the_batch_is_full),
+        cmocka_unit_test(a_track_starts_from_what_was_just_seen),
+        cmocka_unit_test(a_later_target_is_found_while_others_are_followed),
+        cmocka_unit_test(false_bearings_alone_make_no_track),
+        cmocka_unit_test(a_straight_target_is_followed_as_well_as_by_the_filter),
+        cmocka_unit_test(a_filter_for_manoeuvres_follows_a_straight_target),
+        cmocka_unit_test(a_wandering_target_is_followed_as_well_as_by_the_filter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

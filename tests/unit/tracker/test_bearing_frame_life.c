@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Frames of bearings: identities, misses, sensors that are late, blind or look elsewhere, own times
+ * of bearings.
+ */
+#include "frame_chain.h"
+
+#define MISS_NAT 2.302585 /* -ln(1 - pd) of the default */
+
+/* One target that is found, and followed until frame 11 at 110 s. */
+static void fly_one(unsigned seed)
+{
+    random_state = seed;
+    scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+    start_chain(5.0f);
+    scene.target[0] = random_target(240.0);
+    fly(0, 12, 10.0);
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+    assert_int_equal(report.tracks[0].hits, 12);
+    assert_int_equal(report.tracks[0].misses, 0);
+}
+
+/* ---- identities ------------------------------------------------------------------------------ */
+
+/* Along the line of sight from sensor 0 and across it, range_m out at time_s. */
+static struct target pass_by(double range_m, double direction_rad, double along_mps,
+                             double across_mps, double time_s)
+{
+    double c = cos(direction_rad), s = sin(direction_rad);
+    struct target target = {.vx_mps = along_mps * c - across_mps * s,
+                            .vy_mps = along_mps * s + across_mps * c};
+    target.x_m = scene.sensor_x_m[0] + range_m * c - time_s * target.vx_mps;
+    target.y_m = scene.sensor_y_m[0] + range_m * s - time_s * target.vy_mps;
+    return target;
+}
+
+/*
+ * At 96 s both are on one bearing of sensor 0, 20 km apart; their bearings move against each other.
+ */
+static void draw_crossing(void)
+{
+    double direction_rad = uniform(0.1, 0.6), rate = uniform(0.0003, 0.002);
+    double near_mps = uniform(-60.0, 60.0);
+    rate = uniform(-1.0, 1.0) < 0.0 ? -rate : rate;
+    double far_mps = 55e3 * (near_mps / 35e3 + rate);
+    double near_along_mps = uniform(-150.0, 150.0);
+    scene.target[0] = pass_by(35e3, direction_rad, near_along_mps, near_mps, 96.0);
+    scene.target[1] = pass_by(55e3, direction_rad, uniform(-150.0, 150.0), far_mps, 96.0);
+}
+
+/*
+ * Three sensors, as with two the ghosts of such targets fly as straight as they do. Of 300 runs 299
+ * keep them.
+ */
+static void targets_that_cross_at_one_sensor_keep_their_identities(void **state)
+{
+    (void)state;
+    unsigned kept = 0;
+    for (unsigned seed = 1; seed <= 30; seed++) {
+        const struct rho_track_report *track[2];
+        uint32_t track_id[2];
+        random_state = seed;
+        scene = scene_of(3, 2, 0.1, 0.95, 0.0);
+        draw_crossing();
+        start_chain(5.0f);
+        fly(0, 12, 6.0);
+        for (unsigned i = 0; i < 2; i++) {
+            track[i] = track_of(&scene.target[i], 66.0);
+            track_id[i] = track[i] ? track[i]->track_id : 0;
+        }
+        fly(12, 24, 6.0);
+        for (unsigned i = 0; i < 2; i++) {
+            track[i] = track_of(&scene.target[i], 138.0);
+        }
+        kept += tracker.counters.tracks_started == 2 && track[0] && track[1] &&
+                track[0]->track_id == track_id[0] && track[1]->track_id == track_id[1];
+    }
+    print_message("identities kept: %u of 30 runs\n", kept);
+    assert_true(kept >= 29);
+}
+
+/* ---- misses ---------------------------------------------------------------------------------- */
+
+/* Both sensors look, and see nothing. */
+static void miss_frame(unsigned k)
+{
+    scene.targets = 0;
+    fly_frame(k, 10.0);
+}
+
+static void frames_without_its_bearings_end_a_track(void **state)
+{
+    (void)state;
+    fly_one(3);
+    const uint32_t track_id = report.tracks[0].track_id;
+    double score_nat = (double)report.tracks[0].score_nat;
+    for (unsigned k = 12; k < 16; k++) {
+        miss_frame(k);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].status,
+                         k < 14 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
+        assert_int_equal(report.tracks[0].misses, k - 11);
+        assert_int_equal(report.tracks[0].hits, 12);
+        assert_int_equal(report.tracks[0].plot, -1);
+        assert_int_equal(report.tracks[0].update_age_us, 10000000 * (int)(k - 11));
+        score_nat -= 2.0 * MISS_NAT; /* both sensors' */
+        assert_float_equal(report.tracks[0].score_nat, score_nat, 0.01);
+    }
+    miss_frame(16);
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], track_id);
+    assert_int_equal(tracker.counters.tracks_ended, 1);
+}
+
+static void a_bearing_in_time_ends_the_misses(void **state)
+{
+    (void)state;
+    fly_one(3);
+    for (unsigned k = 12; k < 16; k++) {
+        miss_frame(k);
+    }
+    scene.targets = 1;
+    fly_frame(16, 10.0);
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+    assert_int_equal(report.tracks[0].hits, 13);
+    assert_int_equal(report.tracks[0].misses, 4);
+    miss_frame(17);
+    assert_int_equal(report.num_tracks, 1); /* not the fifth in a row */
+    assert_int_equal(report.tracks[0].misses, 5);
+}
+
+/* Sensor 1 is blind in one frame and missing in another, else the same. */
+static void one_sensors_miss_takes_score_and_is_no_miss(void **state)
+{
+    (void)state;
+    static struct rho_tracker tracker_then;
+    static struct rho_passive passive_then;
+    fly_one(3);
+    look_round(12, 120.0);
+    tracker_then = tracker;
+    passive_then = passive;
+    full.scans[1].num_bearings = 0;
+    step_frame(&full.frame);
+    struct rho_track_report blind = report.tracks[0];
+    tracker = tracker_then;
+    passive = passive_then;
+    full.frame.num_scans = 1;
+    step_frame(&full.frame);
+    const struct rho_track_report *absent = &report.tracks[0];
+    assert_float_equal(absent->score_nat - blind.score_nat, MISS_NAT, 0.002);
+    assert_memory_equal(absent->state, blind.state, sizeof blind.state);
+    assert_memory_equal(absent->covariance, blind.covariance, sizeof blind.covariance);
+    for (int i = 0; i < 2; i++) {
+        const struct rho_track_report *track = i ? &blind : absent;
+        assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
+        assert_int_equal(track->hits, 13);
+        assert_int_equal(track->misses, 0);
+        assert_int_equal(track->plot, 0);
+        assert_int_equal(track->sensor_id, 10);
+    }
+}
+
+/* ---- sensors that say nothing ---------------------------------------------------------------- */
+
+/* Of each frame only one of the two is there, in turn, or any, or none. */
+static void a_sensor_that_is_missing_does_no_harm(void **state)
+{
+    (void)state;
+    double error2 = 0.0;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        fly_one(seed);
+        for (unsigned k = 12; k < 24; k++) {
+            for (unsigned s = 0; s < 2; s++) {
+                scene.look[slot_of(k)][s].is_absent = uniform(0.0, 1.0) < 0.6;
+            }
+            fly_frame(k, 10.0);
+            assert_int_equal(report.num_tracks, 1);
+            assert_int_equal(report.tracks[0].misses, 0);
+        }
+        scene.look[slot_of(24)][0].is_absent = scene.look[slot_of(24)][1].is_absent = 0;
+        fly_frame(24, 10.0);
+        assert_int_equal(report.tracks[0].track_id, 1);
+        assert_int_equal(tracker.counters.tracks_started, 1);
+        error2 += pow(error_m(&report.tracks[0], &scene.target[0], 240.0), 2.0);
+    }
+    print_message("frames that miss a sensor: rms %.0f m after them\n", sqrt(error2 / 20.0));
+    assert_true(sqrt(error2 / 20.0) < 400.0);
+}
+
+/*
+ * 100 s with sensor 0 alone, then both again: it was never lost, and its covariance says how far
+ * off it is.
+ */
+static void one_sensor_alone_keeps_a_track_going(void **state)
+{
+    (void)state;
+    double share2 = 0.0;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        fly_one(seed);
+        double sigma_m = (double)report.tracks[0].sigma_m;
+        for (unsigned k = 12; k < 22; k++) {
+            scene.look[slot_of(k)][1].is_absent = 1;
+            fly_frame(k, 10.0);
+            assert_int_equal(report.num_tracks, 1);
+            assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+        }
+        assert_true((double)report.tracks[0].sigma_m > 1.5 * sigma_m);
+        share2 += pow(error_m(&report.tracks[0], &scene.target[0], 210.0) /
+                          (double)report.tracks[0].sigma_m,
+                      2.0);
+        for (unsigned k = 22; k < 24; k++) {
+            scene.look[slot_of(k)][1].is_absent = 0;
+            fly_frame(k, 10.0);
+        }
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].track_id, 1);
+        assert_int_equal(report.tracks[0].hits, 24);
+        assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
+        assert_true(error_m(&report.tracks[0], &scene.target[0], 230.0) <
+                    5.0 * (double)report.tracks[0].sigma_m);
+    }
+    print_message("one sensor alone: squared error %.2f of the variance\n", share2 / 20.0);
+    assert_true(share2 / 20.0 < 4.0); /* two axes' */
+}
+
+/* ---- where sensors look ---------------------------------------------------------------------- */
+
+/* Twelve frames see nothing; `is_seen`: it should have been. */
+static void expect_misses(int is_seen)
+{
+    const float score_nat = report.tracks[0].score_nat;
+    for (unsigned k = 12; k < 24; k++) {
+        scene.targets = 0;
+        look_round(k, 10.0 * k);
+        for (unsigned s = 0; s < 2 && !is_seen; s++) { /* the target is to the east */
+            full.scans[s].sector_from_rad = 2.5f;
+            full.scans[s].sector_to_rad = -2.5f;
+        }
+        step_frame(&full.frame);
+    }
+    assert_int_equal(report.num_tracks, is_seen ? 0 : 1);
+    if (!is_seen) {
+        assert_int_equal(report.tracks[0].misses, 0);
+        assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+        assert_float_equal(report.tracks[0].score_nat, score_nat, 0.0);
+    }
+}
+
+static void there_is_no_miss_where_no_sensor_looked(void **state)
+{
+    (void)state;
+    fly_one(5);
+    expect_misses(1);
+    fly_one(5);
+    expect_misses(0);
+}
+
+/* Described in the tracker's table; the place is the scan's all the same. */
+static void describe(int32_t sensor_id, float range_max_m, float sector_from_rad,
+                     float sector_to_rad)
+{
+    const struct rho_sensor sensor = {.sensor_id = sensor_id,
+                                      .x_m = 9e5f,
+                                      .pd = 0.9f,
+                                      .range_max_m = range_max_m,
+                                      .sector_from_rad = sector_from_rad,
+                                      .sector_to_rad = sector_to_rad};
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+}
+
+static void miss_some(unsigned first, unsigned count, unsigned num_tracks)
+{
+    for (unsigned k = first; k < first + count; k++) {
+        miss_frame(k);
+    }
+    assert_int_equal(report.num_tracks, num_tracks);
+    if (num_tracks) {
+        assert_int_equal(report.tracks[0].misses, 0);
+    }
+}
+
+/* What no sensor can see is not missed; it coasts for the time of five frames. */
+static void a_sensors_own_reach_and_sector_count(void **state)
+{
+    (void)state;
+    for (int32_t sensor_id = 10; sensor_id <= 11; sensor_id++) {
+        fly_one(5);
+        describe(10, 1000.0f, 0.0f, 0.0f);
+        describe(11, 1000.0f, 0.0f, 0.0f);
+        miss_some(12, 4, 1);
+        miss_some(16, 8, 0);
+        fly_one(5);
+        describe(10, 2e5f, 2.5f, -2.5f);
+        describe(11, 2e5f, 2.5f, -2.5f);
+        miss_some(12, 4, 1);
+        describe(sensor_id, 2e5f, 0.0f, 0.0f); /* one that would have seen it is enough */
+        const float score_nat = report.tracks[0].score_nat;
+        miss_frame(16);
+        assert_int_equal(report.tracks[0].misses, 1);
+        assert_true(report.tracks[0].score_nat < score_nat);
+    }
+}
+
+/* Of a sensor that is not in the table, the reach is the passive initiation's. */
+static void the_initiations_reach_is_the_sensors(void **state)
+{
+    (void)state;
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.range_max_m = 1500.0f;
+    fly_one(5);
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+    miss_some(12, 12, 1);
+}
+
+/* ---- own times ------------------------------------------------------------------------------- */
+
+/* A bearing of the target at scan's time + offset_s, from the scan's sensor. */
+static struct rho_bearing bearing_at(const struct rho_bearing_scan *scan, double offset_s)
+{
+    double time_s = (double)scan->time_us * 1e-6 + offset_s;
+    double dx_m = target_x_m(&scene.target[0], time_s) - (double)scan->x_m;
+    double dy_m = target_y_m(&scene.target[0], time_s) - (double)scan->y_m;
+    double bearing_rad = remainder(atan2(dy_m, dx_m) + 0.1 * DEG_RAD * normal(), 2.0 * PI);
+    return (struct rho_bearing){.offset_us = (int32_t)lrint(offset_s * 1e6),
+                                .bearing_rad = (float)bearing_rad,
+                                .sigma_rad = (float)(0.1 * DEG_RAD)};
+}
+
+/* The sensors' scans may be off the frame's time, and the bearings off the scans'. */
+static void fly_late_bearings(unsigned k, const double scan_s[2], const double offset_s[2],
+                              struct ekf *ekf)
+{
+    static struct rho_bearing bearings[2];
+    double at_s = 10.0 * k - 10.0;
+    look_round(k, 10.0 * k);
+    for (unsigned s = 0; s < 2; s++) {
+        full.scans[s].time_us += (int64_t)llround(scan_s[s] * 1e6);
+        bearings[s] = bearing_at(&full.scans[s], offset_s[s]);
+        full.scans[s].num_bearings = 1;
+        full.scans[s].bearings = &bearings[s];
+    }
+    step_frame(&full.frame);
+    for (unsigned s = 0; s < 2; s++) {
+        double own_s = 10.0 * k + scan_s[s] + offset_s[s];
+        ekf_predict(ekf, own_s - at_s, 6.25);
+        ekf_update(ekf, (double)full.scans[s].x_m, (double)full.scans[s].y_m, &bearings[s]);
+        at_s = own_s;
+    }
+    ekf_predict(ekf, 10.0 * k - at_s, 6.25);
+}
+
+/* Mean error along the way, and squared errors. */
+struct bias {
+    double along_m, error2, ekf_error2;
+    unsigned rows;
+};
+
+static void follow_late(const double scan_s[2], const double offset_s[2], struct bias *bias)
+{
+    const struct target *target = &scene.target[0];
+    fly_one(1 + bias->rows);
+    struct ekf ekf = ekf_from(&report.tracks[0]);
+    for (unsigned k = 12; k < 24; k++) {
+        fly_late_bearings(k, scan_s, offset_s, &ekf);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
+        const struct rho_track_report *track = &report.tracks[0];
+        double speed_mps = hypot(target->vx_mps, target->vy_mps);
+        bias->along_m +=
+            (((double)track->state[0] - target_x_m(target, 10.0 * k)) * target->vx_mps +
+             ((double)track->state[1] - target_y_m(target, 10.0 * k)) * target->vy_mps) /
+            speed_mps;
+        bias->error2 += pow(error_m(track, target, 10.0 * k), 2.0);
+        bias->ekf_error2 += pow(ekf_error_m(&ekf, target, 10.0 * k), 2.0);
+        bias->rows++;
+    }
+}
+
+static void expect_no_bias(double scan_0_s, double scan_1_s, double offset_0_s, double offset_1_s)
+{
+    const double scan_s[2] = {scan_0_s, scan_1_s}, offset_s[2] = {offset_0_s, offset_1_s};
+    struct bias bias = {0};
+    for (unsigned run = 0; run < 15; run++) {
+        follow_late(scan_s, offset_s, &bias);
+    }
+    double along_m = bias.along_m / bias.rows, ratio = sqrt(bias.error2 / bias.ekf_error2);
+    print_message("scans %.1f and %.1f s, bearings %.1f and %.1f s late: %.0f m along the way, rms "
+                  "%.0f m, %.4f of the filter's\n",
+                  scan_0_s, scan_1_s, offset_0_s, offset_1_s, along_m,
+                  sqrt(bias.error2 / bias.rows), ratio);
+    assert_true(fabs(along_m) < 60.0); /* of the 1000 m that the target flies in 4 s */
+    assert_true(ratio > 0.97 && ratio < 1.05);
+}
+
+static void own_times_of_bearings_count(void **state)
+{
+    (void)state;
+    expect_no_bias(0.0, 0.0, 4.0, 4.0);
+    expect_no_bias(0.0, 0.0, -3.0, -4.0);
+    expect_no_bias(0.0, 0.0, 3.0, -4.0);
+    expect_no_bias(2.0, 3.0, 1.5, 1.0);
+}
+
+/* ---- thresholds ------------------------------------------------------------------------------ */
+
+/*
+ * One target that bearings of eight degrees make hardly likelier than chance; returns the tracks
+ * started.
+ */
+static uint32_t start_at_rate(float false_tracks_per_hour)
+{
+    struct rho_passive_config config;
+    random_state = 5;
+    scene = scene_of(2, 1, 8.0, 1.0, 0.0);
+    start_chain(5.0f);
+    rho_passive_config_default(&config);
+    config.false_tracks_per_hour = false_tracks_per_hour;
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
+    scene.target[0] = (struct target){.x_m = 20e3, .y_m = 2e3, .vx_mps = -20.0, .vy_mps = 150.0};
+    fly(0, BATCH, 10.0);
+    return tracker.counters.tracks_started;
+}
+
+static void a_track_starts_where_chance_makes_so_few(void **state)
+{
+    (void)state;
+    assert_int_equal(start_at_rate(1e5f), 1);
+    int32_t often_mnat = passive.start_mnat, score_mnat = passive.tracks[0].score_mnat;
+    assert_int_equal(start_at_rate(1e-5f), 0);
+    assert_int_equal(passive.num_tracks, 1); /* found, but not believed */
+    assert_int_equal(passive.tracks[0].score_mnat, score_mnat);
+    /* a threshold of ln(1 / rate) */
+    assert_in_range(passive.start_mnat - often_mnat, 23026 - 3, 23026 + 3);
+    assert_true(often_mnat <= score_mnat && score_mnat < passive.start_mnat);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(targets_that_cross_at_one_sensor_keep_their_identities),
+        cmocka_unit_test(frames_without_its_bearings_end_a_track),
+        cmocka_unit_test(a_bearing_in_time_ends_the_misses),
+        cmocka_unit_test(one_sensors_miss_takes_score_and_is_no_miss),
+        cmocka_unit_test(a_sensor_that_is_missing_does_no_harm),
+        cmocka_unit_test(one_sensor_alone_keeps_a_track_going),
+        cmocka_unit_test(there_is_no_miss_where_no_sensor_looked),
+        cmocka_unit_test(a_sensors_own_reach_and_sector_count),
+        cmocka_unit_test(the_initiations_reach_is_the_sensors),
+        cmocka_unit_test(own_times_of_bearings_count),
+        cmocka_unit_test(a_track_starts_where_chance_makes_so_few),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,425 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A radar's scans and frames of bearings update the same tracks; hostile frames; snapshots; the
+ * same bytes.
+ */
+#include "frame_chain.h"
+
+#define RADAR_X_M (-5000.0f)
+#define RANGE_SIGMA_M 60.0
+#define CROSS_SIGMA_M 400.0
+#define DENSITY 6.25 /* of the white acceleration that start_chain(5) takes */
+
+static struct rho_initiator initiator, initiator_then;
+static struct rho_tracker tracker_then;
+static struct rho_passive passive_then;
+static struct rho_report report_then;
+static struct rho_plot plot;
+/* how tracks of plots choose theirs: enum rho_tracker_gate, and whether inputs are estimated */
+static uint8_t gate_used, has_inputs;
+
+/* ---- a radar beside -------------------------------------------------------------------------- */
+
+/*
+ * start_chain has the default gate; a filter beside it that knows all associations has the model of
+ * the others.
+ */
+static void start_gate(uint8_t gate)
+{
+    struct rho_tracker_config config = tracker.config;
+    config.gate = gate;
+    config.input.is_estimated = has_inputs;
+    config.input.model = RHO_INPUT_PHYSICAL;
+    config.input.sigma_mps2 = 5.0f;
+    config.input.noise_density = 1.0f;
+    config.input.noise_m = config.input.noise_mps = 0.0f;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+}
+
+static void start_both(void)
+{
+    struct rho_initiator_config config;
+    const struct rho_sensor radar = {
+        .sensor_id = 1, .x_m = RADAR_X_M, .pd = 0.9f, .range_max_m = 150e3f};
+    rho_initiator_config_default(&config);
+    config.v_max_mps = 450.0f;
+    start_chain(5.0f);
+    start_gate(gate_used);
+    assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &config), RHO_OK);
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+}
+
+/*
+ * The radar's plot of the target as it is at time_s: sharp along the line of sight, vague across
+ * it.
+ */
+static void scan_radar_at(int64_t time_us, double time_s)
+{
+    double x_m = target_x_m(&scene.target[0], time_s), y_m = target_y_m(&scene.target[0], time_s);
+    double azimuth_rad = atan2(y_m, x_m - (double)RADAR_X_M);
+    double along_m = RANGE_SIGMA_M * normal();
+    double across_m = CROSS_SIGMA_M * normal();
+    double c = cos(azimuth_rad), s = sin(azimuth_rad);
+    plot = (struct rho_plot){.x_m = (float)(x_m + along_m * c - across_m * s),
+                             .y_m = (float)(y_m + along_m * s + across_m * c),
+                             .sigma_range_m = (float)RANGE_SIGMA_M,
+                             .sigma_cross_m = (float)CROSS_SIGMA_M};
+    const struct rho_scan scan = {
+        .time_us = time_us, .sensor_id = 1, .num_plots = 1, .plots = &plot};
+    memset(&report, 0xee, sizeof report);
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+    check_report();
+}
+
+static void scan_radar(double time_s)
+{
+    scan_radar_at(llround(time_s * 1e6), time_s);
+}
+
+static void draw_one(unsigned seed)
+{
+    random_state = seed;
+    scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+    scene.target[0] = random_target(270.0);
+    start_both();
+}
+
+/* What the radar alone makes of it, and what it makes with bearings, and a filter with both. */
+struct figures {
+    double alone2, both2, ekf2;
+    unsigned rows;
+};
+
+static void fly_radar_and_bearings(unsigned seed, int has_bearings, struct figures *figures)
+{
+    draw_one(seed);
+    for (unsigned k = 0; k < 12; k++) {
+        scan_radar(10.0 * k);
+    }
+    assert_int_equal(report.num_tracks, 1);
+    const uint32_t track_id = report.tracks[0].track_id;
+    struct ekf ekf = ekf_from(&report.tracks[0]);
+    for (unsigned k = 12; k < 26; k++) {
+        scan_radar(10.0 * k);
+        assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
+        ekf_predict(&ekf, k > 12 ? 6.0 : 10.0, DENSITY);
+        ekf_take_plot(&ekf, (double)RADAR_X_M, 0.0, &plot);
+        look_round(k, 10.0 * k + 4.0);
+        ekf_predict(&ekf, 4.0, DENSITY);
+        if (has_bearings) {
+            step_frame(&full.frame);
+            ekf_take_frame(&ekf, k, 0);
+            assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
+            assert_int_equal(report.tracks[0].hits + report.tracks[0].misses, 12 + 2 * (k - 11));
+        }
+    }
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].track_id, track_id);
+    assert_int_equal(tracker.counters.tracks_started, 1);
+    const double time_s = 250.0 + (has_bearings ? 4.0 : 0.0);
+    const double error2 = pow(error_m(&report.tracks[0], &scene.target[0], time_s), 2.0);
+    if (has_bearings) {
+        figures->both2 += error2;
+        figures->ekf2 += pow(ekf_error_m(&ekf, &scene.target[0], time_s), 2.0);
+        figures->rows++;
+    } else {
+        figures->alone2 += error2;
+    }
+}
+
+/* How much better the filter that knows is: rms with bearings, over the filter's. */
+static double compare_with_the_filter(enum rho_tracker_gate by)
+{
+    struct figures figures = {0};
+    gate_used = (uint8_t)by;
+    for (unsigned seed = 1; seed <= 40; seed++) {
+        fly_radar_and_bearings(seed, 0, &figures);
+        fly_radar_and_bearings(seed, 1, &figures);
+    }
+    double alone_m = sqrt(figures.alone2 / figures.rows),
+           ratio = sqrt(figures.both2 / figures.ekf2);
+    double both_m = sqrt(figures.both2 / figures.rows);
+    print_message(
+        "gate %d: a radar's track: rms %.0f m, with bearings %.0f m, %.4f of the filter's\n",
+        (int)by, alone_m, both_m, ratio);
+    assert_true(both_m < 0.7 * alone_m);
+    return ratio;
+}
+
+static void bearings_make_a_radars_track_better(void **state)
+{
+    (void)state;
+    double nearest = compare_with_the_filter(RHO_TRACKER_NEAREST);
+    double hough = compare_with_the_filter(RHO_TRACKER_HOUGH);
+    double best = compare_with_the_filter(RHO_TRACKER_BEST);
+    assert_true(nearest > 0.97 && nearest < 1.05);
+    assert_true(hough > 0.97 && hough < 1.05); /* with one plot in the gate there is no choice */
+    assert_true(best > 0.5 && best < 0.7); /* 0.59: the targets fly straight, and it sees that */
+}
+
+static void a_track_from_bearings_takes_the_radars_plots(void **state)
+{
+    (void)state;
+    double before_m = 0.0, after_m = 0.0;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        draw_one(seed);
+        fly(0, 10, 10.0);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].hits, 10);
+        const uint32_t track_id = report.tracks[0].track_id;
+        before_m += (double)report.tracks[0].sigma_m;
+        for (unsigned k = 0; k < 12; k++) {
+            scan_radar(91.0 + 10.0 * k);
+            assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
+            assert_int_equal(report.num_tracks, 1);
+            assert_int_equal(report.tracks[0].sensor_id, 1);
+            assert_int_equal(report.tracks[0].plot, 0);
+            fly_frame(10 + k, 10.0);
+            assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
+        }
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].track_id, track_id);
+        assert_int_equal(report.tracks[0].hits, 34);
+        assert_int_equal(tracker.counters.tracks_started, 1);
+        after_m += (double)report.tracks[0].sigma_m;
+        assert_true(error_m(&report.tracks[0], &scene.target[0], 210.0) <
+                    5.0 * (double)report.tracks[0].sigma_m);
+    }
+    assert_true(after_m < 0.9 * before_m);
+}
+
+/*
+ * Scan and frame of one time are taken one after the other; of a frame and an earlier scan the scan
+ * is late.
+ */
+static void scans_and_frames_have_one_time(void **state)
+{
+    (void)state;
+    draw_one(4);
+    for (unsigned k = 0; k < 10; k++) {
+        scan_radar(10.0 * k);
+        fly_frame(k, 10.0);
+    }
+    assert_int_equal(tracker.counters.scans_accepted, 20);
+    scan_radar(90.0);
+    assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
+    scan_radar(89.999999);
+    assert_int_equal(report.fates[0], RHO_FATE_STALE);
+    scan_radar(95.0);
+    look_round(10, 94.0);
+    step_frame(&full.frame);
+    assert_int_equal(report.fates_total[RHO_FATE_STALE], 2);
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(tracker.counters.scans_late, 2);
+}
+
+/* ---- the same bytes -------------------------------------------------------------------------- */
+
+/* Targets, clutter, a radar in between: from step `from` to step `to`. */
+static void fly_mixed(unsigned from, unsigned to)
+{
+    for (unsigned k = from; k < to; k++) {
+        if (k % 3 == 0) {
+            scan_radar(5.0 * k);
+        }
+        fly_frame(k, 5.0);
+    }
+}
+
+static void start_mixed(void)
+{
+    random_state = 77;
+    scene = scene_of(3, 3, 0.1, 0.9, 1.0);
+    for (unsigned i = 0; i < 3; i++) {
+        scene.target[i] = random_target(200.0);
+    }
+    start_both();
+}
+
+static void expect_same_bytes(void)
+{
+    assert_memory_equal(&report, &report_then, sizeof report);
+    assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
+    assert_memory_equal(&passive, &passive_then, sizeof passive);
+    assert_memory_equal(&initiator, &initiator_then, sizeof initiator);
+}
+
+static void keep_all(void)
+{
+    tracker_then = tracker;
+    passive_then = passive;
+    initiator_then = initiator;
+    report_then = report;
+}
+
+/* Whatever the objects held before, and whatever lies on the stack. */
+static void the_same_frames_give_the_same_bytes(void **state)
+{
+    (void)state;
+    start_mixed();
+    fly_mixed(0, 40);
+    assert_true(tracker.counters.tracks_started >= 3);
+    keep_all();
+    memset(&tracker, 0xa5, sizeof tracker);
+    memset(&passive, 0xa5, sizeof passive);
+    memset(&initiator, 0xa5, sizeof initiator);
+    volatile uint8_t dirt[16384];
+    for (unsigned i = 0; i < sizeof dirt; i++) {
+        dirt[i] = 0xa5;
+    }
+    start_mixed();
+    fly_mixed(0, 40);
+    /* a configuration's gaps are the caller's */
+    memcpy(&tracker_then.config, &tracker.config, sizeof tracker.config);
+    memcpy(&passive_then.config, &passive.config, sizeof passive.config);
+    memcpy(&initiator_then.config, &initiator.config, sizeof initiator.config);
+    expect_same_bytes();
+}
+
+static void a_snapshot_goes_on_alike(void **state)
+{
+    (void)state;
+    static uint8_t snapshot[sizeof tracker + sizeof passive + sizeof initiator];
+    struct scene scene_then;
+    start_mixed();
+    fly_mixed(0, 20);
+    memcpy(snapshot, &tracker, sizeof tracker);
+    memcpy(snapshot + sizeof tracker, &passive, sizeof passive);
+    memcpy(snapshot + sizeof tracker + sizeof passive, &initiator, sizeof initiator);
+    scene_then = scene;
+    uint64_t random_then = random_state;
+    fly_mixed(20, 40);
+    keep_all();
+    memcpy(&tracker, snapshot, sizeof tracker);
+    memcpy(&passive, snapshot + sizeof tracker, sizeof passive);
+    memcpy(&initiator, snapshot + sizeof tracker + sizeof passive, sizeof initiator);
+    scene = scene_then;
+    random_state = random_then;
+    fly_mixed(20, 40);
+    expect_same_bytes();
+}
+
+/* ---- hostile frames -------------------------------------------------------------------------- */
+
+/* Mostly what is believed, sometimes anything. */
+static float some_float(double from, double to)
+{
+    return float_or_any(from, to, 0.02);
+}
+
+static int32_t some_offset_us(void)
+{
+    double what = uniform(0.0, 1.0);
+    return what < 0.8 ? 0 : what < 0.9 ? (int32_t)random_bits() : (int32_t)uniform(-6e7, 6e7);
+}
+
+/* Around what the sensors see of the scene. */
+static void spoil(struct rho_bearing_scan *scan, struct look *look)
+{
+    for (unsigned i = 0; i < look->count; i++) {
+        struct rho_bearing *bearing = &look->bearings[i];
+        bearing->offset_us = some_offset_us();
+        bearing->sigma_rad = uniform(0.0, 1.0) < 0.9 ? bearing->sigma_rad : some_float(-0.1, 0.6);
+        bearing->bearing_rad =
+            uniform(0.0, 1.0) < 0.9 ? bearing->bearing_rad : some_float(-4.0, 4.0);
+    }
+    scan->sector_from_rad = uniform(0.0, 1.0) < 0.9 ? 0.0f : some_float(-6.2, 6.2);
+    scan->sector_to_rad = uniform(0.0, 1.0) < 0.9 ? 0.0f : some_float(-6.2, 6.2);
+    scan->time_us += uniform(0.0, 1.0) < 0.9 ? 0 : (int64_t)uniform(-6.5e7, 6.5e7);
+    scan->x_m = uniform(0.0, 1.0) < 0.99 ? scan->x_m : some_float(-1e5, 1e5);
+    scan->sensor_id = uniform(0.0, 1.0) < 0.99 ? scan->sensor_id : (int32_t)random_bits();
+}
+
+/* The frame's time goes on by anything from 0 to days, and now and then back. */
+static int64_t next_time_us(int64_t time_us)
+{
+    double what = uniform(0.0, 1.0);
+    return time_us + (what < 0.9    ? (int64_t)uniform(0.0, 2e7)
+                      : what < 0.95 ? -(int64_t)uniform(0.0, 2e7)
+                      : what < 0.99 ? (int64_t)exp(uniform(0.0, 26.0))
+                                    : 0);
+}
+
+static void hostile_frames_break_nothing(void **state)
+{
+    (void)state;
+    unsigned taken = 0, refused = 0;
+    int has_filters = 0;
+    uint32_t started = 0, claimed = 0;
+    for (unsigned run = 0; run < 6; run++) {
+        int64_t time_us = run == 0 ? -RHO_LIMIT_TIME_US : 0;
+        random_state = 500 + run;
+        scene = scene_of(3, 3, 0.1, 0.95, 0.5);
+        for (unsigned i = 0; i < 3; i++) {
+            scene.target[i] = random_target(400.0);
+        }
+        start_both();
+        for (unsigned k = 0; k < 120; k++) {
+            if (k % 40 < 12 || k % 3 == 0) { /* the first target is one of the radar's plots, too */
+                scan_radar_at(time_us, 10.0 * (k % 40));
+                has_filters |=
+                    tracker.num_tracks > 0 && tracker.tracks[0].filter != RHO_TRACK_KALMAN;
+            }
+            look_round(k, 10.0 * (k % 40));
+            for (unsigned s = 0; s < 3 && k % 40 >= 12; s++) {
+                spoil(&full.scans[s], &scene.look[slot_of(k)][s]);
+            }
+            int64_t shift_us = time_us - full.frame.time_us;
+            for (unsigned s = 0; s < 3; s++) {
+                full.scans[s].time_us += shift_us;
+            }
+            full.frame.time_us = time_us;
+            full.frame.num_scans = (uint32_t)uniform(k % 40 < 12 ? 3.0 : 0.0, 3.999);
+            keep_all();
+            enum rho_status status = rho_tracker_step_frame(
+                &tracker, uniform(0.0, 1.0) < 0.97 ? &passive : NULL, &full.frame, &report);
+            if (status == RHO_OK) {
+                check_fates(&full.frame);
+                check_report();
+                taken++;
+            } else {
+                expect_same_bytes();
+                refused++;
+            }
+            time_us = k % 40 < 12 ? time_us + 10000000 : next_time_us(time_us);
+        }
+        started += tracker.counters.tracks_started;
+        claimed += tracker.counters.fates[RHO_FATE_CLAIMED];
+    }
+    print_message("hostile frames: %u taken, %u refused, %u tracks started, %u bearings claimed\n",
+                  taken, refused, (unsigned)started, (unsigned)claimed);
+    assert_true(taken > 450 && refused > 10);
+    assert_true(started > 15 && claimed > 250);
+    assert_int_equal(has_filters, has_inputs || gate_used == RHO_TRACKER_BEST);
+}
+
+/* ---- each gate ------------------------------------------------------------------------------- */
+
+int main(void)
+{
+    static const struct {
+        const char *name;
+        uint8_t gate, has_inputs;
+    } ways[] = {
+        {"nearest", RHO_TRACKER_NEAREST, 0},
+        {"hough, input estimation", RHO_TRACKER_HOUGH, 1},
+        {"best", RHO_TRACKER_BEST, 0},
+    };
+    const struct CMUnitTest figures[] = {
+        cmocka_unit_test(bearings_make_a_radars_track_better),
+    };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_track_from_bearings_takes_the_radars_plots),
+        cmocka_unit_test(scans_and_frames_have_one_time),
+        cmocka_unit_test(the_same_frames_give_the_same_bytes),
+        cmocka_unit_test(a_snapshot_goes_on_alike),
+        cmocka_unit_test(hostile_frames_break_nothing),
+    };
+    int failed = cmocka_run_group_tests(figures, NULL, NULL);
+    for (unsigned i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+        gate_used = ways[i].gate;
+        has_inputs = ways[i].has_inputs;
+        failed += cmocka_run_group_tests_name(ways[i].name, tests, NULL, NULL);
+    }
+    return failed;
+}

@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Plot by plot: what a hit is worth, what a look elsewhere leaves alone, which plot the Hough gate
+ * takes.
+ */
+#include "gates_scene.h"
+
+static struct rho_tracker tracker_then;
+static struct rho_initiator initiator_then;
+static struct rho_report report_then;
+static double interval_s = 1.0; /* of the scans */
+
+static void keep(void)
+{
+    memcpy(&tracker_then, &tracker, sizeof tracker);
+    memcpy(&initiator_then, &initiator, sizeof initiator);
+    memcpy(&report_then, &report, sizeof report);
+}
+
+static void go_back(void)
+{
+    memcpy(&tracker, &tracker_then, sizeof tracker);
+    memcpy(&initiator, &initiator_then, sizeof initiator);
+    memcpy(&report, &report_then, sizeof report);
+}
+
+/* One target, straight, as far as scan k. */
+static void fly_alone(uint8_t gate, uint32_t measures, int k)
+{
+    draw(gate, 77);
+    scene.interval_s = interval_s;
+    scene.measures = measures;
+    scene.num_targets = 1;
+    scene.target[0] = (struct target){-5000.0, 4000.0, 3000.0, 200.0, -0.4, 0.0, 0.0, 0.0};
+    begin();
+    for (int i = 0; i < k; i++) {
+        step(i);
+    }
+    assert_int_equal(report.num_tracks, 1);
+}
+
+/* ---- hits and misses ------------------------------------------------------------------------- */
+
+static void a_track_that_is_seen_again_is_confirmed(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        fly_alone((uint8_t)gate, 0, 15);
+        scene.pd = 0.0;
+        step(15);
+        assert_int_equal(report.tracks[0].status, RHO_TRACK_COASTING);
+        assert_int_equal(report.tracks[0].misses, 1);
+        step(16);
+        assert_int_equal(report.tracks[0].misses, 2);
+        scene.pd = 1.0;
+        step(17);
+        assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+        assert_int_equal(report.tracks[0].hits, 16);
+        assert_int_equal(report.tracks[0].misses, 2);
+    }
+}
+
+/* What the next scan adds to the score: the target's plot without noise, and how it is measured. */
+static double gain_of(uint32_t measures)
+{
+    double before_nat = (double)report.tracks[0].score_nat;
+    struct rho_scan scan = scan_at(30);
+    struct target at = target_at(&scene.target[0], 30.0);
+    keep();
+    scene.measures = scan.measures = measures;
+    num_plots = 0;
+    add_plot(&at, 0.0, 0);
+    plots[0].x_m = (float)at.x_m;
+    plots[0].y_m = (float)at.y_m;
+    plots[0].vx_mps = (float)(at.speed_mps * cos(at.course_rad));
+    plots[0].vy_mps = (float)(at.speed_mps * sin(at.course_rad));
+    plots[0].range_rate_mps = (plots[0].x_m * plots[0].vx_mps + plots[0].y_m * plots[0].vy_mps) /
+                              hypotf(plots[0].x_m, plots[0].y_m);
+    take_scan(&scan, &initiator);
+    assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
+    double gain_nat = (double)report.tracks[0].score_nat - before_nat;
+    go_back();
+    return gain_nat;
+}
+
+/*
+ * A dimension more is worth ln of how widely clutter is spread in it, 2 v_max = 800 m/s, less ln of
+ * the innovation's density: by hand, with the reported velocity's variance. Where the target is
+ * expected to be, both models agree.
+ */
+static void what_is_measured_beside_the_place_is_worth_more(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        fly_alone((uint8_t)gate, 0, 30);
+        double variance = (double)report.tracks[0].sigma_mps * (double)report.tracks[0].sigma_mps;
+        double place = gain_of(0), rate = gain_of(RHO_MEASURES_RANGE_RATE),
+               velocity = gain_of(RHO_MEASURES_VELOCITY);
+        double rate_nat = log(800.0) - 0.5 * log(6.2832 * (1.0 + variance));
+        double velocity_nat = 2.0 * log(800.0) - log(6.2832 * (25.0 + variance));
+        print_message("gate %d: place %.2f, with range rate %.2f, velocity %.2f more\n", gate,
+                      place, rate - place, velocity - place);
+        assert_true(fabs(rate - place - rate_nat) < 1.0);
+        /* a Kalman filter's gate does not look at velocities */
+        assert_true(fabs(velocity - place - (gate == RHO_TRACKER_BEST ? velocity_nat : 0.0)) < 1.0);
+    }
+}
+
+/* Score of hits where so many plots are nobody's, and no initiator tells how dense they are. */
+static double hits_among(uint8_t gate, unsigned strangers)
+{
+    double score_nat = 0.0;
+    fly_alone(gate, 0, 10);
+    for (int k = 10; k < 80; k++) {
+        struct rho_scan scan = scan_at(k);
+        look(k, k);
+        for (unsigned i = 0; i < strangers; i++) {
+            plots[num_plots++] = (struct rho_plot){.x_m = i % 2 ? 9e4f : -9e4f,
+                                                   .y_m = i / 2 % 2 ? 9e4f : -9e4f,
+                                                   .sigma_range_m = 10.0f,
+                                                   .sigma_cross_m = 10.0f};
+        }
+        take_scan(&scan, NULL);
+        score_nat = k == 70 ? (double)report.tracks[0].score_nat : score_nat;
+    }
+    assert_int_equal(report.tracks[0].hits, 80);
+    return ((double)report.tracks[0].score_nat - score_nat) / 9.0;
+}
+
+static void without_an_initiator_strangers_are_clutter(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        double few = hits_among((uint8_t)gate, 4), many = hits_among((uint8_t)gate, 40);
+        assert_true(fabs(few - many - log(10.0)) < 0.05);
+    }
+}
+
+/* ---- looks elsewhere ------------------------------------------------------------------------- */
+
+/* A second plot beside the target's, at each of a few scans: several hypotheses. */
+static void confuse(int from, int to)
+{
+    for (int k = from; k < to; k++) {
+        struct rho_scan scan = scan_at(k);
+        struct target at = target_at(&scene.target[0], k);
+        look(k, k);
+        at.x_m += 35.0 * cos(2.0 * k);
+        at.y_m += 35.0 * sin(2.0 * k);
+        add_plot(&at, 0.0, -1);
+        take_scan(&scan, &initiator);
+    }
+}
+
+/* Neither the score nor the hypotheses: what was open before is open after. */
+static void a_look_elsewhere_changes_no_evidence(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        fly_alone((uint8_t)gate, 0, 15);
+        confuse(15, 19);
+        float score_nat = report.tracks[0].score_nat;
+        unsigned count = report.tracks[0].num_hypotheses;
+        assert_true(gate == RHO_TRACKER_BEST ? count >= 3 : count == 1);
+        for (int i = 1; i <= 6; i++) {
+            struct rho_scan scan = scan_at(18);
+            scan.time_us += 100000 * i;
+            scan.sector_from_rad = -2.0f; /* the target is at 2 to 3 rad */
+            scan.sector_to_rad = -1.0f;
+            num_plots = 0;
+            take_scan(&scan, &initiator);
+            assert_float_equal(report.tracks[0].score_nat, score_nat, 0.0f);
+            assert_int_equal(report.tracks[0].num_hypotheses, count);
+            assert_int_equal(report.tracks[0].misses, 0);
+        }
+        step(19);
+        assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 1);
+        assert_true(distance_m(&report.tracks[0], 0, 19.0) < 60.0);
+    }
+}
+
+/*
+ * Where the sensor looked is asked of where the target is by now: in four seconds it went from
+ * azimuth 2.5 rad to 2.4. The sector ends between.
+ */
+static void looks_follow_the_prediction(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        fly_alone((uint8_t)gate, 0, 15);
+        struct target last = target_at(&scene.target[0], 14.0);
+        struct target next = target_at(&scene.target[0], 18.0);
+        double from_rad = atan2(last.y_m, last.x_m), to_rad = atan2(next.y_m, next.x_m);
+        struct rho_scan scan = scan_at(18);
+        scan.sector_from_rad = (float)((from_rad + to_rad) / 2.0);
+        scan.sector_to_rad = (float)(from_rad + 0.5);
+        assert_true(to_rad < from_rad - 0.05);
+        num_plots = 0;
+        take_scan(&scan, &initiator);
+        assert_int_equal(report.tracks[0].misses, 0);
+        scan.time_us += 1;
+        scan.sector_to_rad = scan.sector_from_rad;
+        scan.sector_from_rad = (float)(to_rad - 0.5);
+        take_scan(&scan, &initiator);
+        assert_int_equal(report.tracks[0].misses, 1);
+    }
+}
+
+/*
+ * A bearing 10 s after the last plot, of a target that may pull 30 m/s^2: 0.1 rad off, 600 m, it
+ * may still be the target's, but 0.1 rad off right after it may not.
+ */
+static void a_frame_s_gates_are_as_wide_as_targets_may_pull(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2 * RHO_NUM_TRACKER_GATES; i++) {
+        const int late_s = i % 2 ? 10 : 0;
+        fly_alone((uint8_t)(i / 2), 0, 15);
+        struct target at = target_at(&scene.target[0], 14.0 + late_s);
+        const float x_m = (float)at.x_m, y_m = (float)at.y_m - 6000.0f;
+        const struct rho_bearing bearing = {.bearing_rad = 1.5707963f + 0.1f, .sigma_rad = 1e-3f};
+        const struct rho_bearing_scan look_up = {.time_us = 1000000 * (14 + late_s),
+                                                 .sensor_id = 5,
+                                                 .x_m = x_m,
+                                                 .y_m = y_m,
+                                                 .num_bearings = 1,
+                                                 .bearings = &bearing};
+        const struct rho_frame frame = {
+            .time_us = look_up.time_us, .num_scans = 1, .scans = &look_up};
+        assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+        assert_int_equal(report.fates[0], late_s ? RHO_FATE_CLAIMED : RHO_FATE_NO_ROOM);
+    }
+}
+
+/* ---- the Hough gate -------------------------------------------------------------------------- */
+
+/* (20) to (30) of the paper, plane by plane, by a search through all cells. */
+static double off_mps(const struct rho_track *track, const double velocity_mps[3], int num_planes)
+{
+    static const int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    const double cell_rad = 5.0 * 3.14159265358979 / 180.0;
+    double sum = 0.0;
+    for (int plane = 0; plane < num_planes; plane++) {
+        int a = axes[plane][0], b = axes[plane][1];
+        double da = (double)track->newest_mps[a] - (double)track->before_mps[a];
+        double db = (double)track->newest_mps[b] - (double)track->before_mps[b];
+        double least = INFINITY, theta_rad = 0.0;
+        for (int j = 1; j <= 36; j++) {
+            double at_rad = (j - 0.5) * cell_rad;
+            double change = fabs(da * cos(at_rad) + db * sin(at_rad));
+            theta_rad = change < least ? at_rad : theta_rad;
+            least = fmin(change, least);
+        }
+        sum += fabs((velocity_mps[a] - (double)track->newest_mps[a]) * cos(theta_rad) +
+                    (velocity_mps[b] - (double)track->newest_mps[b]) * sin(theta_rad));
+    }
+    return sum;
+}
+
+/* The velocity of a plot, measured or by its place. */
+static void velocity_of(const struct rho_plot *plot, const double expected_m[3],
+                        double velocity_mps[3])
+{
+    const struct rho_track *track = &tracker_then.tracks[0];
+    const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
+    const float measured_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+    for (int axis = 0; axis < 3; axis++) {
+        velocity_mps[axis] = scene.measures & RHO_MEASURES_VELOCITY
+                                 ? (double)measured_mps[axis]
+                                 : (double)track->newest_mps[axis] +
+                                       ((double)place_m[axis] - expected_m[axis]) / interval_s;
+    }
+}
+
+/*
+ * Five plots in the gate, the place of each somewhere about the expected one. Returns 0 where two
+ * are as good.
+ */
+static int choose(int k)
+{
+    double expected_m[3], least = INFINITY, second = INFINITY;
+    const float *at = report.tracks[0].state;
+    int best = -1;
+    struct rho_scan scan = scan_at(k);
+    keep();
+    for (int axis = 0; axis < 3; axis++) {
+        expected_m[axis] = (double)at[axis] + interval_s * (double)at[3 + axis];
+    }
+    num_plots = 0;
+    for (int i = 0; i < 5; i++) {
+        struct target plot = {.x_m = expected_m[0], .y_m = expected_m[1], .z_m = expected_m[2]};
+        plot.speed_mps = uniform(190.0, 210.0);
+        plot.course_rad = uniform(-0.5, -0.3);
+        add_plot(&plot, 0.0, -1);
+    }
+    for (int i = 0; i < 5; i++) {
+        double velocity_mps[3];
+        velocity_of(&plots[i], expected_m, velocity_mps);
+        double off =
+            off_mps(&tracker_then.tracks[0], velocity_mps, scene.measures & RHO_MEASURES_Z ? 3 : 1);
+        best = off < least ? i : best;
+        second = off < least ? least : fmin(off, second);
+        least = fmin(off, least);
+    }
+    take_scan(&scan, NULL);
+    if (second - least < 0.02) {
+        return 0;
+    }
+    assert_int_equal(report.tracks[0].plot, best);
+    return 1;
+}
+
+static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
+{
+    static const uint32_t kinds[] = {0, RHO_MEASURES_Z, RHO_MEASURES_VELOCITY,
+                                     RHO_MEASURES_Z | RHO_MEASURES_VELOCITY};
+    (void)state;
+    interval_s = 2.0;
+    for (unsigned kind = 0; kind < 4; kind++) {
+        int told = 0;
+        fly_alone(RHO_TRACKER_HOUGH, kinds[kind], 12);
+        for (int k = 12; k < 62; k++) {
+            for (int i = 0; i < 4; i++) {
+                told += choose(k);
+                go_back(); /* clutter would lead it astray */
+            }
+            step(k);
+        }
+        assert_true(told > 190);
+    }
+    interval_s = 1.0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_track_that_is_seen_again_is_confirmed),
+        cmocka_unit_test(what_is_measured_beside_the_place_is_worth_more),
+        cmocka_unit_test(without_an_initiator_strangers_are_clutter),
+        cmocka_unit_test(a_look_elsewhere_changes_no_evidence),
+        cmocka_unit_test(looks_follow_the_prediction),
+        cmocka_unit_test(a_frame_s_gates_are_as_wide_as_targets_may_pull),
+        cmocka_unit_test(the_hough_gate_takes_the_plot_that_goes_on_straight),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

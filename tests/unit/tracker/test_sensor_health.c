@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Tracks in doubt: believed no more, not yet dropped; what is said of them. Starts that share their
+ * newest plot. How long targets are taken to fly straight (steady_s).
+ */
+#include "tracker_setup.h"
+
+#define SCAN_S 2.0
+#define LAST 12 /* scans that a target is seen in at first */
+
+/* A target at 250 m/s along x. */
+static void see(int k)
+{
+    const double x_m = 500.0 * k + uniform(-8.0, 8.0);
+    add(x_m, uniform(-8.0, 8.0), 10.0);
+}
+
+static void fly(int from, int to)
+{
+    for (int k = from; k < to; k++) {
+        see(k);
+        step(SCAN_S * k);
+    }
+}
+
+static enum rho_track_status status_of_first(void)
+{
+    const struct rho_track_report *first = report_of(1);
+    return first ? first->status : RHO_TRACK_FREE;
+}
+
+/* ---- doubt ----------------------------------------------------------------------------------- */
+
+static void a_track_in_doubt_comes_back_with_its_identity(void **state)
+{
+    (void)state;
+    for (int misses = 3; misses <= 4; misses++) {
+        draw((uint64_t)misses);
+        begin();
+        fly(0, LAST);
+        for (int k = LAST; k < LAST + misses; k++) {
+            step(SCAN_S * k);
+            assert_int_equal(status_of_first(),
+                             k < LAST + 2 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
+        }
+        fly(LAST + misses, LAST + misses + 3);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].track_id, 1);
+        assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+        assert_int_equal(tracker.counters.tracks_started, 1);
+        assert_int_equal(tracker.counters.tracks_ended, 0);
+        /* believed once; what came after doubt is no other belief */
+        assert_int_equal(tracker.counters.tracks_confirmed, 1);
+    }
+}
+
+static void a_track_that_ends_in_doubt_is_reported_as_ended(void **state)
+{
+    (void)state;
+    draw(1);
+    begin();
+    fly(0, LAST);
+    for (int k = LAST; k < LAST + 4; k++) {
+        step(SCAN_S * k);
+        assert_int_equal(report.num_ended, 0);
+    }
+    assert_int_equal(status_of_first(), RHO_TRACK_TENTATIVE);
+    step(SCAN_S * (LAST + 4));
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], 1);
+    assert_int_equal(tracker.counters.tracks_confirmed, 1);
+    assert_int_equal(tracker.counters.tracks_ended, 1);
+}
+
+/* Believed is what has more than the score of a start: it takes plots to come. */
+static void what_never_was_believed_is_not_reported_as_ended(void **state)
+{
+    (void)state;
+    draw(1);
+    initiation.false_tracks_per_hour = 0.001f;
+    initiation.scans = 4;
+    initiation.min_scans = 3;
+    begin();
+    for (int k = 0; k < 20 && tracker.counters.tracks_started == 0; k++) {
+        for (int i = 0; i < 60; i++) {
+            const double x_m = uniform(-2e4, 2e4);
+            add(x_m, uniform(-2e4, 2e4), 10.0);
+        }
+        see(k);
+        step(SCAN_S * k);
+    }
+    if (tracker.counters.tracks_started == 0 || report.tracks[0].status != RHO_TRACK_TENTATIVE) {
+        fail_msg("the scene starts no tentative track");
+    }
+    uint32_t ended = 0;
+    for (int k = 20; k < 30 && report.num_tracks > 0; k++) {
+        step(SCAN_S * k);
+        ended += report.num_ended;
+    }
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(tracker.counters.tracks_confirmed, 0);
+    assert_int_equal(tracker.counters.tracks_ended, tracker.counters.tracks_started);
+    assert_int_equal(ended, 0);
+}
+
+/*
+ * Of a sensor that sees half of its targets, five misses in a row are rarer than none, and commoner
+ * than an end.
+ */
+static void misses_of_a_weak_sensor_are_no_doubt(void **state)
+{
+    (void)state;
+    draw(1);
+    config.pd = 0.5f;
+    initiation.pd = 0.5f;
+    begin();
+    fly(0, LAST);
+    assert_int_equal(status_of_first(), RHO_TRACK_CONFIRMED);
+    for (int k = LAST; k < LAST + 4; k++) {
+        step(SCAN_S * k);
+        assert_int_equal(status_of_first(), RHO_TRACK_COASTING);
+    }
+    step(SCAN_S * (LAST + 4));
+    assert_int_equal(status_of_first(), RHO_TRACK_FREE);
+    assert_int_equal(report.num_ended, 1);
+}
+
+/* One step may end all that there is. */
+static void all_ends_of_a_step_are_reported(void **state)
+{
+    enum { TRACKS = 16 };
+    (void)state;
+    draw(1);
+    begin();
+    for (int k = 0; k < LAST; k++) {
+        for (int i = 0; i < TRACKS; i++) {
+            add(500.0 * k, 3000.0 * i + normal(), 10.0);
+        }
+        step(SCAN_S * k);
+    }
+    assert_int_equal(report.num_tracks, TRACKS);
+    for (int k = LAST; k < LAST + 5; k++) {
+        step(SCAN_S * k);
+    }
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(report.num_ended, TRACKS);
+    for (uint32_t i = 0; i < TRACKS; i++) {
+        assert_int_equal(report.ended[i], i + 1);
+    }
+    assert_int_equal(tracker.counters.tracks_confirmed, TRACKS);
+}
+
+/* ---- starts that share a plot ---------------------------------------------------------------- */
+
+/* Two targets meet in one plot of the scan that both could start with, and part. */
+static void of_two_starts_with_the_same_newest_plot_one_waits(void **state)
+{
+    (void)state;
+    draw(1);
+    begin();
+    for (int k = 0; k < 6; k++) {
+        const double y_m = 400.0 * (3 - k);
+        add(500.0 * k, y_m, 10.0);
+        if (k != 3) {
+            add(500.0 * k, -y_m, 10.0);
+        }
+        step(SCAN_S * k);
+        assert_int_equal(tracker.counters.tracks_started, k < 3 ? 0 : k == 3 ? 1 : 2);
+    }
+    assert_int_equal(report.num_tracks, 2);
+    assert_true(report.tracks[0].state[4] * report.tracks[1].state[4] < 0.0f);
+}
+
+/* Plots that two others share are no reason: the newest ones are each target's own. */
+static void starts_with_newest_plots_of_their_own_are_both_started(void **state)
+{
+    (void)state;
+    draw(1);
+    begin();
+    for (int k = 0; k < 4; k++) {
+        add(500.0 * k, 1000.0, 10.0);
+        add(500.0 * k, -1000.0, 10.0);
+        step(SCAN_S * k);
+    }
+    assert_int_equal(tracker.counters.tracks_started, 2);
+}
+
+/* ---- how long targets fly straight ----------------------------------------------------------- */
+
+static void steady_times_out_of_range_are_refused(void **state)
+{
+    static const float bad_s[] = {NAN, INFINITY, -INFINITY, -1.0f, -1e-6f, 1.0001e5f, 2e5f};
+    static const float good_s[] = {0.0f, 1e-6f, 60.0f, 1e5f};
+    static struct rho_tracker then;
+    (void)state;
+    draw(1);
+    memset(&tracker, 0x5a, sizeof tracker);
+    memcpy(&then, &tracker, sizeof tracker);
+    for (size_t i = 0; i < sizeof bad_s / sizeof bad_s[0]; i++) {
+        config.steady_s = bad_s[i];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+        assert_memory_equal(&tracker, &then, sizeof tracker);
+    }
+    for (size_t i = 0; i < sizeof good_s / sizeof good_s[0]; i++) {
+        config.steady_s = good_s[i];
+        begin();
+    }
+}
+
+struct flight {
+    double early_m, straight_m, turning_m; /* root mean squares of the errors */
+    double sure;   /* of a manoeuvre, in the turn's second half: mean probability */
+    unsigned kept; /* runs that one track followed to the end */
+};
+
+/*
+ * 100 s straight, of which the first 10 s do not count and 30 s are early; 3 g for 20 s; 50 m, a
+ * plot a second.
+ */
+static struct flight fly_and_turn(float steady_s)
+{
+    enum { RUNS = 12, BEGIN = 10, EARLY = 40, STRAIGHT = 100, TURN = 20 };
+    struct flight flight = {0};
+    for (int run = 0; run < RUNS; run++) {
+        double x_m = 0.0, y_m = 0.0, course_rad = 0.4;
+        draw(100 + (uint64_t)run);
+        config.accel_max_mps2 = 40.0f;
+        config.steady_s = steady_s;
+        begin();
+        for (int k = 0; k < STRAIGHT + TURN; k++) {
+            const double seen_m = x_m + 50.0 * normal();
+            add(seen_m, y_m + 50.0 * normal(), 50.0);
+            step(k);
+            const struct rho_track_report *track = report_of(1);
+            if (track && k >= BEGIN) {
+                const double off_m =
+                    hypot((double)track->state[0] - x_m, (double)track->state[1] - y_m);
+                double *into = k < EARLY      ? &flight.early_m
+                               : k < STRAIGHT ? &flight.straight_m
+                                              : &flight.turning_m;
+                *into += off_m * off_m / RUNS /
+                         (k < EARLY      ? EARLY - BEGIN
+                          : k < STRAIGHT ? STRAIGHT - EARLY
+                                         : TURN);
+                flight.sure += k >= STRAIGHT + TURN / 2
+                                   ? (double)track->maneuver_probability / RUNS / (TURN / 2)
+                                   : 0.0;
+            }
+            for (int part = 0; part < 100; part++) {
+                course_rad += k >= STRAIGHT ? 0.01 * 30.0 / 250.0 : 0.0;
+                x_m += 2.5 * cos(course_rad);
+                y_m += 2.5 * sin(course_rad);
+            }
+        }
+        const struct rho_track_report *track = report_of(1);
+        flight.kept += track && track->misses <= 2 && tracker.counters.tracks_started == 1;
+    }
+    flight.early_m = sqrt(flight.early_m);
+    flight.straight_m = sqrt(flight.straight_m);
+    flight.turning_m = sqrt(flight.turning_m);
+    return flight;
+}
+
+/*
+ * What keeps straight for a while is known well whatever steady_s says: it sets how well until
+ * then.
+ */
+static void straight_targets_are_known_well_and_turns_are_followed(void **state)
+{
+    (void)state;
+    const struct flight restless = fly_and_turn(0.0f), steady = fly_and_turn(300.0f);
+    print_message("early %.1f, with steady_s 300 s %.1f m; straight %.1f, %.1f m; turning %.1f, "
+                  "%.1f m; sure %.2f, %.2f\n",
+                  restless.early_m, steady.early_m, restless.straight_m, steady.straight_m,
+                  restless.turning_m, steady.turning_m, restless.sure, steady.sure);
+    assert_true(steady.early_m < 0.9 * restless.early_m); /* 38 and 31 m */
+    assert_true(restless.straight_m < 28.0);              /* 24 m, and 24 m */
+    assert_true(steady.straight_m < 28.0);
+    assert_true(restless.turning_m < 72.0); /* 63 m, and 64 m */
+    assert_true(steady.turning_m < 72.0);
+    assert_true(restless.sure > 0.45 && steady.sure > 0.3); /* 0.63 and 0.50 */
+    assert_int_equal(restless.kept, 12);
+    assert_int_equal(steady.kept, 12);
+}
+
+/* Where it is less than manoeuvres last, it is as long as these. */
+static void a_short_steady_time_is_as_none(void **state)
+{
+    static struct rho_report other;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        draw(1);
+        config.steady_s = i ? 1.0f : 0.0f;
+        begin();
+        fly(0, 20);
+        if (i == 0) {
+            other = report;
+        }
+    }
+    assert_memory_equal(&report, &other, sizeof report);
+}
+
+/* ---- what stands ----------------------------------------------------------------------------- */
+
+static void what_stands_is_no_target_where_targets_move(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        for (int has_least = 0; has_least < 2; has_least++) {
+            unsigned ended = 0;
+            draw(3);
+            config.gate = (uint8_t)gate;
+            config.v_min_mps = has_least ? 50.0f : 0.0f;
+            begin();
+            for (int k = 0; k < 40; k++) {
+                /* it flies, then it has come upon something that stands */
+                add(k < 20 ? 400.0 * k - 8000.0 : 10.0 * normal(), 10.0 * normal(), 10.0);
+                step(2.0 * k);
+                for (unsigned i = 0; i < report.num_ended; i++) {
+                    ended += report.ended[i] == 1;
+                }
+            }
+            if (has_least) {
+                assert_int_equal(ended, 1);
+            } else {
+                assert_true(report.num_tracks >= 1);
+            }
+        }
+    }
+}
+
+static void least_speeds_out_of_range_are_refused(void **state)
+{
+    static const float bad[] = {-1.0f, NAN, INFINITY, 701.0f};
+    (void)state;
+    draw(3);
+    begin();
+    static struct rho_tracker before;
+    before = tracker;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        config.v_max_mps = 700.0f;
+        config.v_min_mps = bad[i];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+        assert_memory_equal(&tracker, &before, sizeof tracker);
+    }
+    config.v_min_mps = 700.0f;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_track_in_doubt_comes_back_with_its_identity),
+        cmocka_unit_test(a_track_that_ends_in_doubt_is_reported_as_ended),
+        cmocka_unit_test(what_never_was_believed_is_not_reported_as_ended),
+        cmocka_unit_test(misses_of_a_weak_sensor_are_no_doubt),
+        cmocka_unit_test(all_ends_of_a_step_are_reported),
+        cmocka_unit_test(of_two_starts_with_the_same_newest_plot_one_waits),
+        cmocka_unit_test(starts_with_newest_plots_of_their_own_are_both_started),
+        cmocka_unit_test(steady_times_out_of_range_are_refused),
+        cmocka_unit_test(straight_targets_are_known_well_and_turns_are_followed),
+        cmocka_unit_test(a_short_steady_time_is_as_none),
+        cmocka_unit_test(what_stands_is_no_target_where_targets_move),
+        cmocka_unit_test(least_speeds_out_of_range_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

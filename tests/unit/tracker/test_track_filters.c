@@ -1,0 +1,475 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * One track by each of its filters: plain, with input estimation, of hypotheses. Who may do what,
+ * and what is given back.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "rhotrack/track.h"
+
+#define SCAN_US 1000000
+#define SIGMA_M 5.0f
+
+static struct rho_hypotheses pool;
+static struct rho_input_config estimation;
+static struct rho_track_model model; /* of the filter that a test asks for */
+
+static void start_with(enum rho_track_filter filter)
+{
+    struct rho_imm_model motion;
+    rho_imm_model_default(&motion, 40.0f, 400.0f);
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &motion), RHO_OK);
+    rho_input_config_default(&estimation);
+    estimation.is_estimated = 1;
+    estimation.model = RHO_INPUT_PHYSICAL;
+    estimation.noise_m = estimation.noise_mps = 0.0f;
+    estimation.noise_density = 1.0f;
+    model = (struct rho_track_model){.speed_sigma_mps = 300.0f, .noise_density = 100.0f};
+    model.hypotheses = filter == RHO_TRACK_HYPOTHESES ? &pool : NULL;
+    model.input = filter == RHO_TRACK_INPUT ? &estimation : NULL;
+}
+
+/* Straight for 4 s, then 30 m/s^2 to the left of a course along x. */
+static struct rho_track_plot seen(int k)
+{
+    float t_s = (float)k, turned_s = k > 4 ? t_s - 4.0f : 0.0f;
+    return (struct rho_track_plot){.time_us = (int64_t)SCAN_US * k,
+                                   .plot = {.x_m = 200.0f * t_s,
+                                            .y_m = 15.0f * turned_s * turned_s,
+                                            .sigma_range_m = SIGMA_M,
+                                            .sigma_cross_m = SIGMA_M},
+                                   .sensor_id = 3,
+                                   .row = 0};
+}
+
+static struct rho_track started(void)
+{
+    struct rho_track track;
+    struct rho_track_plot plots[4] = {seen(0), seen(1), seen(2), seen(3)};
+    assert_int_equal(rho_track_start(&track, 1, plots, 4, &model, 0), RHO_OK);
+    return track;
+}
+
+static unsigned count_open(void)
+{
+    unsigned nodes = 0;
+    for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
+        nodes += rho_hypotheses_count(&pool, (uint16_t)slot);
+    }
+    assert_int_equal(nodes + pool.num_free, RHO_MAX_HYPOTHESES);
+    return nodes;
+}
+
+/* ---- the model says which -------------------------------------------------------------------- */
+
+static void the_model_says_which_filter(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        assert_int_equal(track.filter, filter);
+        assert_int_equal(count_open(), filter == RHO_TRACK_HYPOTHESES ? 1 : 0);
+        assert_int_equal(track.time_us, 3 * SCAN_US);
+        assert_float_equal(track.kalman.state[0], 600.0f, 2.0f);
+        assert_float_equal(track.kalman.state[3], 200.0f, 2.0f);
+        rho_track_end(&track, &model);
+        assert_int_equal(count_open(), 0);
+    }
+    /* where there is a pool, input estimation is not asked */
+    start_with(RHO_TRACK_HYPOTHESES);
+    model.input = &estimation;
+    struct rho_track track = started();
+    assert_int_equal(track.filter, RHO_TRACK_HYPOTHESES);
+}
+
+/* A track keeps to its filter, whatever the model offers later. */
+static void an_estimate_starts_a_plain_filter(void **state)
+{
+    (void)state;
+    struct rho_track track, plain;
+    start_with(RHO_TRACK_KALMAN);
+    plain = started();
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        assert_int_equal(rho_track_start_estimate(&track, 2, &plain.kalman, 3 * SCAN_US, 3, 5, 100),
+                         RHO_OK);
+        assert_int_equal(track.filter, RHO_TRACK_KALMAN);
+        struct rho_track_plot next = seen(4);
+        assert_int_equal(rho_track_predict(&track, next.time_us, &model), RHO_OK);
+        assert_int_equal(rho_track_update(&track, &next, &model, 0), RHO_OK);
+        assert_int_equal(count_open(), 0);
+        assert_float_equal(track.accel_mps2[0], 0.0f, 0.0f);
+        rho_track_end(&track, &model); /* holds nothing */
+        assert_int_equal(count_open(), 0);
+    }
+}
+
+static void a_refused_start_gives_its_slot_back(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        struct rho_track track, before;
+        struct rho_track_plot plots[4] = {seen(0), seen(1), seen(2), seen(3)};
+        start_with((enum rho_track_filter)filter);
+        memset(&track, 0x22, sizeof track);
+        before = track;
+        plots[2].plot.y_m = NAN;
+        assert_int_not_equal(rho_track_start(&track, 1, plots, 4, &model, 0), RHO_OK);
+        plots[2] = seen(2);
+        plots[2].time_us = INT64_MAX; /* no filter can be moved there */
+        assert_int_not_equal(rho_track_start(&track, 1, plots, 4, &model, 0), RHO_OK);
+        assert_memory_equal(&track, &before, sizeof track);
+        assert_int_equal(count_open(), 0);
+    }
+}
+
+/* A slot more than the tracks that may live: a candidate is opened before it has its place. */
+static void a_full_pool_refuses(void **state)
+{
+    (void)state;
+    static struct rho_track tracks[RHO_HYPOTHESES_SLOTS];
+    struct rho_track one_more, before;
+    struct rho_track_plot plot = seen(0);
+    start_with(RHO_TRACK_HYPOTHESES);
+    for (unsigned i = 0; i < RHO_HYPOTHESES_SLOTS; i++) {
+        assert_int_equal(rho_track_start(&tracks[i], i, &plot, 1, &model, 0), RHO_OK);
+    }
+    memset(&one_more, 0x33, sizeof one_more);
+    before = one_more;
+    assert_int_equal(rho_track_start(&one_more, 9, &plot, 1, &model, 0), RHO_ERROR_CAPACITY);
+    assert_memory_equal(&one_more, &before, sizeof before);
+    const uint16_t slot = tracks[5].slot;
+    rho_track_end(&tracks[5], &model);
+    assert_int_equal(rho_track_start(&one_more, 9, &plot, 1, &model, 0), RHO_OK);
+    assert_int_equal(one_more.slot, slot);
+}
+
+/* ---- commit and settle ----------------------------------------------------------------------- */
+
+static enum rho_status commit(struct rho_track *track, const struct rho_plot *plots, float log_miss)
+{
+    const struct rho_hypotheses_scan scan = {
+        .time_us = track->time_us, .plots = plots, .log_miss = log_miss};
+    return rho_track_commit(track, &scan, 8, &model);
+}
+
+static void commit_and_settle_are_for_hypotheses(void **state)
+{
+    (void)state;
+    struct rho_plot plot = seen(4).plot;
+    const struct rho_hypotheses_scan scan = {.time_us = 3 * SCAN_US, .plots = &plot};
+    for (int filter = 0; filter < RHO_TRACK_HYPOTHESES; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started(), before = track;
+        assert_int_equal(commit(&track, &plot, -2.0f), RHO_ERROR_STATE);
+        rho_track_merge_estimates(&track, 9 * SCAN_US, &model);
+        assert_memory_equal(&track, &before, sizeof track);
+        model.hypotheses = &pool; /* a pool beside it changes nothing */
+        assert_int_equal(commit(&track, &plot, -2.0f), RHO_ERROR_STATE);
+        rho_track_merge_estimates(&track, 9 * SCAN_US, &model);
+        rho_track_end(&track, &model);
+        assert_memory_equal(&track, &before, sizeof track);
+        assert_int_equal(count_open(), 0);
+    }
+    start_with(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = started();
+    assert_int_equal(rho_track_commit(NULL, &scan, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit(&track, NULL, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit(&track, &scan, 8, NULL), RHO_ERROR_NULL);
+}
+
+/* One step of a track of hypotheses with the plots of a scan; own row 0. */
+static void step(struct rho_track *track, int k, const struct rho_plot *plots, int num_plots)
+{
+    const struct rho_hypotheses_clutter clutter = {.log_per_m2 = logf(1e-6f)};
+    struct rho_hypotheses_box reach;
+    struct rho_imm_plot opened;
+    float gain_nat;
+    track->plot = -1;
+    assert_int_equal(rho_track_predict(track, (int64_t)SCAN_US * k, &model), RHO_OK);
+    rho_hypotheses_begin_scan(&pool, track->slot, &reach);
+    for (int i = 0; i < num_plots; i++) {
+        rho_imm_open_plot(&opened, &plots[i], 0, NULL);
+        (void)rho_hypotheses_score_plot(&pool, track->slot, &opened, (int64_t)SCAN_US * k,
+                                        (int16_t)i, logf(0.9f), &clutter, &gain_nat);
+    }
+    assert_int_equal(commit(track, plots, logf(0.1f)), RHO_OK);
+}
+
+static void a_commit_counts_what_the_best_hypothesis_took(void **state)
+{
+    (void)state;
+    start_with(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = started();
+    struct rho_plot plots[2] = {seen(4).plot, seen(4).plot};
+    plots[0].y_m += 2000.0f; /* nobody's */
+    step(&track, 4, plots, 2);
+    assert_int_equal(track.plot, 1);
+    assert_int_equal(track.hits, 5);
+    assert_int_equal(track.sensor_id, 8);
+    assert_int_equal(track.updated_us, 4 * SCAN_US);
+    /* ln(0.9 / 1e-6) less about ln(2 pi 10^2) of an innovation of 7 to 20 m */
+    assert_in_range(track.score_mnat, 5000, 8500);
+    assert_int_equal(track.score_max_mnat, track.score_mnat);
+    int32_t score_mnat = track.score_mnat;
+    step(&track, 5, plots, 0);
+    assert_int_equal(track.plot, -1);
+    assert_int_equal(track.hits, 5);
+    assert_int_equal(track.sensor_id, 8);
+    assert_in_range(score_mnat - track.score_mnat, 2301, 2304); /* ln(0.1), of all hypotheses */
+    assert_int_equal(track.misses, 0);                          /* that is for rho_track_miss */
+}
+
+static void settling_brings_the_estimate(void **state)
+{
+    (void)state;
+    start_with(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = started();
+    for (int k = 4; k < 10; k++) {
+        struct rho_plot plot = seen(k).plot;
+        step(&track, k, &plot, 1);
+        assert_int_equal(track.plot, 0);
+        rho_track_merge_estimates(&track, (int64_t)SCAN_US * k, &model);
+    }
+    struct rho_hypotheses_estimate estimate;
+    assert_int_equal(rho_hypotheses_estimate(&pool, track.slot, 9 * SCAN_US, &estimate), RHO_OK);
+    assert_memory_equal(&estimate.kalman, &track.kalman, sizeof track.kalman);
+    assert_memory_equal(estimate.accel_mps2, track.accel_mps2, sizeof track.accel_mps2);
+    assert_float_equal(track.kalman.state[0], 1800.0f, 6.0f);
+    assert_float_equal(track.kalman.state[1], 375.0f, 10.0f);
+    assert_float_equal(track.kalman.state[4], 150.0f, 15.0f);
+    /* 17.6: an acceleration is remembered for 3.5 s, and may just as well have ended */
+    assert_float_equal(track.accel_mps2[1], 22.0f, 10.0f);
+    assert_float_equal(track.accel_mps2[0], 0.0f, 5.0f);
+    assert_true(track.maneuver_probability > 0.7f);
+    /* at another time: moved there */
+    rho_track_merge_estimates(&track, 9 * SCAN_US + SCAN_US / 2, &model);
+    assert_int_equal(track.time_us, 9 * SCAN_US + SCAN_US / 2);
+    assert_float_equal(track.kalman.state[0], 1900.0f, 8.0f);
+}
+
+/* A slot that is closed: the track is as it was. */
+static void a_closed_slot_settles_nothing(void **state)
+{
+    (void)state;
+    start_with(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = started(), before;
+    rho_track_end(&track, &model);
+    before = track;
+    rho_track_merge_estimates(&track, 5 * SCAN_US, &model);
+    assert_int_not_equal(rho_track_predict(&track, 5 * SCAN_US, &model), RHO_OK);
+    assert_memory_equal(&track, &before, sizeof track);
+    rho_track_end(&track, &model); /* twice */
+    assert_int_equal(count_open(), 0);
+}
+
+/* ---- the pool's tracks by hand --------------------------------------------------------------- */
+
+/*
+ * A caller that updates tracks itself: the estimate is the filter's, at the plot's time, once it is
+ * settled.
+ */
+static void every_filter_takes_plots_by_hand(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        for (int k = 4; k < 14; k++) {
+            struct rho_track_plot plot = seen(k);
+            assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update(&track, &plot, &model, 10), RHO_OK);
+            assert_int_equal(track.time_us, plot.time_us);
+            rho_track_merge_estimates(&track, plot.time_us, &model);
+            assert_float_equal(track.kalman.state[0], plot.plot.x_m, 10.0f);
+            assert_float_equal(track.kalman.state[1], plot.plot.y_m, 40.0f);
+        }
+        assert_int_equal(track.hits, 14);
+        assert_int_equal(track.score_mnat, 100);
+        /* measured: 0, 33.2, 18.4 */
+        static const float accel_mps2[RHO_NUM_TRACK_FILTERS] = {0.0f, 30.0f, 22.0f};
+        static const float probability[RHO_NUM_TRACK_FILTERS] = {0.0f, 1.0f, 0.8f};
+        assert_float_equal(track.accel_mps2[1], accel_mps2[filter], filter ? 8.0f : 0.0f);
+        assert_float_equal(track.maneuver_probability, probability[filter],
+                           filter == RHO_TRACK_HYPOTHESES ? 0.1f : 0.0f);
+        assert_float_equal(track.newest_mps[0], 200.0f, 20.0f);
+    }
+}
+
+/* Velocity and range rate with 1 m/s: what four places alone tell to some 4 m/s. */
+static void every_filter_takes_all_that_a_plot_measures(void **state)
+{
+    static const uint32_t kinds[] = {0, RHO_MEASURES_VELOCITY, RHO_MEASURES_RANGE_RATE};
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        for (int kind = 0; kind < 3; kind++) {
+            start_with((enum rho_track_filter)filter);
+            struct rho_track track = started();
+            struct rho_track_plot plot = seen(4);
+            plot.measures = kinds[kind];
+            plot.plot.vx_mps = plot.plot.range_rate_mps = 200.0f; /* it comes from the sensor */
+            plot.plot.sigma_mps = plot.plot.sigma_range_rate_mps = 1.0f;
+            assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update(&track, &plot, &model, 0), RHO_OK);
+            rho_track_merge_estimates(&track, plot.time_us, &model);
+            assert_int_equal(track.kalman.covariance[RHO_AT(3, 3)]<1.5f, kind> 0);
+            assert_int_equal(track.kalman.covariance[RHO_AT(4, 4)] < 1.5f, kind == 1);
+        }
+    }
+}
+
+static void refused_updates_leave_every_filter_going(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started(), before = track;
+        struct rho_track_plot bad = seen(4);
+        bad.plot.y_m = NAN;
+        assert_int_not_equal(rho_track_update(&track, &bad, &model, 10), RHO_OK);
+        assert_memory_equal(&track, &before, sizeof track);
+        struct rho_track_plot good = seen(4);
+        assert_int_equal(rho_track_predict(&track, good.time_us, &model), RHO_OK);
+        assert_int_equal(rho_track_update(&track, &good, &model, 10), RHO_OK);
+        rho_track_merge_estimates(&track, good.time_us, &model);
+        assert_float_equal(track.kalman.state[0], 800.0f, 10.0f);
+        assert_float_equal(track.kalman.state[3], 200.0f, 10.0f);
+    }
+}
+
+/* What a gate sees: with input estimation, an input that may have begun since. */
+static void only_inputs_widen_the_gate(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        struct rho_kalman expected, of_input;
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        assert_int_equal(rho_track_predict(&track, 4 * SCAN_US, &model), RHO_OK);
+        rho_track_expect(&track, &expected);
+        if (filter == RHO_TRACK_INPUT) {
+            rho_input_expect(&track.input, &of_input);
+            assert_memory_equal(&expected, &of_input, sizeof expected);
+            /* 22 m/s^2 for a second: 11 m */
+            assert_true(expected.covariance[RHO_AT(0, 0)] >
+                        track.kalman.covariance[RHO_AT(0, 0)] + 100.0f);
+        } else {
+            assert_memory_equal(&expected, &track.kalman, sizeof expected);
+        }
+    }
+}
+
+/* ---- bearings -------------------------------------------------------------------------------- */
+
+/* What a sensor at (x, y) sees of the target at scan k, with 0.5 mrad. */
+static struct rho_track_bearing bearing_from(float x_m, float y_m, int k)
+{
+    const struct rho_plot at = seen(k).plot;
+    return (struct rho_track_bearing){.time_us = (int64_t)SCAN_US * k,
+                                      .sensor_id = 4,
+                                      .x_m = x_m,
+                                      .y_m = y_m,
+                                      .bearing_rad = atan2f(at.y_m - y_m, at.x_m - x_m),
+                                      .sigma_rad = 5e-4f,
+                                      .row = 1};
+}
+
+/* Seen along y from 5 km: 2.5 m across, at once, so that the next sensor's gate is the narrower. */
+static void a_bearing_narrows_every_filter_at_once(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        struct rho_track_bearing bearing = bearing_from(800.0f, -5000.0f, 4);
+        assert_int_equal(rho_track_predict(&track, bearing.time_us, &model), RHO_OK);
+        rho_track_merge_estimates(&track, bearing.time_us, &model);
+        assert_true(track.kalman.covariance[RHO_AT(0, 0)] > 20.0f);
+        assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 0), RHO_OK);
+        assert_true(track.kalman.covariance[RHO_AT(0, 0)] < 6.3f);
+        assert_float_equal(track.kalman.state[0], 800.0f, 3.0f);
+    }
+}
+
+/*
+ * A hit by a bearing is an update as one by a plot: of both in one step it is the last that counts.
+ */
+static void velocities_of_the_last_two_hits_are_kept(void **state)
+{
+    (void)state;
+    for (int filter = 0; filter < RHO_TRACK_HYPOTHESES; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        float before_mps = track.kalman.state[4];
+        for (int k = 4; k < 9; k++) {
+            struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
+            struct rho_track_bearing east = bearing_from(7000.0f, 300.0f, k);
+            track.plot = -1;
+            assert_int_equal(rho_track_predict(&track, south.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &south, &model, 0), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &east, &model, 0), RHO_OK);
+            assert_float_equal(track.newest_mps[1], track.kalman.state[4], 0.0f);
+            assert_float_equal(track.before_mps[1], before_mps, 0.0f);
+            before_mps = track.kalman.state[4];
+        }
+        assert_int_equal(track.hits, 9);
+    }
+}
+
+/*
+ * Two sensors at once. What the first tells must not be decided on alone: where it sees no input
+ * there is none as yet, and the second, at the same time, could not see one any more: 43 m behind,
+ * instead of 0.01 m.
+ */
+static void bearings_show_a_turn_too(void **state)
+{
+    static const float least[RHO_NUM_TRACK_FILTERS] = {0.0f, 1.0f, 0.6f};
+    (void)state;
+    for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
+        start_with((enum rho_track_filter)filter);
+        struct rho_track track = started();
+        for (int k = 4; k < 14; k++) {
+            struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
+            struct rho_track_bearing east = bearing_from(7000.0f, 300.0f, k);
+            track.plot = -1;
+            assert_int_equal(rho_track_predict(&track, south.time_us, &model), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &south, &model, 0), RHO_OK);
+            assert_int_equal(rho_track_update_bearing(&track, &east, &model, 0), RHO_OK);
+            rho_track_merge_estimates(&track, south.time_us, &model);
+        }
+        assert_float_equal(track.kalman.state[1], 15.0f * 81.0f, 5.0f);
+        assert_float_equal(track.kalman.state[4], 270.0f, 20.0f);
+        assert_true(track.maneuver_probability >= least[filter]);
+        assert_true(filter == RHO_TRACK_KALMAN || track.accel_mps2[1] > 12.0f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_model_says_which_filter),
+        cmocka_unit_test(an_estimate_starts_a_plain_filter),
+        cmocka_unit_test(a_refused_start_gives_its_slot_back),
+        cmocka_unit_test(a_full_pool_refuses),
+        cmocka_unit_test(commit_and_settle_are_for_hypotheses),
+        cmocka_unit_test(a_commit_counts_what_the_best_hypothesis_took),
+        cmocka_unit_test(settling_brings_the_estimate),
+        cmocka_unit_test(a_closed_slot_settles_nothing),
+        cmocka_unit_test(every_filter_takes_plots_by_hand),
+        cmocka_unit_test(every_filter_takes_all_that_a_plot_measures),
+        cmocka_unit_test(refused_updates_leave_every_filter_going),
+        cmocka_unit_test(only_inputs_widen_the_gate),
+        cmocka_unit_test(a_bearing_narrows_every_filter_at_once),
+        cmocka_unit_test(velocities_of_the_last_two_hits_are_kept),
+        cmocka_unit_test(bearings_show_a_turn_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,400 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Radars over the same targets, one of which fails or lies from some time on: it is doubted, the
+ * tracks stay the others', and it is believed again when it agrees. No good one is ever doubted,
+ * however fine the one that lies claims to be.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "draws.h"
+#include "rhotrack/tracker.h"
+
+#define TARGETS 8
+#define OTHER 1
+#define SENSORS_MAX 3
+#define SIGMA_M 30.0
+#define ROUND_S 4.0
+#define LOST_MAX 2                       /* misses in a row, by chance */
+#define CLUTTER (2 * RHO_MAX_PLOTS + 40) /* the targets are in the second part */
+
+static struct rho_tracker tracker;
+static struct rho_initiator initiators[SENSORS_MAX];
+static struct rho_report report;
+static uint64_t seed = 5;
+
+/* What the other radar does. */
+enum fault { NONE, SHIFTED, FAR_OFF, DEAD };
+
+struct scene {
+    int sensors; /* the others are good */
+    enum fault fault;
+    int from, to; /* rounds in which it does so */
+    double turn_radps;
+    int clutter; /* plots of the other radar far and wide: half before the targets', half behind */
+    /*
+     * of the radars by their identities; 0: SIGMA_M. What the other claims while it lies; 0: that,
+     * too. 0: 4 SIGMA_M
+     */
+    double sigma_m[SENSORS_MAX + 1], claim_m, shift_m;
+    /* what came of it, from round 20 on */
+    double sum_m2;
+    int judged, lost, tracks_most, first_doubted, last_doubted;
+};
+
+static void describe(int32_t sensor_id)
+{
+    const struct rho_sensor sensor = {.sensor_id = sensor_id, .pd = 0.9f, .range_max_m = 4e5f};
+
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+}
+
+static void start(void)
+{
+    struct rho_tracker_config config;
+    struct rho_initiator_config start_config;
+
+    random_state = seed;
+    rho_tracker_config_default(&config);
+    rho_initiator_config_default(&start_config);
+    config.v_max_mps = start_config.v_max_mps = 400.0f;
+    config.accel_max_mps2 = 10.0f;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+    for (int i = 0; i < SENSORS_MAX; i++) {
+        assert_int_equal(rho_initiator_init(&initiators[i], sizeof initiators[i], &start_config),
+                         RHO_OK);
+        describe(i + 1);
+    }
+}
+
+/* Straight, 90 km apart; or in circles. */
+static void truth_of(const struct scene *scene, int target, double t_s, double place_m[2])
+{
+    double heading = 0.7 * target, speed = 150.0 + 10.0 * target, w = scene->turn_radps;
+
+    place_m[0] = 90000.0 * (target % 4) - 135000.0;
+    place_m[1] = 90000.0 * (target / 4);
+    if (w > 0.0) {
+        place_m[0] += speed / w * (sin(heading + w * t_s) - sin(heading));
+        place_m[1] -= speed / w * (cos(heading + w * t_s) - cos(heading));
+    } else {
+        place_m[0] += speed * cos(heading) * t_s;
+        place_m[1] += speed * sin(heading) * t_s;
+    }
+}
+
+static uint32_t add_clutter(struct rho_plot *plots, uint32_t count, int more)
+{
+    for (int i = 0; i < more; i++) {
+        plots[count++] = (struct rho_plot){.x_m = (float)uniform(-1e6, 1e6),
+                                           .y_m = (float)uniform(-1e6, 1e6),
+                                           .sigma_range_m = (float)SIGMA_M,
+                                           .sigma_cross_m = (float)SIGMA_M};
+    }
+    return count;
+}
+
+static double or_else(double value, double otherwise)
+{
+    return value > 0.0 ? value : otherwise;
+}
+
+static void step(const struct scene *scene, int32_t sensor_id, double t_s, int is_faulty)
+{
+    static struct rho_plot plots[TARGETS + CLUTTER];
+    const int clutter = sensor_id == OTHER ? scene->clutter / 2 : 0;
+    struct rho_scan scan = {.time_us = (int64_t)llround(1e6 * t_s), .sensor_id = sensor_id};
+    const double sigma_m = or_else(scene->sigma_m[sensor_id], SIGMA_M),
+                 claim_m = is_faulty ? or_else(scene->claim_m, sigma_m) : sigma_m;
+    double shift_m = !is_faulty                ? 0.0
+                     : scene->fault == SHIFTED ? or_else(scene->shift_m, 4.0 * SIGMA_M)
+                     : scene->fault == FAR_OFF ? 3000.0
+                                               : 0.0;
+
+    scan.num_plots = add_clutter(plots, 0, clutter);
+    for (int i = 0; i < TARGETS; i++) {
+        double place_m[2], dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
+
+        truth_of(scene, i, t_s, place_m);
+        if (uniform(0.0, 1.0) < 0.9 && !(is_faulty && scene->fault == DEAD)) {
+            plots[scan.num_plots++] = (struct rho_plot){.x_m = (float)(place_m[0] + dx_m + shift_m),
+                                                        .y_m = (float)(place_m[1] + dy_m + shift_m),
+                                                        .sigma_range_m = (float)claim_m,
+                                                        .sigma_cross_m = (float)claim_m};
+        }
+    }
+    scan.num_plots = add_clutter(plots, scan.num_plots, clutter);
+    scan.plots = plots;
+    assert_int_equal(rho_tracker_step(&tracker, &initiators[sensor_id - 1], &scan, &report),
+                     RHO_OK);
+}
+
+static void judge(struct scene *scene, double t_s)
+{
+    int confirmed = 0;
+
+    for (uint32_t k = 0; k < report.num_tracks; k++) {
+        confirmed += report.tracks[k].status != RHO_TRACK_TENTATIVE;
+    }
+    scene->tracks_most = confirmed > scene->tracks_most ? confirmed : scene->tracks_most;
+    for (int i = 0; i < TARGETS; i++) {
+        double place_m[2], best_m = 1000.0;
+
+        truth_of(scene, i, t_s, place_m);
+        for (uint32_t k = 0; k < report.num_tracks; k++) {
+            double error_m = hypot((double)report.tracks[k].state[0] - place_m[0],
+                                   (double)report.tracks[k].state[1] - place_m[1]);
+
+            if (report.tracks[k].status != RHO_TRACK_TENTATIVE && error_m < best_m) {
+                best_m = error_m;
+            }
+        }
+        scene->lost += best_m >= 1000.0;
+        scene->sum_m2 += best_m < 1000.0 ? best_m * best_m : 0.0;
+        scene->judged += best_m < 1000.0;
+    }
+}
+
+static int is_doubted(int32_t sensor_id)
+{
+    return rho_tracker_look_of(&tracker, sensor_id)->is_doubted;
+}
+
+/* All look once a round, a second after one another. */
+static void fly(struct scene *scene, int rounds)
+{
+    scene->first_doubted = scene->last_doubted = -1;
+    start();
+    for (int round = 0; round < rounds; round++) {
+        double t_s = ROUND_S * round;
+
+        step(scene, OTHER, t_s, round >= scene->from && round < scene->to);
+        if (is_doubted(OTHER)) {
+            scene->first_doubted = scene->first_doubted < 0 ? round : scene->first_doubted;
+            scene->last_doubted = round;
+        }
+        for (int32_t good = OTHER + 1; good <= scene->sensors; good++) {
+            step(scene, good, t_s + good - OTHER, 0);
+            assert_int_equal(is_doubted(good), 0);
+        }
+        if (round >= 20) {
+            judge(scene, t_s + scene->sensors - OTHER);
+        }
+    }
+}
+
+static double rmse_m(const struct scene *scene)
+{
+    return sqrt(scene->sum_m2 / scene->judged);
+}
+
+static void sensors_that_agree_are_not_doubted(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct scene scene = {.sensors = 2, .turn_radps = 0.02 * k}; /* up to 9 m/s^2 */
+
+        fly(&scene, 100);
+        assert_int_equal(scene.first_doubted, -1);
+        assert_in_range(scene.lost, 0, LOST_MAX);
+        assert_int_equal(scene.tracks_most, TARGETS);
+        assert_int_equal(tracker.counters.sensors_doubted, 0);
+    }
+}
+
+static void one_that_lies_is_doubted_and_counts_little(void **state)
+{
+    struct scene well = {.sensors = 3, .fault = NONE},
+                 lies = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
+    (void)state;
+    fly(&well, 100);
+    fly(&lies, 100);
+    print_message("all well %.1f m, one off by %.0f m: %.1f m, doubted from round %d\n",
+                  rmse_m(&well), 4.0 * SIGMA_M * 1.414, rmse_m(&lies), lies.first_doubted);
+    assert_in_range(lies.first_doubted, 31, 36);
+    assert_int_equal(lies.last_doubted, 99);
+    assert_in_range(lies.lost, 0, LOST_MAX);
+    assert_int_equal(lies.tracks_most, TARGETS);
+    /* a third of the measurements is gone */
+    assert_true(rmse_m(&lies) < 1.6 * rmse_m(&well));
+}
+
+/* It pulls the tracks, so that the others look off to them as well: less than it is itself. */
+static void whoever_lies_is_found_out_whatever_the_noise(void **state)
+{
+    (void)state;
+    for (seed = 1; seed <= 20; seed++) {
+        struct scene scene = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
+
+        fly(&scene, 60);
+        assert_in_range(scene.first_doubted, 30, 36);
+        assert_int_equal(scene.last_doubted, 59);
+        assert_in_range(scene.lost, 0, LOST_MAX);
+    }
+    seed = 5;
+}
+
+/*
+ * Two others as fine as it is, or two coarser ones that are less off; what it claims to be is no
+ * proof.
+ */
+static void of_three_that_are_not_alike_no_good_one_is_doubted(void **state)
+{
+    const struct scene scenes[] = {
+        {.sigma_m = {0.0, 50.0, 30.0, 100.0}, .claim_m = 15.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 100.0, 30.0, 100.0}, .claim_m = 10.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 30.0, 100.0}, .claim_m = 5.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 30.0, 100.0}, .claim_m = 30.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 30.0, 60.0}, .claim_m = 10.0, .shift_m = 80.0},
+        {.sigma_m = {0.0, 10.0, 30.0, 100.0}, .claim_m = 10.0, .shift_m = 120.0},
+        {.sigma_m = {0.0, 30.0, 100.0, 100.0}, .claim_m = 30.0, .shift_m = 240.0},
+        {.sigma_m = {0.0, 30.0, 10.0, 100.0}, .claim_m = 30.0, .shift_m = 120.0},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        for (seed = 1; seed <= 10; seed++) {
+            struct scene scene = scenes[i];
+
+            scene.sensors = 3;
+            scene.fault = SHIFTED;
+            scene.from = 30;
+            scene.to = 1000;
+            fly(&scene, 100); /* looks at the good ones after each step */
+        }
+    }
+    seed = 5;
+}
+
+/* It pulls the tracks most, and is more off than two coarser ones all the same. */
+static void one_that_claims_to_be_finer_is_found_out_often(void **state)
+{
+    int found = 0;
+    (void)state;
+    for (seed = 1; seed <= 20; seed++) {
+        struct scene scene = {
+            .sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000, .claim_m = 10.0};
+
+        fly(&scene, 60);
+        found += scene.first_doubted >= 0;
+    }
+    seed = 5;
+    print_message("30 m that claims 10 m, off by 170 m: doubted in %d runs of 20\n", found);
+    assert_true(found >= 10);
+}
+
+/* Beyond all gates: its plots are no second tracks. */
+static void one_that_is_far_off_starts_no_tracks(void **state)
+{
+    struct scene scene = {.sensors = 2, .fault = FAR_OFF, .from = 30, .to = 1000};
+    (void)state;
+    fly(&scene, 100);
+    assert_in_range(scene.first_doubted, 31, 34);
+    assert_int_equal(scene.last_doubted, 99);
+    assert_int_equal(scene.tracks_most, TARGETS);
+    assert_in_range(scene.lost, 0, LOST_MAX);
+    assert_int_equal(tracker.counters.sensors_doubted, 1);
+}
+
+static void one_that_is_dead_ends_no_track(void **state)
+{
+    struct scene scene = {.sensors = 2, .fault = DEAD, .from = 30, .to = 1000};
+    (void)state;
+    fly(&scene, 100);
+    assert_in_range(scene.first_doubted, 31, 34);
+    assert_in_range(scene.lost, 0, LOST_MAX);
+    assert_int_equal(scene.tracks_most, TARGETS);
+}
+
+static void one_that_agrees_again_is_believed(void **state)
+{
+    const enum fault faults[] = {SHIFTED, FAR_OFF, DEAD};
+    (void)state;
+    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+        struct scene scene = {.sensors = 3, .fault = faults[i], .from = 30, .to = 60};
+
+        fly(&scene, 100);
+        assert_in_range(scene.last_doubted, 59, 75);
+        assert_in_range(scene.lost, 0, LOST_MAX);
+        assert_int_equal(scene.tracks_most, TARGETS);
+        assert_true(tracker.sensors[0].sigma_range_percent <= 150);
+    }
+}
+
+/* Scans of more plots than there is room for are watched as others are. */
+static void one_of_very_many_plots_is_watched_too(void **state)
+{
+    const enum fault faults[] = {NONE, SHIFTED, FAR_OFF, DEAD};
+    (void)state;
+    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+        struct scene scene = {
+            .sensors = 3, .fault = faults[i], .from = 30, .to = 60, .clutter = CLUTTER};
+
+        fly(&scene, 100);
+        assert_in_range(scene.lost, 0, LOST_MAX);
+        if (faults[i] == NONE) {
+            const struct rho_tracker_look *look = rho_tracker_look_of(&tracker, OTHER);
+
+            assert_int_equal(scene.first_doubted, -1);
+            assert_true(look->seen_share > 0.7f); /* of 0.9: the last 16 looks */
+            assert_int_equal(look->watched, 16);
+        } else {
+            assert_in_range(scene.first_doubted, 30, 36);
+            assert_in_range(scene.last_doubted, 59, 75);
+        }
+    }
+}
+
+/*
+ * Two that contradict each other: on whose word would it be? Both count on, and what is wrong
+ * shows.
+ */
+static void of_two_that_contradict_each_other_none_is_doubted(void **state)
+{
+    struct scene scene = {.sensors = 2, .fault = SHIFTED, .from = 30, .to = 1000};
+    (void)state;
+    fly(&scene, 100);
+    assert_int_equal(scene.first_doubted, -1);
+    assert_in_range(scene.lost, 0, LOST_MAX);
+    assert_int_equal(scene.tracks_most, TARGETS);
+    for (int32_t sensor = 1; sensor <= 2; sensor++) {
+        assert_true(rho_tracker_look_of(&tracker, sensor)->distance2 > 2.5f);
+    }
+}
+
+/* On whose word? */
+static void a_sensor_alone_is_never_doubted(void **state)
+{
+    struct scene scene = {.fault = DEAD, .from = 30, .to = 50};
+    (void)state;
+    start();
+    for (int round = 0; round < 60; round++) {
+        step(&scene, OTHER, ROUND_S * round, round >= scene.from && round < scene.to);
+        assert_int_equal(is_doubted(OTHER), 0);
+    }
+    assert_int_equal(tracker.counters.sensors_doubted, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sensors_that_agree_are_not_doubted),
+        cmocka_unit_test(one_that_lies_is_doubted_and_counts_little),
+        cmocka_unit_test(whoever_lies_is_found_out_whatever_the_noise),
+        cmocka_unit_test(of_three_that_are_not_alike_no_good_one_is_doubted),
+        cmocka_unit_test(one_that_claims_to_be_finer_is_found_out_often),
+        cmocka_unit_test(one_that_is_far_off_starts_no_tracks),
+        cmocka_unit_test(one_that_is_dead_ends_no_track),
+        cmocka_unit_test(one_that_agrees_again_is_believed),
+        cmocka_unit_test(one_of_very_many_plots_is_watched_too),
+        cmocka_unit_test(of_two_that_contradict_each_other_none_is_doubted),
+        cmocka_unit_test(a_sensor_alone_is_never_doubted),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

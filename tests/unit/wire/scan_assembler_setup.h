@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT */
+/* A feed, messages for it that are easily told apart, and what comes out. */
+#ifndef FEED_SETUP_H
+#define FEED_SETUP_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rhotrack/message.h"
+#include "rhotrack/scan_assembler.h"
+
+#define SECOND_US INT64_C(1000000)
+#define HOLD_US INT64_C(20000)
+#define JUMP_US INT64_C(30000000)
+#define DATAGRAM 1472
+
+static struct rho_scan_assembler feed;
+static struct rho_scan_assembler_item item;
+
+static uint64_t random_state = 1;
+
+static inline uint32_t random_below(uint32_t count)
+{
+    random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (uint32_t)((random_state >> 33) % count);
+}
+
+/*
+ * ---- feeds ------------------------------------------------------------------------------------
+ */
+
+static inline struct rho_scan_assembler_config usual(void)
+{
+    struct rho_scan_assembler_config config;
+
+    rho_scan_assembler_config_default(&config);
+    return config;
+}
+
+static inline void start_with(const struct rho_scan_assembler_config *config)
+{
+    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, config), RHO_OK);
+}
+
+static inline void start(void)
+{
+    struct rho_scan_assembler_config config = usual();
+
+    start_with(&config);
+}
+
+/*
+ * ---- messages ---------------------------------------------------------------------------------
+ */
+
+/*
+ * One message. Its inputs count up from `tag`: a plot's x_m in metres, a polar plot's range, a
+ * bearing's in mrad.
+ */
+struct look {
+    int64_t time_us;
+    int32_t scan, epoch;
+    int16_t sensor_id;
+    uint8_t kind;            /* enum rho_scan_assembler_kind */
+    int16_t part, num_parts; /* 0 counts as 1 */
+    uint16_t count;
+    int32_t tag;
+};
+
+static inline int16_t parts_of(const struct look *look)
+{
+    return (int16_t)(look->num_parts > 0 ? look->num_parts : 1);
+}
+
+static inline size_t end_of(struct rho_message_writer *writer)
+{
+    size_t size = 0;
+
+    assert_int_equal(rho_message_end(writer, &size), RHO_OK);
+    return size;
+}
+
+static inline size_t pack_plots(const struct look *look, uint8_t *buffer)
+{
+    struct rho_message_plot_scan_head head = {.utime = look->time_us,
+                                              .scan = look->scan,
+                                              .epoch = look->epoch,
+                                              .sensor_id = look->sensor_id,
+                                              .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D,
+                                              .part = look->part,
+                                              .num_parts = parts_of(look)};
+    struct rho_message_writer writer;
+
+    assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, DATAGRAM, &head), RHO_OK);
+    for (unsigned i = 0; i < look->count; i++) {
+        struct rho_message_plot plot = {.x_m = (float)(look->tag + (int32_t)i), .y_m = 1.0f};
+        assert_int_equal(rho_message_plot_scan_add(&writer, &plot), RHO_OK);
+    }
+    return end_of(&writer);
+}
+
+static inline size_t pack_polar(const struct look *look, uint8_t *buffer)
+{
+    struct rho_message_polar_scan_head head = {.utime = look->time_us,
+                                               .scan = look->scan,
+                                               .epoch = look->epoch,
+                                               .sensor_id = look->sensor_id,
+                                               .part = look->part,
+                                               .num_parts = parts_of(look)};
+    struct rho_message_writer writer;
+
+    assert_int_equal(rho_message_polar_scan_begin(&writer, buffer, DATAGRAM, &head), RHO_OK);
+    for (unsigned i = 0; i < look->count; i++) {
+        struct rho_message_polar_plot plot = {.range_m = (float)(look->tag + (int32_t)i)};
+        assert_int_equal(rho_message_polar_scan_add(&writer, &plot), RHO_OK);
+    }
+    return end_of(&writer);
+}
+
+static inline size_t pack_bearings(const struct look *look, uint8_t *buffer)
+{
+    struct rho_message_bearing_scan_head head = {.utime = look->time_us,
+                                                 .scan = look->scan,
+                                                 .epoch = look->epoch,
+                                                 .sensor_id = look->sensor_id,
+                                                 .sensor_x_m = 5.0f,
+                                                 .sensor_y_m = -6.0f};
+    struct rho_message_writer writer;
+
+    assert_int_equal(rho_message_bearing_scan_begin(&writer, buffer, DATAGRAM, &head), RHO_OK);
+    for (unsigned i = 0; i < look->count; i++) {
+        float bearing_rad = (float)(look->tag + (int32_t)i) * 1e-3f;
+        assert_int_equal(rho_message_bearing_scan_add(&writer, &bearing_rad), RHO_OK);
+    }
+    return end_of(&writer);
+}
+
+static inline size_t pack(const struct look *look, uint8_t *buffer)
+{
+    return look->kind == RHO_SCAN_ASSEMBLER_PLOTS   ? pack_plots(look, buffer)
+           : look->kind == RHO_SCAN_ASSEMBLER_POLAR ? pack_polar(look, buffer)
+                                                    : pack_bearings(look, buffer);
+}
+
+static inline const char *channel_of(uint8_t kind, int16_t sensor_id)
+{
+    static const char *const prefixes[] = {"RHO_PLOTS_", "RHO_POLAR_", "RHO_BEARINGS_"};
+    static char channel[64];
+
+    snprintf(channel, sizeof channel, "%s%d", prefixes[kind], sensor_id);
+    return channel;
+}
+
+/* Bytes from a buffer of exactly their size, so that sanitizers see what is read behind them. */
+static inline enum rho_status take_bytes(const char *channel, const uint8_t *data, size_t size,
+                                         int64_t now_us)
+{
+    uint8_t *exact = malloc(size > 0 ? size : 1);
+    enum rho_status status;
+
+    assert_non_null(exact);
+    memcpy(exact, data, size);
+    status = rho_scan_assembler_take(&feed, channel, exact, size, now_us);
+    free(exact);
+    return status;
+}
+
+static inline enum rho_status take_status(const struct look *look, int64_t now_us)
+{
+    uint8_t buffer[DATAGRAM];
+    size_t size = pack(look, buffer);
+
+    return take_bytes(channel_of(look->kind, look->sensor_id), buffer, size, now_us);
+}
+
+static inline void take(const struct look *look, int64_t now_us)
+{
+    assert_int_equal(take_status(look, now_us), RHO_OK);
+}
+
+/* A whole scan of plots of one part, with the reception clock at its own time. */
+static inline void take_scan(int16_t sensor_id, int32_t scan, int64_t time_us)
+{
+    struct look look = {
+        .time_us = time_us, .scan = scan, .sensor_id = sensor_id, .count = 1, .tag = scan};
+
+    take(&look, time_us);
+}
+
+/*
+ * ---- what comes out ---------------------------------------------------------------------------
+ */
+
+static inline int64_t item_time_us(void)
+{
+    return item.kind == RHO_SCAN_ASSEMBLER_BEARINGS ? item.bearings.time_us : item.scan.time_us;
+}
+
+static inline int32_t item_sensor(void)
+{
+    return item.kind == RHO_SCAN_ASSEMBLER_BEARINGS ? item.bearings.sensor_id : item.scan.sensor_id;
+}
+
+/* The next item is that sensor's scan of that time. */
+static inline void next_is(int64_t now_us, int32_t sensor_id, int64_t time_us)
+{
+    assert_int_equal(rho_scan_assembler_next(&feed, now_us, &item), 1);
+    assert_int_equal(item_sensor(), sensor_id);
+    assert_int_equal(item_time_us(), time_us);
+}
+
+static inline void next_is_none(int64_t now_us)
+{
+    assert_int_equal(rho_scan_assembler_next(&feed, now_us, &item), 0);
+}
+
+static inline unsigned drain(int64_t now_us)
+{
+    unsigned count = 0;
+
+    while (rho_scan_assembler_next(&feed, now_us, &item)) {
+        count++;
+    }
+    return count;
+}
+
+/* Counters that moved must be these: a field that is not named is 0. */
+static inline void counters_are(struct rho_scan_assembler_counters want)
+{
+    const uint32_t *is = (const uint32_t *)&feed.counters, *must = (const uint32_t *)&want;
+
+    for (unsigned i = 0; i < sizeof want / sizeof *is; i++) {
+        if (is[i] != must[i]) {
+            fail_msg("counter %u is %u, not %u", i, is[i], must[i]);
+        }
+    }
+}
+
+#define COUNTERS_ARE(...) counters_are((struct rho_scan_assembler_counters){__VA_ARGS__})
+
+#endif

@@ -1,0 +1,456 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The node: messages in, steps in the order of time, messages out; sensors that it describes and
+ * forgets.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rhotrack/node.h"
+
+#define SECOND_US INT64_C(1000000)
+#define EPOCH 7
+#define WAITING 2
+
+static struct rho_scan_assembler assembler;
+static struct rho_tracker tracker;
+static struct rho_initiator initiator;
+static struct rho_frames frames;
+static struct rho_passive passive;
+static struct rho_report report;
+static struct rho_node_waiting waiting[WAITING];
+static struct rho_node node;
+static int64_t now_us;
+
+/* What the node said was due, in order: S, F, R. */
+static char done[4096];
+
+static struct rho_node_config config_of(uint16_t waiting_max)
+{
+    return (struct rho_node_config){.assembler = &assembler,
+                                    .tracker = &tracker,
+                                    .report = &report,
+                                    .frames = &frames,
+                                    .passive = &passive,
+                                    .waiting = waiting_max > 0 ? waiting : NULL,
+                                    .waiting_max = waiting_max,
+                                    .epoch = EPOCH};
+}
+
+static void open_tracker(void)
+{
+    struct rho_tracker_config config;
+    struct rho_initiator_config start;
+
+    rho_tracker_config_default(&config);
+    rho_initiator_config_default(&start);
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+    assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &start), RHO_OK);
+}
+
+static void open_assembler(void)
+{
+    struct rho_scan_assembler_config config;
+
+    rho_scan_assembler_config_default(&config);
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &config), RHO_OK);
+}
+
+static void open_all(void)
+{
+    struct rho_frames_config gather;
+    struct rho_passive_config search;
+
+    rho_frames_config_default(&gather);
+    rho_passive_config_default(&search);
+    open_assembler();
+    open_tracker();
+    memset(&report, 0, sizeof report);
+    assert_int_equal(rho_frames_init(&frames, sizeof frames, &gather), RHO_OK);
+    assert_int_equal(rho_passive_init(&passive, sizeof passive, &search), RHO_OK);
+    now_us = 1000 * SECOND_US;
+    done[0] = '\0';
+}
+
+static void start(uint16_t waiting_max)
+{
+    const struct rho_node_config config = config_of(waiting_max);
+
+    open_all();
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
+}
+
+static void run_until(int64_t until_us)
+{
+    enum rho_node_due due;
+
+    while ((due = rho_node_next(&node, until_us)) != RHO_NODE_NOTHING) {
+        size_t length = strlen(done);
+
+        assert_true(length + 1 < sizeof done);
+        done[length] = "-SFR"[due];
+        done[length + 1] = '\0';
+        if (due == RHO_NODE_RESTART) {
+            open_tracker();
+            node.epoch++;
+        } else {
+            assert_int_equal(rho_node_step(&node, &initiator), RHO_OK);
+        }
+    }
+}
+
+static void take(const char *prefix, int sensor_id, const uint8_t *data, size_t size)
+{
+    char channel[40];
+
+    snprintf(channel, sizeof channel, "%s%d", prefix, sensor_id);
+    while (rho_node_take(&node, channel, data, size, now_us) == RHO_ERROR_CAPACITY) {
+        run_until(now_us);
+    }
+    run_until(now_us);
+}
+
+/* A radar's scan with one plot; scan numbers are seconds. */
+static void send_plots(int16_t sensor_id, int32_t scan, int64_t time_us, int16_t num_parts)
+{
+    static struct rho_message_polar_scan message;
+    uint8_t bytes[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
+    size_t size;
+
+    message = (struct rho_message_polar_scan){.utime = time_us,
+                                              .scan = scan,
+                                              .sensor_id = sensor_id,
+                                              .sensor_x_m = 1000.0f * sensor_id,
+                                              .num_parts = num_parts,
+                                              .num_polar_plots = 1};
+    message.polar_plots[0].range_m = 20000.0f + 100.0f * (float)scan;
+    assert_int_equal(rho_message_polar_scan_encode(&message, bytes, sizeof bytes, &size), RHO_OK);
+    take(RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id, bytes, size);
+}
+
+static void send_bearing(int16_t sensor_id, float y_m, int32_t scan, int64_t time_us)
+{
+    static struct rho_message_bearing_scan message;
+    uint8_t bytes[RHO_MESSAGE_BEARING_SCAN_MAX_SIZE];
+    size_t size;
+
+    message = (struct rho_message_bearing_scan){.utime = time_us,
+                                                .scan = scan,
+                                                .sensor_id = sensor_id,
+                                                .sensor_y_m = y_m,
+                                                .num_bearings = 1};
+    message.bearing_rad[0] = atan2f(200.0f * (float)scan - y_m, 30000.0f);
+    assert_int_equal(rho_message_bearing_scan_encode(&message, bytes, sizeof bytes, &size), RHO_OK);
+    take(RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id, bytes, size);
+}
+
+/*
+ * ---- start ------------------------------------------------------------------------------------
+ */
+
+static void what_is_missing_is_refused(void **state)
+{
+    struct rho_node_config config = config_of(WAITING);
+
+    (void)state;
+    memset(&node, 0, sizeof node);
+    open_all();
+    assert_int_equal(rho_node_take(&node, "RHO_PLOTS_1", (const uint8_t *)"", 0, 0),
+                     RHO_ERROR_STATE);
+    assert_int_equal(rho_node_take(NULL, "RHO_PLOTS_1", (const uint8_t *)"", 0, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_next(&node, 0), RHO_NODE_NOTHING);
+    assert_int_equal(rho_node_num_messages(&node), 0);
+    assert_true(rho_node_due_us(&node) == INT64_MAX);
+    assert_int_equal(rho_node_init(NULL, sizeof node, &config), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_init(&node, sizeof node, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_node_init(&node, sizeof node - 1, &config), RHO_ERROR_SIZE);
+    config.passive_range_max_m = NAN;
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_CONFIG);
+    config = config_of(WAITING);
+    config.passive = NULL;
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
+    config = config_of(WAITING);
+    config.waiting = NULL;
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
+    config = config_of(WAITING);
+    config.report = NULL;
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
+    config = config_of(WAITING);
+    memset(&frames, 0, sizeof frames);
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_STATE);
+    assert_int_equal(rho_node_step(NULL, &initiator), RHO_ERROR_NULL);
+}
+
+/*
+ * ---- steps and messages -----------------------------------------------------------------------
+ */
+
+static void scans_become_steps_and_messages(void **state)
+{
+    static struct rho_message_track_list tracks;
+    static struct rho_message_peak_list peaks;
+    uint8_t bytes[RHO_MESSAGE_TRACK_LIST_MAX_SIZE + RHO_MESSAGE_PEAK_LIST_MAX_SIZE];
+    size_t size;
+    uint16_t last;
+
+    (void)state;
+    start(WAITING);
+    assert_int_equal(rho_node_step(&node, &initiator), RHO_ERROR_STATE);
+    for (int32_t k = 0; k < 3; k++, now_us += SECOND_US) {
+        send_plots(1, k, now_us, 1);
+    }
+    assert_string_equal(done, "SSS");
+    assert_int_equal(node.counters.steps, 3);
+    assert_int_equal(tracker.num_sensors, 1);
+    last = (uint16_t)(rho_node_num_messages(&node) - 1);
+    assert_int_equal(last, 1);
+    assert_string_equal(rho_node_channel(&node, 0), RHO_MESSAGE_TRACK_LIST_CHANNEL);
+    assert_string_equal(rho_node_channel(&node, last), RHO_MESSAGE_PEAK_LIST_CHANNEL);
+    assert_int_equal(rho_node_publish(&node, &initiator, 0, bytes, sizeof bytes, &size), RHO_OK);
+    assert_int_equal(rho_message_track_list_decode(bytes, size, &tracks), RHO_OK);
+    assert_int_equal(tracks.scan, 3);
+    assert_int_equal(tracks.epoch, EPOCH);
+    assert_true(tracks.utime == now_us - SECOND_US);
+    assert_int_equal(rho_node_publish(&node, &initiator, last, bytes, sizeof bytes, &size), RHO_OK);
+    assert_int_equal(rho_message_peak_list_decode(bytes, size, &peaks), RHO_OK);
+    assert_int_equal(peaks.scan, 3);
+    assert_int_equal(
+        rho_node_publish(&node, &initiator, (uint16_t)(last + 1), bytes, sizeof bytes, &size),
+        RHO_ERROR_VALUE);
+    assert_int_equal(rho_node_publish(&node, &initiator, 0, bytes, 4, &size), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_node_publish(NULL, &initiator, 0, bytes, 4, &size), RHO_ERROR_NULL);
+}
+
+static void the_state_is_told_with_step_times(void **state)
+{
+    struct rho_message_status status;
+    struct rho_message_work work;
+
+    (void)state;
+    start(WAITING);
+    send_plots(1, 0, now_us, 1);
+    rho_node_count_time(&node, 30);
+    rho_node_count_time(&node, 10);
+    rho_node_status(&node, &initiator, &status);
+    assert_int_equal(status.scan, 1);
+    assert_int_equal(status.epoch, EPOCH);
+    assert_int_equal(status.scans_accepted, 1);
+    assert_true(status.step_us >= 20.0f && status.step_us <= 20.0f);
+    assert_true(status.step_max_us >= 30.0f && status.step_max_us <= 30.0f);
+    rho_node_status(&node, &initiator, &status);
+    assert_true(status.step_us <= 0.0f && status.step_max_us <= 0.0f);
+    rho_node_work(&node, &work);
+    assert_int_equal(work.num_steps, 1);
+    assert_int_equal(work.epoch, EPOCH);
+    assert_int_equal(work.work_max, tracker.config.work_max);
+}
+
+/* Scans without their last part fill the assembler: the oldest goes out, before it has waited. */
+static void a_message_without_room_waits_for_one_scan(void **state)
+{
+    (void)state;
+    start(WAITING);
+    for (int16_t sensor = 1; sensor <= RHO_MAX_OPEN_SCANS; sensor++) {
+        send_plots(sensor, 0, now_us + sensor, 2);
+    }
+    assert_string_equal(done, "");
+    assert_true(rho_node_due_us(&node) == now_us + assembler.config.hold_us);
+    send_plots(RHO_MAX_OPEN_SCANS + 1, 0, now_us + RHO_MAX_OPEN_SCANS + 1, 2);
+    assert_string_equal(done, "S");
+    assert_int_equal(node.counters.scans_early, 1);
+    now_us += SECOND_US;
+    run_until(now_us);
+    assert_int_equal(strlen(done), RHO_MAX_OPEN_SCANS + 1);
+    assert_int_equal(node.counters.scans_early, 1);
+}
+
+/*
+ * ---- sensors ----------------------------------------------------------------------------------
+ */
+
+static void silent_sensors_make_room(void **state)
+{
+    const int64_t step_us = 20 * SECOND_US;
+
+    (void)state;
+    start(WAITING);
+    for (int16_t sensor = 1; sensor <= RHO_MAX_SENSORS; sensor++, now_us += 10) {
+        send_plots(sensor, 0, now_us, 1);
+    }
+    for (int32_t k = 1; k <= 2; k++) {
+        now_us += step_us;
+        send_plots(1, k, now_us, 1);
+    }
+    now_us += 10;
+    assert_true(2 * step_us > assembler.config.jump_max_us);
+    assert_int_equal(tracker.num_sensors, RHO_MAX_SENSORS);
+    assert_int_equal(node.counters.sensors_forgotten, 0);
+    send_plots(RHO_MAX_SENSORS + 1, 0, now_us, 1);
+    run_until(INT64_MAX);
+    assert_int_equal(node.counters.sensors_forgotten, RHO_MAX_SENSORS - 1);
+    assert_int_equal(tracker.num_sensors, 2);
+    assert_int_equal(node.counters.scans_refused, 0);
+}
+
+static void a_scan_of_a_sensor_without_room_is_refused(void **state)
+{
+    struct rho_message_status status;
+
+    (void)state;
+    start(WAITING);
+    for (int16_t sensor = 1; sensor <= RHO_MAX_SENSORS; sensor++) {
+        send_plots(sensor, 0, now_us, 1);
+        assembler.sources[sensor - 1].heard_us = now_us;
+    }
+    run_until(INT64_MAX);
+    done[0] = '\0';
+    /* the tracker holds sensors that the assembler hears, under other numbers */
+    for (int i = 0; i < RHO_MAX_SENSORS; i++) {
+        assembler.sources[i].sensor_id = (int16_t)tracker.sensors[i].sensor_id;
+    }
+    node.item = (struct rho_scan_assembler_item){.kind = RHO_SCAN_ASSEMBLER_PLOTS};
+    node.item.sensor = tracker.sensors[0];
+    node.item.sensor.sensor_id = RHO_MAX_SENSORS + 1;
+    node.item.has_sensor = 1;
+    node.item.scan.num_plots = 5;
+    node.has_item = 1;
+    run_until(now_us);
+    assert_string_equal(done, "");
+    assert_int_equal(node.counters.sensors_refused, 1);
+    assert_int_equal(node.counters.scans_refused, 1);
+    rho_node_status(&node, &initiator, &status);
+    assert_int_equal(node.counters.plots_refused, 5);
+    assert_int_equal(status.plots_in, RHO_MAX_SENSORS + 5);
+}
+
+static void an_older_clock_than_the_snapshot_s_restarts(void **state)
+{
+    const struct rho_node_config config = config_of(WAITING);
+
+    (void)state;
+    start(WAITING);
+    send_plots(1, 0, now_us, 1);
+    for (int is_older = 0; is_older < 2; is_older++) {
+        open_assembler();
+        assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
+        node.is_restored = 1;
+        done[0] = '\0';
+        now_us -= is_older ? assembler.config.jump_max_us + 2 * SECOND_US : -SECOND_US;
+        send_plots(1, 0, now_us, 1);
+        assert_string_equal(done, is_older ? "RS" : "S");
+        assert_int_equal(node.counters.restarts, is_older);
+        assert_int_equal(node.epoch, EPOCH + is_older);
+    }
+}
+
+/*
+ * ---- bearings ---------------------------------------------------------------------------------
+ */
+
+static void frames_close_by_the_next_one_or_in_time(void **state)
+{
+    (void)state;
+    start(WAITING);
+    assembler.config.is_told = 1;
+    for (int32_t k = 0; k < 2; k++, now_us += SECOND_US) {
+        send_bearing(1, 0.0f, k, now_us);
+        send_bearing(2, 20000.0f, k, now_us);
+    }
+    run_until(now_us - SECOND_US + 2 * assembler.config.hold_us);
+    done[0] = '\0';
+    send_bearing(1, 0.0f, 2, now_us);
+    run_until(now_us + assembler.config.hold_us);
+    assert_string_equal(done, "");
+    assert_true(rho_node_due_us(&node) > now_us && rho_node_due_us(&node) < now_us + SECOND_US);
+    run_until(rho_node_due_us(&node));
+    assert_string_equal(done, "F");
+    assert_int_equal(tracker.num_sensors, 2);
+    assert_int_equal(rho_node_num_messages(&node), 2);
+}
+
+static void plots_wait_for_the_open_frame(void **state)
+{
+    for (uint16_t room = 0; room <= WAITING; room += WAITING) {
+        (void)state;
+        start(room);
+        assembler.config.hold_us = 0;
+        send_bearing(1, 0.0f, 0, now_us);
+        send_plots(5, 0, now_us + 10, 1);
+        assert_string_equal(done, room > 0 ? "" : "FS");
+        send_plots(5, 1, now_us + 20, 1);
+        assert_string_equal(done, "FSS");
+        send_plots(5, 2, now_us + 30, 1);
+        run_until(INT64_MAX);
+        assert_string_equal(done, "FSSS");
+    }
+}
+
+static void a_passive_sensor_that_has_moved_is_taken_in_the_end(void **state)
+{
+    (void)state;
+    start(WAITING);
+    for (int32_t k = 0; k < 4; k++, now_us += SECOND_US) {
+        send_bearing(1, 0.0f, k, now_us);
+    }
+    for (int32_t k = 4; k < 21; k++, now_us += SECOND_US) {
+        send_bearing(1, 500.0f, k, now_us);
+    }
+    assert_int_equal(node.counters.bearings_refused, 16);
+    assert_int_equal(frames.num_sensors, 1);
+    assert_true(frames.sensors[0].y_m > 400.0f);
+    assert_int_equal(node.counters.restarts, 0);
+}
+
+static void passive_sensors_have_the_range_of_the_search(void **state)
+{
+    (void)state;
+    start(WAITING);
+    assembler.config.is_told = 1;
+    node.config.passive_range_max_m = 90000.0f;
+    send_bearing(1, 0.0f, 0, now_us);
+    assert_int_equal(tracker.num_sensors, 1);
+    assert_true(tracker.sensors[0].range_max_m <= 90000.0f);
+}
+
+static void radars_alone_refuse_bearings(void **state)
+{
+    struct rho_node_config config = config_of(0);
+
+    (void)state;
+    open_all();
+    config.frames = NULL;
+    config.passive = NULL;
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
+    send_bearing(1, 0.0f, 0, now_us);
+    send_plots(5, 0, now_us + 10, 1);
+    run_until(INT64_MAX);
+    assert_string_equal(done, "S");
+    assert_int_equal(node.counters.bearings_refused, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_missing_is_refused),
+        cmocka_unit_test(scans_become_steps_and_messages),
+        cmocka_unit_test(the_state_is_told_with_step_times),
+        cmocka_unit_test(a_message_without_room_waits_for_one_scan),
+        cmocka_unit_test(silent_sensors_make_room),
+        cmocka_unit_test(a_scan_of_a_sensor_without_room_is_refused),
+        cmocka_unit_test(an_older_clock_than_the_snapshot_s_restarts),
+        cmocka_unit_test(frames_close_by_the_next_one_or_in_time),
+        cmocka_unit_test(plots_wait_for_the_open_frame),
+        cmocka_unit_test(a_passive_sensor_that_has_moved_is_taken_in_the_end),
+        cmocka_unit_test(passive_sensors_have_the_range_of_the_search),
+        cmocka_unit_test(radars_alone_refuse_bearings),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

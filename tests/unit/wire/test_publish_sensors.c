@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What the feed and the tracker know of each sensor, as messages: what the receivers read is what
+ * was there.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rhotrack/publish.h"
+
+#define PART RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS
+#define NOW_US INT64_C(5000000000)
+
+static struct rho_tracker tracker;
+static struct rho_scan_assembler feed;
+static struct rho_message_sensor_list list;
+
+static void make_feed(unsigned num_sources)
+{
+    struct rho_scan_assembler_config config;
+
+    rho_scan_assembler_config_default(&config);
+    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, &config), RHO_OK);
+    memset(&tracker, 0, sizeof tracker);
+    for (unsigned i = 0; i < num_sources; i++) {
+        feed.sources[i] = (struct rho_scan_assembler_source){
+            .place = {.time_us = 1000 + i, .scan = 7, .epoch = 1},
+            .heard_us = NOW_US - 10 * (int64_t)i,
+            .interval_us = 4000000 + i,
+            .scans = (uint16_t)(i + 1),
+            .sensor_id = (int16_t)(100 + i),
+            .kind = (uint8_t)(i % RHO_NUM_FEED_KINDS),
+            .is_used = 1,
+        };
+    }
+}
+
+/* The part as its receivers see it. */
+static void read_part(const struct rho_tracker *of, uint16_t part)
+{
+    static struct rho_message_sensor_list filled;
+    uint8_t buffer[RHO_MESSAGE_SENSOR_LIST_MAX_SIZE];
+    size_t size = 0;
+
+    memset(&filled, 0x5a, sizeof filled);
+    assert_int_equal(rho_publish_sensors(&feed, of, NOW_US, part, &filled), RHO_OK);
+    assert_int_equal(filled.scan, 0);
+    assert_int_equal(filled.epoch, 0);
+    assert_int_equal(rho_message_sensor_list_encode(&filled, buffer, sizeof buffer, &size), RHO_OK);
+    assert_int_equal(rho_message_sensor_list_decode(buffer, size, &list), RHO_OK);
+    assert_int_equal(rho_message_sensor_list_validate(&list, NULL), RHO_OK);
+}
+
+static void nobody_is_one_empty_part(void **state)
+{
+    struct rho_message_sensor sensor;
+
+    (void)state;
+    make_feed(0);
+    assert_int_equal(rho_publish_num_sensor_parts(&feed), 1);
+    assert_int_equal(rho_publish_num_sensor_parts(NULL), 1);
+    read_part(&tracker, 0);
+    assert_int_equal(list.num_sensors, 0);
+    assert_int_equal(list.num_sensors_total, 0);
+    assert_int_equal(rho_publish_sensor(&feed, &tracker, 0, 0, &sensor), 0);
+    assert_int_equal(rho_publish_sensor(NULL, &tracker, 0, 0, &sensor), 0);
+    assert_int_equal(rho_publish_sensors(NULL, &tracker, 0, 0, &list), RHO_ERROR_NULL);
+    assert_int_equal(rho_publish_sensors(&feed, &tracker, 0, 0, NULL), RHO_ERROR_NULL);
+    list.part = 77;
+    assert_int_equal(rho_publish_sensors(&feed, &tracker, 0, 1, &list), RHO_ERROR_VALUE);
+    assert_int_equal(list.part, 77);
+}
+
+/* As many as there is room for, in the order of their places, also where one in between is free. */
+static void every_sensor_is_in_one_part(void **state)
+{
+    const unsigned used = RHO_MAX_SENSORS - 1;
+    unsigned found = 0, hole = RHO_MAX_SENSORS / 2;
+
+    (void)state;
+    make_feed(RHO_MAX_SENSORS);
+    feed.sources[hole].is_used = 0;
+    tracker.time_us = -77;
+    assert_int_equal(rho_publish_num_sensor_parts(&feed), (used + PART - 1) / PART);
+    for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&feed); part++) {
+        read_part(&tracker, part);
+        assert_true(list.utime == -77);
+        assert_int_equal(list.part, part);
+        assert_int_equal(list.num_sensors_total, used);
+        for (int i = 0; i < list.num_sensors; i++, found++) {
+            const unsigned place = found + (found >= hole);
+
+            assert_int_equal(list.sensors[i].sensor_id, 100 + place);
+            assert_int_equal(list.sensors[i].kind, 1 + place % 3);
+            assert_int_equal(list.sensors[i].scans, place + 1);
+            assert_true(list.sensors[i].scan_utime == 1000 + (int64_t)place);
+            assert_int_equal(list.sensors[i].heard_age_us, 10 * place);
+            assert_int_equal(list.sensors[i].interval_us, 4000000 + place);
+            assert_int_equal(list.sensors[i].is_silent + list.sensors[i].is_off_clock, 0);
+        }
+    }
+    assert_int_equal(found, used);
+}
+
+static void silence_and_another_clock_are_told(void **state)
+{
+    struct rho_message_sensor sensor;
+    const int64_t jump_us = 30000000;
+
+    (void)state;
+    make_feed(1);
+    assert_int_equal(rho_publish_sensor(&feed, NULL, NOW_US + jump_us, 0, &sensor), 1);
+    assert_int_equal(sensor.is_silent, 0);
+    assert_int_equal(sensor.heard_age_us, jump_us);
+    assert_int_equal(rho_publish_sensor(&feed, NULL, NOW_US + jump_us + 1, 0, &sensor), 1);
+    assert_int_equal(sensor.is_silent, 1);
+    assert_int_equal(sensor.is_off_clock, 0);
+    /* a reception clock that was set back makes nobody old; the widest span has no overflow */
+    assert_int_equal(rho_publish_sensor(&feed, NULL, INT64_MIN, 0, &sensor), 1);
+    assert_int_equal(sensor.is_silent + sensor.heard_age_us, 0);
+    feed.sources[0].heard_us = INT64_MIN;
+    feed.sources[0].interval_us = UINT32_MAX;
+    feed.sources[0].off_clock = 2;
+    assert_int_equal(rho_publish_sensor(&feed, NULL, INT64_MAX, 0, &sensor), 1);
+    assert_int_equal(sensor.is_silent, 1);
+    assert_int_equal(sensor.heard_age_us, INT32_MAX);
+    assert_int_equal(sensor.interval_us, INT32_MAX);
+    assert_int_equal(sensor.is_off_clock, 1);
+    assert_int_equal(rho_message_sensor_validate(&sensor, NULL), RHO_OK);
+}
+
+/* The tracker watches radars; a passive sensor of the same number is another one. */
+static void doubt_is_of_plots_alone(void **state)
+{
+    (void)state;
+    make_feed(3);
+    feed.sources[2].sensor_id = 101; /* bearings */
+    tracker.num_looks = 2;
+    tracker.looks[0] = (struct rho_tracker_look){.sensor_id = 55, .is_doubted = 1};
+    tracker.looks[1] = (struct rho_tracker_look){.sensor_id = 101,
+                                                 .seen_share = 0.75f,
+                                                 .distance2 = 9.0f,
+                                                 .watched = 16,
+                                                 .watched_hits = 12,
+                                                 .is_doubted = 1};
+    read_part(&tracker, 0);
+    assert_int_equal(list.num_sensors, 3);
+    assert_int_equal(list.sensors[0].is_doubted + list.sensors[0].watched, 0);
+    assert_int_equal(list.sensors[1].is_doubted, 1);
+    assert_int_equal(list.sensors[1].watched, 16);
+    assert_int_equal(list.sensors[1].watched_hits, 12);
+    assert_float_equal(list.sensors[1].seen_share, 0.75f, 0.0f);
+    assert_float_equal(list.sensors[1].innovation_factor, 9.0f, 0.0f);
+    assert_int_equal(list.sensors[2].is_doubted + list.sensors[2].watched, 0);
+    read_part(NULL, 0);
+    assert_int_equal(list.sensors[1].is_doubted + list.sensors[1].watched, 0);
+    assert_true(list.utime == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nobody_is_one_empty_part),
+        cmocka_unit_test(every_sensor_is_in_one_part),
+        cmocka_unit_test(silence_and_another_clock_are_told),
+        cmocka_unit_test(doubt_is_of_plots_alone),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

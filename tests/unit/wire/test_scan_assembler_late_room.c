@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT */
+/* Late scans take nobody's room, whatever a sensor that lies sends. */
+#include "late_scans.h"
+
+/*
+ * Others' scans whose parts are still coming are not cut short for it, nor do they lose their room.
+ */
+static void a_late_one_takes_nobodys_room(void **state)
+{
+    (void)state;
+    begin(5);
+    late(7, 7 * SECOND_US);
+    next_is(8 * SECOND_US, 1, 7 * SECOND_US);
+    next_is_none(8 * SECOND_US);
+    for (int16_t i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
+        struct look look = {.time_us = 7 * SECOND_US + 1,
+                            .scan = 1,
+                            .sensor_id = (int16_t)(10 + i),
+                            .kind = RHO_SCAN_ASSEMBLER_POLAR,
+                            .num_parts = 2};
+        if (i < RHO_MAX_SENSORS - 1) {
+            take(&look, 8 * SECOND_US);
+        }
+    }
+    late(6, 8 * SECOND_US);
+    if (RHO_MAX_OPEN_SCANS < RHO_MAX_SENSORS) {
+        COUNTERS_ARE(.scans_accepted = 6 + RHO_MAX_OPEN_SCANS, .scans_late = 1, .scans_lost = 1);
+    }
+}
+
+/*
+ * Sensor 1 sends scans 1 .. 9, one a second, and sensor 9, the liar, a hundred a second. Returns
+ * the liar's last number.
+ */
+static int32_t begin_with_liar(const struct rho_scan_assembler_config *config)
+{
+    int32_t scan = 0;
+
+    start_with(config);
+    for (int32_t i = 1; i <= 9; i++) {
+        take_scan(1, i, i * SECOND_US);
+        for (int32_t k = 1; k < 100; k++) {
+            take_scan(9, ++scan, i * SECOND_US + k * 10000);
+            (void)drain(INT64_MAX);
+        }
+    }
+    return scan;
+}
+
+/*
+ * The first parts of a scan of the liar far ahead, and of those that it skipped; all with times
+ * after 10 s.
+ */
+static struct look lie(int32_t last, int64_t now_us)
+{
+    struct look look = {.scan = last + 32,
+                        .time_us = 9990000 + 32 * 10000,
+                        .sensor_id = 9,
+                        .num_parts = 2,
+                        .count = 1};
+
+    for (int32_t k = 0; k <= 30; k++) {
+        struct look more = look;
+
+        more.scan -= k;
+        more.time_us -= k * 10000;
+        take(&more, now_us);
+        next_is_none(now_us);
+    }
+    return look;
+}
+
+static void late_ones_of_a_liar_cut_no_scan_short(void **state)
+{
+    const struct rho_scan_assembler_config config = usual();
+    const int64_t now_us = 10 * SECOND_US;
+    const int32_t last = begin_with_liar(&config);
+    struct look look = part_of(10, 0), more;
+
+    (void)state;
+    take(&look, now_us);
+    more = lie(last, now_us);
+    /* one waits for its parts at most, and none where there is no room */
+    assert_int_equal(feed.counters.scans_accepted, 9 + 9 * 99 + 2 + (RHO_MAX_OPEN_SCANS > 2));
+    assert_int_equal(feed.counters.scans_late, 30);
+    if (RHO_MAX_OPEN_SCANS > 2) {
+        more.scan++;
+        more.time_us += 10000;
+        take(&more, now_us);
+        next_is_none(now_us);
+    }
+    look.part = 1;
+    take(&look, now_us + 1);
+    next_is(now_us + 1, 1, now_us);
+    assert_int_equal(item.parts_missing, 0);
+}
+
+static void one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it(void **state)
+{
+    struct look first = part_of(8, 0), second = part_of(7, 0);
+
+    (void)state;
+    begin(5);
+    late(9, 9 * SECOND_US);
+    next_is(10 * SECOND_US, 1, 9 * SECOND_US);
+    next_is_none(10 * SECOND_US);
+    take(&first, 10 * SECOND_US);
+    take(&second, 10 * SECOND_US);
+    COUNTERS_ARE(.scans_accepted = 7, .scans_late = 2, .scans_lost = 3);
+    late(6, 10 * SECOND_US);
+    next_is(10 * SECOND_US, 1, 6 * SECOND_US);
+    first.part = second.part = 1;
+    take(&first, 10 * SECOND_US);
+    next_is(10 * SECOND_US, 1, 8 * SECOND_US);
+    second.num_parts = 1; /* it was not remembered */
+    second.part = 0;
+    take(&second, 10 * SECOND_US);
+    COUNTERS_ARE(.scans_accepted = 9, .scans_late = 4, .scans_lost = 3);
+}
+
+static void late_ones_of_a_liar_shut_nobody_out(void **state)
+{
+    struct rho_scan_assembler_config config = usual();
+
+    (void)state;
+    for (int is_held = 0; is_held < 2; is_held++) {
+        config.hold_us = is_held * HOLD_US;
+        (void)lie(begin_with_liar(&config), 10 * SECOND_US);
+        for (int32_t i = 1; i <= 5; i++) {
+            int64_t now_us = (10 + 4 * i) * SECOND_US;
+
+            take_scan(3, i, now_us);
+            assert_in_range(drain(now_us + HOLD_US), 1, 3);
+            assert_int_equal(item_sensor(), 3);
+        }
+        assert_int_equal(feed.counters.scans_accepted, 9 + 9 * 99 + 2 + 5);
+    }
+}
+
+/*
+ * Late ones wait for their turn; whoever else needs their room has it, and nobody is late by that.
+ */
+static void late_ones_give_way(void **state)
+{
+    struct rho_scan_assembler_config config = usual();
+    const unsigned late_ones = RHO_MAX_OPEN_SCANS < 4 ? RHO_MAX_OPEN_SCANS - 1 : 3;
+    unsigned others = 0;
+
+    (void)state;
+    config.late_max_us = 20 * SECOND_US;
+    begin_with(&config, 5);
+    take_scan(2, 1, 5 * SECOND_US + 1);
+    assert_int_equal(drain(INT64_MAX), 1);
+    late(9, 9 * SECOND_US);
+    for (int32_t scan = 8; scan > 8 - (int32_t)late_ones; scan--) {
+        late(scan, 9 * SECOND_US);
+    }
+    next_is_none(9 * SECOND_US); /* sensor 2 may have an older one */
+    for (int16_t id = 10; id < 10 + RHO_MAX_OPEN_SCANS - 1; id++, others++) {
+        struct look look = {.time_us = 6 * SECOND_US - 1 + id, .sensor_id = id, .num_parts = 2};
+
+        if (others < RHO_MAX_SENSORS - 2) {
+            take(&look, 9 * SECOND_US);
+        }
+    }
+    assert_int_equal(feed.counters.scans_late, late_ones);
+    assert_int_equal(feed.counters.sensors_no_room, 0);
+    assert_int_equal(feed.counters.scans_incomplete, 0);
+    next_is_none(9 * SECOND_US);
+    next_is(9 * SECOND_US + HOLD_US, 10, 6 * SECOND_US + 9);
+}
+
+/* A late one does not send a newer scan out before an older one whose parts are still coming. */
+static void a_late_one_makes_nobody_late(void **state)
+{
+    const int64_t now_us = 10 * SECOND_US;
+    struct look open = part_of(9, 0), whole = {.time_us = 9 * SECOND_US + 1, .scan = 6};
+
+    (void)state;
+    start();
+    for (int32_t i = 1; i <= 5; i++) {
+        for (int16_t id = 1; id <= 3; id++) {
+            take_scan(id, i, i * SECOND_US);
+            assert_int_equal(drain(INT64_MAX), 1);
+        }
+    }
+    take_scan(3, 7, 7 * SECOND_US);
+    (void)drain(INT64_MAX);
+    take(&open, now_us);
+    whole.sensor_id = 2;
+    take(&whole, now_us);
+    for (int16_t id = 10; id < 10 + RHO_MAX_OPEN_SCANS - 2; id++) {
+        struct look look = {.time_us = now_us, .sensor_id = id, .num_parts = 2};
+
+        take(&look, now_us);
+    }
+    take_scan(3, 6, 6 * SECOND_US); /* no room for it */
+    assert_int_equal(feed.counters.scans_late, 1);
+    next_is_none(now_us);
+    open.part = 1;
+    take(&open, now_us);
+    next_is(now_us + HOLD_US, 1, 9 * SECOND_US);
+    assert_int_equal(item.parts_missing, 0);
+    next_is(now_us + HOLD_US, 2, 9 * SECOND_US + 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_late_one_takes_nobodys_room),
+        cmocka_unit_test(late_ones_of_a_liar_cut_no_scan_short),
+        cmocka_unit_test(one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it),
+        cmocka_unit_test(late_ones_of_a_liar_shut_nobody_out),
+        cmocka_unit_test(late_ones_give_way),
+        cmocka_unit_test(a_late_one_makes_nobody_late),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

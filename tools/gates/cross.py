@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""Compiles the library for the processors that it is made for, and reads the objects: for size.py, stack.py, gates.py.
+
+Objects lie in $BUILD/cross/<target>-<profile><optimisation>/, and are kept until a source, a header, the compiler or a
+flag changes. What SIZE_FLAGS holds is added to every compilation.
+"""
+import concurrent.futures
+import fcntl
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+HOME = pathlib.Path(__file__).resolve().parent.parent.parent
+FLAGS = "-std=c99 -ffp-contract=off -Iinclude -fstack-usage -fcallgraph-info=su"
+PROFILES = {"embedded": "", "workstation": "-DRHO_PROFILE_WORKSTATION"}
+
+
+class Target:
+    """A processor: what it is called, its compiler, and the flags that choose it."""
+
+    def __init__(self, title, prefix, flags):
+        self.title, self.prefix, self.flags = title, prefix, flags.split()
+
+    def tool(self, name):
+        return self.prefix + name
+
+    def is_there(self):
+        return shutil.which(self.tool("gcc")) is not None
+
+    def version(self):
+        return output([self.tool("gcc"), "-dumpfullversion"]).strip()
+
+
+ARM, RISCV = "arm-none-eabi-", "riscv64-unknown-elf-"
+TARGETS = {
+    "m0plus": Target("Cortex-M0+", ARM, "-mcpu=cortex-m0plus -mthumb"),
+    "m4f": Target("Cortex-M4F", ARM, "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard"),
+    "m7": Target("Cortex-M7", ARM, "-mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard"),
+    "r5f": Target("Cortex-R5F", ARM, "-mcpu=cortex-r5 -mfpu=vfpv3-d16 -mfloat-abi=hard"),
+    "rv32": Target("RISC-V", RISCV, "-march=rv32imafc -mabi=ilp32f --specs=picolibc.specs"),
+    # Where no other compiler is. Not position-independent: constant tables of pointers are not to count as data.
+    "host": Target("this machine", "", "-fno-pie"),
+}
+
+
+def missing(names):
+    """The compilers that these targets need and that are not installed."""
+    return sorted({TARGETS[name].tool("gcc") for name in names if not TARGETS[name].is_there()})
+
+
+def output(command, **options):
+    """What a command prints; where it fails, its own words and exit 1."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class Build:
+    """All sources of a root, compiled for one target: {stem: object}, with its .su and .ci beside it."""
+
+    def __init__(self, target, root=".", profile="embedded", optimisation="-Os"):
+        self.name, self.target, self.root = target, TARGETS[target], pathlib.Path(root)
+        self.flags = [*FLAGS.split(), optimisation, *self.target.flags, *PROFILES[profile].split(),
+                      *os.environ.get("SIZE_FLAGS", "").split()]
+        top = pathlib.Path(os.environ.get("BUILD", "build")).absolute()
+        self.folder = top / "cross" / f"{target}-{profile}{optimisation}"
+        self.sources = sorted(self.root.glob("src/*/*.c"))
+        if not self.sources:
+            sys.exit(f"no sources under {self.root.absolute()}")
+        self.objects = {source.stem: self.folder / f"{source.stem}.o" for source in self.sources}
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with open(self.folder / "lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.compile_all()
+
+    def compile_all(self):
+        """Compiles what is not up to date, as many files at a time as there are processors."""
+        common = hashlib.sha256(" ".join([self.target.version(), *self.flags]).encode())
+        for header in sorted([*self.root.glob("include/**/*.h"), *self.root.glob("src/**/*.h")]):
+            common.update(header.read_bytes())
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            list(pool.map(lambda source: self.compile(source, common.copy()), self.sources))
+
+    def compile(self, source, key):
+        """One object, unless the one there was made of the same."""
+        key.update(source.read_bytes())
+        made_of = self.folder / f"{source.stem}.key"
+        if made_of.is_file() and made_of.read_text(encoding="utf-8") == key.hexdigest():
+            return
+        command = [self.target.tool("gcc"), *self.flags, "-c", "-o", str(self.objects[source.stem].absolute()),
+                   str(source.relative_to(self.root))]
+        output(command, cwd=self.root)
+        made_of.write_text(key.hexdigest(), encoding="utf-8")
+
+    def texts(self):
+        """{stem: bytes of code and constants}; exit 1 where an object has data of its own."""
+        found = {}
+        for line in output([self.target.tool("size"), *map(str, self.objects.values())]).splitlines()[1:]:
+            text, data, bss, *_, name = line.split()
+            if int(data) + int(bss) > 0:
+                sys.exit(f"{pathlib.Path(name).stem}.c has {data} bytes of data, {bss} of bss")
+            found[pathlib.Path(name).stem] = int(text)
+        return found
+
+    def symbols(self):
+        """(source, type, name) of every symbol of every object, as nm calls them."""
+        sources = {str(self.objects[source.stem]): source.relative_to(self.root) for source in self.sources}
+        for line in output([self.target.tool("nm"), "-A", *sources]).splitlines():
+            made, symbol = line.split(":", 1)
+            yield sources[made], symbol.split()[-2], symbol.split()[-1]
+
+
+def sizes_of(target, expressions, flags=()):
+    """Bytes that constant expressions come to on a target, {name: bytes}: arrays of that size, read back by nm."""
+    lines = [f'#include "{header.relative_to("include")}"' for header in sorted(pathlib.Path("include").glob("**/*.h"))]
+    lines += [f"char sized_{name}[{expression}];" for name, expression in expressions.items()]
+    top = pathlib.Path(os.environ.get("BUILD", "build")) / "cross"
+    top.mkdir(parents=True, exist_ok=True)
+    made = str(top / f"sizes-{os.getpid()}.o")
+    output([TARGETS[target].tool("gcc"), "-std=c99", "-Iinclude", "-fno-common", *TARGETS[target].flags,
+            *os.environ.get("SIZE_FLAGS", "").split(), *flags, "-x", "c", "-c", "-o", made, "-"],
+           input="\n".join(lines) + "\n")
+    listed = output([TARGETS[target].tool("nm"), "-S", made])
+    os.remove(made)
+    return {name: int(size, 16) for size, name in re.findall(r"^\w+ (\w+) \w sized_(\w+)$", listed, re.MULTILINE)}

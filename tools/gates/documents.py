@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks the written documents: lengths, lines, links, and that the files and functions that they name exist.
+
+Usage: documents.py [FOLDER]
+FOLDER has the documents (default: this repository); the files that they name are always those of this repository. Prints
+a line for each fault; exit 1 if there is one.
+"""
+import pathlib
+import re
+import sys
+
+HOME = pathlib.Path(__file__).resolve().parent.parent.parent
+# CHANGELOG names files of the past, and a command writes the measurements.
+NOT_WRITTEN = {"CHANGELOG.md", "tools/lab/MEASUREMENTS.md"}
+# Words of README.md (outside code and tables), of DESIGN, of all documents.
+README_MOST, DESIGN_MOST, ALL_MOST, COLUMNS = 1200, 14000, 26000, 100
+FOREIGN = {"stdio.h", "stdbool.h", "stdlib.h", "stdint.h", "stddef.h", "string.h", "math.h", "errno.h", "limits.h", "float.h"}
+PLACEHOLDER = re.compile(r"[A-Z]{3,}")
+
+
+def tree():
+    """All files of the repository but what is built."""
+    return [path.relative_to(HOME).as_posix() for path in HOME.rglob("*")
+            if path.is_file() and not re.match(r"build|\.git/", path.relative_to(HOME).as_posix())]
+
+
+def prose(text):
+    """The lines outside code and tables, with their numbers."""
+    in_code = False
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.startswith("```"):
+            in_code = not in_code
+        elif not in_code and not line.startswith("|"):
+            yield number, line
+
+
+def anchors(text):
+    """The headings as GitHub's links name them."""
+    return {re.sub(r"[^\w\- ]", "", line.lstrip("# ").lower()).replace(" ", "-")
+            for _, line in prose(text) if line.startswith("#")}
+
+
+def broken_links(folder, name, text):
+    for number, line in prose(text):
+        for target in re.findall(r"\]\(([^)\s]+)\)", line):
+            if re.match(r"[a-z]+:", target):
+                continue
+            path, _, anchor = target.partition("#")
+            places = [root / pathlib.PurePath(name).parent / path if path else root / name for root in (folder, HOME)]
+            found = next((place for place in places if place.exists()), None)
+            if found is None:
+                yield f"{name}:{number}: no file {target}"
+            elif anchor and anchor not in anchors(found.read_text(encoding="utf-8")):
+                yield f"{name}:{number}: no heading {target}"
+
+
+def unknown_files(name, text, files):
+    """Sources that are named and not there; `_cases.c` is the end of a name, FILE.c a placeholder."""
+    for number, line in enumerate(text.splitlines(), 1):
+        for found in re.findall(r"(?<![\w./*-])[\w./-]*\w\.(?:c|h|py|sh|bash)\b(?![\w/(])", line):
+            end = found.lstrip("./") if found.startswith((".", "_")) else "/" + found
+            if not PLACEHOLDER.search(found) and found not in FOREIGN and not any(f"/{path}".endswith(end) for path in files):
+                yield f"{name}:{number}: no file {found}"
+
+
+def unknown_functions(name, text, names):
+    for number, line in enumerate(text.splitlines(), 1):
+        for found in re.findall(r"\brho_\w*[a-z0-9]\b(?!_)", line):
+            if found not in names:
+                yield f"{name}:{number}: no function or type {found}"
+
+
+def faults(folder):
+    files = tree()
+    sources = [path for path in files if re.match(r"(include|src|tools|tests)/.*\.[ch]$|lcm_types/.*\.lcm$", path)]
+    names = {word for path in sources for word in re.findall(r"\brho_\w+", (HOME / path).read_text(encoding="utf-8"))}
+    words = 0
+    for path in sorted(folder.rglob("*.md")):
+        name = path.relative_to(folder).as_posix()
+        if re.match(r"build|\.git/", name) or name in NOT_WRITTEN:
+            continue
+        text = path.read_text(encoding="utf-8")
+        length = len(text.split())
+        words += length
+        yield from broken_links(folder, name, text)
+        yield from unknown_files(name, text, files)
+        yield from unknown_functions(name, text, names)
+        yield from (f"{name}:{number}: {len(line)} columns" for number, line in prose(text) if len(line) > COLUMNS)
+        if name == "README.md":
+            length = sum(len(line.split()) for _, line in prose(text))
+        most = {"README.md": README_MOST, "src/DESIGN.md": DESIGN_MOST}.get(name, ALL_MOST)
+        if length > most:
+            yield f"{name}: {length} words, at most {most}"
+    if words > ALL_MOST:
+        yield f"all documents: {words} words, at most {ALL_MOST}"
+
+
+def main():
+    found = list(faults(pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else HOME))
+    print("\n".join(found) or "documents: lengths, links and names hold")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,148 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Instructions that the library executes for typical jobs (tools/instructions): on this machine, counted by valgrind, and on
+# Cortex-M4F and M7 under QEMU, where arm-none-eabi-gcc and qemu-system-arm are installed. Mean and worst of several inputs.
+# Bars hold on the M4F. Then the initiator's window with each plot's own covariance against the isotropic path, and what the
+# accumulator takes a vote. Exit 1 where a bar does not hold; under CI=true also where nothing is counted on a Cortex-M.
+# Environment: BUILD, CC.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=${BUILD:-build} most_ratio=1.5 failed=0
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# ---- programs -------------------------------------------------------------------------------
+
+for job in filters track tracker maintain initiation passive wire; do
+    ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/$job" "tools/instructions/$job.c" \
+        "$build/librhotrack.a"
+done
+${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o "$folder/hough" \
+    tools/instructions/hough.c "$build/workstation/librhotrack.a"
+cores=''
+if command -v arm-none-eabi-gcc >/dev/null && command -v qemu-system-arm >/dev/null; then
+    cores='m4 m7'
+    make --no-print-directory -s BUILD="$build" job-images >"$folder/make" 2>&1 || { cat "$folder/make"; exit 1; }
+fi
+
+# ---- counting -------------------------------------------------------------------------------
+
+# What the last run said itself is in $folder/said, its counts in $calls, $sum and $max.
+count_here() { # program arguments
+    local program=$1
+    shift
+    valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file="$folder/out" "$folder/$program" "$@" \
+        >"$folder/said" 2>"$folder/stderr" || { cat "$folder/stderr" >&2; exit 1; }
+    sum=$(awk '/Collected/ {print $NF}' "$folder/stderr") max=''
+    calls=$(sed -n 's/^calls \([0-9]*\).*/\1/p' "$folder/said")
+}
+
+count_on() { # m4 or m7, program arguments
+    local core=$1 program=$2
+    shift 2
+    tools/firmware/emulate.sh "$core" "$build/firmware/$core/jobs/$program.elf" "$@" >"$folder/said" ||
+        { cat "$folder/said" >&2; exit 1; }
+    read -r calls sum max < <(sed -n 's/^calls \([0-9]*\) sum \([0-9]*\) max \([0-9]*\)/\1 \2 \3/p' "$folder/said")
+}
+
+# row TEXT UNIT BAR JOB ARGUMENTS: one line; the counts are divided by UNIT (tracks). BAR: at most so many on the M4F; -: none.
+row() {
+    local text=$1 unit=$2 bar=$3 here mean='-' worst='-' other='-' verdict=''
+    shift 3
+    count_here "$@"
+    here=$((sum / calls / unit))
+    if [ -n "$cores" ]; then
+        count_on m7 "$@"
+        other=$((sum / calls / unit))
+        count_on m4 "$@"
+        mean=$((sum / calls / unit)) worst=$((max / unit))
+        if [ "$bar" != - ]; then
+            verdict="  (at most $bar)"
+            [ "$sum" -le $((bar * calls * unit)) ] || { verdict+=' MISSED'; failed=1; }
+        fi
+    fi
+    printf '%-62s %11s %11s %11s %11s%s\n' "$text" "$here" "$mean" "$worst" "$other" "$verdict"
+}
+
+head_of() { printf '\n%-62s %11s %11s %11s %11s\n' "$1" "$(uname -m)" M4F 'M4F worst' M7; }
+
+if [ -z "$cores" ]; then
+    echo 'skipped: no arm-none-eabi-gcc or no qemu-system-arm here: nothing is counted on Cortex-M'
+    [ "${CI:-}" != true ] || failed=1
+fi
+echo "Executed instructions, embedded profile, -O2: ${CC:-gcc} here, $(arm-none-eabi-gcc -dumpfullversion 2>/dev/null || echo no) arm-none-eabi-gcc"
+
+head_of 'filters, a step'
+row 'Kalman: predict, 3 updates of an element' 1 1450 filters predict+3
+row 'Kalman: predict, 6 updates of an element' 1 2400 filters predict+6
+row 'the same, axes coupled' 1 2400 filters coupled+6
+row 'Kalman: predict, polar plot in 3-D with range rate' 1 - filters predict+polar
+row 'Kalman + input + Hough gate, 4 clutter plots' 1 5000 filters input+hough
+
+head_of 'a track by itself, a scan: prediction, gate over 4 plots, update'
+row 'nearest: polar plots with range rate' 1 7000 track nearest polar 4
+row 'hough behind nearest, input estimation: places and velocities' 1 - track hough cartesian 4
+
+head_of 'the whole tracker with 8 tracks, a track and scan (no initiation)'
+row 'nearest: polar plots with range rate, 4 in the gate' 8 - tracker nearest polar 4 1
+row 'hough, input estimation: places and velocities, 4' 8 - tracker hough cartesian 4 1
+row 'best: places and velocities, the target alone' 8 - tracker best cartesian 1 1
+row 'best: the same, 4 in the gate' 8 - tracker best cartesian 4 1
+row 'best: polar plots with range rate, the target alone' 8 16000 tracker best polar 1 1
+row 'best: the same, 4 in the gate' 8 77000 tracker best polar 4 1
+
+head_of 'a radar with 8 tracks and 32 plots a turn, gate best, a step'
+row 'the turn at once' 1 - tracker best polar 4 1
+row 'a sector of 32' 1 - tracker best polar 4 32
+
+head_of 'the default, hypotheses over imm, a track and scan: places in 3-D'
+row 'isotropic noise, the target alone' 1 - maintain 1 0
+row 'isotropic noise, 4 in the gate' 1 30000 maintain 4 0
+row 'isotropic noise, 10 in the gate' 1 60000 maintain 10 0
+row 'noise of its own, the target alone' 1 - maintain 1 1
+row 'noise of its own, 4 in the gate' 1 - maintain 4 1
+row 'noise of its own, 10 in the gate' 1 - maintain 10 1
+
+head_of 'initiation, window of 7 scans of 4 x 2.5 km, 3 targets'
+for clutter in 0 10 100; do
+    row "batch, $clutter clutter plots a scan, isotropic noise" 1 - initiation batch isotropic "$clutter" 5
+    row "newest, $clutter, min_scans 0, isotropic noise" 1 - initiation newest isotropic "$clutter" 5
+    row "newest, $clutter, min_scans 0, own covariances" 1 - initiation newest own "$clutter" 5
+done
+count_here initiation batch isotropic 100 5
+isotropic=$sum
+sed 's/^/last batch: /; /calls/d' "$folder/said"
+count_here initiation batch own 100 5
+awk -v own="$sum" -v isotropic="$isotropic" -v most="$most_ratio" 'BEGIN {
+    ratio = own / isotropic
+    printf "batch of 100, own covariances over isotropic: %.2f (at most %s)\n", ratio, most
+    exit ratio > most }' || failed=1
+
+head_of 'passive batch: 3 sensors, 8 frames'
+row '4 targets, 1 false bearing a look' 1 - passive 4 1 10
+row '8 false bearings a look, as many as there is room for' 1 - passive 0 8 3
+
+head_of 'messages'
+row 'plot_scan_t of 34 plots, 1401 bytes, encoded: 20 a byte at most' 1 28020 wire encode
+row 'the same, decoded' 1 - wire decode
+row 'the same, its values checked' 1 - wire validate
+row 'the same, taken by the feed: decoded, checked, made plots' 1 - wire take
+row 'track_list_t of 9 tracks, from a report' 1 - wire publish
+
+votes() { # points: a row with and without pruning
+    local plain votes
+    count_here hough "$1" plain
+    plain=$sum
+    count_here hough "$1" pruned
+    votes=$(sed -n 's/^\([0-9]*\) votes/\1/p' "$folder/said")
+    awk -v points="$1" -v plain="$plain" -v pruned="$sum" -v votes="$votes" 'BEGIN {
+        printf "%-8s %12s %12s %15.2f %15.2f\n", points, pruned, plain, pruned / votes, plain / votes }'
+}
+
+printf '\naccumulator, workstation profile, %s: 5 m x 1 mrad, 30 x 30 km, 7 scans, 5 votes\n' "$(uname -m)"
+printf '%-8s %12s %12s %15s %15s\n' points instructions 'not pruned' 'a vote' 'not pruned'
+votes 30
+votes 300
+votes 3000
+exit "$failed"

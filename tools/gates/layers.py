@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks every #include of the library against the table of rooms in src/DESIGN.md, and the objects for circles of files.
+
+A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to the room that has the
+source of its name, or of the longest name that it begins with; else to the first room. A file may include the headers of its own room, those of the
+rooms that the table lists for it (`all above`: every earlier row), private headers of its own folder, and the system
+headers below. No function has an #if inside: an option is an `if` on a constant, or a file that the build chooses.
+
+Files that need one another, directly or through others, are a circle: one file, or there is a third one below them.
+The symbols of the objects tell, in BUILD/embedded/src and BUILD/program/tools/rhotrack. No object of the program needs one
+of the lab, BUILD/program/tools/lab.
+
+Usage: layers.py [ROOT [BUILD]]. Prints FILE:LINE: what is wrong; exit 1 where anything is. BUILD: default $BUILD or build;
+objects that are not there are not looked at.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+SYSTEM = {"float.h", "stdint.h", "stdbool.h", "stddef.h", "string.h", "math.h"}
+UMBRELLA = "rhotrack"  # rhotrack.h includes what users call, of every room
+
+
+def read_table(path):
+    """{room: rooms it may include}, and what is wrong with the table itself, as (path, line, text)."""
+    allowed, problems, in_section = {}, [], False
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if line.startswith("#"):
+            in_section = line.startswith("## Rooms")
+        row = re.match(r"\|\s*`?src/(\w+)/?`?\s*\|.*\|([^|]*)\|\s*$", line)
+        if not in_section or not row:
+            continue
+        room, listed = row.group(1), row.group(2).strip()
+        if room in allowed:
+            problems.append((path, number, f"room {room} has two rows"))
+        may = set(allowed) if listed == "all above" else set(re.findall(r"\w+", listed))
+        for name in sorted(may - set(allowed)):
+            problems.append((path, number, f"{room} may include {name}, which stands in no earlier row"))
+        allowed[room] = may
+    if not allowed:
+        problems.append((path, 1, "no table of rooms under a heading `## Rooms`"))
+    return allowed, problems
+
+
+def includes_of(text):
+    """(line, kind, name) of every #include, comments left out; kind is <, \" or empty (a macro)."""
+    blank = lambda match: re.sub(r"[^\n]", " ", match.group())
+    code = re.sub(r"/\*.*?\*/", blank, text, flags=re.DOTALL)
+    for number, line in enumerate(code.splitlines(), 1):
+        found = re.match(r"\s*#\s*include\s*([<\"]?)([^>\"\s]+)", line)
+        if found:
+            yield number, found.group(1), found.group(2)
+
+
+def conditions_inside(text):
+    """Lines of #if and the like between a function's braces, which stand alone in the first column."""
+    inside = False
+    for number, line in enumerate(text.splitlines(), 1):
+        inside = (inside or line == "{") and line != "}"
+        if inside and re.match(r"\s*#\s*(if|el|endif)", line):
+            yield number
+
+
+def check_file(path, room, rooms, allowed):
+    """What is wrong with one file, as (path, line, text). rooms: {stem of a public header: its room}."""
+    if room not in allowed:
+        yield path, 1, f"room {room} has no row in the table"
+        return
+    text = path.read_text(encoding="utf-8")
+    for number in conditions_inside(text):
+        yield path, number, "#if inside a function"
+    for number, kind, name in includes_of(text):
+        target = pathlib.PurePosixPath(name)
+        if kind == "<":
+            if name not in SYSTEM:
+                yield path, number, f"system header <{name}>"
+        elif kind == "":
+            if not (path.stem == "config" and name == "RHO_CONFIG_FILE"):
+                yield path, number, f"include of a macro, {name}"
+        elif target.parts[0] == "rhotrack":
+            home = rooms.get(target.stem)
+            if home is None:
+                yield path, number, f"there is no header {name}"
+            elif home != room and home not in allowed[room]:
+                yield path, number, f"{room} may not include {name} of {home}"
+        elif "include" in path.parts or len(target.parts) > 1 or not (path.parent / target).is_file():
+            yield path, number, f"private header \"{name}\""
+
+
+class Objects:
+    """Which object files of a folder need which."""
+
+    def __init__(self, root, build, *folders):
+        self.defined, self.undefined = {}, {}
+        for folder in folders:
+            for path in sorted((build / folder).rglob("*.o")):
+                source = path.relative_to(build).with_suffix(".c")
+                if (root / source).is_file():  # else left over from a file that was moved
+                    self.read(path, str(source))
+        self.needs = {name: sorted({self.defined[symbol] for symbol in symbols if symbol in self.defined} - {name})
+                      for name, symbols in self.undefined.items()}
+
+    def read(self, path, name):
+        self.undefined[name] = set()
+        listed = subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout
+        for words in map(str.split, listed.splitlines()):
+            if words[0] == "U":
+                self.undefined[name].add(words[1])
+            elif words[1] in "TDBRVWC":
+                self.defined[words[2]] = name
+
+    def reached(self, name):
+        """Every file that this one needs, directly or through others."""
+        found, waiting = set(), list(self.needs[name])
+        while waiting:
+            other = waiting.pop()
+            if other not in found:
+                found.add(other)
+                waiting += self.needs[other]
+        return found
+
+    def circles(self):
+        reached = {name: self.reached(name) for name in self.needs}
+        found = {frozenset(other for other in reached[name] if name in reached[other]) for name in reached}
+        return sorted(sorted(circle) for circle in found if len(circle) > 1)
+
+    def symbols(self, name, other):
+        return sorted(symbol for symbol in self.undefined[name] if self.defined.get(symbol) == other)
+
+
+def check_objects(root, build):
+    """What is wrong between object files, as texts."""
+    library = Objects(root, build / "embedded", "src")
+    program = Objects(root, build / "program", "tools/rhotrack", "tools/lab")
+    for objects in (library, program):
+        for circle in objects.circles():
+            if not circle[0].startswith("tools/lab"):
+                calls = [f"{name} needs {other} ({objects.symbols(name, other)[0]})"
+                         for name in circle for other in objects.needs[name] if other in circle]
+                yield f"circle of {len(circle)} files: " + "; ".join(calls)
+    for name, needs in program.needs.items():
+        for other in needs:
+            if name.startswith("tools/rhotrack") and other.startswith("tools/lab"):
+                yield f"{name} needs {other} of the lab ({program.symbols(name, other)[0]})"
+
+
+def owner(stem, sources):
+    """The room of the source of this name, or of the longest name that this one begins with."""
+    names = [name for name in sources if stem == name or stem.startswith(name + "_")]
+    return sources[max(names, key=len)] if names else None
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent.parent)
+    table = root / "src" / "DESIGN.md"
+    if not table.is_file():
+        sys.exit(f"layers: {table} with the table of rooms is missing")
+    allowed, problems = read_table(table)
+    first = next(iter(allowed), None)
+    sources = {path.stem: path.parent.name for path in root.glob("src/*/*.c")}
+    headers = sorted(root.glob("include/**/*.h"))
+    rooms = {path.stem: owner(path.stem, sources) or first for path in headers}
+    files = sorted(root.glob("src/**/*.[ch]"))
+    for path in files:
+        problems.extend(check_file(path, path.relative_to(root / "src").parts[0], rooms, allowed))
+    for path in headers:
+        if path.stem != UMBRELLA:
+            problems.extend(check_file(path, rooms[path.stem], rooms, allowed))
+    for path, number, text in problems:
+        print(f"{path.relative_to(root)}:{number}: {text}")
+    between = list(check_objects(root, pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else os.environ.get("BUILD", "build"))))
+    for text in between:
+        print(text)
+    if problems or between:
+        sys.exit(1)
+    print(f"layers: {len(files) + len(headers)} files of {len(allowed)} rooms keep to the table")
+
+
+if __name__ == "__main__":
+    main()

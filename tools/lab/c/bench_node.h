@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* bench_node: what the parts of `bench node` share. */
+#ifndef RHOTRACK_TOOL_BENCH_NODE_H
+#define RHOTRACK_TOOL_BENCH_NODE_H
+
+#include "base/grid.h"
+#include "bench.h"
+#include "verdicts.h"
+
+/* Rows `message|bytes|encode ns|decode ns|validate ns` of full messages; json may be NULL. */
+void bench_codec(cJSON *json, struct grid *grid, struct verdicts *verdicts);
+
+#endif

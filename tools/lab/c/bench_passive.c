@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bench_passive: a search of bearings, and the push of a frame, over several batches of scene
+ * passive-clutter; and of a batch as full as the capacities allow, bearings anywhere: sharp ones,
+ * and the least certain that there may be, near to which everything is.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "base/grid.h"
+#include "base/random.h"
+#include "bench.h"
+#include "pipeline/pipeline.h"
+#include "rhotrack/passive.h"
+#include "scenario_plan.h"
+#include "verdicts.h"
+
+#define PI 3.141592653589793
+#define SIGMA_RAD (0.1 * PI / 180.0)
+#define COARSE_RAD 0.5
+#define SCANS 8
+#define SCAN_US 10000000
+#define PUSHES 2000
+#define WORST_MS_MOST 10.0
+
+struct job {
+    const char *name, *json_name;
+    unsigned sensors, targets; /* no sensors: a full batch */
+    int batches;
+    double sigma_rad;
+};
+
+static const struct job jobs[] = {{"2 sensors, 2 targets", "2s2t", 2, 2, 20, SIGMA_RAD},
+                                  {"2 sensors, 4 targets", "2s4t", 2, 4, 20, SIGMA_RAD},
+                                  {"2 sensors, 6 targets", "2s6t", 2, 6, 20, SIGMA_RAD},
+                                  {"3 sensors, 4 targets", "3s4t", 3, 4, 20, SIGMA_RAD},
+                                  {"4 sensors, 6 targets", "4s6t", 4, 6, 5, SIGMA_RAD},
+                                  {"full, by chance", "full", 0, 0, 1, SIGMA_RAD},
+                                  {"full, 0.5 rad", "full_coarse", 0, 0, 1, COARSE_RAD}};
+
+#define NUM_JOBS (sizeof jobs / sizeof jobs[0])
+#define JOB_WITH_A_BAR 3
+
+/* The frames of a batch, with what they point to. */
+struct recording {
+    unsigned num_frames;
+    struct rho_frame frames[RHO_MAX_PASSIVE_SCANS];
+    struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    struct rho_bearing bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
+};
+
+struct figures {
+    double mean_ms, worst_ms, push_us; /* of a search; of a frame */
+    double tracks, hypotheses, fits;   /* a batch */
+};
+
+/* ---- batches --------------------------------------------------------------------------------- */
+
+static struct rho_bearing_scan *add_scan(struct recording *recording, unsigned k, size_t sensor,
+                                         double x_m, double y_m)
+{
+    struct rho_frame *frame = &recording->frames[k];
+    struct rho_bearing_scan *scan = &recording->scans[k][frame->num_scans++];
+    *frame = (struct rho_frame){.time_us = (int64_t)k * SCAN_US,
+                                .num_scans = frame->num_scans,
+                                .scans = recording->scans[k]};
+    *scan = (struct rho_bearing_scan){.time_us = frame->time_us,
+                                      .sensor_id = (int32_t)sensor + 1,
+                                      .x_m = (float)x_m,
+                                      .y_m = (float)y_m,
+                                      .bearings = recording->bearings[k][sensor]};
+    return scan;
+}
+
+static void add_bearing(struct recording *recording, unsigned k, size_t sensor,
+                        struct rho_bearing_scan *scan, double bearing_rad, double sigma_rad)
+{
+    if (scan->num_bearings < RHO_MAX_BEARINGS) {
+        recording->bearings[k][sensor][scan->num_bearings++] =
+            (struct rho_bearing){.bearing_rad = (float)bearing_rad, .sigma_rad = (float)sigma_rad};
+    }
+}
+
+static void record_scene(struct recording *recording, const struct job *job, uint64_t seed,
+                         uint64_t run)
+{
+    struct parameters parameters;
+    parameters_default(&parameters);
+    suggest_passive(&parameters);
+    parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, job->sigma_rad);
+    const struct scenario_bearings of = {
+        .num_sensors = job->sensors, .num_targets = job->targets, .false_mean = 1.0};
+    struct simulation *simulation = simulate_passive(&of, &parameters, seed, run);
+    *recording = (struct recording){.num_frames = SCANS};
+    for (size_t i = 0; i < simulation->num_looks; i++) {
+        const struct simulated_look *look = &simulation->looks[i];
+        unsigned k = (unsigned)(i / simulation->passive.num_sensors);
+        struct rho_bearing_scan *scan =
+            add_scan(recording, k, look->sensor, simulation->passive.sensors[look->sensor].x_m,
+                     simulation->passive.sensors[look->sensor].y_m);
+        for (size_t j = 0; j < look->num_bearings; j++) {
+            add_bearing(recording, k, look->sensor, scan, look->bearings[j].bearing_rad,
+                        job->sigma_rad);
+        }
+    }
+    simulation_free(simulation);
+}
+
+static void record_full(struct recording *recording, double sigma_rad, uint64_t seed)
+{
+    struct random random = random_start(seed, 79, 0);
+    *recording = (struct recording){.num_frames = RHO_MAX_PASSIVE_SCANS};
+    for (unsigned k = 0; k < RHO_MAX_PASSIVE_SCANS; k++) {
+        for (size_t sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
+            double direction_rad = 2.0 * PI * (double)sensor / RHO_MAX_PASSIVE_SENSORS;
+            struct rho_bearing_scan *scan =
+                add_scan(recording, k, sensor, 1e4 * cos(direction_rad), 1e4 * sin(direction_rad));
+            for (int i = 0; i < RHO_MAX_BEARINGS; i++) {
+                add_bearing(recording, k, sensor, scan,
+                            random_between(&random, -PI / 2.0, PI / 2.0), sigma_rad);
+            }
+        }
+    }
+}
+
+/* ---- times ----------------------------------------------------------------------------------- */
+
+static void push(struct rho_passive *passive, const struct rho_frame *frame)
+{
+    uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
+    memset(fates, RHO_FATE_HELD, sizeof fates);
+    must_succeed(rho_passive_push(passive, frame, fates), "passive");
+}
+
+static void fill(struct rho_passive *passive, const struct recording *recording)
+{
+    struct rho_passive_config config;
+    rho_passive_config_default(&config);
+    config.scans = (uint16_t)recording->num_frames;
+    must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
+    for (unsigned k = 0; k < recording->num_frames; k++) {
+        push(passive, &recording->frames[k]);
+    }
+}
+
+static double search_ms(struct rho_passive *passive)
+{
+    double best_us = INFINITY;
+    for (int round = 0; round < BENCH_ROUNDS; round++) {
+        int64_t start_us = clock_us();
+        must_succeed(rho_passive_search(passive), "passive");
+        best_us = fmin(best_us, (double)(clock_us() - start_us));
+    }
+    return best_us / 1e3;
+}
+
+/* Frames go on and on; the batch is full, so that each drops one. */
+static double push_us(struct rho_passive *passive, const struct recording *recording)
+{
+    double best_us = INFINITY;
+    int64_t time_us = passive->batch.time_us[recording->num_frames - 1];
+    for (int round = 0; round < BENCH_ROUNDS; round++) {
+        int64_t start_us = clock_us();
+        for (unsigned i = 0; i < PUSHES; i++) {
+            struct rho_frame frame = recording->frames[i % recording->num_frames];
+            frame.time_us = time_us += SCAN_US;
+            push(passive, &frame);
+        }
+        best_us = fmin(best_us, (double)(clock_us() - start_us) / PUSHES);
+    }
+    return best_us;
+}
+
+static struct figures measure(struct rho_passive *passive, const struct job *job, uint64_t seed)
+{
+    static struct recording recording;
+    struct figures figures = {.push_us = INFINITY};
+    for (int run = 0; run < job->batches; run++) {
+        if (job->sensors > 0) {
+            record_scene(&recording, job, seed, (uint64_t)run);
+        } else {
+            record_full(&recording, job->sigma_rad, seed);
+        }
+        fill(passive, &recording);
+        double ms = search_ms(passive);
+        figures.mean_ms += ms / job->batches;
+        figures.worst_ms = fmax(figures.worst_ms, ms);
+        figures.tracks += (double)passive->num_tracks / job->batches;
+        figures.hypotheses += (double)passive->work.hypotheses / job->batches;
+        figures.fits += (double)passive->work.fits / job->batches;
+    }
+    figures.push_us = push_us(passive, &recording);
+    return figures;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static void add_numbers(cJSON *json, const struct job *job, const struct figures *figures)
+{
+    const struct {
+        const char *name;
+        double value;
+    } numbers[] = {{"ms", figures->mean_ms},
+                   {"worst_ms", figures->worst_ms},
+                   {"push_us", figures->push_us},
+                   {"tracks", figures->tracks},
+                   {"hypotheses", figures->hypotheses},
+                   {"fits", figures->fits}};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        char name[48];
+        snprintf(name, sizeof name, "%s_%s", job->json_name, numbers[i].name);
+        cJSON_AddNumberToObject(json, name, numbers[i].value);
+    }
+}
+
+static void print(const struct grid *grid, const struct verdicts *verdicts)
+{
+    printf("passive: batches of %d scans, 0.1 deg, P_D 0.9, a false bearing a look; full: %d "
+           "sensors, %d scans, %d bearings\nobject: %zu bytes\n",
+           SCANS, RHO_MAX_PASSIVE_SENSORS, RHO_MAX_PASSIVE_SCANS, RHO_MAX_BEARINGS,
+           sizeof(struct rho_passive));
+    grid_print(grid, stdout);
+    printf("\n");
+    verdicts_print(verdicts, stdout);
+    printf("\n");
+}
+
+void bench_passive(const struct bench *bench)
+{
+    struct rho_passive *passive = must_alloc(sizeof *passive);
+    cJSON *json = bench->json ? cJSON_AddObjectToObject(bench->json, "passive") : NULL;
+    struct verdicts verdicts = verdicts_start();
+    struct grid grid = grid_start(1, "batch|ms a search|worst ms|us a push|tracks|hypotheses|fits");
+    for (size_t i = 0; i < NUM_JOBS; i++) {
+        struct figures figures = measure(passive, &jobs[i], bench->seed);
+        grid_row(&grid, "%s|%.2f|%.2f|%.2f|%.2f|%.0f|%.0f", jobs[i].name, figures.mean_ms,
+                 figures.worst_ms, figures.push_us, figures.tracks, figures.hypotheses,
+                 figures.fits);
+        if (i == JOB_WITH_A_BAR) {
+            verdicts_at_most(&verdicts, figures.worst_ms, WORST_MS_MOST,
+                             "%s: ms of the slowest of %d searches", jobs[i].name, jobs[i].batches);
+        }
+        if (json) {
+            add_numbers(json, &jobs[i], &figures);
+        }
+    }
+    if (json) {
+        cJSON_AddNumberToObject(json, "state_bytes", (double)sizeof *passive);
+        verdicts_to_json(&verdicts, json);
+    } else {
+        print(&grid, &verdicts);
+    }
+    verdicts_free(&verdicts);
+    grid_free(&grid);
+    free(passive);
+}

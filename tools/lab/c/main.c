@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/* rhotrack-lab: the experiments and benches. `rhotrack experiment` and `rhotrack bench` run it. */
+#include <cjson/cJSON.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "command_line.h"
+#include "lab_commands.h"
+
+static const struct command commands[] = {
+    {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
+     "orSmj", "a Monte Carlo experiment with tables and figures",
+     "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
+     "(default\n"
+     "build/experiment/NAME). Experiments: initiation, polar, doppler, rotating, two-radars,\n"
+     "false-alarms, passive, maneuver, air-traffic; initiation takes --method kernel, ht, mht, iht "
+     "or nht, passive "
+     "takes passive "
+     "or\n"
+     "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "
+     "rivals;\n"
+     "without it they run all. real-skies is a script: tools/lab/real_skies.py, `make "
+     "experiments`.\n"},
+    {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
+     "Measures speed and memory; without a name everything there is.\n"},
+};
+
+static const struct command *find_command(const char *name)
+{
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        if (strcmp(commands[i].name, name) == 0) {
+            return &commands[i];
+        }
+    }
+    fail(EXIT_USAGE, "rhotrack-lab has the commands experiment and bench, not `%s`", name);
+}
+
+int main(int argc, char **argv)
+{
+    static struct command_line line;
+    cJSON_Hooks hooks = {must_alloc, free};
+    const struct command *command;
+
+    cJSON_InitHooks(&hooks);
+    command = find_command(argc > 1 ? argv[1] : "");
+    command_line_read(&line, command, argc - 1, argv + 1);
+    command_line_locate(&line);
+    return command->run(&line);
+}

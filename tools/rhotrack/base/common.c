@@ -1,0 +1,526 @@
+/* SPDX-License-Identifier: MIT */
+#include "base/common.h"
+
+#include <cjson/cJSON.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "rhotrack/tracker.h"
+
+/* Unfinished outputs, for fail() and the signal handler. Children of a fork own none of them. */
+static char *volatile unfinished[OUTPUTS_MAX];
+static volatile pid_t unfinished_owner;
+static volatile sig_atomic_t progress_visible;
+
+/* ---- How the program ends ---- */
+
+static void remove_unfinished(void)
+{
+    if (unfinished_owner != getpid()) {
+        return;
+    }
+    for (int i = 0; i < OUTPUTS_MAX; i++) {
+        if (unfinished[i]) {
+            unlink(unfinished[i]);
+        }
+    }
+}
+
+static void on_signal(int number)
+{
+    remove_unfinished();
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+bool is_ignored(int number)
+{
+    struct sigaction action;
+
+    return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+bool is_told_to_end(void)
+{
+    sigset_t pending;
+
+    return sigpending(&pending) == 0 &&
+           (sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1 ||
+            sigismember(&pending, SIGHUP) == 1);
+}
+
+void fail(int exit_code, const char *format, ...)
+{
+    char message[8192];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    for (char *c = message; *c; c++) {
+        if ((unsigned char)*c < ' ' || *c == 127) {
+            *c = '?';
+        }
+    }
+    fprintf(stderr, "%srhotrack: %s\n", progress_visible ? "\r\033[K" : "", message);
+    remove_unfinished();
+    exit(exit_code);
+}
+
+/* ---- Memory ---- */
+
+static void *check_memory(void *memory, size_t bytes)
+{
+    if (!memory) {
+        fail(EXIT_RUNTIME, "out of memory: %zu bytes more are not there", bytes);
+    }
+    return memory;
+}
+
+void *must_alloc(size_t bytes)
+{
+    return check_memory(malloc(bytes ? bytes : 1), bytes);
+}
+
+void *must_calloc(size_t count, size_t size)
+{
+    return check_memory(calloc(count ? count : 1, size ? size : 1), count * size);
+}
+
+void *must_realloc(void *memory, size_t bytes)
+{
+    return check_memory(realloc(memory, bytes ? bytes : 1), bytes);
+}
+
+void *must_grow(void *array, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity) {
+        return array;
+    }
+    *capacity = 2 * *capacity + 16;
+    return must_realloc(array, *capacity * size);
+}
+
+char *must_copy(const char *text)
+{
+    size_t bytes = strlen(text) + 1;
+
+    return memcpy(must_alloc(bytes), text, bytes);
+}
+
+/* ---- Output files ---- */
+
+static void remember_unfinished(char *path)
+{
+    if (!unfinished_owner) {
+        signal(SIGINT, on_signal);
+        signal(SIGTERM, on_signal);
+        unfinished_owner = getpid();
+    }
+    for (int i = 0; i < OUTPUTS_MAX; i++) {
+        if (!unfinished[i]) {
+            unfinished[i] = path;
+            return;
+        }
+    }
+    unlink(path);
+    fail(EXIT_RUNTIME, "more than %d output files are open", OUTPUTS_MAX);
+}
+
+static void forget_unfinished(const char *path)
+{
+    for (int i = 0; i < OUTPUTS_MAX; i++) {
+        if (unfinished[i] == path) {
+            unfinished[i] = NULL;
+        }
+    }
+}
+
+static FILE *open_directly(const char *path)
+{
+    FILE *file = fopen(path, "w");
+
+    if (!file) {
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
+    }
+    return file;
+}
+
+/* A file beside output->path with the mode that the finished one is to have. */
+static void open_beside(struct output *output, mode_t mode)
+{
+    size_t bytes = strlen(output->path) + sizeof ".XXXXXX";
+    int descriptor;
+
+    output->temporary_path = must_alloc(bytes);
+    snprintf(output->temporary_path, bytes, "%s.XXXXXX", output->path);
+    descriptor = mkstemp(output->temporary_path);
+    if (descriptor < 0) {
+        fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
+    }
+    remember_unfinished(output->temporary_path);
+    output->file = fchmod(descriptor, mode) ? NULL : fdopen(descriptor, "w");
+    if (!output->file) {
+        fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
+    }
+}
+
+static mode_t new_file_mode(void)
+{
+    mode_t mask = umask(0);
+
+    umask(mask);
+    return 0666 & ~mask;
+}
+
+struct output output_open(const char *path)
+{
+    struct output output = {stdout, NULL, NULL};
+    struct stat status;
+    char *real_path;
+
+    if (!path || !strcmp(path, "-")) {
+        return output;
+    }
+    if (stat(path, &status)) {
+        output.path = must_copy(path);
+        open_beside(&output, new_file_mode());
+        return output;
+    }
+    if (S_ISDIR(status.st_mode)) {
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(EISDIR));
+    }
+    real_path = realpath(path, NULL); /* a link stays one: the file that it names is replaced */
+    output.path = must_copy(real_path ? real_path : path);
+    free(real_path);
+    if (S_ISREG(status.st_mode)) {
+        open_beside(&output, status.st_mode & 07777);
+    } else {
+        output.file = open_directly(path);
+    }
+    return output;
+}
+
+struct output output_open_in_place(const char *path)
+{
+    struct output output = {stdout, NULL, NULL};
+
+    if (path && strcmp(path, "-") != 0) {
+        output.path = must_copy(path);
+        output.file = open_directly(path);
+    }
+    return output;
+}
+
+static const char *name_of(const struct output *output)
+{
+    return output->path ? output->path : "standard output";
+}
+
+void output_flush(struct output *output)
+{
+    if (fflush(output->file)) {
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", name_of(output), strerror(errno));
+    }
+}
+
+void output_close(struct output *output)
+{
+    const char *name = name_of(output);
+    int is_bad = ferror(output->file);
+
+    if (output->file == stdout) {
+        is_bad |= fflush(stdout);
+    } else {
+        is_bad |= fclose(output->file);
+    }
+    if (is_bad) {
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", name, strerror(errno));
+    }
+    if (output->temporary_path) {
+        if (rename(output->temporary_path, output->path)) {
+            fail(EXIT_RUNTIME, "%s: %s", name, strerror(errno));
+        }
+        forget_unfinished(output->temporary_path);
+    }
+    free(output->temporary_path);
+    free(output->path);
+    *output = (struct output){NULL, NULL, NULL};
+}
+
+/* ---- Folders and names ---- */
+
+void make_folder(const char *path)
+{
+    char *partial = must_copy(path);
+    struct stat status;
+
+    for (char *c = partial + 1; *partial; c++) {
+        char end = *c;
+
+        if (end != '/' && end != '\0') {
+            continue;
+        }
+        *c = '\0';
+        if (mkdir(partial, 0777) && errno != EEXIST) {
+            fail(EXIT_RUNTIME, "%s: %s", partial, strerror(errno));
+        }
+        *c = end;
+        if (!end) {
+            break;
+        }
+    }
+    if (stat(path, &status) || !S_ISDIR(status.st_mode)) {
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(*path ? ENOTDIR : ENOENT));
+    }
+    free(partial);
+}
+
+uint64_t file_bytes(const char *path)
+{
+    struct stat status;
+
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode) ? (uint64_t)status.st_size : 0;
+}
+
+bool is_same_file(const char *path, const char *other)
+{
+    struct stat one, two;
+
+    return stat(path, &one) == 0 && stat(other, &two) == 0 && S_ISREG(one.st_mode) &&
+           one.st_dev == two.st_dev && one.st_ino == two.st_ino;
+}
+
+bool text_begins_with(const char *text, const char *prefix)
+{
+    return strncmp(text, prefix, strlen(prefix)) == 0;
+}
+
+bool path_ends_with(const char *path, const char *suffix)
+{
+    size_t length = strlen(path), end = strlen(suffix);
+
+    return length >= end && strcasecmp(path + length - end, suffix) == 0;
+}
+
+char *path_join(const char *folder, const char *name)
+{
+    size_t length = strlen(folder), bytes = length + strlen(name) + 2;
+    char *path = must_alloc(bytes);
+    const char *slash = length && folder[length - 1] == '/' ? "" : "/";
+
+    snprintf(path, bytes, "%s%s%s", folder, slash, name);
+    return path;
+}
+
+/* ---- Numbers and JSON ---- */
+
+const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
+{
+    if (value == 0.0f) {
+        value = 0.0f; /* not -0 */
+    }
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(text, FLOAT_TEXT_BYTES, "%.*g", digits, (double)value);
+        if (strtof(text, NULL) == value) {
+            break;
+        }
+    }
+    return text;
+}
+
+static int compare_descending(const void *a, const void *b)
+{
+    return *(const int *)b - *(const int *)a;
+}
+
+struct cJSON *json_descending(int *values, int count)
+{
+    cJSON *list;
+
+    qsort(values, (size_t)count, sizeof *values, compare_descending);
+    list = cJSON_CreateIntArray(values, count);
+    if (!list) {
+        fail(EXIT_RUNTIME, "out of memory");
+    }
+    return list;
+}
+
+void json_add_number(struct cJSON *object, const char *name, double value)
+{
+    cJSON_AddItemToObject(object, name,
+                          isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
+}
+
+void json_add_work(struct cJSON *object, const struct rho_tracker_work *work)
+{
+    cJSON_AddNumberToObject(object, "work", work->work);
+    cJSON_AddNumberToObject(object, "work_worst", work->work_worst);
+    cJSON_AddNumberToObject(object, "partial_steps", work->partial_steps);
+    cJSON_AddNumberToObject(object, "plots_not_tried", work->plots_not_tried);
+}
+
+struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed)
+{
+    cJSON *object = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(object, "experiment", name);
+    cJSON_AddNumberToObject(object, "runs", (double)num_runs);
+    cJSON_AddNumberToObject(object, "seed", (double)seed);
+    return object;
+}
+
+void json_print(struct cJSON *object)
+{
+    struct output output = output_open(NULL);
+    char *text = cJSON_Print(object);
+
+    if (!text) {
+        fail(EXIT_RUNTIME, "out of memory");
+    }
+    fprintf(output.file, "%s\n", text);
+    output_close(&output);
+    cJSON_free(text);
+    cJSON_Delete(object);
+}
+
+/* ---- Time and progress ---- */
+
+void say_last_taken(uint64_t taken, uint64_t total, const char *what)
+{
+    if (total > taken) {
+        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are taken\n", taken,
+                total, what);
+    }
+}
+
+void say_rows_skipped(uint64_t rows)
+{
+    if (rows > 0) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", rows);
+    }
+}
+
+int64_t clock_us(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+struct progress progress_start(const char *what, uint64_t total)
+{
+    struct progress progress = {what, clock_us(), 0, total};
+
+    if (!isatty(STDERR_FILENO)) {
+        progress.shown_us = INT64_MAX; /* never due */
+    }
+    return progress;
+}
+
+static void print_bar(double fraction)
+{
+    enum { WIDTH = 20 };
+    int filled = (int)(fraction * WIDTH);
+
+    fputc('[', stderr);
+    for (int i = 0; i < WIDTH; i++) {
+        fputc(i < filled ? '#' : '.', stderr);
+    }
+    fprintf(stderr, "] %3.0f %%  ", 100 * fraction);
+}
+
+static void print_left(double seconds)
+{
+    if (seconds < 120) {
+        fprintf(stderr, ", %.0f s left", seconds);
+    } else if (seconds < 7200) {
+        fprintf(stderr, ", %.0f min left", seconds / 60);
+    } else {
+        fprintf(stderr, ", %.1f h left", seconds / 3600);
+    }
+}
+
+/* Time for another line? */
+static bool is_due(struct progress *progress)
+{
+    enum { QUIET_US = 2000000, PERIOD_US = 200000 };
+    int64_t now_us;
+
+    if (progress->shown_us == INT64_MAX) {
+        return false;
+    }
+    now_us = clock_us();
+    if (now_us - progress->start_us < QUIET_US || now_us - progress->shown_us < PERIOD_US) {
+        return false;
+    }
+    progress->shown_us = now_us;
+    return true;
+}
+
+/* fraction: of the work, 0 where that is not known. */
+static void print_progress(const struct progress *progress, uint64_t done, double fraction)
+{
+    double seconds = (double)(progress->shown_us - progress->start_us) * 1e-6;
+    double rate = (double)done / seconds;
+
+    progress_visible = 1;
+    fputs("\r\033[K", stderr);
+    if (fraction > 0) {
+        print_bar(fraction);
+    }
+    fprintf(stderr, "%" PRIu64, done);
+    if (progress->total >= done && progress->total > 0) {
+        fprintf(stderr, " of %" PRIu64, progress->total);
+    }
+    fprintf(stderr, " %s, %.*f a second", progress->what, rate < 10 ? 1 : 0, rate);
+    if (fraction > 0) {
+        print_left(seconds * (1 - fraction) / fraction);
+    }
+}
+
+static double fraction_of(uint64_t done, uint64_t total)
+{
+    return total > 0 && done <= total ? (double)done / (double)total : 0;
+}
+
+void progress_show(struct progress *progress, uint64_t done)
+{
+    if (is_due(progress)) {
+        print_progress(progress, done, fraction_of(done, progress->total));
+    }
+}
+
+void progress_show_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
+                         uint64_t total_bytes)
+{
+    if (is_due(progress)) {
+        print_progress(progress, done, fraction_of(bytes, total_bytes));
+    }
+}
+
+void progress_end(struct progress *progress)
+{
+    if (progress_visible) {
+        fputs("\r\033[K", stderr);
+    }
+    progress_visible = 0;
+    progress->shown_us = INT64_MAX;
+}
+
+void must_succeed(enum rho_status status, const char *what)
+{
+    if (status != RHO_OK) {
+        fail(EXIT_RUNTIME, "%s: the library says '%s'", what, rho_status_name(status));
+    }
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+#include "base/portable_math.h"
+
+#include <math.h>
+
+/*
+ * Half of pi in two parts: the first has 33 bits, so that its product with a small whole number is
+ * exact.
+ */
+#define HALF_PI_HIGH 1.57079632673412561417e+00
+#define HALF_PI_LOW 6.07710050650619224932e-11
+
+/* Taylor series within a quarter of pi either way: the first term left out is below 1e-17. */
+static double sin_near(double x)
+{
+    double x2 = x * x, sum = 0.0;
+
+    for (int n = 17; n >= 3; n -= 2) {
+        sum = (1.0 - sum) * x2 / (double)(n * (n - 1));
+    }
+    return x * (1.0 - sum);
+}
+
+static double cos_near(double x)
+{
+    double x2 = x * x, sum = 0.0;
+
+    for (int n = 18; n >= 2; n -= 2) {
+        sum = (1.0 - sum) * x2 / (double)(n * (n - 1));
+    }
+    return 1.0 - sum;
+}
+
+static double quarter_turns(double angle_rad, double *rest_rad)
+{
+    double quarters = floor(angle_rad / (PORTABLE_PI / 2.0) + 0.5);
+
+    *rest_rad = (angle_rad - quarters * HALF_PI_HIGH) - quarters * HALF_PI_LOW;
+    return quarters - 4.0 * floor(quarters / 4.0);
+}
+
+double portable_sin(double angle_rad)
+{
+    double rest_rad, quarters = quarter_turns(angle_rad, &rest_rad);
+    double value = quarters == 1.0 || quarters == 3.0 ? cos_near(rest_rad) : sin_near(rest_rad);
+
+    return quarters >= 2.0 ? -value : value;
+}
+
+double portable_cos(double angle_rad)
+{
+    double rest_rad, quarters = quarter_turns(angle_rad, &rest_rad);
+    double value = quarters == 1.0 || quarters == 3.0 ? sin_near(rest_rad) : cos_near(rest_rad);
+
+    return quarters == 1.0 || quarters == 2.0 ? -value : value;
+}
+
+/* atan of 0 .. 1: halved three times, atan t = 2 atan(t / (1 + sqrt(1 + t^2))), then its series. */
+static double atan_small(double t)
+{
+    double t2, sum = 0.0;
+
+    for (int i = 0; i < 3; i++) {
+        t = t / (1.0 + sqrt(1.0 + t * t));
+    }
+    t2 = t * t;
+    for (int n = 17; n >= 1; n -= 2) {
+        sum = 1.0 / (double)n - t2 * sum;
+    }
+    return 8.0 * t * sum;
+}
+
+double portable_atan2(double y, double x)
+{
+    double ax = fabs(x), ay = fabs(y), angle;
+
+    if (!(ax > 0.0) && !(ay > 0.0)) {
+        return 0.0;
+    }
+    angle = ay <= ax ? atan_small(ay / ax) : PORTABLE_PI / 2.0 - atan_small(ax / ay);
+    angle = x < 0.0 ? PORTABLE_PI - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+double portable_hypot(double x, double y)
+{
+    return sqrt(x * x + y * y);
+}
+
+double portable_wrap(double angle_rad)
+{
+    return remainder(angle_rad, PORTABLE_TURN);
+}

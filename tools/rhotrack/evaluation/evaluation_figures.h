@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * evaluation_figures: the figures of an evaluation by the names that users read, in the order in
+ * which they are printed.
+ */
+#ifndef RHOTRACK_TOOL_EVALUATION_FIGURES_H
+#define RHOTRACK_TOOL_EVALUATION_FIGURES_H
+
+#include "evaluation/evaluation.h"
+
+#define EVALUATION_FIGURES_MAX 32
+
+struct evaluation_figures {
+    size_t count;
+    struct {
+        const char *name;
+        double value; /* NAN: there is none */
+    } list[EVALUATION_FIGURES_MAX];
+};
+
+struct evaluation_figures evaluation_figures_all(const struct evaluation_result *result);
+struct evaluation_figures evaluation_figures_target(const struct evaluation_target *target);
+struct evaluation_figures evaluation_figures_motion(const struct evaluation_errors *errors);
+struct evaluation_figures evaluation_figures_scan(const struct evaluation_scan *scan);
+
+#endif

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: MIT */
+#include "evaluation/evaluation_input.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "base/identities.h"
+#include "evaluation/time_alignment.h"
+#include "io/csv/geodetic.h"
+
+struct timed_point {
+    int64_t time_us;
+    size_t row; /* in its table */
+    struct evaluation_point point;
+};
+
+struct points {
+    const struct table *table;
+    struct timed_point *list; /* by time, then as in the file */
+    size_t count;
+    bool has_z, has_vz;
+};
+
+/* ---- reading ---- */
+
+/* Where a table has what. */
+struct columns {
+    int time, id, status, x, y, z, vx, vy, vz;
+    int covariance[6]; /* of place and velocity, each xx, yx, yy */
+    const char *id_name;
+    struct geodetic *geodetic; /* of the truth; NULL of tracks */
+};
+
+static struct columns find_columns(const struct table *table, const char *id_name,
+                                   const struct parameters *parameters)
+{
+    struct geodetic *geodetic = parameters ? geodetic_open(table, parameters) : NULL;
+    bool has_places = geodetic_has_places(geodetic);
+    return (struct columns){
+        .time = table_need(table, "t_s"),
+        .id = table_need(table, id_name),
+        .status = table_find(table, "status"),
+        .x = has_places ? -1 : table_need(table, "x_m"),
+        .y = has_places ? -1 : table_need(table, "y_m"),
+        .z = table_find(table, has_places ? "alt_m" : "z_m"),
+        .vx = table_find(table, "vx_mps"),
+        .vy = table_find(table, "vy_mps"),
+        .vz = table_find(table, "vz_mps"),
+        .covariance = {table_find(table, "cov_x_x"), table_find(table, "cov_y_x"),
+                       table_find(table, "cov_y_y"), table_find(table, "cov_vx_vx"),
+                       table_find(table, "cov_vy_vx"), table_find(table, "cov_vy_vy")},
+        .id_name = id_name,
+        .geodetic = geodetic,
+    };
+}
+
+static void read_place(const struct table *table, size_t row, const struct columns *at,
+                       struct evaluation_point *point)
+{
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.table = table, .row = row, .reason = reason};
+    double place_m[3];
+    bool has_alt;
+    if (!geodetic_has_places(at->geodetic)) {
+        point->x_m = table_number_at(table, row, at->x);
+        point->y_m = table_number_at(table, row, at->y);
+        point->z_m = table_number_or(table, row, at->z, 0.0);
+        return;
+    }
+    if (!geodetic_place(at->geodetic, &check, place_m, &has_alt)) {
+        table_fail(table, row, "%s", reason);
+    }
+    point->x_m = place_m[0];
+    point->y_m = place_m[1];
+    point->z_m = place_m[2];
+}
+
+static void read_covariance(const struct table *table, size_t row, const struct columns *at,
+                            struct evaluation_point *point)
+{
+    double *const to[] = {&point->cov_xx_m2,     &point->cov_yx_m2,     &point->cov_yy_m2,
+                          &point->cov_vxx_m2ps2, &point->cov_vyx_m2ps2, &point->cov_vyy_m2ps2};
+    for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
+        *to[i] = table_number_or(table, row, at->covariance[i], NAN);
+    }
+}
+
+static struct timed_point read_point(const struct table *table, size_t row,
+                                     const struct columns *at)
+{
+    struct timed_point timed = {.row = row};
+    char buffer[TABLE_TEXT_BYTES];
+    const char *reason = table_time_us(table, row, at->time, &timed.time_us);
+    if (reason != NULL) {
+        table_fail(table, row, "t_s: '%s' %s", table_text(table, row, at->time, buffer), reason);
+    }
+    reason = table_int32(table, row, at->id, &timed.point.id);
+    if (reason != NULL) {
+        table_fail(table, row, "%s: '%s' %s", at->id_name, table_text(table, row, at->id, buffer),
+                   reason);
+    }
+    read_place(table, row, at, &timed.point);
+    timed.point.vx_mps = table_number_or(table, row, at->vx, NAN);
+    timed.point.vy_mps = table_number_or(table, row, at->vy, NAN);
+    timed.point.vz_mps = table_number_or(table, row, at->vz, 0.0);
+    read_covariance(table, row, at, &timed.point);
+    timed.point.is_coasting = at->status >= 0 && table_is_word(table, row, at->status, "coasting");
+    return timed;
+}
+
+static bool counts(const struct table *table, size_t row, int column)
+{
+    char buffer[TABLE_TEXT_BYTES];
+    const char *status = column < 0 ? "confirmed" : table_text(table, row, column, buffer);
+    if (strcmp(status, "confirmed") == 0 || strcmp(status, "coasting") == 0) {
+        return true;
+    }
+    if (strcmp(status, "tentative") != 0 && strcmp(status, "deleted") != 0) {
+        table_fail(table, row, "status: '%s' is none of tentative, confirmed, coasting, deleted",
+                   status);
+    }
+    return false;
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct timed_point *one = a, *other = b;
+    if (one->time_us != other->time_us) {
+        return one->time_us < other->time_us ? -1 : 1;
+    }
+    return one->row < other->row ? -1 : one->row > other->row;
+}
+
+static struct points read_points(const struct table *table, const char *id_name,
+                                 const struct parameters *parameters)
+{
+    struct columns at = find_columns(table, id_name, parameters);
+    struct points points = {.table = table,
+                            .list = must_calloc(table->num_rows, sizeof *points.list),
+                            .has_z = at.z >= 0,
+                            .has_vz = at.vz >= 0};
+    for (size_t row = 0; row < table->num_rows; row++) {
+        struct timed_point timed = read_point(table, row, &at);
+        if (counts(table, row, at.status)) {
+            points.list[points.count++] = timed;
+        }
+    }
+    geodetic_close(at.geodetic);
+    qsort(points.list, points.count, sizeof points.list[0], by_time);
+    return points;
+}
+
+/* What one of the two does not say is not compared: heights, and velocities upwards. */
+static void level(struct points *points, bool has_z, bool has_vz)
+{
+    for (size_t i = 0; i < points->count; i++) {
+        struct evaluation_point *point = &points->list[i].point;
+        point->z_m = has_z ? point->z_m : 0.0;
+        point->vz_mps = has_vz ? point->vz_mps : 0.0;
+    }
+}
+
+/* ---- tracks at other times than the truth's ---- */
+
+/* A track's row as it would be a little before or after. */
+static struct timed_point led(const struct timed_point *timed, int64_t to_us)
+{
+    struct timed_point at = *timed;
+    double by_s = (double)(to_us - timed->time_us) * 1e-6;
+    at.time_us = to_us;
+    if (!isnan(at.point.vx_mps)) {
+        at.point.x_m += by_s * at.point.vx_mps;
+        at.point.y_m += by_s * at.point.vy_mps;
+        at.point.z_m += by_s * at.point.vz_mps;
+    }
+    return at;
+}
+
+static struct alignment_times times_of(const struct points *points)
+{
+    int64_t *times_us = must_calloc(points->count + 1, sizeof *times_us);
+    for (size_t i = 0; i < points->count; i++) {
+        times_us[i] = points->list[i].time_us;
+    }
+    return (struct alignment_times){.list_us = times_us, .count = points->count};
+}
+
+/* As time_alignment.h has it. */
+static void lead_tracks(struct points *tracks, const struct points *truth, int64_t most_us)
+{
+    struct alignment_times track_times = times_of(tracks), truth_times = times_of(truth);
+    size_t far = alignment_find_far(track_times, truth_times, most_us);
+    if (far < tracks->count) {
+        alignment_fail(tracks->table, tracks->list[far].row, most_us);
+    }
+    struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
+    struct points leading = *tracks;
+    leading.list = must_calloc(alignment.count + 1, sizeof *leading.list);
+    leading.count = alignment.count;
+    for (size_t i = 0; i < alignment.count; i++) {
+        leading.list[i] = led(&tracks->list[alignment.list[i].row], alignment.list[i].to_us);
+    }
+    free(track_times.list_us);
+    free(truth_times.list_us);
+    free(alignment.list);
+    free(tracks->list);
+    *tracks = leading;
+}
+
+/* ---- time by time ---- */
+
+/* End of the points from `from` that have its time, within the tolerance. */
+static size_t end_of_time(const struct points *points, size_t from, int64_t time_us)
+{
+    while (from < points->count && points->list[from].time_us <= time_us + ALIGNMENT_LEAST_US) {
+        from++;
+    }
+    return from;
+}
+
+static void check_time(const struct points *tracks, size_t at, int64_t time_us)
+{
+    if (at < tracks->count && tracks->list[at].time_us < time_us - ALIGNMENT_LEAST_US) {
+        alignment_fail(tracks->table, tracks->list[at].row, ALIGNMENT_LEAST_US);
+    }
+}
+
+/* The last time that each identity was seen at, times counting from 1. */
+struct last_times {
+    struct identities ids;
+    size_t *time; /* by number */
+    size_t capacity, now;
+};
+
+static bool is_first_now(struct last_times *last, int32_t id)
+{
+    size_t known = last->ids.count, number = identities_number(&last->ids, id);
+    if (number == known) {
+        last->time = must_grow(last->time, known, &last->capacity, sizeof *last->time);
+        last->time[number] = 0;
+    }
+    bool is_first = last->time[number] != last->now;
+    last->time[number] = last->now;
+    return is_first;
+}
+
+/*
+ * Scans of several sensors at one time give a track a row each: the last one is what is known at
+ * that time. So it is with targets. Those that count go to the list; how many.
+ */
+static size_t keep_last(struct last_times *last, const struct points *points, size_t begin,
+                        size_t end, struct evaluation_point *list)
+{
+    size_t kept = end - begin;
+    last->now++;
+    for (size_t i = end; i-- > begin;) {
+        if (is_first_now(last, points->list[i].point.id)) {
+            list[--kept] = points->list[i].point;
+        }
+    }
+    memmove(list, list + kept, (end - begin - kept) * sizeof *list);
+    return end - begin - kept;
+}
+
+static void evaluate_times(struct evaluation *e, const struct points *truth,
+                           const struct points *tracks)
+{
+    struct evaluation_point *targets_now = must_calloc(truth->count, sizeof *targets_now);
+    struct evaluation_point *tracks_now = must_calloc(tracks->count, sizeof *tracks_now);
+    struct last_times last_target = {0}, last_track = {0};
+    size_t target = 0, track = 0;
+    while (target < truth->count) {
+        int64_t time_us = truth->list[target].time_us;
+        check_time(tracks, track, time_us);
+        size_t target_end = end_of_time(truth, target, time_us);
+        size_t track_end = end_of_time(tracks, track, time_us);
+        size_t num_targets = keep_last(&last_target, truth, target, target_end, targets_now);
+        size_t num_tracks = keep_last(&last_track, tracks, track, track_end, tracks_now);
+        evaluation_time(e, time_us, targets_now, num_targets, tracks_now, num_tracks);
+        target = target_end;
+        track = track_end;
+    }
+    check_time(tracks, track, INT64_MAX);
+    identities_free(&last_target.ids);
+    identities_free(&last_track.ids);
+    free(last_target.time);
+    free(last_track.time);
+    free(targets_now);
+    free(tracks_now);
+}
+
+struct evaluation *evaluation_read(const struct table *truth_table,
+                                   const struct table *tracks_table,
+                                   const struct parameters *parameters, double cutoff_m)
+{
+    struct evaluation *e = evaluation_start(cutoff_m);
+    evaluation_set_turning(e, parameters->value[PARAMETER_TURNING_MPS2]);
+    struct points truth = read_points(truth_table, "target_id", parameters);
+    struct points tracks = read_points(tracks_table, "track_id", NULL);
+    level(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    level(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    int64_t tolerance_us = alignment_tolerance_us(parameters);
+    if (tolerance_us > ALIGNMENT_LEAST_US) {
+        lead_tracks(&tracks, &truth, tolerance_us);
+    }
+    evaluate_times(e, &truth, &tracks);
+    free(truth.list);
+    free(tracks.list);
+    return e;
+}

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT */
+/* evaluation: GOSPA and numbers over time. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "evaluation/evaluation_report.h"
+#include "picture/picture.h"
+
+#define LONG_TIME_US                                                                               \
+    1000000000000 /* from there on times are counted from the first: the axis has six digits */
+
+static int64_t zero_us(const struct evaluation_scan *scans, size_t count)
+{
+    return count > 0 && llabs(scans[count - 1].time_us) >= LONG_TIME_US ? scans[0].time_us : 0;
+}
+
+/*
+ * Columns: time; GOSPA and the roots of its parts: missed, false, localisation; targets, tracks,
+ * missed, false.
+ */
+static void put_scans(FILE *script, const struct evaluation_scan *scans, size_t count)
+{
+    fprintf(script, "$scans << EOD\n");
+    for (size_t i = 0; i < count; i++) {
+        const struct evaluation_scan *scan = &scans[i];
+        fprintf(script, "%.6f %.6g %.6g %.6g %.6g %zu %zu %zu %zu\n",
+                (double)(scan->time_us - zero_us(scans, count)) * 1e-6, scan->gospa_m,
+                sqrt(scan->missed_m2), sqrt(scan->false_m2), sqrt(scan->localisation_m2),
+                scan->targets, scan->tracks, scan->targets - scan->pairs,
+                scan->tracks - scan->pairs);
+    }
+    fprintf(script, "EOD\n");
+}
+
+/*
+ * The same look in both panels: wide and grey what the thin lines are parts of. One time alone
+ * makes no line.
+ */
+static void define_looks(FILE *script, size_t count)
+{
+    const char *line = count > 1 ? "lines" : "points pt 7 ps 0.8";
+    fprintf(script,
+            "whole = \"with %s lw 6 lc rgb '#b4b4b4'\"\n"
+            "missed = \"with %s lw 2 lc rgb '%s' title 'missed targets'\"\n"
+            "false = \"with %s lw 2 lc rgb '%s' title 'false tracks'\"\n"
+            "other = \"with %s lw 2 lc rgb '%s'\"\n",
+            line, line, picture_colour(1), line, picture_colour(2), line, picture_colour(0));
+}
+
+/* is_zero: all there is to draw is 0. */
+static void place_panel(FILE *script, double bottom, double top, bool is_zero)
+{
+    fprintf(script,
+            "set yrange [0:%s]\nset tmargin at screen %g\nset bmargin at screen %g\n"
+            "set key at screen 0.81,%g left top vertical Left reverse\n",
+            is_zero ? "1" : "*", top, bottom, top);
+}
+
+static void define_time(FILE *script, const struct evaluation_scan *scans, size_t count)
+{
+    int64_t zero = zero_us(scans, count);
+    if (count == 1) {
+        double time_s = (double)(scans[0].time_us - zero) * 1e-6;
+        fprintf(script, "set xrange [%g:%g]\n", time_s - 1.0, time_s + 1.0);
+    } else {
+        fprintf(script, "set autoscale xfix\n");
+    }
+    if (zero == 0) {
+        fprintf(script, "time = 'time (s)'\n");
+    } else {
+        fprintf(script, "time = 'time (s), from %.15g on'\n", (double)zero * 1e-6);
+    }
+}
+
+void evaluation_draw(const struct evaluation *e, const char *path)
+{
+    size_t count;
+    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    struct evaluation_result result = evaluation_result(e);
+    struct picture picture = picture_open(path, 1100, 780);
+    FILE *script = picture.script;
+    put_scans(script, scans, count);
+    define_looks(script, count);
+    define_time(script, scans, count);
+    fprintf(script, "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.79\n");
+    place_panel(script, 0.53, 0.97, result.gospa_m <= 0.0);
+    fprintf(script, "set ylabel 'GOSPA and the roots of its parts (m)'\nset format x ''\n"
+                    "plot $scans using 1:2 @whole title 'GOSPA', \\\n"
+                    " '' using 1:3 @missed, '' using 1:4 @false, \\\n"
+                    " '' using 1:5 @other title 'localisation'\n");
+    place_panel(script, 0.1, 0.49, result.targets + result.tracks == 0);
+    fprintf(script, "set xlabel time\nset ylabel 'number'\nset format x '%%g'\n"
+                    "plot $scans using 1:6 @whole title 'targets', \\\n"
+                    " '' using 1:8 @missed, '' using 1:9 @false, \\\n"
+                    " '' using 1:7 @other title 'tracks'\nunset multiplot\n");
+    picture_close(&picture);
+}

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+#include "evaluation/evaluation_report.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "base/grid.h"
+#include "evaluation/evaluation_figures.h"
+#include "evaluation/evaluation_parts.h"
+#include "io/csv/tracks_writer.h"
+
+/* ---- text ---- */
+
+static void print_targets(const struct evaluation *e, FILE *file)
+{
+    size_t count;
+    struct evaluation_target *targets = evaluation_by_target(e, &count);
+    struct grid grid = grid_start(0, "target|first s|last s|found s|kept until s|completeness|"
+                                     "switches|fragments|rmse m|median m|95 % m|rmse m/s|nees");
+    for (size_t i = 0; i < count; i++) {
+        const struct evaluation_target *t = &targets[i];
+        char found_s[GRID_NUMBER], until_s[GRID_NUMBER], texts[5][GRID_NUMBER];
+        bool is_found = t->paired > 0;
+        grid_row(
+            &grid, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
+            (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
+            grid_number(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
+            grid_number(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
+            (double)t->paired / (double)t->scans, t->switches, t->fragments,
+            grid_number(texts[0], 1, t->errors.rmse_m),
+            grid_number(texts[1], 1, t->errors.median_m), grid_number(texts[2], 1, t->errors.p95_m),
+            grid_number(texts[3], 2, t->errors.rmse_mps), grid_number(texts[4], 2, t->errors.nees));
+    }
+    fputc('\n', file);
+    grid_print(&grid, file);
+    grid_free(&grid);
+    free(targets);
+}
+
+static const char *const motion_names[EVALUATION_MOTIONS] = {
+    [EVALUATION_STRAIGHT] = "straight",
+    [EVALUATION_TURNING] = "turning",
+    [EVALUATION_COASTING] = "coasting",
+};
+
+static void print_motion(struct grid *grid, const char *name, const struct evaluation_errors *of)
+{
+    char texts[6][GRID_NUMBER];
+    grid_row(grid, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
+             grid_number(texts[0], 1, of->rmse_m), grid_number(texts[1], 2, of->rmse_mps),
+             grid_number(texts[2], 2, of->nees / EVALUATION_AXES),
+             grid_number(texts[3], 3, of->nees_inside),
+             grid_number(texts[4], 2, of->velocity_ratio),
+             grid_number(texts[5], 3, of->velocity_inside));
+}
+
+/* Ratios are 1 and shares inside the ellipse 0.95 where covariances are right. */
+static void print_motions(const struct evaluation_result *result, FILE *file)
+{
+    struct grid grid =
+        grid_start(1, "pairs|number|rmse m|rmse m/s|place ratio|inside|velocity ratio|inside");
+    for (int i = 0; i < EVALUATION_MOTIONS; i++) {
+        print_motion(&grid, motion_names[i], &result->by_motion[i]);
+    }
+    print_motion(&grid, "all", &result->errors);
+    fputc('\n', file);
+    grid_print(&grid, file);
+    grid_free(&grid);
+}
+
+void evaluation_print(const struct evaluation *e, bool by_target)
+{
+    struct evaluation_result result = evaluation_result(e);
+    struct evaluation_figures figures = evaluation_figures_all(&result);
+    struct output output = output_open(NULL);
+    for (size_t i = 0; i < figures.count; i++) {
+        double value = figures.list[i].value;
+        int digits = fabs(value) < 1e5 ? 6 : 10; /* counts and times in full */
+        if (isfinite(value)) {
+            fprintf(output.file, "%-22s %12.*g\n", figures.list[i].name, digits, value);
+        } else {
+            fprintf(output.file, "%-22s %12s\n", figures.list[i].name, "-");
+        }
+    }
+    print_motions(&result, output.file);
+    if (by_target) {
+        print_targets(e, output.file);
+    }
+    output_close(&output);
+}
+
+/* ---- JSON ---- */
+
+static cJSON *object_of(const struct evaluation_figures *figures)
+{
+    cJSON *object = cJSON_CreateObject();
+    for (size_t i = 0; i < figures->count; i++) {
+        json_add_number(object, figures->list[i].name, figures->list[i].value);
+    }
+    return object;
+}
+
+static cJSON *by_motion(const struct evaluation_result *result)
+{
+    cJSON *object = cJSON_CreateObject();
+    for (int i = 0; i < EVALUATION_MOTIONS; i++) {
+        struct evaluation_figures figures = evaluation_figures_motion(&result->by_motion[i]);
+        cJSON_AddItemToObject(object, motion_names[i], object_of(&figures));
+    }
+    return object;
+}
+
+static cJSON *list_targets(const struct evaluation *e)
+{
+    size_t count;
+    struct evaluation_target *targets = evaluation_by_target(e, &count);
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < count; i++) {
+        struct evaluation_figures figures = evaluation_figures_target(&targets[i]);
+        cJSON_AddItemToArray(list, object_of(&figures));
+    }
+    free(targets);
+    return list;
+}
+
+static cJSON *list_scans(const struct evaluation *e)
+{
+    size_t count;
+    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < count; i++) {
+        struct evaluation_figures figures = evaluation_figures_scan(&scans[i]);
+        cJSON_AddItemToArray(list, object_of(&figures));
+    }
+    return list;
+}
+
+void evaluation_print_json(const struct evaluation *e)
+{
+    struct evaluation_result result = evaluation_result(e);
+    struct evaluation_figures figures = evaluation_figures_all(&result);
+    cJSON *object = object_of(&figures);
+    cJSON_AddItemToObject(object, "by_motion", by_motion(&result));
+    cJSON_AddItemToObject(object, "by_target", list_targets(e));
+    cJSON_AddItemToObject(object, "over_time", list_scans(e));
+    json_print(object);
+}
+
+/* ---- CSV ---- */
+
+static void write_row(FILE *file, const struct evaluation_scan *scan)
+{
+    struct evaluation_figures figures = evaluation_figures_scan(scan);
+    tracks_write_time(file, scan->time_us);
+    for (size_t i = 1; i < figures.count; i++) {
+        if (isfinite(figures.list[i].value)) {
+            fprintf(file, ",%.9g", figures.list[i].value);
+        } else {
+            fputc(',', file);
+        }
+    }
+    fputc('\n', file);
+}
+
+void evaluation_write_csv(const struct evaluation *e, const char *path)
+{
+    const struct evaluation_scan none = {0};
+    struct evaluation_figures head = evaluation_figures_scan(&none);
+    struct output output = output_open(path);
+    size_t count;
+    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    for (size_t i = 0; i < head.count; i++) {
+        fprintf(output.file, "%s%s", i == 0 ? "" : ",", head.list[i].name);
+    }
+    fputc('\n', output.file);
+    for (size_t i = 0; i < count; i++) {
+        write_row(output.file, &scans[i]);
+    }
+    output_close(&output);
+}

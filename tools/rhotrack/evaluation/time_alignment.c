@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT */
+#include "evaluation/time_alignment.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+
+int64_t alignment_tolerance_us(const struct parameters *parameters)
+{
+    int64_t tolerance_us = llround(parameters->value[PARAMETER_TIME_TOLERANCE_S] * 1e6);
+
+    return tolerance_us > ALIGNMENT_LEAST_US ? tolerance_us : ALIGNMENT_LEAST_US;
+}
+
+/* The first one of the time that is nearest; from: of a time before it, or of its own. */
+static size_t nearest(struct alignment_times times, size_t from, int64_t time_us)
+{
+    size_t at = from;
+
+    for (size_t i = from; i < times.count; i++) {
+        if (llabs(times.list_us[i] - time_us) < llabs(times.list_us[at] - time_us)) {
+            at = i;
+        }
+        if (times.list_us[i] > time_us) {
+            break;
+        }
+    }
+    return at;
+}
+
+size_t alignment_find_far(struct alignment_times tracks, struct alignment_times truth,
+                          int64_t most_us)
+{
+    size_t at = 0;
+
+    for (size_t i = 0; i < tracks.count && truth.count > 0; i++) {
+        at = nearest(truth, at, tracks.list_us[i]);
+        if (llabs(truth.list_us[at] - tracks.list_us[i]) > most_us) {
+            return i;
+        }
+    }
+    return tracks.count;
+}
+
+void alignment_fail(const struct table *tracks, size_t row, int64_t most_us)
+{
+    table_fail(tracks, row, "the truth has no such time within %g ms (time_tolerance_s)",
+               (double)most_us * 1e-3);
+}
+
+struct alignment alignment_to_truth(struct alignment_times tracks, struct alignment_times truth,
+                                    int64_t most_us)
+{
+    struct alignment alignment = {.count = 0};
+    size_t capacity = 0, from = 0;
+
+    for (size_t i = 0; i < truth.count && tracks.count > 0; i++) {
+        int64_t time_us = truth.list_us[i], at_us;
+
+        if (i > 0 && time_us == truth.list_us[i - 1]) {
+            continue;
+        }
+        from = nearest(tracks, from, time_us);
+        at_us = tracks.list_us[from];
+        for (size_t k = from;
+             k < tracks.count && tracks.list_us[k] == at_us && llabs(at_us - time_us) <= most_us;
+             k++) {
+            alignment.list =
+                must_grow(alignment.list, alignment.count, &capacity, sizeof *alignment.list);
+            alignment.list[alignment.count++] = (struct aligned_row){.row = k, .to_us = time_us};
+        }
+    }
+    return alignment;
+}

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: MIT */
+/* Blocks and records: which items there are, and how long they are. */
+#include "io/asterix/asterix.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "io/asterix/asterix_items.h"
+
+#define FX 1u  /* the last bit of a byte: another one follows */
+#define BITS 7 /* of a field specification's byte, before FX */
+
+/* Bytes under way. */
+struct cursor {
+    const uint8_t *data;
+    size_t size, at;
+    uint8_t category;
+    struct asterix_error *error;
+};
+
+static bool refuse(const struct cursor *cursor, size_t at, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Always false. */
+static bool refuse(const struct cursor *cursor, size_t at, const char *format, ...)
+{
+    va_list arguments;
+
+    cursor->error->at = at;
+    va_start(arguments, format);
+    vsnprintf(cursor->error->reason, sizeof cursor->error->reason, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+/* ---- Blocks ---- */
+
+bool asterix_block_read(const uint8_t *data, size_t size, struct asterix_block *block,
+                        struct asterix_error *error)
+{
+    const struct cursor cursor = {.error = error};
+    size_t length;
+
+    if (size < ASTERIX_HEADER_BYTES) {
+        return refuse(&cursor, 0, "a data block has %u bytes at least, and here are %zu",
+                      ASTERIX_HEADER_BYTES, size);
+    }
+    length = (size_t)data[1] << 8 | data[2];
+    if (length < ASTERIX_HEADER_BYTES) {
+        return refuse(&cursor, 1, "a data block of category %u says that it has %zu bytes", data[0],
+                      length);
+    }
+    if (length > size) {
+        return refuse(&cursor, 0, "a data block of category %u has %zu bytes, and here are %zu",
+                      data[0], length, size);
+    }
+    *block = (struct asterix_block){.category = data[0],
+                                    .records = data + ASTERIX_HEADER_BYTES,
+                                    .size = length - ASTERIX_HEADER_BYTES};
+    return true;
+}
+
+bool asterix_category_is_known(uint8_t category)
+{
+    return asterix_category_find(category);
+}
+
+/* ---- Items ---- */
+
+/*
+ * How many bytes there are up to one whose last bit is clear, `step` at a time; beyond the size
+ * where there is none.
+ */
+static size_t count_extended(const struct cursor *cursor, size_t step)
+{
+    size_t bytes = step;
+
+    while (cursor->at + bytes <= cursor->size && (cursor->data[cursor->at + bytes - 1] & FX)) {
+        bytes += step;
+    }
+    return bytes;
+}
+
+/*
+ * How long an item is that is no compound; beyond the bytes where it is cut. 0: its own length is
+ * none.
+ */
+static size_t count_bytes(const struct cursor *cursor, const struct asterix_item *item)
+{
+    size_t first = cursor->at < cursor->size ? cursor->data[cursor->at] : cursor->size + 1;
+
+    switch (item->form) {
+    case ASTERIX_FIXED:
+        return item->bytes;
+    case ASTERIX_EXTENDED:
+    case ASTERIX_REPEATED_FX:
+        return count_extended(cursor, item->bytes);
+    case ASTERIX_REPEATED:
+        return cursor->at < cursor->size ? 1 + first * item->bytes : 1;
+    case ASTERIX_EXPLICIT:
+        return first;
+    default:
+        return 0;
+    }
+}
+
+/* Takes an item that is no compound. */
+static bool take_simple(struct cursor *cursor, const struct asterix_item *item, const char *part)
+{
+    size_t bytes = count_bytes(cursor, item);
+
+    if (bytes == 0) {
+        return refuse(cursor, cursor->at, "I%03u/%s says that it has no bytes", cursor->category,
+                      item->name);
+    }
+    if (bytes > cursor->size - cursor->at) {
+        return refuse(cursor, cursor->at, "I%03u/%s%s%s goes beyond its data block",
+                      cursor->category, part ? part : item->name, part ? "/" : "",
+                      part ? item->name : "");
+    }
+    cursor->at += bytes;
+    return true;
+}
+
+/*
+ * Which of the places of a profile are taken: the bits of the field specification at the cursor,
+ * which moves behind it.
+ */
+static bool take_specification(struct cursor *cursor, const struct asterix_item *items,
+                               size_t num_items, const char *name, uint64_t *present)
+{
+    size_t start = cursor->at, bytes = count_extended(cursor, 1);
+
+    if (start + bytes > cursor->size) {
+        return refuse(cursor, start, "the field specification of %s goes beyond its data block",
+                      name);
+    }
+    if (bytes > (num_items + BITS - 1) / BITS) {
+        return refuse(cursor, start, "the field specification of %s has %zu bytes", name, bytes);
+    }
+    *present = 0;
+    for (size_t place = 0; place < bytes * BITS; place++) {
+        bool is_there = cursor->data[start + place / BITS] >> (BITS - place % BITS) & 1;
+
+        if (is_there && (place >= num_items || items[place].form == ASTERIX_NONE)) {
+            return refuse(cursor, start + place / BITS,
+                          "%s has an item at place %zu, where none is", name, place + 1);
+        }
+        if (is_there) {
+            *present |= UINT64_C(1) << place;
+        }
+    }
+    cursor->at += bytes;
+    return true;
+}
+
+static bool take_compound(struct cursor *cursor, const struct asterix_item *item)
+{
+    char name[16];
+    uint64_t present = 0;
+
+    snprintf(name, sizeof name, "I%03u/%s", cursor->category, item->name);
+    if (!take_specification(cursor, item->parts, item->num_parts, name, &present)) {
+        return false;
+    }
+    for (size_t i = 0; i < item->num_parts; i++) {
+        if ((present >> i & 1) && !take_simple(cursor, &item->parts[i], item->name)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
+                         struct asterix_record *record, struct asterix_error *error)
+{
+    struct cursor cursor = {.data = data, .size = size, .category = category, .error = error};
+    const struct asterix_category *profile = asterix_category_find(category);
+    char name[24];
+    uint64_t present = 0;
+
+    if (!profile) {
+        return refuse(&cursor, 0, "category %u is not known", category);
+    }
+    snprintf(name, sizeof name, "a record of CAT%03u", category);
+    if (!take_specification(&cursor, profile->items, profile->num_items, name, &present)) {
+        return false;
+    }
+    *record = (struct asterix_record){.category = category};
+    for (size_t i = 0; i < profile->num_items; i++) {
+        const struct asterix_item *item = &profile->items[i];
+        size_t start = cursor.at;
+
+        if (!(present >> i & 1)) {
+            continue;
+        }
+        if (item->form == ASTERIX_COMPOUND ? !take_compound(&cursor, item)
+                                           : !take_simple(&cursor, item, NULL)) {
+            return false;
+        }
+        record->items[i] = data + start;
+        record->sizes[i] = (uint16_t)(cursor.at - start);
+    }
+    record->size = cursor.at;
+    return true;
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * asterix_file: the records of CAT034 and CAT048 of a recording: data blocks one after the other,
+ * as they were sent.
+ *
+ * Blocks of other categories are skipped and counted. A bad place is an error, `rhotrack: FILE:
+ * byte N: what is wrong`, exit 2; with keep_going the rest of its block is skipped, and where its
+ * length is not to be believed all bytes up to the next block of these categories that is good as a
+ * whole.
+ */
+#ifndef RHOTRACK_TOOL_ASTERIX_FILE_H
+#define RHOTRACK_TOOL_ASTERIX_FILE_H
+
+#include <stdio.h>
+
+#include "io/asterix/asterix.h"
+
+/*
+ * Whether a file is a recording: a name that ends with .ast or .asterix, or a plain file that
+ * begins with a data block of CAT034 or CAT048 that is good as a whole.
+ */
+bool asterix_file_is_asterix(const char *path);
+
+/* Whether a data block of CAT034 or CAT048 begins there of which every record can be read. */
+bool asterix_block_is_good(const uint8_t *data, size_t size);
+
+/*
+ * The first place of a radar that a recording tells; none in any other file. Nothing is said of bad
+ * ones.
+ */
+struct asterix_place asterix_file_place(const char *path);
+
+struct asterix_file;
+
+/* A plain file. Errors: exit 2. Memory: four of the longest blocks. */
+struct asterix_file *asterix_file_open(const char *path, bool keep_going);
+
+/* The next record, valid until the next call. Returns false after the last. */
+bool asterix_file_next(struct asterix_file *file, struct asterix_record *record);
+
+/* How many bytes of the file are taken. */
+uint64_t asterix_file_position(const struct asterix_file *file);
+
+/* How many records there were so far. */
+uint64_t asterix_file_records(const struct asterix_file *file);
+
+/* How many blocks of a category that is not read were left out so far. */
+uint64_t asterix_file_others(const struct asterix_file *file, uint8_t category);
+
+/* What was skipped, if anything, on standard error. */
+void asterix_file_report(const struct asterix_file *file);
+void asterix_file_close(struct asterix_file *file);
+
+#endif

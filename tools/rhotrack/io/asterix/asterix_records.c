@@ -1,0 +1,470 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/asterix/asterix_records.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/asterix/asterix_file.h"
+
+#define PI 3.141592653589793
+#define HOLD_S 5.0 /* waiting costs nothing in a file */
+
+/* ---- Columns ---- */
+
+enum column {
+    AT_T_S,
+    AT_SENSOR_ID,
+    AT_RANGE_M,
+    AT_AZIMUTH_RAD,
+    AT_ALT_M,
+    AT_RANGE_RATE_MPS,
+    AT_SENSOR_LAT_DEG,
+    AT_SENSOR_LON_DEG,
+    AT_SENSOR_ALT_M,
+    AT_SECTOR_FROM_RAD,
+    AT_SECTOR_TO_RAD,
+    AT_SCAN,
+    NUM_COLUMNS
+};
+
+static const struct table_column all_columns[NUM_COLUMNS] = {
+    [AT_T_S] = {.name = "t_s", .decimals = 6},
+    [AT_SENSOR_ID] = {.name = "sensor_id", .decimals = 0},
+    [AT_RANGE_M] = {.name = "range_m", .decimals = 6},
+    [AT_AZIMUTH_RAD] = {.name = "azimuth_rad", .decimals = 9},
+    [AT_ALT_M] = {.name = "alt_m", .decimals = 2},
+    [AT_RANGE_RATE_MPS] = {.name = "range_rate_mps", .decimals = 0},
+    [AT_SENSOR_LAT_DEG] = {.name = "sensor_lat_deg", .decimals = 9},
+    [AT_SENSOR_LON_DEG] = {.name = "sensor_lon_deg", .decimals = 9},
+    [AT_SENSOR_ALT_M] = {.name = "sensor_alt_m", .decimals = 0},
+    [AT_SECTOR_FROM_RAD] = {.name = "sector_from_rad", .decimals = 9},
+    [AT_SECTOR_TO_RAD] = {.name = "sector_to_rad", .decimals = 9},
+    [AT_SCAN] = {.name = "scan", .decimals = 0},
+};
+
+static bool has_column(const struct asterix_columns *columns, int column)
+{
+    if (column >= AT_SECTOR_FROM_RAD) {
+        return columns->has_scan;
+    }
+    return column < AT_SENSOR_LAT_DEG || columns->has_place;
+}
+
+struct table *asterix_records_table(const char *path, const struct asterix_columns *columns)
+{
+    struct table_column list[NUM_COLUMNS];
+    size_t count = 0;
+
+    for (int i = 0; i < NUM_COLUMNS; i++) {
+        if (has_column(columns, i)) {
+            list[count++] = all_columns[i];
+        }
+    }
+    return table_of_numbers(path, list, count);
+}
+
+/* ---- Records ---- */
+
+/* A record: its time, and its cells by enum column. */
+struct record {
+    int64_t time_128;
+    uint64_t order;
+    double cells[NUM_COLUMNS];
+};
+
+/* Clockwise from north as counter-clockwise from east, within +-pi. */
+static double azimuth_rad(uint32_t azimuth)
+{
+    return remainder(PI / 2 - 2 * PI / ASTERIX_TURN * azimuth, 2 * PI);
+}
+
+/* The number that the column's decimals say: a file that was converted means the same. */
+static void put(struct record *record, enum column column, double value)
+{
+    static const double scales[] = {1, 10, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+    double scale = scales[all_columns[column].decimals];
+
+    record->cells[column] = rint(value * scale) / scale;
+}
+
+static void put_mark(struct record *record, const struct asterix_mark *mark)
+{
+    put(record, AT_RANGE_M, mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
+    put(record, AT_AZIMUTH_RAD, azimuth_rad(mark->azimuth));
+    if (mark->has_alt) {
+        put(record, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
+    }
+    if (mark->has_doppler) {
+        put(record, AT_RANGE_RATE_MPS, mark->doppler_mps);
+    }
+}
+
+static void put_place(struct record *record, const struct asterix_place *place)
+{
+    put(record, AT_SENSOR_LAT_DEG, place->lat_deg);
+    put(record, AT_SENSOR_LON_DEG, place->lon_deg);
+    put(record, AT_SENSOR_ALT_M, place->alt_m);
+}
+
+/* A row of a scan: its opening (NULL), or a plot. */
+static struct record record_of(const struct asterix_scan *scan, const struct asterix_mark *mark)
+{
+    struct record record = {.time_128 = mark ? mark->time_128 : scan->time_128};
+
+    for (int i = 0; i < NUM_COLUMNS; i++) {
+        record.cells[i] = (double)NAN;
+    }
+    put(&record, AT_SENSOR_ID, scan->sensor_id);
+    if (mark) {
+        put_mark(&record, mark);
+    }
+    if (scan->place.is_given) {
+        put_place(&record, &scan->place);
+    }
+    /* The antenna turns clockwise: counter-clockwise the sector goes from its end to its start. */
+    if (!scan->is_turn) {
+        put(&record, AT_SECTOR_FROM_RAD, azimuth_rad(scan->look.from + scan->look.advance));
+        put(&record, AT_SECTOR_TO_RAD, azimuth_rad(scan->look.from));
+    }
+    if (scan->is_numbered) {
+        put(&record, AT_SCAN, scan->number);
+    }
+    return record;
+}
+
+static void add_to_table(struct table *table, const struct record *record, uint32_t line)
+{
+    double *cells = table_add_numbers(table, asterix_time_us(record->time_128), line);
+    int column = 0;
+
+    for (size_t i = 0; i < table->num_columns; i++) {
+        while (strcmp(table->names[i], all_columns[column].name) != 0) {
+            column++; /* they are in one order */
+        }
+        cells[i] = record->cells[column];
+    }
+}
+
+void asterix_records_add_scan(struct table *table, const struct asterix_scan *scan)
+{
+    struct record record = record_of(scan, NULL);
+
+    add_to_table(table, &record, 2);
+    for (size_t i = 0; i < scan->count; i++) {
+        record = record_of(scan, &scan->marks[i]);
+        add_to_table(table, &record, (uint32_t)i + 3);
+    }
+}
+
+/* ---- Recordings ---- */
+
+struct asterix_records {
+    char *path;
+    struct asterix_file *file;
+    struct asterix_scans *scans;
+    struct asterix_columns columns;
+    struct record *list; /* by time from `next` on */
+    size_t count, capacity, next;
+    uint64_t order, late;
+    uint32_t line;     /* of the next one in the CSV file that says the same */
+    int64_t given_128; /* the newest row's that was given out */
+    bool has_given, is_over;
+    bool has_interval; /* plots of radars without crossings become scans here */
+    int32_t placeless[ASTERIX_MAX_SENSORS]; /* radars whose place nobody says, beside others */
+    size_t num_placeless;
+};
+
+const char asterix_records_no_tracks[] =
+    "tracks (CAT062), which are written and not read: give their CSV file or LCM log";
+
+/* ---- Rules, origin ---- */
+
+struct asterix_rules asterix_records_rules(const struct parameters *parameters, double hold_s,
+                                           double wait_s)
+{
+    return (struct asterix_rules){
+        .hold_s = hold_s,
+        .is_by_turn = parameters->value[PARAMETER_ASTERIX_SCANS] > 0.5,
+        .interval_s = parameters->value[PARAMETER_SCAN_INTERVAL_S],
+        .wait_s = wait_s,
+    };
+}
+
+void asterix_records_suggest_origin(const char *path, const struct asterix_place *place,
+                                    struct parameters *parameters)
+{
+    parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place->lat_deg);
+    parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place->lon_deg);
+    parameters_suggest(parameters, PARAMETER_ORIGIN_ALT_M, place->alt_m);
+    fprintf(stderr,
+            "rhotrack: %s: the origin is origin_lat_deg=%.7f, origin_lon_deg=%.7f, "
+            "origin_alt_m=%.0f\n",
+            path, place->lat_deg, place->lon_deg, place->alt_m);
+}
+
+void asterix_records_report(const char *path, const struct asterix_counts *counts)
+{
+    const struct {
+        uint64_t count;
+        const char *text;
+    } lines[] = {
+        {counts->not_real, "plots simulated, of test targets or field monitors"},
+        {counts->no_detection, "reports without a detection"},
+        {counts->incomplete, "plots without source, time or place"},
+        {counts->bad_times, "plots with bad times"},
+        {counts->late, "plots late"},
+        {counts->unplaced, "plots outside every known look of the antenna"},
+        {counts->no_room, "plots of too many radars"},
+        {counts->services_left, "antenna messages without source, time or sector, or late"},
+        {counts->gaps, "gaps in the antenna's messages"},
+        {counts->levels_left, "heights used for the range alone, in scans that have plots without"},
+        {counts->levels_bad, "flight levels not valid"},
+        {counts->dopplers_bad, "Doppler speeds doubtful"},
+        {counts->dopplers_raw, "Doppler speeds ambiguous"},
+        {counts->dopplers_left, "Doppler speeds left out, of scans that have plots without"},
+    };
+    const char *between = "";
+
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        if (lines[i].count > 0) {
+            if (!*between) {
+                fprintf(stderr, "rhotrack: %s: ", path);
+            }
+            fprintf(stderr, "%s%" PRIu64 " %s", between, lines[i].count, lines[i].text);
+            between = ", ";
+        }
+    }
+    if (*between) {
+        fputc('\n', stderr);
+    }
+}
+
+/* ---- Looking at the file ---- */
+
+/* What a record tells of the whole file. */
+static bool note(struct asterix_records *records, const struct asterix_record *record)
+{
+    struct asterix_service service;
+    struct asterix_plot plot;
+
+    asterix_scans_look(records->scans, record);
+    if (record->category == ASTERIX_PLOTS) {
+        asterix_plot_read(record, &plot);
+        return plot.has_position;
+    }
+    asterix_service_read(record, &service);
+    records->columns.has_place |= service.place.is_given;
+    records->columns.has_scan |=
+        service.has_type && (service.type == ASTERIX_NORTH || service.type == ASTERIX_SECTOR);
+    return service.has_type && service.has_time;
+}
+
+static void look_through(struct asterix_records *records, bool keep_going)
+{
+    struct asterix_file *file = asterix_file_open(records->path, keep_going);
+    struct asterix_record record;
+    bool has_any = false;
+
+    while (asterix_file_next(file, &record)) {
+        has_any |= note(records, &record);
+    }
+    if (!has_any && asterix_file_others(file, ASTERIX_TRACKS) > 0) {
+        fail(EXIT_USAGE, "%s: %s", records->path, asterix_records_no_tracks);
+    }
+    if (!has_any) {
+        fail(EXIT_USAGE,
+             "%s: not one plot (CAT048), north marker or sector crossing (CAT034) in it",
+             records->path);
+    }
+    asterix_file_close(file);
+}
+
+/*
+ * A radar whose place nobody says stands at the origin, which is right of one radar alone and
+ * without places on the earth.
+ */
+static void find_placeless(struct asterix_records *records, const struct parameters *parameters)
+{
+    size_t count = asterix_scans_num_sensors(records->scans);
+    int32_t sensor_id;
+
+    if (count < 2 && !parameters_has_origin(parameters)) {
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!asterix_scans_sensor(records->scans, i, &sensor_id) &&
+            isnan(parameters_of_sensor(parameters, sensor_id, SENSOR_X_M, NAN))) {
+            records->placeless[records->num_placeless++] = sensor_id;
+        }
+    }
+}
+
+struct asterix_records *asterix_records_open(const char *path, const struct parameters *parameters,
+                                             bool keep_going)
+{
+    struct asterix_rules rules = {.hold_s = HOLD_S};
+    struct asterix_records *records = must_calloc(1, sizeof *records);
+
+    if (parameters) {
+        rules = asterix_records_rules(parameters, HOLD_S, 0);
+    }
+    records->path = must_copy(path);
+    records->line = 2;
+    records->columns.has_scan = rules.interval_s > 0;
+    records->has_interval = rules.interval_s > 0;
+    records->scans = asterix_scans_open(&rules);
+    look_through(records, keep_going);
+    if (parameters) {
+        find_placeless(records, parameters);
+    }
+    records->file = asterix_file_open(path, keep_going);
+    return records;
+}
+
+/* ---- Rows ---- */
+
+static void add_record(struct asterix_records *records, const struct asterix_scan *scan,
+                       const struct asterix_mark *mark)
+{
+    struct record record = record_of(scan, mark);
+
+    if (records->has_given && record.time_128 < records->given_128) {
+        records->late++;
+        return;
+    }
+    record.order = records->order++;
+    records->list =
+        must_grow(records->list, records->count, &records->capacity, sizeof *records->list);
+    records->list[records->count++] = record;
+}
+
+static void add_scan(struct asterix_records *records, const struct asterix_scan *scan)
+{
+    if (scan->is_numbered) {
+        add_record(records, scan, NULL);
+    }
+    for (size_t i = 0; i < scan->count; i++) {
+        add_record(records, scan, &scan->marks[i]);
+    }
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct record *one = a, *other = b;
+    int order = (one->time_128 > other->time_128) - (one->time_128 < other->time_128);
+
+    return order ? order : (one->order > other->order) - (one->order < other->order);
+}
+
+/* What is given out goes; what is new comes to its place. */
+static void add_scans(struct asterix_records *records)
+{
+    struct asterix_scan scan;
+    size_t before = records->count;
+
+    while (asterix_scans_next(records->scans, &scan)) {
+        if (records->next > 0) {
+            records->count -= records->next;
+            memmove(records->list, records->list + records->next,
+                    records->count * sizeof *records->list);
+            records->next = 0;
+            before = 0;
+        }
+        add_scan(records, &scan);
+    }
+    if (records->count != before) {
+        qsort(records->list, records->count, sizeof *records->list, by_time);
+    }
+}
+
+static void report(const struct asterix_records *records)
+{
+    const struct asterix_counts *counts = asterix_scans_counts(records->scans);
+
+    asterix_file_report(records->file);
+    asterix_records_report(records->path, counts);
+    for (size_t i = 0; i < records->num_placeless; i++) {
+        fprintf(stderr,
+                "rhotrack: %s: sensor %" PRId32 " does not say where it stands, and is taken to be "
+                "at the origin; sensor.%" PRId32 ".lat_deg and lon_deg say it\n",
+                records->path, records->placeless[i], records->placeless[i]);
+    }
+    if (records->late > 0) {
+        fprintf(stderr,
+                "rhotrack: %s: %" PRIu64 " rows of a radar whose clock is behind left out\n",
+                records->path, records->late);
+    }
+    if (!records->columns.has_scan) {
+        fprintf(stderr,
+                "rhotrack: %s: no north markers or sector crossings in it: plots of one time are a "
+                "scan, but for scan_interval_s\n",
+                records->path);
+    }
+}
+
+/* One record more, or the end. */
+static void take_record(struct asterix_records *records)
+{
+    struct asterix_record record;
+
+    if (asterix_file_next(records->file, &record)) {
+        asterix_scans_take(records->scans, &record);
+    } else {
+        asterix_scans_finish(records->scans);
+        records->is_over = true;
+    }
+    add_scans(records);
+    if (records->is_over) {
+        report(records);
+    }
+}
+
+/* A record that nothing can come before any more. */
+static bool has_record(const struct asterix_records *records)
+{
+    return records->next < records->count &&
+           (records->is_over ||
+            records->list[records->next].time_128 < asterix_scans_settled_128(records->scans));
+}
+
+bool asterix_records_next(struct asterix_records *records, struct table *table)
+{
+    const struct record *record;
+
+    while (!has_record(records)) {
+        if (records->is_over) {
+            return false;
+        }
+        take_record(records);
+    }
+    record = &records->list[records->next++];
+    records->has_given = true;
+    records->given_128 = record->time_128;
+    add_to_table(table, record, records->line++);
+    return true;
+}
+
+const struct asterix_columns *asterix_records_columns(const struct asterix_records *records)
+{
+    return &records->columns;
+}
+
+uint64_t asterix_records_position(const struct asterix_records *records)
+{
+    return asterix_file_position(records->file);
+}
+
+void asterix_records_close(struct asterix_records *records)
+{
+    if (!records) {
+        return;
+    }
+    free(records->list);
+    asterix_scans_close(records->scans);
+    asterix_file_close(records->file);
+    free(records->path);
+    free(records);
+}

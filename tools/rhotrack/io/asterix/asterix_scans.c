@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/asterix/asterix_scans.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/asterix/asterix_sensor.h"
+
+#define PERIOD_MIN_128 (ASTERIX_TIME_HZ / 2) /* no radar turns faster */
+#define SILENT_128                                                                                 \
+    (60 * ASTERIX_TIME_HZ) /* a radar that is not heard for so long is not waited for */
+
+struct asterix_scans {
+    int64_t hold_128, interval_128, wait_128;
+    bool is_by_turn;
+    struct asterix_sensor *sensors; /* ASTERIX_MAX_SENSORS of them */
+    size_t num_sensors;
+    bool has_start, has_clock, is_over;
+    int64_t start_128;          /* near the first time */
+    int64_t clock_128;          /* the latest of all */
+    struct asterix_scan *ready; /* with marks of their own */
+    size_t num_ready, ready_capacity, next_ready;
+    struct asterix_mark *given; /* of the scan that was handed out */
+    struct asterix_counts counts;
+};
+
+int64_t asterix_time_us(int64_t time_128)
+{
+    int64_t half_us = time_128 * (1000000 / (ASTERIX_TIME_HZ / 2));
+
+    return (half_us + (half_us > 0)) / 2;
+}
+
+struct asterix_scans *asterix_scans_open(const struct asterix_rules *rules)
+{
+    struct asterix_scans *scans = must_calloc(1, sizeof *scans);
+
+    scans->hold_128 = llround(rules->hold_s * ASTERIX_TIME_HZ);
+    scans->interval_128 = llround(rules->interval_s * ASTERIX_TIME_HZ);
+    scans->wait_128 = llround(rules->wait_s * ASTERIX_TIME_HZ);
+    scans->is_by_turn = rules->is_by_turn;
+    scans->sensors = must_calloc(ASTERIX_MAX_SENSORS, sizeof *scans->sensors);
+    return scans;
+}
+
+void asterix_scans_close(struct asterix_scans *scans)
+{
+    if (!scans) {
+        return;
+    }
+    for (size_t i = 0; i < scans->num_sensors; i++) {
+        asterix_sensor_free(&scans->sensors[i]);
+    }
+    for (size_t i = scans->next_ready; i < scans->num_ready; i++) {
+        free((void *)scans->ready[i].marks);
+    }
+    free(scans->given);
+    free(scans->ready);
+    free(scans->sensors);
+    free(scans);
+}
+
+void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128)
+{
+    scans->has_start = true;
+    scans->start_128 = time_128;
+}
+
+size_t asterix_scans_num_sensors(const struct asterix_scans *scans)
+{
+    return scans->num_sensors;
+}
+
+bool asterix_scans_sensor(const struct asterix_scans *scans, size_t index, int32_t *sensor_id)
+{
+    *sensor_id = scans->sensors[index].sensor_id;
+    return scans->sensors[index].place.is_given;
+}
+
+const struct asterix_counts *asterix_scans_counts(const struct asterix_scans *scans)
+{
+    return &scans->counts;
+}
+
+/* NULL: no room. */
+static struct asterix_sensor *find_sensor(struct asterix_scans *scans,
+                                          const struct asterix_source *source)
+{
+    int32_t sensor_id = asterix_sensor_id(source);
+    size_t i = 0;
+
+    while (i < scans->num_sensors && scans->sensors[i].sensor_id != sensor_id) {
+        i++;
+    }
+    if (i == scans->num_sensors) {
+        if (i == ASTERIX_MAX_SENSORS) {
+            return NULL;
+        }
+        scans->sensors[scans->num_sensors++].sensor_id = sensor_id;
+    }
+    return &scans->sensors[i];
+}
+
+/* ---- Complete scans ---- */
+
+static int by_time(const void *a, const void *b)
+{
+    const struct asterix_mark *one = a, *other = b;
+    int order = (one->time_128 > other->time_128) - (one->time_128 < other->time_128);
+
+    return order ? order : (one->azimuth > other->azimuth) - (one->azimuth < other->azimuth);
+}
+
+/* What is complete is a scan. */
+static void make_ready(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                       struct asterix_open *open)
+{
+    struct asterix_scan scan = {.sensor_id = sensor->sensor_id,
+                                .is_numbered = open->has_look || scans->interval_128 > 0,
+                                .number = ++sensor->scan,
+                                .is_turn = !open->has_look || open->look.advance == ASTERIX_TURN,
+                                .look = open->look,
+                                .time_128 = open->look.start_128,
+                                .place = sensor->place,
+                                .marks = open->marks.list,
+                                .count = open->marks.count};
+
+    if (scan.count > 0) {
+        qsort(open->marks.list, scan.count, sizeof *open->marks.list, by_time);
+    }
+    asterix_marks_even(&open->marks, &sensor->place, &scans->counts);
+    scans->counts.placed += scan.count;
+    scans->ready =
+        must_grow(scans->ready, scans->num_ready, &scans->ready_capacity, sizeof *scans->ready);
+    scans->ready[scans->num_ready++] = scan;
+}
+
+static void end_turn(struct asterix_scans *scans, struct asterix_sensor *sensor)
+{
+    if (sensor->has_turn) {
+        sensor->has_turn = false;
+        make_ready(scans, sensor, &sensor->turn);
+        sensor->turn = (struct asterix_open){.has_look = false};
+    }
+}
+
+/* The sensor's first open look is complete. */
+static void complete(struct asterix_scans *scans, struct asterix_sensor *sensor)
+{
+    struct asterix_open open = asterix_sensor_take(sensor);
+
+    if (!scans->is_by_turn || !open.has_look) {
+        make_ready(scans, sensor, &open);
+        return;
+    }
+    if (!asterix_sensor_turn(sensor, &open)) {
+        end_turn(scans, sensor);
+        (void)asterix_sensor_turn(sensor, &open);
+    }
+    if (sensor->turn.look.advance == ASTERIX_TURN) {
+        end_turn(scans, sensor);
+    }
+}
+
+static void complete_until(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                           int64_t time_128)
+{
+    while (sensor->num_open > 0 && sensor->open[0].look.end_128 <= time_128) {
+        complete(scans, sensor);
+    }
+}
+
+/* All that the sensor has. */
+static void flush(struct asterix_scans *scans, struct asterix_sensor *sensor)
+{
+    if (sensor->has_crossings) {
+        asterix_sensor_rest(sensor, scans->hold_128);
+    }
+    complete_until(scans, sensor, INT64_MAX);
+    end_turn(scans, sensor);
+    asterix_sensor_drop(sensor, true, &scans->counts);
+}
+
+bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
+{
+    free(scans->given);
+    scans->given = NULL;
+    if (scans->next_ready == scans->num_ready) {
+        scans->next_ready = scans->num_ready = 0;
+        return false;
+    }
+    *scan = scans->ready[scans->next_ready++];
+    scans->given = (struct asterix_mark *)scan->marks;
+    return true;
+}
+
+/* ---- What is known when ---- */
+
+int64_t asterix_scans_settled_128(const struct asterix_scans *scans)
+{
+    int64_t settled_128 = INT64_MAX;
+
+    for (size_t i = 0; i < scans->num_sensors && !scans->is_over; i++) {
+        struct asterix_sensor *sensor = &scans->sensors[i];
+
+        if (sensor->has_clock && scans->clock_128 - sensor->seen_128 <= SILENT_128) {
+            int64_t time_128 = asterix_sensor_settled(sensor, scans->hold_128);
+
+            settled_128 = time_128 < settled_128 ? time_128 : settled_128;
+        }
+    }
+    return settled_128;
+}
+
+/* Those that are not heard any more. */
+static void flush_silent(struct asterix_scans *scans)
+{
+    for (size_t i = 0; i < scans->num_sensors; i++) {
+        struct asterix_sensor *sensor = &scans->sensors[i];
+
+        if (sensor->has_clock && scans->clock_128 - sensor->seen_128 > SILENT_128 &&
+            (sensor->num_open > 0 || sensor->waiting.count > 0)) {
+            flush(scans, sensor);
+        }
+    }
+}
+
+/* The record's time, and clocks set to it. */
+static bool take_time(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                      uint32_t time_of_day_128, int64_t *time_128)
+{
+    const int64_t *reference_128 = scans->has_clock   ? &scans->clock_128
+                                   : scans->has_start ? &scans->start_128
+                                                      : NULL;
+
+    if (time_of_day_128 >= ASTERIX_DAY ||
+        !asterix_sensor_time(sensor, time_of_day_128, reference_128, time_128)) {
+        return false;
+    }
+    if (!scans->has_clock || sensor->clock_128 > scans->clock_128) {
+        scans->clock_128 = sensor->clock_128;
+    }
+    scans->has_clock = true;
+    sensor->seen_128 = scans->clock_128;
+    return true;
+}
+
+/* A radar without crossings is waited for so long, but where that is known. */
+static void end_waiting(struct asterix_scans *scans, struct asterix_sensor *sensor)
+{
+    if (sensor->is_known || sensor->has_crossings ||
+        sensor->clock_128 - sensor->first_128 < scans->wait_128) {
+        return;
+    }
+    sensor->is_known = true;
+    if (sensor->waiting.count > 0) {
+        qsort(sensor->waiting.list, sensor->waiting.count, sizeof *sensor->waiting.list, by_time);
+    }
+    for (size_t i = 0; i < sensor->waiting.count; i++) {
+        asterix_sensor_add_free(sensor, &sensor->waiting.list[i], scans->interval_128);
+    }
+    sensor->waiting.count = 0;
+}
+
+/* After a record of the sensor. */
+static void pass_time(struct asterix_scans *scans, struct asterix_sensor *sensor)
+{
+    end_waiting(scans, sensor);
+    complete_until(scans, sensor, sensor->clock_128 - scans->hold_128);
+    if (sensor->has_crossings) {
+        asterix_sensor_drop(sensor, false, &scans->counts);
+    }
+    flush_silent(scans);
+}
+
+/* ---- Plots ---- */
+
+/* Where it counts among those that are left out, or NULL. */
+static uint64_t *why_not(struct asterix_counts *counts, const struct asterix_plot *plot)
+{
+    if (plot->is_simulated || plot->is_test || plot->is_fixed) {
+        return &counts->not_real;
+    }
+    if (plot->has_type && plot->type == 0) {
+        return &counts->no_detection;
+    }
+    if (!plot->source.is_given || !plot->has_time || !plot->has_position || plot->range == 0 ||
+        plot->is_beyond) {
+        return &counts->incomplete;
+    }
+    return NULL;
+}
+
+static struct asterix_mark mark_of(const struct asterix_plot *plot, int64_t time_128,
+                                   struct asterix_counts *counts)
+{
+    struct asterix_mark mark = {
+        .time_128 = time_128, .range = plot->range, .azimuth = plot->azimuth};
+
+    mark.has_alt = plot->has_height || (plot->has_level && !plot->is_level_bad);
+    mark.alt = plot->has_height ? plot->height : plot->level;
+    mark.has_doppler = plot->has_doppler && !plot->is_doppler_bad;
+    mark.doppler_mps = plot->doppler_mps;
+    counts->levels_bad += plot->has_level && plot->is_level_bad;
+    counts->dopplers_bad += plot->has_doppler && plot->is_doppler_bad;
+    counts->dopplers_raw += plot->has_raw_doppler && !plot->has_doppler;
+    return mark;
+}
+
+static void add_mark(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                     const struct asterix_mark *mark)
+{
+    if (mark->time_128 < asterix_sensor_settled(sensor, scans->hold_128)) {
+        scans->counts.late++;
+    } else if (!sensor->is_known || sensor->has_crossings) {
+        asterix_sensor_add(sensor, mark, scans->hold_128);
+    } else {
+        asterix_sensor_add_free(sensor, mark, scans->interval_128);
+    }
+}
+
+static void take_plot(struct asterix_scans *scans, const struct asterix_plot *plot)
+{
+    uint64_t *count = why_not(&scans->counts, plot);
+    struct asterix_sensor *sensor;
+    int64_t time_128;
+
+    scans->counts.plots++;
+    if (count) {
+        (*count)++;
+        return;
+    }
+    sensor = find_sensor(scans, &plot->source);
+    if (!sensor) {
+        scans->counts.no_room++;
+    } else if (!take_time(scans, sensor, plot->time_128, &time_128)) {
+        scans->counts.bad_times++;
+    } else {
+        const struct asterix_mark mark = mark_of(plot, time_128, &scans->counts);
+
+        add_mark(scans, sensor, &mark);
+        pass_time(scans, sensor);
+    }
+}
+
+/* ---- Antenna ---- */
+
+static void learn(struct asterix_sensor *sensor, const struct asterix_service *service)
+{
+    if (!sensor->place.is_given) {
+        sensor->place = service->place;
+    }
+    if (service->has_period && service->period_128 >= PERIOD_MIN_128) {
+        sensor->antenna.period_128 = service->period_128;
+        sensor->antenna.is_period_said = true;
+    }
+}
+
+static bool is_crossing(const struct asterix_service *service)
+{
+    return service->has_type && service->has_time &&
+           (service->type == ASTERIX_NORTH ||
+            (service->type == ASTERIX_SECTOR && service->has_sector));
+}
+
+static void take_service(struct asterix_scans *scans, const struct asterix_service *service)
+{
+    struct asterix_sensor *sensor =
+        service->source.is_given ? find_sensor(scans, &service->source) : NULL;
+    uint16_t azimuth = service->type == ASTERIX_NORTH ? 0 : (uint16_t)(service->sector << 8);
+    int64_t time_128;
+
+    scans->counts.services++;
+    if (sensor) {
+        learn(sensor, service);
+    }
+    if (service->has_type && service->type != ASTERIX_NORTH && service->type != ASTERIX_SECTOR) {
+        scans->counts.services_other++;
+    } else if (!sensor || !is_crossing(service) ||
+               !take_time(scans, sensor, service->time_128, &time_128) ||
+               !asterix_sensor_cross(sensor, time_128, azimuth, scans->hold_128, &scans->counts)) {
+        scans->counts.services_left++;
+    } else {
+        pass_time(scans, sensor);
+    }
+}
+
+void asterix_scans_take(struct asterix_scans *scans, const struct asterix_record *record)
+{
+    if (record->category == ASTERIX_PLOTS) {
+        struct asterix_plot plot;
+
+        asterix_plot_read(record, &plot);
+        take_plot(scans, &plot);
+    } else if (record->category == ASTERIX_SERVICE) {
+        struct asterix_service service;
+
+        asterix_service_read(record, &service);
+        take_service(scans, &service);
+    }
+}
+
+void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record *record)
+{
+    struct asterix_sensor *sensor = NULL;
+
+    if (record->category == ASTERIX_PLOTS) {
+        struct asterix_plot plot;
+
+        asterix_plot_read(record, &plot);
+        sensor = plot.source.is_given ? find_sensor(scans, &plot.source) : NULL;
+    } else if (record->category == ASTERIX_SERVICE) {
+        struct asterix_service service;
+
+        asterix_service_read(record, &service);
+        sensor = service.source.is_given ? find_sensor(scans, &service.source) : NULL;
+        if (sensor) {
+            learn(sensor, &service);
+            sensor->has_crossings |= is_crossing(&service);
+        }
+    }
+    if (sensor) {
+        sensor->is_known = true;
+    }
+}
+
+void asterix_scans_finish(struct asterix_scans *scans)
+{
+    for (size_t i = 0; i < scans->num_sensors; i++) {
+        struct asterix_sensor *sensor = &scans->sensors[i];
+
+        if (sensor->has_clock && !sensor->is_known && !sensor->has_crossings) {
+            scans->wait_128 = 0;
+            end_waiting(scans, sensor);
+        }
+        flush(scans, sensor);
+    }
+    scans->is_over = true;
+}

@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/asterix/asterix_sensor.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+
+#define JUMP_128 (60 * ASTERIX_TIME_HZ) /* a time as far off as this is not believed at once */
+#define WAIT_128 (90 * ASTERIX_TIME_HZ) /* a plot waits for its look: beyond the slowest turn */
+
+/* ---- Time ---- */
+
+/*
+ * The time of that time of day that is nearest to the reference; half a day before is the next day.
+ */
+static int64_t unwrap(int64_t reference_128, uint32_t time_of_day_128)
+{
+    int64_t of_day = reference_128 % ASTERIX_DAY;
+    int64_t later = (int64_t)time_of_day_128 - (of_day < 0 ? of_day + ASTERIX_DAY : of_day);
+
+    if (later <= -ASTERIX_DAY / 2) {
+        later += ASTERIX_DAY;
+    } else if (later > ASTERIX_DAY / 2) {
+        later -= ASTERIX_DAY;
+    }
+    return reference_128 + later;
+}
+
+static bool is_near(int64_t time_128, int64_t other_128)
+{
+    return time_128 - other_128 <= JUMP_128 && other_128 - time_128 <= JUMP_128;
+}
+
+bool asterix_sensor_time(struct asterix_sensor *sensor, uint32_t time_of_day_128,
+                         const int64_t *reference_128, int64_t *time_128)
+{
+    if (!sensor->has_clock) {
+        *time_128 = reference_128 ? unwrap(*reference_128, time_of_day_128) : time_of_day_128;
+        sensor->has_clock = true;
+        sensor->first_128 = sensor->clock_128 = *time_128;
+        return true;
+    }
+    *time_128 = unwrap(sensor->clock_128, time_of_day_128);
+    if (!is_near(*time_128, sensor->clock_128)) {
+        bool is_again = sensor->has_suspect && is_near(*time_128, sensor->suspect_128);
+
+        sensor->has_suspect = true;
+        sensor->suspect_128 = *time_128;
+        if (!is_again || *time_128 < sensor->clock_128) {
+            return false;
+        }
+    }
+    sensor->has_suspect = false;
+    sensor->clock_128 = *time_128 > sensor->clock_128 ? *time_128 : sensor->clock_128;
+    return true;
+}
+
+/* ---- Plots and looks ---- */
+
+void asterix_marks_add(struct asterix_marks *marks, const struct asterix_mark *mark)
+{
+    marks->list = must_grow(marks->list, marks->count, &marks->capacity, sizeof *marks->list);
+    marks->list[marks->count++] = *mark;
+}
+
+static struct asterix_open *begin(struct asterix_sensor *sensor, const struct asterix_look *look,
+                                  bool has_look)
+{
+    struct asterix_open *open;
+
+    sensor->open =
+        must_grow(sensor->open, sensor->num_open, &sensor->open_capacity, sizeof *sensor->open);
+    open = &sensor->open[sensor->num_open++];
+    *open = (struct asterix_open){.has_look = has_look, .look = *look};
+    return open;
+}
+
+/* Into the look that saw its azimuth nearest to its time. Returns false where none did. */
+static bool place(struct asterix_sensor *sensor, const struct asterix_mark *mark, int64_t hold_128)
+{
+    struct asterix_open *nearest = NULL;
+    int64_t least_128 = INT64_MAX, distance_128;
+
+    for (size_t i = 0; i < sensor->num_open; i++) {
+        struct asterix_open *open = &sensor->open[i];
+
+        if (open->has_look &&
+            asterix_look_has(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
+            mark->time_128 >= open->look.start_128 - hold_128 && distance_128 < least_128) {
+            nearest = open;
+            least_128 = distance_128;
+        }
+    }
+    if (nearest) {
+        asterix_marks_add(&nearest->marks, mark);
+    }
+    return nearest;
+}
+
+static void place_waiting(struct asterix_sensor *sensor, int64_t hold_128)
+{
+    size_t kept = 0;
+
+    for (size_t i = 0; i < sensor->waiting.count; i++) {
+        if (!place(sensor, &sensor->waiting.list[i], hold_128)) {
+            sensor->waiting.list[kept++] = sensor->waiting.list[i];
+        }
+    }
+    sensor->waiting.count = kept;
+}
+
+/* Of the plots that wait; otherwise where there are none. */
+static int64_t first_waiting(const struct asterix_sensor *sensor, int64_t otherwise_128)
+{
+    int64_t first_128 = otherwise_128;
+
+    for (size_t i = 0; i < sensor->waiting.count; i++) {
+        int64_t time_128 = sensor->waiting.list[i].time_128;
+
+        first_128 = time_128 < first_128 ? time_128 : first_128;
+    }
+    return first_128;
+}
+
+/* It had no look yet: plots that wait may make one before the first crossing, or be without. */
+static bool is_at_start(const struct asterix_sensor *sensor)
+{
+    return !sensor->has_closed && sensor->num_open == 0;
+}
+
+/*
+ * Before the first whole turn: the part of a turn since the first plot, as the antenna then turned.
+ */
+static void begin_before(struct asterix_sensor *sensor, const struct asterix_look *turn)
+{
+    int64_t took_128 = turn->start_128 - first_waiting(sensor, turn->start_128);
+    int64_t turn_128 = asterix_look_turn_128(turn);
+    struct asterix_look look = {.end_128 = turn->start_128};
+
+    if (!is_at_start(sensor) || turn->advance != ASTERIX_TURN || took_128 == 0) {
+        return;
+    }
+    took_128 = took_128 < turn_128 ? took_128 : turn_128;
+    look.start_128 = look.end_128 - took_128;
+    look.advance = (uint32_t)(took_128 * ASTERIX_TURN / turn_128);
+    look.from = (uint16_t)(turn->from - look.advance);
+    if (look.advance > 0) {
+        begin(sensor, &look, true);
+    }
+}
+
+static int64_t find_settled(const struct asterix_sensor *sensor, int64_t hold_128)
+{
+    int64_t settled_128 = sensor->clock_128 - hold_128;
+    int64_t looks_128 = sensor->clock_128; /* the start of those that are not complete */
+
+    if (sensor->has_crossings && sensor->antenna.has_last && sensor->antenna.last_128 < looks_128) {
+        looks_128 = sensor->antenna.last_128;
+    }
+    if (sensor->has_turn && sensor->turn.look.start_128 < looks_128) {
+        looks_128 = sensor->turn.look.start_128;
+    }
+    for (size_t i = 0; i < sensor->num_open; i++) {
+        int64_t start_128 = sensor->open[i].look.start_128;
+
+        if (!sensor->open[i].has_look) {
+            settled_128 = start_128 < settled_128 ? start_128 : settled_128;
+        } else if (start_128 < looks_128) {
+            looks_128 = start_128;
+        }
+    }
+    looks_128 -= hold_128; /* plots may be so much earlier than their look */
+    settled_128 = looks_128 < settled_128 ? looks_128 : settled_128;
+    return is_at_start(sensor) ? first_waiting(sensor, settled_128) : settled_128;
+}
+
+int64_t asterix_sensor_settled(struct asterix_sensor *sensor, int64_t hold_128)
+{
+    int64_t settled_128 = find_settled(sensor, hold_128);
+
+    if (!sensor->has_settled || settled_128 > sensor->settled_128) {
+        sensor->has_settled = true;
+        sensor->settled_128 = settled_128;
+    }
+    return sensor->settled_128;
+}
+
+bool asterix_sensor_cross(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,
+                          int64_t hold_128, struct asterix_counts *counts)
+{
+    struct asterix_look look;
+    bool is_gap;
+    enum asterix_crossing crossing;
+
+    if (!sensor->antenna.has_last && time_128 < asterix_sensor_settled(sensor, hold_128)) {
+        return false;
+    }
+    crossing = asterix_antenna_cross(&sensor->antenna, time_128, azimuth, &look, &is_gap);
+    sensor->has_crossings = true;
+    counts->gaps += is_gap;
+    if (crossing == ASTERIX_LOOKED) {
+        begin_before(sensor, &look);
+        begin(sensor, &look, true);
+        place_waiting(sensor, hold_128);
+    }
+    return crossing != ASTERIX_BACK;
+}
+
+void asterix_sensor_add(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                        int64_t hold_128)
+{
+    if (!place(sensor, mark, hold_128)) {
+        asterix_marks_add(&sensor->waiting, mark);
+    }
+}
+
+/* The newest scan that began before a time, else the oldest; NULL where none is open. */
+static struct asterix_open *find_begun(struct asterix_sensor *sensor, int64_t time_128)
+{
+    size_t at = sensor->num_open;
+
+    while (at > 1 && time_128 < sensor->open[at - 1].look.start_128) {
+        at--;
+    }
+    return at > 0 ? &sensor->open[at - 1] : NULL;
+}
+
+void asterix_sensor_add_free(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                             int64_t interval_128)
+{
+    struct asterix_look look = {.start_128 = mark->time_128,
+                                .end_128 = mark->time_128 + interval_128,
+                                .advance = ASTERIX_TURN};
+    struct asterix_open *open = interval_128 > 0 ? find_begun(sensor, mark->time_128) : NULL;
+
+    if (!open || mark->time_128 >= open->look.end_128) {
+        asterix_marks_add(&begin(sensor, &look, false)->marks, mark);
+        return;
+    }
+    if (mark->time_128 < open->look.start_128) {
+        open->look.start_128 = mark->time_128;
+    }
+    asterix_marks_add(&open->marks, mark);
+}
+
+void asterix_sensor_drop(struct asterix_sensor *sensor, bool all, struct asterix_counts *counts)
+{
+    size_t kept = 0;
+
+    for (size_t i = 0; i < sensor->waiting.count; i++) {
+        const struct asterix_mark *mark = &sensor->waiting.list[i];
+
+        if (!all && mark->time_128 >= sensor->clock_128 - WAIT_128) {
+            sensor->waiting.list[kept++] = *mark;
+        } else {
+            counts->unplaced++;
+        }
+    }
+    sensor->waiting.count = kept;
+}
+
+void asterix_sensor_rest(struct asterix_sensor *sensor, int64_t hold_128)
+{
+    struct asterix_look look;
+
+    if (sensor->waiting.count > 0 &&
+        asterix_antenna_rest(&sensor->antenna, sensor->clock_128, &look)) {
+        begin(sensor, &look, true);
+        place_waiting(sensor, hold_128);
+    }
+    sensor->antenna.has_last = false;
+}
+
+struct asterix_open asterix_sensor_take(struct asterix_sensor *sensor)
+{
+    struct asterix_open open = sensor->open[0];
+
+    sensor->num_open--;
+    memmove(sensor->open, sensor->open + 1, sensor->num_open * sizeof *sensor->open);
+    sensor->has_closed = true;
+    return open;
+}
+
+bool asterix_sensor_turn(struct asterix_sensor *sensor, struct asterix_open *open)
+{
+    struct asterix_open *turn = &sensor->turn;
+
+    if (!sensor->has_turn) {
+        *turn = *open;
+        sensor->has_turn = true;
+        return true;
+    }
+    if (open->look.start_128 != turn->look.end_128 ||
+        turn->look.advance + open->look.advance > ASTERIX_TURN) {
+        return false;
+    }
+    turn->look.end_128 = open->look.end_128;
+    turn->look.advance += open->look.advance;
+    for (size_t i = 0; i < open->marks.count; i++) {
+        asterix_marks_add(&turn->marks, &open->marks.list[i]);
+    }
+    free(open->marks.list);
+    return true;
+}
+
+void asterix_sensor_free(struct asterix_sensor *sensor)
+{
+    for (size_t i = 0; i < sensor->num_open; i++) {
+        free(sensor->open[i].marks.list);
+    }
+    free(sensor->open);
+    free(sensor->turn.marks.list);
+    free(sensor->waiting.list);
+}

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/asterix/asterix_tracks.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/asterix/asterix.h"
+#include "io/csv/local_frame.h"
+
+/* A track of a list. */
+struct entry {
+    int32_t track_id;
+    struct asterix_track track;
+};
+
+struct list {
+    struct entry *entries; /* by identity */
+    size_t count, capacity;
+};
+
+struct asterix_tracks {
+    FILE *file;
+    struct asterix_source source;
+    struct local_frame *frame; /* NULL: the origin is not set */
+    struct list now, before;   /* the list under way, and the one written last */
+    bool has_sensor, is_multisensor;
+    int16_t sensor_id; /* of the first track that said one */
+    uint8_t block[ASTERIX_TRACKS_BLOCK];
+    size_t size; /* of the block; 0: none is begun */
+};
+
+bool asterix_tracks_is_asterix(const char *path)
+{
+    return path && (path_ends_with(path, ".ast") || path_ends_with(path, ".asterix"));
+}
+
+void asterix_tracks_refuse_covariance(const char *path, bool with_covariance)
+{
+    if (with_covariance && asterix_tracks_is_asterix(path)) {
+        fail(EXIT_USAGE,
+             "%s: --covariance has no place in CAT062, which has standard deviations (I062/500) "
+             "without it",
+             path);
+    }
+}
+
+struct asterix_tracks *asterix_tracks_open(FILE *file, const struct parameters *parameters)
+{
+    struct asterix_tracks *tracks = must_calloc(1, sizeof *tracks);
+
+    tracks->file = file;
+    tracks->source =
+        (struct asterix_source){.is_given = true,
+                                .sac = (uint8_t)parameters->value[PARAMETER_ASTERIX_SAC],
+                                .sic = (uint8_t)parameters->value[PARAMETER_ASTERIX_SIC]};
+    if (parameters_has_origin(parameters)) {
+        tracks->frame = parameters_open_origin(parameters);
+    }
+    return tracks;
+}
+
+void asterix_tracks_close(struct asterix_tracks *tracks)
+{
+    if (tracks) {
+        local_frame_close(tracks->frame);
+        free(tracks->now.entries);
+        free(tracks->before.entries);
+        free(tracks);
+    }
+}
+
+/* ---- Blocks ---- */
+
+static void end_block(struct asterix_tracks *tracks)
+{
+    if (tracks->size > 0) {
+        tracks->block[0] = ASTERIX_TRACKS;
+        tracks->block[1] = (uint8_t)(tracks->size >> 8);
+        tracks->block[2] = (uint8_t)tracks->size;
+        fwrite(tracks->block, 1, tracks->size, tracks->file);
+        tracks->size = 0;
+    }
+}
+
+static void write_track(struct asterix_tracks *tracks, const struct asterix_track *track)
+{
+    uint8_t record[ASTERIX_TRACK_BYTES];
+    size_t size = asterix_track_write(track, record);
+
+    if (tracks->size + size > sizeof tracks->block) {
+        end_block(tracks);
+    }
+    if (tracks->size == 0) {
+        tracks->size = ASTERIX_HEADER_BYTES;
+    }
+    memcpy(tracks->block + tracks->size, record, size);
+    tracks->size += size;
+}
+
+/* ---- Tracks ---- */
+
+/* Time of day. */
+static uint32_t time_of(int64_t utime)
+{
+    int64_t day_us = INT64_C(86400000000), of_day = utime % day_us;
+
+    of_day = of_day < 0 ? of_day + day_us : of_day;
+    return (uint32_t)((of_day * ASTERIX_TIME_HZ + 500000) / 1000000 % ASTERIX_DAY);
+}
+
+/* Of the covariance's lower triangle. */
+static double variance(const struct rho_message_track *track, int state)
+{
+    return (double)track->covariance[state * (state + 1) / 2 + state];
+}
+
+static double sigma(const struct rho_message_track *track, int state)
+{
+    return sqrt(fmax(0.0, variance(track, state)));
+}
+
+static void put_geodetic(const struct asterix_tracks *tracks,
+                         const struct rho_message_track *message, struct asterix_track *track)
+{
+    const double place_m[3] = {(double)message->x_m, (double)message->y_m, (double)message->z_m};
+    bool has_height = variance(message, 2) > 0;
+    double geodetic[3];
+
+    if (!tracks->frame) {
+        return;
+    }
+    local_frame_to_geodetic(tracks->frame, place_m, geodetic);
+    track->has_geodetic = true;
+    track->lat_deg = geodetic[0];
+    track->lon_deg = geodetic[1];
+    track->has_altitude = track->has_climb = has_height;
+    track->alt_m = geodetic[2];
+    track->climb_mps = (double)message->vz_mps;
+}
+
+static struct asterix_track track_of(const struct asterix_tracks *tracks, int64_t utime,
+                                     const struct rho_message_track *message)
+{
+    struct asterix_track track = {
+        .source = tracks->source,
+        .time_128 = time_of(utime),
+        .number = (uint16_t)message->track_id,
+        .is_tentative = message->status == RHO_MESSAGE_TRACK_TENTATIVE,
+        .is_coasting = message->status == RHO_MESSAGE_TRACK_COASTING,
+        .has_place = true,
+        .x_m = (double)message->x_m,
+        .y_m = (double)message->y_m,
+        .has_velocity = true,
+        .vx_mps = (double)message->vx_mps,
+        .vy_mps = (double)message->vy_mps,
+        .has_accel = true,
+        .ax_mps2 = (double)message->ax_mps2,
+        .ay_mps2 = (double)message->ay_mps2,
+        .has_sigma = variance(message, 0) > 0,
+        .sigma_x_m = sigma(message, 0),
+        .sigma_y_m = sigma(message, 1),
+        .sigma_vx_mps = sigma(message, 3),
+        .sigma_vy_mps = sigma(message, 4),
+    };
+
+    put_geodetic(tracks, message, &track);
+    return track;
+}
+
+/* A track is of one sensor as long as no track was of another. */
+static void note_sensor(struct asterix_tracks *tracks, int16_t sensor_id)
+{
+    tracks->is_multisensor |= tracks->has_sensor && sensor_id != tracks->sensor_id;
+    tracks->sensor_id = tracks->has_sensor ? tracks->sensor_id : sensor_id;
+    tracks->has_sensor = true;
+}
+
+/* ---- Lists ---- */
+
+static int by_identity(const void *a, const void *b)
+{
+    const struct entry *one = a, *other = b;
+
+    return (one->track_id > other->track_id) - (one->track_id < other->track_id);
+}
+
+static void write_last(struct asterix_tracks *tracks, const struct entry *entry, uint32_t time_128)
+{
+    struct asterix_track track = entry->track;
+
+    track.is_first = false;
+    track.is_last = true;
+    track.time_128 = time_128;
+    write_track(tracks, &track);
+}
+
+/* By identity: tracks of this list, and those of the one before that it does not have. */
+static void write_list(struct asterix_tracks *tracks, uint32_t time_128)
+{
+    const struct list *before = &tracks->before;
+    size_t gone = 0;
+
+    for (size_t i = 0; i < tracks->now.count; i++) {
+        struct entry *entry = &tracks->now.entries[i];
+
+        while (gone < before->count && before->entries[gone].track_id < entry->track_id) {
+            write_last(tracks, &before->entries[gone++], time_128);
+        }
+        entry->track.is_first =
+            gone == before->count || before->entries[gone].track_id > entry->track_id;
+        gone += !entry->track.is_first;
+        entry->track.is_monosensor = !tracks->is_multisensor;
+        write_track(tracks, &entry->track);
+    }
+    while (gone < before->count) {
+        write_last(tracks, &before->entries[gone++], time_128);
+    }
+    end_block(tracks);
+}
+
+static void end_list(struct asterix_tracks *tracks, int64_t utime)
+{
+    struct list before = tracks->before;
+
+    if (tracks->now.count > 0) {
+        qsort(tracks->now.entries, tracks->now.count, sizeof *tracks->now.entries, by_identity);
+    }
+    write_list(tracks, time_of(utime));
+    tracks->before = tracks->now;
+    tracks->now = before;
+    tracks->now.count = 0;
+}
+
+void asterix_tracks_add(struct asterix_tracks *tracks, const struct rho_message_track_list *message)
+{
+    for (int i = 0; i < message->num_tracks; i++) {
+        const struct rho_message_track *track = &message->tracks[i];
+        struct list *now = &tracks->now;
+
+        if (track->status != RHO_MESSAGE_TRACK_DELETED) {
+            now->entries =
+                must_grow(now->entries, now->count, &now->capacity, sizeof *now->entries);
+            now->entries[now->count++] =
+                (struct entry){track->track_id, track_of(tracks, message->utime, track)};
+            note_sensor(tracks, track->sensor_id);
+        }
+    }
+    if (message->part + 1 >= message->num_parts) {
+        end_list(tracks, message->utime);
+    }
+}

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/csv/row_check.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "rhotrack/types.h"
+
+bool row_refuse(const struct row_check *check, const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(check->reason, ROW_REASON_BYTES, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+bool row_refuse_cell(const struct row_check *check, int column, const char *why)
+{
+    const char *name = check->table->names[column];
+    char buffer[TABLE_TEXT_BYTES];
+
+    if (table_is_empty(check->table, check->row, column)) {
+        return row_refuse(check, "%s is empty", name);
+    }
+    return row_refuse(check, "%s '%.40s' %s", name,
+                      table_text(check->table, check->row, column, buffer), why);
+}
+
+bool row_has(const struct row_check *check, int column)
+{
+    return column >= 0 && !table_is_empty(check->table, check->row, column);
+}
+
+bool row_double(const struct row_check *check, int column, double min, double max, double *value)
+{
+    char buffer[TABLE_TEXT_BYTES];
+    double number;
+    const char *why = table_number(check->table, check->row, column, &number);
+
+    if (why) {
+        return row_refuse_cell(check, column, why);
+    }
+    if (number < min || number > max) {
+        return row_refuse(check, "%s %.40s is outside %.9g .. %.9g", check->table->names[column],
+                          table_text(check->table, check->row, column, buffer), min, max);
+    }
+    *value = number;
+    return true;
+}
+
+bool row_float(const struct row_check *check, int column, float min, float max, float *value)
+{
+    double number = 0.0;
+
+    if (!row_double(check, column, (double)min, (double)max, &number)) {
+        return false;
+    }
+    *value = (float)number;
+    return true;
+}
+
+bool row_position(const struct row_check *check, int column, float *value)
+{
+    return row_float(check, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, value);
+}
+
+bool row_sigma_rad(const struct row_check *check, int column, double otherwise, float *value)
+{
+    if (row_has(check, column)) {
+        return row_float(check, column, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX, value);
+    }
+    *value = (float)otherwise;
+    return true;
+}
+
+bool row_sector(const struct row_check *check, int from, int to, float *from_rad, float *to_rad)
+{
+    static const float turn = 6.2831855f;
+
+    if (!row_has(check, from) && !row_has(check, to)) {
+        return true;
+    }
+    return row_float(check, from, -turn, turn, from_rad) &&
+           row_float(check, to, -turn, turn, to_rad);
+}
+
+bool row_snr(const struct row_check *check, int column, float *snr_db)
+{
+    return !row_has(check, column) || row_float(check, column, -1000.0f, 1000.0f, snr_db);
+}
+
+bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
+             int32_t *sensor)
+{
+    const char *why = table_time_us(check->table, check->row, t_s, time_us);
+
+    if (why) {
+        return row_refuse_cell(check, t_s, why);
+    }
+    *sensor = 0;
+    why = sensor_id < 0 ? NULL : table_int32(check->table, check->row, sensor_id, sensor);
+    return why ? row_refuse_cell(check, sensor_id, why) : true;
+}
+
+bool row_right_time(const struct row_check *check, int64_t time_us, int32_t bias_us)
+{
+    int64_t right_us = time_us - bias_us;
+
+    return (right_us >= -RHO_LIMIT_TIME_US && right_us <= RHO_LIMIT_TIME_US) ||
+           row_refuse(check, "t_s is beyond 4e12 s without the sensor's time_bias_s");
+}
+
+bool row_received(const struct row_check *check, int column, int64_t *received_us)
+{
+    const char *why =
+        column < 0 ? NULL : table_time_us(check->table, check->row, column, received_us);
+
+    return why ? row_refuse_cell(check, column, why) : true;
+}
+
+bool row_received_with(const struct row_check *check, int64_t received_us, int64_t scan_us,
+                       bool has_number, int64_t interval_us)
+{
+    return has_number || interval_us > 0 || received_us == scan_us ||
+           row_refuse(check,
+                      "received_s is %.6f s, and %.6f s of the scan's other rows: rows of a scan "
+                      "have one, but of one with a number (column 'scan'), or with scan_interval_s",
+                      (double)received_us * 1e-6, (double)scan_us * 1e-6);
+}
+
+bool row_number(const struct row_check *check, int scan, int epoch, struct row_number *number)
+{
+    const char *why;
+
+    *number = (struct row_number){.is_given = row_has(check, scan)};
+    if (!number->is_given) {
+        return true;
+    }
+    why = table_int32(check->table, check->row, scan, &number->scan);
+    if (why) {
+        return row_refuse_cell(check, scan, why);
+    }
+    why =
+        row_has(check, epoch) ? table_int32(check->table, check->row, epoch, &number->epoch) : NULL;
+    return why ? row_refuse_cell(check, epoch, why) : true;
+}
+
+bool row_joins(const struct row_number *number, int64_t time_us, const struct row_number *scan,
+               int64_t start_us, int64_t interval_us)
+{
+    int64_t offset_us = time_us - start_us;
+
+    if (number->is_given && scan->is_given) {
+        return number->scan == scan->scan && number->epoch == scan->epoch &&
+               offset_us >= -RHO_LIMIT_OFFSET_US && offset_us <= RHO_LIMIT_OFFSET_US;
+    }
+    return offset_us == 0 || (offset_us > 0 && offset_us < interval_us);
+}
+
+void row_need_both(const struct table *table, const char *first, const char *second)
+{
+    bool has_first = table_find(table, first) >= 0, has_second = table_find(table, second) >= 0;
+
+    if (has_first != has_second) {
+        table_fail(table, TABLE_HEADER, "no column '%s' beside '%s'", has_first ? second : first,
+                   has_first ? first : second);
+    }
+}

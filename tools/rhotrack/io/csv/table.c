@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/csv/table.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "base/number_text.h"
+
+void table_need_rows(const struct table *table)
+{
+    if (!table->num_rows) {
+        table_fail(table, TABLE_HEADER, "no rows after the header");
+    }
+}
+
+void table_free(struct table *table)
+{
+    if (!table) {
+        return;
+    }
+    free(table->path);
+    free((void *)table->names);
+    free(table->columns);
+    free(table->numbers);
+    free(table->times_us);
+    free(table->cells);
+    free(table->lines);
+    free(table->text);
+    free(table);
+}
+
+/* ---- Columns and cells ---- */
+
+int table_find(const struct table *table, const char *name)
+{
+    for (size_t i = 0; i < table->num_columns; i++) {
+        if (!strcmp(table->names[i], name)) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+int table_need(const struct table *table, const char *name)
+{
+    int column = table_find(table, name);
+
+    if (column < 0) {
+        table_fail(table, TABLE_HEADER, "no column '%s'", name);
+    }
+    return column;
+}
+
+/* The row's cell as text; of a table of numbers NULL. */
+static const char *text_of(const struct table *table, size_t row, int column)
+{
+    return table->cells ? table->cells[row * table->num_columns + (size_t)column] : NULL;
+}
+
+static double number_of(const struct table *table, size_t row, int column)
+{
+    return table->numbers[row * table->num_columns + (size_t)column];
+}
+
+bool table_is_empty(const struct table *table, size_t row, int column)
+{
+    const char *text = text_of(table, row, column);
+
+    return text ? !*text : column != 0 && isnan(number_of(table, row, column));
+}
+
+static void put_time(char *buffer, int64_t time_us)
+{
+    uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
+
+    snprintf(buffer, TABLE_TEXT_BYTES, "%s%" PRIu64 ".%06" PRIu64, time_us < 0 ? "-" : "",
+             magnitude / 1000000, magnitude % 1000000);
+}
+
+const char *table_text(const struct table *table, size_t row, int column,
+                       char buffer[TABLE_TEXT_BYTES])
+{
+    const char *text = text_of(table, row, column);
+    const struct table_column *described;
+    double number;
+
+    if (text) {
+        return text;
+    }
+    described = &table->columns[column];
+    number = number_of(table, row, column);
+    *buffer = '\0';
+    if (column == 0) {
+        put_time(buffer, table->times_us[row]);
+    } else if (!isnan(number) && described->word) {
+        return described->word((int)number);
+    } else if (!isnan(number) && described->decimals == TABLE_SHORTEST) {
+        return float_text((float)number, buffer);
+    } else if (!isnan(number)) {
+        snprintf(buffer, TABLE_TEXT_BYTES, "%.*f", described->decimals, number);
+    }
+    return buffer;
+}
+
+bool table_is_word(const struct table *table, size_t row, int column, const char *word)
+{
+    char buffer[TABLE_TEXT_BYTES];
+
+    return !strcmp(table_text(table, row, column, buffer), word);
+}
+
+const char *table_number(const struct table *table, size_t row, int column, double *value)
+{
+    const char *text = text_of(table, row, column);
+
+    if (text) {
+        return text_to_number(text, value);
+    }
+    *value = column == 0 ? (double)table->times_us[row] * 1e-6 : number_of(table, row, column);
+    return isnan(*value) ? "is empty" : NULL;
+}
+
+const char *table_float(const struct table *table, size_t row, int column, float *value)
+{
+    const char *text = text_of(table, row, column);
+    double number = 0.0;
+    const char *why = table_number(table, row, column, &number);
+
+    *value = why ? 0.0f : text ? strtof(text, NULL) : (float)number;
+    return why;
+}
+
+const char *table_time_us(const struct table *table, size_t row, int column, int64_t *time_us)
+{
+    const char *text = text_of(table, row, column);
+
+    if (text) {
+        return text_to_time_us(text, time_us);
+    }
+    *time_us = table->times_us[row]; /* no table of numbers has another column of times */
+    return NULL;
+}
+
+const char *table_int32(const struct table *table, size_t row, int column, int32_t *value)
+{
+    const char *text = text_of(table, row, column);
+
+    if (text) {
+        return text_to_int32(text, value);
+    }
+    if (table_is_empty(table, row, column)) {
+        return "is empty";
+    }
+    *value = (int32_t)number_of(table, row, column);
+    return NULL;
+}
+
+/* ---- Tables of numbers ---- */
+
+struct table *table_of_numbers(const char *path, const struct table_column *columns,
+                               size_t num_columns)
+{
+    struct table *table = must_calloc(1, sizeof *table);
+
+    table->path = must_copy(path);
+    table->num_columns = num_columns;
+    table->names = must_alloc(num_columns * sizeof *table->names);
+    table->columns = must_alloc(num_columns * sizeof *table->columns);
+    memcpy(table->columns, columns, num_columns * sizeof *table->columns);
+    table->header_line = 1;
+    for (size_t i = 0; i < num_columns; i++) {
+        table->names[i] = columns[i].name;
+    }
+    return table;
+}
+
+double *table_add_numbers(struct table *table, int64_t time_us, uint32_t line)
+{
+    double *numbers;
+
+    if (table->num_rows == table->capacity) {
+        table->capacity = 2 * table->capacity + 1;
+        table->times_us = must_realloc(table->times_us, table->capacity * sizeof *table->times_us);
+        table->lines = must_realloc(table->lines, table->capacity * sizeof *table->lines);
+        table->numbers = must_realloc(table->numbers, table->capacity * table->num_columns *
+                                                          sizeof *table->numbers);
+    }
+    table->times_us[table->num_rows] = time_us;
+    table->lines[table->num_rows] = line;
+    numbers = table->numbers + table->num_rows++ * table->num_columns;
+    for (size_t i = 0; i < table->num_columns; i++) {
+        numbers[i] = (double)NAN;
+    }
+    return numbers;
+}
+
+void table_write_header(FILE *file, const struct table *table)
+{
+    for (size_t i = 0; i < table->num_columns; i++) {
+        fprintf(file, "%s%s", i > 0 ? "," : "", table->names[i]);
+    }
+    fputc('\n', file);
+}
+
+void table_write_row(FILE *file, const struct table *table, size_t row)
+{
+    char buffer[TABLE_TEXT_BYTES];
+
+    for (size_t i = 0; i < table->num_columns; i++) {
+        fprintf(file, "%s%s", i > 0 ? "," : "", table_text(table, row, (int)i, buffer));
+    }
+    fputc('\n', file);
+}
+
+/* ---- Errors ---- */
+
+void table_fail(const struct table *table, size_t row, const char *format, ...)
+{
+    uint32_t line = row == TABLE_HEADER ? table->header_line : table->lines[row];
+    char message[512];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    fail(EXIT_USAGE, "%s:%u: %s", table->path, (unsigned)line, message);
+}
+
+double table_number_at(const struct table *table, size_t row, int column)
+{
+    double value = 0.0;
+    const char *reason = table_number(table, row, column, &value);
+    char buffer[TABLE_TEXT_BYTES];
+
+    if (reason) {
+        table_fail(table, row, "%s '%s' %s", table->names[column],
+                   table_text(table, row, column, buffer), reason);
+    }
+    return value;
+}
+
+double table_number_or(const struct table *table, size_t row, int column, double otherwise)
+{
+    return column < 0 || table_is_empty(table, row, column) ? otherwise
+                                                            : table_number_at(table, row, column);
+}

@@ -1,0 +1,669 @@
+/* SPDX-License-Identifier: MIT */
+/* Reads tables, whole ones and row by row: bytes of a file to lines, lines to rows. */
+#include "io/csv/table_stream.h"
+
+#include <csv.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/common.h"
+#include "base/number_text.h"
+#include "io/asterix/asterix_file.h"
+#include "io/asterix/asterix_records.h"
+
+#define FIRST_CAPACITY (1u << 16)
+#define FIRST_TEXT 1024u
+
+/*
+ * libcsv knows no lines, so the file is given to it line by line, and each row keeps the line that
+ * it began on. Of a stream there are in memory: the row under way from its second line on
+ * (refuse_row may go back to it), and what was read ahead; and the newest whole row.
+ */
+struct table_stream {
+    struct table *table;
+    bool keep_going, is_whole, follow, is_plain;
+    int file;                        /* -1: all is in memory, or comes from */
+    struct asterix_records *asterix; /* a recording; or NULL */
+    const char *own;                 /* the path to look at again; NULL: standard input */
+    struct csv_parser parser;
+    char *content;
+    size_t bytes, capacity, position;
+    uint64_t offset; /* of the content in the file */
+    bool is_end;     /* nothing comes behind the content */
+    uint32_t line;   /* the current one, 1-based */
+    size_t text_used, text_header, text_capacity;
+    char **row; /* cells of the row under way */
+    size_t row_cells, row_capacity, row_text, row_bytes;
+    uint32_t row_line;
+    size_t row_next; /* place of the line after the row's first */
+    bool row_is_open, row_is_complete, has_row;
+    size_t rows_capacity;
+};
+
+_Noreturn static void parse_fail(const struct table_stream *stream, uint32_t line, const char *what)
+{
+    fail(EXIT_USAGE, "%s:%u: %s", stream->table->path, (unsigned)line, what);
+}
+
+/* ---- The file ---- */
+
+/* What is no longer wanted goes. */
+static void drop_parsed(struct table_stream *stream)
+{
+    size_t keep = stream->row_is_open ? stream->row_next : stream->position;
+
+    if (stream->is_whole || keep == 0) {
+        return;
+    }
+    memmove(stream->content, stream->content + keep, stream->bytes - keep);
+    stream->bytes -= keep;
+    stream->position -= keep;
+    stream->row_next -= stream->row_is_open ? keep : 0;
+    stream->offset += keep;
+}
+
+/* With follow a pipe is not waited for. */
+static bool is_silent(const struct table_stream *stream)
+{
+    struct pollfd ready = {.fd = stream->file, .events = POLLIN};
+
+    return stream->follow && !stream->is_plain && poll(&ready, 1, 0) <= 0;
+}
+
+/* Room for some bytes more than there are. */
+static void need_room(struct table_stream *stream, size_t bytes)
+{
+    while (stream->capacity - stream->bytes < bytes) {
+        stream->capacity *= 2;
+        stream->content = must_realloc(stream->content, stream->capacity);
+    }
+}
+
+static bool fill(struct table_stream *stream)
+{
+    ssize_t got;
+
+    if (is_silent(stream)) {
+        return false;
+    }
+    drop_parsed(stream);
+    need_room(stream, 1);
+    do {
+        got = read(stream->file, stream->content + stream->bytes, stream->capacity - stream->bytes);
+    } while (got < 0 && errno == EINTR);
+    if (got < 0) {
+        fail(EXIT_USAGE, "%s: %s", stream->table->path, strerror(errno));
+    }
+    stream->bytes += (size_t)got;
+    stream->is_end = got == 0 && !(stream->follow && stream->is_plain);
+    return got > 0 || stream->is_end;
+}
+
+/* ---- Lines ---- */
+
+/*
+ * Length of the line at the current position with its end; 0: it is not there as a whole, or there
+ * is none.
+ */
+static size_t line_length(const struct table_stream *stream)
+{
+    const char *start = stream->content + stream->position, *c = start;
+    const char *end = stream->content + stream->bytes;
+
+    while (c < end && *c != '\n' && *c != '\r') {
+        c++;
+    }
+    if (c == end || (c + 1 == end && *c == '\r')) {
+        return stream->is_end ? (size_t)(end - start) : 0;
+    }
+    if (*c++ == '\r' && *c == '\n') {
+        c++;
+    }
+    return (size_t)(c - start);
+}
+
+static void check_binary(const struct table_stream *stream, size_t length)
+{
+    if (memchr(stream->content + stream->position, '\0', length)) {
+        parse_fail(stream, stream->line, "not a text file: it has a NUL byte");
+    }
+}
+
+/* True where a line outside a row says nothing: blank, or a comment. */
+static bool is_idle(const char *line, size_t length)
+{
+    size_t i = 0;
+
+    while (i < length && strchr(" \t\r\n", line[i])) {
+        i++;
+    }
+    return i == length || line[i] == '#';
+}
+
+/* ---- Rows ---- */
+
+/* Room for a cell. Names and cells that are there keep their places in the text. */
+static void grow_text(struct table_stream *stream, size_t bytes)
+{
+    struct table *table = stream->table;
+    char *text;
+
+    if (stream->text_used + bytes + 1 <= stream->text_capacity) {
+        return;
+    }
+    stream->text_capacity = 2 * (stream->text_used + bytes + 1);
+    text = must_alloc(stream->text_capacity);
+    memcpy(text, table->text, stream->text_used);
+    for (size_t i = 0; table->names && i < table->num_columns; i++) {
+        table->names[i] = text + (table->names[i] - table->text);
+    }
+    for (size_t i = 0; i < stream->row_cells; i++) {
+        stream->row[i] = text + (stream->row[i] - table->text);
+    }
+    free(table->text);
+    table->text = text;
+}
+
+static void on_cell(void *cell, size_t bytes, void *user)
+{
+    struct table_stream *stream = user;
+    char *text;
+
+    if (stream->row_cells == stream->row_capacity) {
+        stream->row_capacity = 2 * stream->row_capacity + 16;
+        stream->row = must_realloc(stream->row, stream->row_capacity * sizeof *stream->row);
+    }
+    grow_text(stream, bytes);
+    text = stream->table->text + stream->text_used;
+    memcpy(text, cell, bytes);
+    text[bytes] = '\0';
+    stream->text_used += bytes + 1;
+    stream->row[stream->row_cells++] = text;
+}
+
+static void on_row_end(int end, void *user)
+{
+    (void)end;
+    ((struct table_stream *)user)->row_is_complete = true;
+}
+
+static void start_parser(struct table_stream *stream)
+{
+    if (csv_init(&stream->parser, CSV_STRICT | CSV_STRICT_FINI)) {
+        fail(EXIT_RUNTIME, "out of memory");
+    }
+    csv_set_blk_size(&stream->parser, 4096);
+    stream->row_is_open = stream->row_is_complete = false;
+}
+
+static void begin_row(struct table_stream *stream, size_t length)
+{
+    if (!stream->is_whole) {
+        stream->table->num_rows = 0; /* the new one takes its place */
+        stream->text_used = stream->text_header;
+    }
+    stream->row_is_open = true;
+    stream->row_line = stream->line;
+    stream->row_cells = 0;
+    stream->row_bytes = 0;
+    stream->row_text = stream->text_used;
+    stream->row_next = stream->position + length;
+}
+
+/*
+ * A bad row is the end, or with keep_going forgotten: reading goes on behind its first line, since
+ * the others may belong to it only by a wrong quotation mark. The header must be good.
+ */
+static void refuse_row(struct table_stream *stream, const char *what)
+{
+    if (!stream->keep_going || !stream->table->names) {
+        parse_fail(stream, stream->row_line, what);
+    }
+    stream->table->rows_skipped++;
+    stream->text_used = stream->row_text;
+    stream->position = stream->row_next;
+    stream->line = stream->row_line + 1;
+    csv_free(&stream->parser);
+    start_parser(stream);
+}
+
+static void keep_header(struct table_stream *stream)
+{
+    struct table *table = stream->table;
+    double number;
+
+    table->header_line = stream->row_line;
+    table->num_columns = stream->row_cells;
+    table->names = must_alloc(stream->row_cells * sizeof *table->names);
+    memcpy(table->names, stream->row, stream->row_cells * sizeof *table->names);
+    stream->text_header = stream->text_used;
+    if (!text_to_number(table->names[0], &number)) {
+        table_fail(table, TABLE_HEADER, "no header row: the first row begins with a number");
+    }
+    for (size_t i = 0; i < table->num_columns; i++) {
+        for (size_t j = 0; j < i && *table->names[i]; j++) {
+            if (!strcmp(table->names[i], table->names[j])) {
+                table_fail(table, TABLE_HEADER, "column '%.60s' is there twice", table->names[i]);
+            }
+        }
+    }
+}
+
+static void keep_row(struct table_stream *stream)
+{
+    struct table *table = stream->table;
+
+    if (table->num_rows == stream->rows_capacity) {
+        stream->rows_capacity = stream->is_whole ? 2 * stream->rows_capacity + 64 : 1;
+        table->lines = must_realloc(table->lines, stream->rows_capacity * sizeof *table->lines);
+        table->cells = must_realloc(table->cells, stream->rows_capacity * table->num_columns *
+                                                      sizeof *table->cells);
+    }
+    table->lines[table->num_rows] = stream->row_line;
+    memcpy(table->cells + table->num_rows * table->num_columns, stream->row,
+           table->num_columns * sizeof *table->cells);
+    table->num_rows++;
+    stream->has_row = true;
+}
+
+static void end_row(struct table_stream *stream)
+{
+    size_t expected = stream->table->num_columns;
+    char what[80];
+
+    stream->row_is_open = stream->row_is_complete = false;
+    if (!stream->table->names) {
+        keep_header(stream);
+        return;
+    }
+    if (stream->row_cells == expected) {
+        keep_row(stream);
+        return;
+    }
+    snprintf(what, sizeof what, "%s row: %zu cells, the header has %zu",
+             stream->row_cells < expected ? "short" : "long", stream->row_cells, expected);
+    refuse_row(stream, what);
+}
+
+static const char too_long[] = "a row of more than 1 MiB: a quoted cell has no end";
+
+/* Gives the line at the current position to libcsv. */
+static void parse_line(struct table_stream *stream, size_t length)
+{
+    const char *line = stream->content + stream->position;
+
+    if (!stream->row_is_open) {
+        begin_row(stream, length);
+    }
+    stream->position += length;
+    stream->line++;
+    stream->row_bytes += length;
+    if (!stream->is_whole && stream->row_bytes > TABLE_STREAM_ROW_BYTES) {
+        refuse_row(stream, too_long);
+        return;
+    }
+    if (csv_parse(&stream->parser, line, length, on_cell, on_row_end, stream) != length) {
+        if (csv_error(&stream->parser) != CSV_EPARSE) {
+            fail(EXIT_RUNTIME, "%s: %s", stream->table->path,
+                 csv_strerror(csv_error(&stream->parser)));
+        }
+        refuse_row(stream, "a quotation mark inside a cell");
+    } else if (stream->row_is_complete) {
+        end_row(stream);
+    }
+}
+
+/* ---- Lines to rows ---- */
+
+/*
+ * Recordings and logs that come as plain files are read by others; block lengths have no text's
+ * bytes.
+ */
+static const char *name_binary(const uint8_t *start, size_t bytes, bool is_file)
+{
+    static const uint8_t log_sync[] = {0xED, 0xA1, 0xDA, 0x01};
+
+    if (bytes >= sizeof log_sync && memcmp(start, log_sync, sizeof log_sync) == 0) {
+        return "an LCM log on standard input or through a pipe: give it as a file";
+    }
+    if (bytes < 2 || start[1] > 8) {
+        return NULL;
+    }
+    if (start[0] == ASTERIX_TRACKS) {
+        return asterix_records_no_tracks;
+    }
+    if (start[0] != ASTERIX_PLOTS && start[0] != ASTERIX_SERVICE) {
+        return NULL;
+    }
+    return is_file ? "ASTERIX with a bad first block: named NAME.ast it is read, and says where"
+                   : "ASTERIX on standard input or through a pipe; it is looked at twice: give it "
+                     "as a file";
+}
+
+/* A file of another format says what it is in place of what it is not. */
+static void refuse_foreign(const struct table_stream *stream)
+{
+    const char *start = stream->content + stream->position, *what = NULL;
+
+    if (stream->offset + stream->position == 0) {
+        what = name_binary((const uint8_t *)start, stream->bytes - stream->position,
+                           stream->own && stream->is_plain);
+    }
+    if (*start == '{') {
+        what = "JSON, and CSV is needed; GeoJSON is written and not read: give the tracks' CSV "
+               "file or LCM log";
+    }
+    if (what) {
+        parse_fail(stream, stream->line, what);
+    }
+}
+
+static void check_line(const struct table_stream *stream, size_t length)
+{
+    if (length > 0 && !stream->table->names && !stream->row_is_open) {
+        refuse_foreign(stream);
+    }
+    check_binary(stream, length);
+    if (!stream->is_whole && length > TABLE_STREAM_ROW_BYTES) {
+        parse_fail(stream, stream->line, "a line of more than 1 MiB");
+    }
+}
+
+/* What is read ahead has no line end: it, or the row under way with it, may be too long. */
+static void check_length(struct table_stream *stream)
+{
+    size_t from = stream->row_is_open ? stream->row_next : stream->position;
+
+    if (stream->is_whole || stream->bytes - from <= TABLE_STREAM_ROW_BYTES) {
+        return;
+    }
+    check_line(stream, stream->bytes - stream->position);
+    refuse_row(stream, too_long);
+}
+
+static void skip_byte_order_mark(struct table_stream *stream, size_t *length)
+{
+    if (stream->offset + stream->position == 0 && *length >= 3 &&
+        !memcmp(stream->content, "\xEF\xBB\xBF", 3)) {
+        stream->position = 3;
+        *length -= 3;
+    }
+}
+
+/*
+ * The line at the current position. Returns WAITS where it is not there yet, END where there is
+ * none; else ROW.
+ */
+static enum table_stream_found find_line(struct table_stream *stream, size_t *length)
+{
+    while ((*length = line_length(stream)) == 0) {
+        if (stream->is_end) {
+            return TABLE_STREAM_END;
+        }
+        check_length(stream);
+        if (line_length(stream) == 0 && !fill(stream)) {
+            return TABLE_STREAM_WAITS;
+        }
+    }
+    skip_byte_order_mark(stream, length);
+    return TABLE_STREAM_ROW;
+}
+
+/*
+ * The last row may have no line end, or no end of its quotes. Returns false where nothing more was
+ * found.
+ */
+static bool finish_rows(struct table_stream *stream)
+{
+    if (csv_fini(&stream->parser, on_cell, on_row_end, stream)) {
+        refuse_row(stream, "a quoted cell has no end");
+        return true;
+    }
+    if (stream->row_is_complete) {
+        end_row(stream);
+        return true;
+    }
+    return false;
+}
+
+static void take_line(struct table_stream *stream, size_t length)
+{
+    check_line(stream, length);
+    if (stream->row_is_open || !is_idle(stream->content + stream->position, length)) {
+        parse_line(stream, length);
+    } else {
+        stream->position += length;
+        stream->line++;
+    }
+}
+
+/* Of a recording the header is there from the start. */
+static enum table_stream_found next_record(struct table_stream *stream, bool to_header)
+{
+    if (to_header) {
+        return TABLE_STREAM_ROW;
+    }
+    if (!stream->is_whole) {
+        stream->table->num_rows = 0;
+    }
+    stream->is_end = !asterix_records_next(stream->asterix, stream->table);
+    return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
+}
+
+/* Goes on up to the next row, or to the header. */
+static enum table_stream_found parse(struct table_stream *stream, bool to_header)
+{
+    if (stream->asterix) {
+        return next_record(stream, to_header);
+    }
+    stream->has_row = false;
+    while (!stream->has_row && !(to_header && stream->table->names)) {
+        size_t length;
+        enum table_stream_found found = find_line(stream, &length);
+
+        if (found == TABLE_STREAM_WAITS) {
+            return found;
+        }
+        if (found == TABLE_STREAM_ROW) {
+            take_line(stream, length);
+        } else if (!finish_rows(stream)) {
+            return found;
+        }
+    }
+    return TABLE_STREAM_ROW;
+}
+
+/* ---- Ends ---- */
+
+static void check_header(const struct table_stream *stream)
+{
+    if (stream->table->names) {
+        return;
+    }
+    if (stream->offset + stream->bytes == 0) {
+        parse_fail(stream, 1, "the file is empty");
+    }
+    parse_fail(stream, stream->line - 1, "no header row");
+}
+
+static void check_content(const struct table_stream *stream)
+{
+    const struct table *table = stream->table;
+
+    check_header(stream);
+    if (!table->num_rows && table->rows_skipped) {
+        parse_fail(stream, table->header_line, "not one good row after the header");
+    }
+}
+
+/* ---- Whole files ---- */
+
+static void open_asterix(struct table_stream *stream, const char *path,
+                         const struct parameters *parameters)
+{
+    if (stream->follow) {
+        fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is a recording in ASTERIX", path);
+    }
+    stream->asterix = asterix_records_open(path, parameters, stream->keep_going);
+    table_free(stream->table);
+    stream->table = asterix_records_table(path, asterix_records_columns(stream->asterix));
+}
+
+static struct table_stream *open_stream(const char *path, const struct parameters *parameters,
+                                        bool keep_going, bool follow)
+{
+    bool is_standard = !strcmp(path, "-");
+    struct table_stream *stream = must_calloc(1, sizeof *stream);
+    struct stat status;
+
+    stream->table = must_calloc(1, sizeof *stream->table);
+    stream->table->path = must_copy(is_standard ? "standard input" : path);
+    stream->own = is_standard ? NULL : stream->table->path;
+    stream->keep_going = keep_going;
+    stream->line = 1;
+    stream->follow = follow;
+    stream->capacity = FIRST_CAPACITY;
+    stream->content = must_alloc(stream->capacity);
+    start_parser(stream);
+    stream->file = -1;
+    if (!is_standard && asterix_file_is_asterix(path)) {
+        open_asterix(stream, path, parameters);
+        return stream;
+    }
+    stream->file = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
+    if (stream->file < 0) {
+        fail(EXIT_USAGE, "%s: %s", stream->table->path, strerror(errno));
+    }
+    stream->is_plain = fstat(stream->file, &status) == 0 && S_ISREG(status.st_mode);
+    return stream;
+}
+
+/* All but the table. */
+static void free_stream(struct table_stream *stream)
+{
+    if (stream->file >= 0) {
+        close(stream->file);
+    }
+    asterix_records_close(stream->asterix);
+    csv_free(&stream->parser);
+    free(stream->row);
+    free(stream->content);
+    free(stream);
+}
+
+/* The content as rows; the stream is freed. */
+static struct table *parse_whole(struct table_stream *stream)
+{
+    struct table *table = stream->table;
+
+    stream->text_capacity = stream->bytes + 2; /* a cell is not longer than its text in the file */
+    table->text = must_alloc(stream->text_capacity);
+    while (parse(stream, false) == TABLE_STREAM_ROW) {
+    }
+    check_content(stream);
+    free_stream(stream);
+    return table;
+}
+
+struct table *table_read(const char *path, bool keep_going)
+{
+    return table_read_as(path, NULL, keep_going);
+}
+
+struct table *table_read_as(const char *path, const struct parameters *parameters, bool keep_going)
+{
+    struct table_stream *stream = open_stream(path, parameters, keep_going, false);
+
+    stream->is_whole = true;
+    while (!stream->asterix && !stream->is_end) {
+        fill(stream);
+    }
+    return parse_whole(stream);
+}
+
+/* ---- Row by row ---- */
+
+struct table_stream *table_stream_open(const char *path, const struct parameters *parameters,
+                                       bool keep_going, bool follow)
+{
+    struct table_stream *stream = open_stream(path, parameters, keep_going, follow);
+
+    stream->text_capacity = FIRST_TEXT;
+    stream->table->text = must_alloc(stream->text_capacity);
+    if (parse(stream, true) == TABLE_STREAM_END) {
+        check_header(stream);
+    }
+    return stream;
+}
+
+enum table_stream_found table_stream_next(struct table_stream *stream)
+{
+    enum table_stream_found found = parse(stream, false);
+
+    if (found == TABLE_STREAM_END) {
+        check_header(stream);
+    }
+    return found;
+}
+
+const struct table *table_stream_table(const struct table_stream *stream)
+{
+    return stream->table;
+}
+
+const char *table_stream_why_over(const struct table_stream *stream)
+{
+    struct stat now, own;
+
+    if (!stream->is_plain || fstat(stream->file, &now)) {
+        return NULL;
+    }
+    if ((uint64_t)now.st_size < stream->offset + stream->bytes) {
+        return "has become shorter";
+    }
+    if (stream->own && stat(stream->own, &own)) {
+        return "is gone";
+    }
+    return stream->own && (own.st_ino != now.st_ino || own.st_dev != now.st_dev)
+               ? "has been replaced by another file"
+               : NULL;
+}
+
+bool table_stream_is_mid_row(const struct table_stream *stream)
+{
+    return stream->row_is_open || stream->position < stream->bytes;
+}
+
+uint64_t table_stream_position(const struct table_stream *stream)
+{
+    return stream->asterix ? asterix_records_position(stream->asterix)
+                           : stream->offset + stream->position;
+}
+
+uint64_t table_stream_size(const struct table_stream *stream)
+{
+    struct stat status;
+
+    return stream->is_plain && fstat(stream->file, &status) == 0 ? (uint64_t)status.st_size : 0;
+}
+
+void table_stream_close(struct table_stream *stream)
+{
+    table_free(stream->table);
+    free_stream(stream);
+}
+
+struct table *table_read_header(const char *path)
+{
+    struct table_stream *stream = table_stream_open(path, NULL, false, false);
+    struct table *table = stream->table;
+
+    free_stream(stream);
+    return table;
+}

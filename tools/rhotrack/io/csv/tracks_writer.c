@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/csv/tracks_writer.h"
+
+#include <inttypes.h>
+
+#include "base/common.h"
+#include "rhotrack/detail/angle.h"
+
+void tracks_write_time(FILE *file, int64_t time_us)
+{
+    uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
+
+    fprintf(file, "%s%" PRIu64 ".%06" PRIu64, time_us < 0 ? "-" : "", magnitude / 1000000,
+            magnitude % 1000000);
+}
+
+static void write_float(FILE *file, float value)
+{
+    char text[FLOAT_TEXT_BYTES];
+
+    fputc(',', file);
+    fputs(float_text(value, text), file);
+}
+
+void tracks_write_header(FILE *file, bool with_covariance)
+{
+    static const char *const states[RHO_KALMAN_STATES] = {"x", "y", "z", "vx", "vy", "vz"};
+
+    fputs("t_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,"
+          "sigma_m,sigma_mps,hits,misses,sensor_id,plot",
+          file);
+    for (int i = 0; with_covariance && i < RHO_KALMAN_STATES; i++) {
+        for (int j = 0; j <= i; j++) {
+            fprintf(file, ",cov_%s_%s", states[i], states[j]);
+        }
+    }
+    fputc('\n', file);
+}
+
+void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
+                      bool with_covariance)
+{
+    tracks_write_time(file, time_us);
+    fprintf(file, ",%" PRIu32 ",%s", track->track_id, rho_track_status_name(track->status));
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        write_float(file, track->state[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+        write_float(file, track->accel_mps2[i]);
+    }
+    write_float(file, track->sigma_m);
+    write_float(file, track->sigma_mps);
+    fprintf(file, ",%u,%u,%" PRId32 ",%" PRId32, (unsigned)track->hits, (unsigned)track->misses,
+            track->sensor_id, track->plot);
+    for (int i = 0; with_covariance && i < RHO_TRIANGLE(RHO_KALMAN_STATES); i++) {
+        write_float(file, track->covariance[i]);
+    }
+    fputc('\n', file);
+}
+
+void tracks_write_report(FILE *file, const struct rho_report *report, bool with_covariance)
+{
+    for (int i = 0; i < report->num_tracks; i++) {
+        tracks_write_row(file, report->time_us, &report->tracks[i], with_covariance);
+    }
+}
+
+void initiated_write_header(FILE *file)
+{
+    fputs("track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score\n", file);
+}
+
+void initiated_write_row(FILE *file, const struct initiated *row)
+{
+    fprintf(file, "%u,", row->track_id);
+    tracks_write_time(file, row->time_us);
+    if (row->has_state) {
+        write_float(file, row->x_m);
+        write_float(file, row->y_m);
+        write_float(file, row->vx_mps);
+        write_float(file, row->vy_mps);
+    } else {
+        fputs(",,,,", file);
+    }
+    write_float(file, row->rho_m);
+    write_float(file, row->theta_rad);
+    fprintf(file, ",%u", row->scans);
+    write_float(file, (float)row->score);
+    fputc('\n', file);
+}
+
+struct initiated initiated_from(unsigned track_id, int64_t time_us,
+                                const struct rho_candidate *candidate)
+{
+    struct rho_line line =
+        rho_angle_line(candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps);
+
+    return (struct initiated){.track_id = track_id,
+                              .time_us = time_us,
+                              .has_state = true,
+                              .x_m = candidate->x_m,
+                              .y_m = candidate->y_m,
+                              .vx_mps = candidate->vx_mps,
+                              .vy_mps = candidate->vy_mps,
+                              .rho_m = line.rho_m,
+                              .theta_rad = line.theta_rad,
+                              .scans = candidate->hits,
+                              .score = (double)((float)candidate->score_mnat / 1000.0f)};
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/log/log_table.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "base/common.h"
+#include "io/log/lcm_log.h"
+#include "io/rows/rows_collect.h"
+#include "io/rows/rows_write.h"
+
+static void collect(struct lcm_log_reader *log, const char *path,
+                    struct rows_collection *collection, bool keep_going)
+{
+    struct lcm_log_event event;
+
+    while (lcm_log_next(log, &event)) {
+        rows_collect_event(collection, path, &event, keep_going);
+    }
+    rows_collect_finish(collection);
+}
+
+struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
+                             bool is_told)
+{
+    struct rows_collection collection;
+    struct lcm_log_reader *log = lcm_log_open(path);
+    struct table *table = NULL;
+
+    rows_collect_start(&collection, kind);
+    collect(log, path, &collection, keep_going);
+    if (is_told) {
+        lcm_log_report(log);
+    }
+    if (collection.messages_bad > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " bad messages skipped\n", path,
+                collection.messages_bad);
+    }
+    if (collection.rows.count > 0) {
+        table = rows_to_table(path, &collection.rows);
+    }
+    rows_collect_free(&collection);
+    lcm_log_close(log);
+    return table;
+}
+
+struct table *log_table_or_csv(const char *path, const struct rows_kind *kind, bool keep_going)
+{
+    struct table *table;
+
+    if (!lcm_log_is_log(path)) {
+        return table_read(path, keep_going);
+    }
+    table = log_table_read(path, kind, keep_going, true);
+    if (!table) {
+        fail(EXIT_USAGE, "%s: no messages of %s in it (channel %s)", path, kind->name,
+             kind->channel);
+    }
+    return table;
+}

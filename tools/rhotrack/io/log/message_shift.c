@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/log/message_shift.h"
+
+#include "rhotrack/message.h"
+
+/* Where the members stand, and how many bytes they are. */
+enum { UTIME_AT = 8, SCAN_AT = 16, EPOCH_AT = 20, TIME_BYTES = 8, NUMBER_BYTES = 4 };
+
+static uint64_t get(const uint8_t *data, int bytes)
+{
+    uint64_t value = 0;
+
+    for (int i = 0; i < bytes; i++) {
+        value = value << 8 | data[i];
+    }
+    return value;
+}
+
+static void put(uint8_t *data, int bytes, uint64_t value)
+{
+    for (int i = bytes - 1; i >= 0; i--) {
+        data[i] = (uint8_t)value;
+        value >>= 8;
+    }
+}
+
+static bool has_scan(const uint8_t *data, size_t size)
+{
+    switch (rho_message_type_of(data, size)) {
+    case RHO_MESSAGE_TYPE_PLOT_SCAN:
+    case RHO_MESSAGE_TYPE_POLAR_SCAN:
+    case RHO_MESSAGE_TYPE_BEARING_SCAN:
+    case RHO_MESSAGE_TYPE_TRACK_LIST:
+    case RHO_MESSAGE_TYPE_PEAK_LIST:
+    case RHO_MESSAGE_TYPE_TRUTH_LIST:
+    case RHO_MESSAGE_TYPE_STATUS:
+    case RHO_MESSAGE_TYPE_WORK:
+    case RHO_MESSAGE_TYPE_SENSOR_LIST:
+    case RHO_MESSAGE_TYPE_CLUTTER_MAP:
+        return size >= SCAN_AT + NUMBER_BYTES;
+    default:
+        return false;
+    }
+}
+
+static bool has_epoch(const uint8_t *data, size_t size)
+{
+    enum rho_message_type type = rho_message_type_of(data, size);
+
+    return has_scan(data, size) && type != RHO_MESSAGE_TYPE_PEAK_LIST &&
+           type != RHO_MESSAGE_TYPE_TRUTH_LIST && size >= EPOCH_AT + NUMBER_BYTES;
+}
+
+bool message_scan(const uint8_t *data, size_t size, int32_t *scan)
+{
+    if (!has_scan(data, size)) {
+        return false;
+    }
+    *scan = (int32_t)get(data + SCAN_AT, NUMBER_BYTES);
+    return true;
+}
+
+void message_shift(uint8_t *data, size_t size, int64_t time_us, uint32_t scans)
+{
+    int64_t utime;
+
+    if (has_scan(data, size) &&
+        !__builtin_add_overflow((int64_t)get(data + UTIME_AT, TIME_BYTES), time_us, &utime)) {
+        put(data + UTIME_AT, TIME_BYTES, (uint64_t)utime);
+        put(data + SCAN_AT, NUMBER_BYTES, get(data + SCAN_AT, NUMBER_BYTES) + scans);
+    }
+}
+
+void message_set_epoch(uint8_t *data, size_t size, int32_t from, int32_t to)
+{
+    if (has_epoch(data, size) && (int32_t)get(data + EPOCH_AT, NUMBER_BYTES) == from) {
+        put(data + EPOCH_AT, NUMBER_BYTES, (uint64_t)to);
+    }
+}

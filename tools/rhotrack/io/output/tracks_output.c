@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/output/tracks_output.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/asterix/asterix_tracks.h"
+#include "io/csv/tracks_writer.h"
+#include "io/log/lcm_log.h"
+#include "io/output/geojson.h"
+#include "pipeline/pipeline.h"
+#include "rhotrack/publish.h"
+
+#define EPOCH 1 /* a file has one tracker, started once */
+
+struct tracks_output {
+    struct output output;
+    const char *path;
+    bool is_log, with_covariance, has_header;
+    struct lcm_log_writer log;
+    struct asterix_tracks *asterix; /* NULL: no such recording */
+    int32_t step;
+    struct rho_report *single; /* of a step that has one track */
+    struct geojson *map;       /* or NULL */
+};
+
+bool tracks_output_is_log(const char *path)
+{
+    return path && path_ends_with(path, ".lcm");
+}
+
+static struct tracks_output *open_output(const char *path, struct output output,
+                                         const struct parameters *parameters, bool with_covariance)
+{
+    struct tracks_output *tracks = must_calloc(1, sizeof *tracks);
+
+    tracks->path = path;
+    tracks->is_log = tracks_output_is_log(path);
+    tracks->with_covariance = with_covariance;
+    tracks->output = output;
+    tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
+    if (asterix_tracks_is_asterix(path)) {
+        tracks->asterix = asterix_tracks_open(output.file, parameters);
+    }
+    return tracks;
+}
+
+struct tracks_output *tracks_output_open(const char *path, const struct parameters *parameters,
+                                         bool with_covariance)
+{
+    struct tracks_output *tracks;
+
+    if (geojson_is_wanted(path) && with_covariance) {
+        fail(EXIT_USAGE, "%s: --covariance has no place in GeoJSON", path);
+    }
+    asterix_tracks_refuse_covariance(path, with_covariance);
+    tracks = open_output(path, output_open(path), parameters, with_covariance);
+    tracks->map = geojson_is_wanted(path) ? geojson_open(tracks->output.file, parameters) : NULL;
+    return tracks;
+}
+
+struct tracks_output *tracks_output_open_in_place(const char *path,
+                                                  const struct parameters *parameters,
+                                                  bool with_covariance)
+{
+    if (geojson_is_wanted(path)) {
+        fail(EXIT_USAGE,
+             "%s: GeoJSON is complete at the end alone, and cannot be written in place; `convert` "
+             "makes it of a CSV file",
+             path);
+    }
+    asterix_tracks_refuse_covariance(path, with_covariance);
+    return open_output(path, output_open_in_place(path), parameters, with_covariance);
+}
+
+/*
+ * Not before there is something to write: what is refused on the way leaves no header on standard
+ * output.
+ */
+static void need_header(struct tracks_output *tracks)
+{
+    if (!tracks->is_log && !tracks->map && !tracks->asterix && !tracks->has_header) {
+        tracks->has_header = true;
+        tracks_write_header(tracks->output.file, tracks->with_covariance);
+    }
+}
+
+void tracks_output_flush(struct tracks_output *tracks)
+{
+    need_header(tracks);
+    output_flush(&tracks->output);
+}
+
+static void write_message(struct tracks_output *tracks, int64_t time_us, const uint8_t *data,
+                          size_t size)
+{
+    struct rho_message_track_list message;
+
+    if (tracks->is_log) {
+        lcm_log_must_write(&tracks->log, tracks->path, time_us, RHO_MESSAGE_TRACK_LIST_CHANNEL,
+                           data, size);
+    } else {
+        must_succeed(rho_message_track_list_decode(data, size, &message), "track_list");
+        asterix_tracks_add(tracks->asterix, &message);
+    }
+}
+
+static void write_list(struct tracks_output *tracks, const struct rho_report *report)
+{
+    uint8_t buffer[RHO_MESSAGE_TRACK_LIST_MAX_SIZE];
+    size_t size;
+
+    tracks->step++;
+    for (uint16_t part = 0; part < rho_publish_num_parts(report); part++) {
+        must_succeed(
+            rho_publish_tracks(report, tracks->step, EPOCH, part, buffer, sizeof buffer, &size),
+            "publish");
+        write_message(tracks, report->time_us, buffer, size);
+    }
+}
+
+static void add_to_map(struct geojson *map, int64_t time_us, const struct rho_track_report *track)
+{
+    struct geojson_row row = {.time_us = time_us,
+                              .track_id = (int32_t)track->track_id,
+                              .status = rho_track_status_name(track->status),
+                              .sigma_m = track->sigma_m,
+                              .hits = track->hits,
+                              .misses = track->misses};
+
+    memcpy(row.state, track->state, sizeof row.state);
+    geojson_add(map, &row);
+}
+
+/* Every report names all tracks that go on. */
+static void add_report_to_map(struct geojson *map, const struct rho_report *report)
+{
+    for (int i = 0; i < report->num_tracks; i++) {
+        add_to_map(map, report->time_us, &report->tracks[i]);
+    }
+    geojson_end_time(map);
+}
+
+void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report)
+{
+    if (tracks->map) {
+        add_report_to_map(tracks->map, report);
+    } else if (tracks->is_log || tracks->asterix) {
+        write_list(tracks, report);
+    } else {
+        need_header(tracks);
+        tracks_write_report(tracks->output.file, report, tracks->with_covariance);
+    }
+}
+
+void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
+                         const struct rho_track_report *track)
+{
+    if (tracks->map) {
+        add_to_map(tracks->map, time_us, track);
+        return;
+    }
+    if (!tracks->is_log && !tracks->asterix) {
+        need_header(tracks);
+        tracks_write_row(tracks->output.file, time_us, track, tracks->with_covariance);
+        return;
+    }
+    if (!tracks->single) {
+        tracks->single = must_calloc(1, sizeof *tracks->single);
+    }
+    tracks->single->time_us = time_us;
+    tracks->single->num_tracks = 1;
+    tracks->single->tracks[0] = *track;
+    write_list(tracks, tracks->single);
+}
+
+void tracks_output_close(struct tracks_output *tracks)
+{
+    if (tracks) {
+        need_header(tracks);
+        if (tracks->map) {
+            geojson_close(tracks->map);
+        }
+        output_close(&tracks->output);
+        asterix_tracks_close(tracks->asterix);
+        free(tracks->single);
+        free(tracks);
+    }
+}

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/rows/rows_geodetic.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TURN 6.283185307179586
+
+struct rows_geodetic rows_geodetic_open(const struct table *table, const struct rows_kind *kind,
+                                        const struct parameters *parameters)
+{
+    bool has_any = kind == &rows_kind_plots || kind == &rows_kind_polar || kind == &rows_kind_truth;
+
+    return (struct rows_geodetic){.kind = kind,
+                                  .parameters = parameters,
+                                  .geodetic = has_any ? geodetic_open(table, parameters) : NULL};
+}
+
+void rows_geodetic_close(struct rows_geodetic *geodetic)
+{
+    geodetic_close(geodetic->geodetic);
+    geodetic->geodetic = NULL;
+}
+
+bool rows_geodetic_stands_for(const struct rows_geodetic *geodetic,
+                              const struct rows_column *column)
+{
+    return geodetic_has_places(geodetic->geodetic) &&
+           (strcmp(column->name, "x_m") == 0 || strcmp(column->name, "y_m") == 0);
+}
+
+static double *cell_of(const struct rows_geodetic *geodetic, double *cells, const char *name)
+{
+    return &cells[rows_find_column(geodetic->kind, name)];
+}
+
+static void put(const struct rows_geodetic *geodetic, double *cells, const char *name, double value)
+{
+    *cell_of(geodetic, cells, name) = (double)(float)value;
+}
+
+static double number_or(double cell, double otherwise)
+{
+    return rows_is_empty(cell) ? otherwise : cell;
+}
+
+/* ---- Places ---- */
+
+static bool fill_place(const struct rows_geodetic *geodetic, const struct row_check *check,
+                       double *cells)
+{
+    double place_m[3];
+    bool has_alt;
+
+    if (geodetic->kind->has_sensor && !geodetic_is_said(geodetic->geodetic, check)) {
+        return true; /* a scan that saw nothing */
+    }
+    if (!geodetic_place(geodetic->geodetic, check, place_m, &has_alt)) {
+        return false;
+    }
+    put(geodetic, cells, "x_m", place_m[0]);
+    put(geodetic, cells, "y_m", place_m[1]);
+    if (has_alt) {
+        put(geodetic, cells, "z_m", place_m[2]);
+    }
+    return true;
+}
+
+/* ---- Radars ---- */
+
+static void turn_cell(double *cell, double turn_rad)
+{
+    if (!rows_is_empty(*cell)) {
+        *cell = (double)(float)remainder(*cell + turn_rad, TURN);
+    }
+}
+
+/* Sectors are counted from the radar's own east, as azimuths are. */
+static void put_radar(const struct rows_geodetic *geodetic, const struct radar_frame *frame,
+                      double *cells)
+{
+    const double *place_m = radar_frame_place_m(frame);
+
+    turn_cell(cell_of(geodetic, cells, "sector_from_rad"), radar_frame_turn_rad(frame));
+    turn_cell(cell_of(geodetic, cells, "sector_to_rad"), radar_frame_turn_rad(frame));
+    if (geodetic->kind == &rows_kind_polar) {
+        put(geodetic, cells, "sensor_x_m", place_m[0]);
+        put(geodetic, cells, "sensor_y_m", place_m[1]);
+        put(geodetic, cells, "sensor_z_m", place_m[2]);
+    }
+}
+
+static struct geodetic_polar polar_of(const struct rows_geodetic *geodetic, int32_t sensor_id,
+                                      double *cells)
+{
+    const struct parameters *parameters = geodetic->parameters;
+    double sigma_range_m = parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
+                                                parameters->value[PARAMETER_SIGMA_RANGE_M]);
+    double elevation_rad = *cell_of(geodetic, cells, "elevation_rad");
+
+    return (struct geodetic_polar){
+        .sensor_id = sensor_id,
+        .place_m = {number_or(*cell_of(geodetic, cells, "sensor_x_m"), 0),
+                    number_or(*cell_of(geodetic, cells, "sensor_y_m"), 0),
+                    number_or(*cell_of(geodetic, cells, "sensor_z_m"), 0)},
+        .look = {*cell_of(geodetic, cells, "range_m"), *cell_of(geodetic, cells, "azimuth_rad"),
+                 number_or(elevation_rad, 0)},
+        .has_elevation = !rows_is_empty(elevation_rad),
+        .sigma_range_m = number_or(*cell_of(geodetic, cells, "sigma_range_m"), sigma_range_m)};
+}
+
+/* What is empty or outside its range is refused afterwards, as in any file. */
+static bool can_turn(const struct geodetic_polar *polar)
+{
+    const double half_turn = (double)3.1415927f; /* the nearest float, as files may say it */
+
+    return polar->look.range_m > 0 && fabs(polar->look.azimuth_rad) <= half_turn &&
+           fabs(polar->look.elevation_rad) <= half_turn / 2;
+}
+
+static bool fill_polar(const struct rows_geodetic *geodetic, const struct row_check *check,
+                       const struct radar_frame *frame, int32_t sensor_id, double *cells)
+{
+    struct geodetic_polar polar = polar_of(geodetic, sensor_id, cells);
+    bool had_elevation = polar.has_elevation;
+
+    polar.frame = frame;
+    if (!can_turn(&polar)) {
+        return true;
+    }
+    if (!geodetic_polar(geodetic->geodetic, check, &polar)) {
+        return false;
+    }
+    put(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
+    if (polar.has_elevation) {
+        put(geodetic, cells, "elevation_rad", polar.look.elevation_rad);
+    }
+    if (polar.has_elevation && !had_elevation) {
+        put(geodetic, cells, "sigma_elevation_rad", polar.sigma_elevation_rad);
+    }
+    return true;
+}
+
+bool rows_geodetic_fill(const struct rows_geodetic *geodetic, const struct row_check *check,
+                        int32_t sensor_id, double *cells)
+{
+    const struct radar_frame *frame = NULL;
+
+    if (!geodetic->geodetic) {
+        return true;
+    }
+    if (geodetic->kind->has_sensor &&
+        !geodetic_radar(geodetic->geodetic, check, sensor_id, &frame)) {
+        return false;
+    }
+    if (frame) {
+        put_radar(geodetic, frame, cells);
+    }
+    return geodetic->kind == &rows_kind_polar
+               ? fill_polar(geodetic, check, frame, sensor_id, cells)
+               : !geodetic_has_places(geodetic->geodetic) || fill_place(geodetic, check, cells);
+}

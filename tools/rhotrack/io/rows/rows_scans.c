@@ -1,0 +1,356 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/rows/rows_scans.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/csv/row_check.h"
+
+#define OWN_TIME_MAX_US 60000000 /* dt_us of the messages; no scan_interval_s is longer */
+
+/* The scans of a file under way. Rows of one scan are neighbours. */
+struct making {
+    struct rows_scans *scans;
+    struct rows_file *file;
+    const struct rows_kind *kind;
+    int64_t interval_us;
+    struct row *rows;
+    size_t *before; /* of lists without numbers: the row before of the same name and time */
+};
+
+/* ---- Rows that belong together ---- */
+
+static int by_key(const void *a, const void *b)
+{
+    const struct row *one = a, *other = b;
+    int order = rows_compare(one->sensor_id, other->sensor_id);
+
+    order = order ? order : rows_compare(one->epoch, other->epoch);
+    order = order ? order : rows_compare(one->scan, other->scan);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+}
+
+/* Of lists the time counts, too: their rows may be in any order. */
+static int by_list(const void *a, const void *b)
+{
+    const struct row *one = a, *other = b;
+    int order = rows_compare(one->epoch, other->epoch);
+
+    order = order ? order : rows_compare(one->scan, other->scan);
+    order = order ? order : rows_compare(one->time_us, other->time_us);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+}
+
+struct named {
+    int64_t time_us;
+    double name;
+    size_t row;
+};
+
+static int by_name(const void *a, const void *b)
+{
+    const struct named *one = a, *other = b;
+    int order = rows_compare(one->time_us, other->time_us);
+
+    order = order ? order : (one->name > other->name) - (one->name < other->name);
+    return order ? order : (one->row > other->row) - (one->row < other->row);
+}
+
+/*
+ * For each row the one before that names the same track or target at that time; SIZE_MAX where
+ * there is none.
+ */
+static void find_before(struct making *making)
+{
+    size_t count = making->file->rows.count;
+    struct named *named = must_alloc(count * sizeof *named);
+
+    making->before = must_alloc(count * sizeof *making->before);
+    for (size_t i = 0; i < count; i++) {
+        named[i] = (struct named){making->rows[i].time_us,
+                                  rows_cells(&making->file->rows, &making->rows[i])[0], i};
+    }
+    qsort(named, count, sizeof *named, by_name);
+    for (size_t i = 0; i < count; i++) {
+        bool is_again = i > 0 && named[i].time_us == named[i - 1].time_us &&
+                        !(named[i].name > named[i - 1].name);
+
+        making->before[named[i].row] = is_again ? named[i - 1].row : SIZE_MAX;
+    }
+    free(named);
+}
+
+/* Does a row belong to the scan or list that begins with the row first? */
+static bool joins(const struct making *making, size_t first, size_t index)
+{
+    const struct row *start = &making->rows[first], *row = &making->rows[index];
+
+    if (row->sensor_id != start->sensor_id || row->epoch != start->epoch ||
+        row->scan != start->scan) {
+        return false;
+    }
+    if (!making->kind->has_sensor) {
+        return row->time_us == start->time_us &&
+               (!making->before || making->before[index] == SIZE_MAX ||
+                making->before[index] < first);
+    }
+    if (making->file->has_scan) {
+        return llabs(row->time_us - start->time_us) <= OWN_TIME_MAX_US;
+    }
+    return row->time_us == start->time_us ||
+           (row->time_us > start->time_us && row->time_us - making->interval_us < start->time_us);
+}
+
+/* ---- What rows of a scan have in common ---- */
+
+static bool is_same(double one, double other)
+{
+    return rows_is_empty(one) ? rows_is_empty(other) : one <= other && one >= other;
+}
+
+/* The first column of that flag in which two rows differ, or NULL. */
+static const char *difference(const struct making *making, const double *cells,
+                              const double *others, unsigned flag)
+{
+    for (int i = 0; i < making->kind->num_columns; i++) {
+        if ((making->kind->columns[i].flags & flag) && !is_same(cells[i], others[i])) {
+            return making->kind->columns[i].name;
+        }
+    }
+    return NULL;
+}
+
+/* Why a row that saw something does not fit to the first of its scan that did. */
+static bool check_plot(struct making *making, const struct rows_scan *scan, const struct row *row)
+{
+    const struct row *first = &making->rows[scan->first];
+    const double *cells = rows_cells(&making->file->rows, row);
+    const double *others = rows_cells(&making->file->rows, first);
+    const char *name = difference(making, cells, others, COLUMN_OF_PLOTS);
+
+    if (name) {
+        rows_refuse(making->file, row, "%s is not that of the scan's other rows: a message has one",
+                    name);
+        return false;
+    }
+    if (making->kind->pattern && making->kind->pattern(cells) != making->kind->pattern(others)) {
+        rows_refuse(
+            making->file, row,
+            "height, velocity or range rate must be given in all rows of a scan or in none");
+        return false;
+    }
+    if (making->kind->rows_max > 0 && scan->count >= making->kind->rows_max) {
+        rows_refuse(making->file, row, "more than %zu rows are one scan: no message holds them",
+                    making->kind->rows_max);
+        return false;
+    }
+    return true;
+}
+
+static bool check_received(struct making *making, const struct rows_scan *scan,
+                           const struct row *row)
+{
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.reason = reason};
+
+    if (making->file->rows.has_received &&
+        !row_received_with(&check, row->received_us, scan->head.received_us, making->file->has_scan,
+                           making->interval_us)) {
+        rows_refuse(making->file, row, "%s", reason);
+        return false;
+    }
+    return true;
+}
+
+static bool check_row(struct making *making, const struct rows_scan *scan, const struct row *row)
+{
+    const char *name = difference(making, rows_cells(&making->file->rows, row),
+                                  rows_cells(&making->file->rows, &scan->head), COLUMN_OF_SCAN);
+
+    if (name) {
+        rows_refuse(making->file, row, "%s is not that of the scan's first row", name);
+        return false;
+    }
+    if (!check_received(making, scan, row)) {
+        return false;
+    }
+    if (making->kind->has_one_time && row->time_us != scan->utime) {
+        rows_refuse(making->file, row,
+                    "t_s is not that of the scan's first row: a scan of bearings has one time");
+        return false;
+    }
+    return true;
+}
+
+/* ---- Scans ---- */
+
+/* The time that opens the scan: with numbers a row that saw nothing may stand anywhere. */
+static int64_t time_of(const struct making *making, size_t first, size_t end)
+{
+    for (size_t i = first; making->file->has_scan && i < end; i++) {
+        if (!rows_saw_something(&making->file->rows, &making->rows[i])) {
+            return making->rows[i].time_us;
+        }
+    }
+    return making->rows[first].time_us;
+}
+
+static size_t count_parts(const struct making *making, const struct rows_scan *scan)
+{
+    struct rows_part rest = {
+        .rows = &making->file->rows, .scan = scan, .first = scan->first, .count = scan->count};
+    size_t parts = 0;
+
+    while (rest.count > 0) {
+        size_t taken = making->kind->fit(&rest);
+
+        rest.first += taken;
+        rest.count -= taken;
+        parts++;
+    }
+    return parts > 0 ? parts : 1;
+}
+
+/* Rows first .. end are a scan; those that saw something are moved together. */
+static void add_scan(struct making *making, size_t first, size_t end)
+{
+    struct rows_scans *scans = making->scans;
+    struct rows_scan scan = {.utime = time_of(making, first, end),
+                             .head = making->rows[first],
+                             .first = first,
+                             .order = making->rows[first].order};
+    size_t parts;
+
+    scan.due_us = making->file->rows.has_received ? making->rows[end - 1].received_us : scan.utime;
+    for (size_t i = first; i < end; i++) {
+        struct row row = making->rows[i];
+        bool is_plot = rows_saw_something(&making->file->rows, &row);
+
+        if (!check_row(making, &scan, &row) ||
+            (is_plot && scan.count > 0 && !check_plot(making, &scan, &row))) {
+            continue;
+        }
+        if (is_plot) {
+            making->rows[first + scan.count++] = row;
+        }
+    }
+    parts = count_parts(making, &scan);
+    if (parts > INT16_MAX) {
+        rows_refuse(making->file, &scan.head, "a scan of %zu parts; messages number 32767", parts);
+        return;
+    }
+    scan.num_parts = (int16_t)parts;
+    scans->list = must_grow(scans->list, scans->count, &scans->capacity, sizeof *scans->list);
+    scans->list[scans->count++] = scan;
+}
+
+static int by_sensor(const void *a, const void *b)
+{
+    const struct rows_scan *one = a, *other = b;
+    int order = rows_compare(one->head.sensor_id, other->head.sensor_id);
+
+    order = order ? order : rows_compare(one->head.epoch, other->head.epoch);
+    order = order ? order : rows_compare(one->utime, other->utime);
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+}
+
+/* Of each sensor in the order of time, also those that were received in another one. */
+static void number_scans(const struct making *making)
+{
+    struct rows_scan *list = making->scans->list;
+    int32_t number = 0;
+
+    if (making->scans->count > 0) {
+        qsort(list, making->scans->count, sizeof *list, by_sensor);
+    }
+    for (size_t i = 0; i < making->scans->count; i++) {
+        bool is_next = i > 0 && list[i].head.sensor_id == list[i - 1].head.sensor_id &&
+                       list[i].head.epoch == list[i - 1].head.epoch;
+
+        number = is_next && number < INT32_MAX ? number + 1 : 1;
+        list[i].head.scan = number;
+    }
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct rows_scan *one = a, *other = b;
+    int order = rows_compare(one->due_us, other->due_us);
+
+    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+}
+
+void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t interval_us)
+{
+    struct making making = {.scans = scans,
+                            .file = file,
+                            .kind = file->rows.kind,
+                            .interval_us = interval_us,
+                            .rows = file->rows.list};
+
+    *scans = (struct rows_scans){.file = file};
+    qsort(file->rows.list, file->rows.count, sizeof *file->rows.list,
+          making.kind->has_sensor ? by_key : by_list);
+    if (!making.kind->has_sensor && !file->has_scan) {
+        find_before(&making);
+    }
+    for (size_t first = 0, end; first < file->rows.count; first = end) {
+        for (end = first + 1; end < file->rows.count && joins(&making, first, end); end++) {
+        }
+        add_scan(&making, first, end);
+    }
+    free(making.before);
+    if (!file->has_scan) {
+        number_scans(&making);
+    }
+    if (scans->count > 0) {
+        qsort(scans->list, scans->count, sizeof *scans->list, by_time);
+    }
+}
+
+void rows_scans_free(struct rows_scans *scans)
+{
+    free(scans->list);
+}
+
+/* ---- Messages ---- */
+
+static void put_channel(const struct rows_kind *kind, int32_t sensor_id, char *channel)
+{
+    if (kind->has_sensor) {
+        snprintf(channel, ROWS_CHANNEL_BYTES, "%s%" PRId32, kind->channel, sensor_id);
+    } else {
+        snprintf(channel, ROWS_CHANNEL_BYTES, "%s", kind->channel);
+    }
+}
+
+bool rows_scans_next(const struct rows_scans *scans, struct rows_at *at, struct rows_output *output)
+{
+    const struct rows_kind *kind = scans->file->rows.kind;
+    struct rows_part part = {.rows = &scans->file->rows, .part = at->part};
+    const char *field = "";
+
+    if (at->scan >= scans->count) {
+        return false;
+    }
+    part.scan = &scans->list[at->scan];
+    part.first = part.scan->first + at->row;
+    part.count = part.scan->count - at->row;
+    part.count = part.count > 0 ? kind->fit(&part) : 0;
+    output->utime = part.scan->due_us;
+    put_channel(kind, part.scan->head.sensor_id, output->channel);
+    output->size = kind->encode(&part, output->data, &field);
+    if (output->size == 0) { /* each row was good alone */
+        fail(EXIT_USAGE, "%s:%u: %s is outside the range of a %s", scans->file->path,
+             (unsigned)part.scan->head.line, field, rho_message_type_name(kind->type));
+    }
+    at->row += part.count;
+    at->part++;
+    if (at->part >= part.scan->num_parts) {
+        *at = (struct rows_at){.scan = at->scan + 1};
+    }
+    return true;
+}

@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/frame_reader.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include "base/common.h"
+#include "io/asterix/asterix_file.h"
+#include "io/csv/record.h"
+#include "io/log/lcm_log.h"
+#include "io/log/log_scans.h"
+#include "io/scans/scan_files.h"
+
+/* Scans of one time: whose, and where. */
+struct twins {
+    int64_t time_us;
+    size_t count;
+    struct {
+        int32_t sensor_id;
+        const char *path;
+        uint32_t line;
+    } list[RHO_MAX_SENSORS];
+};
+
+struct frame_reader {
+    bool keep_going;
+    int64_t tolerance_us;
+    struct scan_files files;
+    struct known_sensors known;
+    struct frame_sensor sensors[RHO_MAX_SENSORS]; /* the same, sorted */
+    struct twins twins;
+    struct rho_frame frame; /* handed out, of */
+    struct rho_bearing_scan scans[RHO_MAX_SENSORS];
+    struct sensor_scan next; /* the first scan behind it */
+    bool has_next;
+    uint64_t skip; /* frames before this one are left out */
+    uint64_t twins_skipped;
+    struct frame_reader_counts counts; /* so far */
+    struct frame_reader_counts total;
+};
+
+bool frame_reader_is_bearings(const char *path)
+{
+    struct stat status;
+    struct table *table;
+    bool is_bearings;
+
+    if (lcm_log_is_log(path)) {
+        return log_scans_kinds(path) == LOG_HAS_BEARINGS;
+    }
+    if (asterix_file_is_asterix(path)) {
+        return false;
+    }
+    if (stat(path, &status) || !S_ISREG(status.st_mode)) {
+        return false; /* a pipe could not be read again */
+    }
+    table = table_read_header(path);
+    is_bearings = record_is_of_bearings(table);
+    table_free(table);
+    return is_bearings;
+}
+
+/* ---- Scans in order ---- */
+
+/* Fails, or counts the scan and lets it go. */
+static void refuse_twin(struct frame_reader *reader, struct sensor_scan *scan, size_t twin)
+{
+    if (!reader->keep_going) {
+        fail(EXIT_USAGE, "%s:%u: sensor %d has another scan at %.6f s: line %u of %s", scan->path,
+             (unsigned)scan->line, (int)scan->bearings.sensor_id,
+             (double)scan->bearings.time_us * 1e-6, (unsigned)reader->twins.list[twin].line,
+             reader->twins.list[twin].path);
+    }
+    reader->twins_skipped += scan->bearings.num_bearings ? scan->bearings.num_bearings : 1;
+    sensor_scan_free(scan);
+}
+
+/*
+ * A sensor's scan at the time of another one of its own, of another file: which of them was before
+ * cannot be told.
+ */
+static bool has_twin(struct frame_reader *reader, struct sensor_scan *scan)
+{
+    struct twins *twins = &reader->twins;
+
+    if (twins->time_us != scan->bearings.time_us) {
+        twins->time_us = scan->bearings.time_us;
+        twins->count = 0;
+    }
+    for (size_t i = 0; i < twins->count; i++) {
+        if (twins->list[i].sensor_id == scan->bearings.sensor_id) {
+            refuse_twin(reader, scan, i);
+            return true;
+        }
+    }
+    twins->list[twins->count].sensor_id = scan->bearings.sensor_id;
+    twins->list[twins->count].path = scan->path;
+    twins->list[twins->count++].line = scan->line;
+    return false;
+}
+
+static bool read_scan(struct frame_reader *reader, struct sensor_scan *scan)
+{
+    do {
+        if (!scan_files_next(&reader->files, scan)) {
+            return false;
+        }
+    } while (has_twin(reader, scan));
+    reader->counts.scans++;
+    reader->counts.bearings += scan->bearings.num_bearings;
+    return true;
+}
+
+/* ---- Scans to frames ---- */
+
+/* True where the scan is a further one of the frame; it is not before it. */
+static bool belongs(const struct frame_reader *reader, const struct rho_bearing_scan *scan)
+{
+    if (scan->time_us - reader->tolerance_us > reader->frame.time_us) {
+        return false;
+    }
+    for (size_t i = 0; i < reader->frame.num_scans; i++) {
+        if (reader->scans[i].sensor_id == scan->sensor_id) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void drop_frame(struct frame_reader *reader)
+{
+    for (size_t i = 0; i < reader->frame.num_scans; i++) {
+        free((void *)reader->scans[i].bearings);
+    }
+    reader->frame = (struct rho_frame){.num_scans = 0};
+}
+
+static int compare_scans(const void *a, const void *b)
+{
+    const struct rho_bearing_scan *first = a, *second = b;
+
+    return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
+}
+
+/* Makes the next frame. Returns false after the last. */
+static bool make_frame(struct frame_reader *reader)
+{
+    struct rho_frame *frame = &reader->frame;
+
+    drop_frame(reader);
+    if (!reader->has_next && !read_scan(reader, &reader->next)) {
+        return false;
+    }
+    *frame = (struct rho_frame){.time_us = reader->next.bearings.time_us, .scans = reader->scans};
+    do {
+        reader->scans[frame->num_scans++] = reader->next.bearings;
+        reader->has_next = read_scan(reader, &reader->next);
+    } while (reader->has_next && belongs(reader, &reader->next.bearings));
+    qsort(reader->scans, frame->num_scans, sizeof *reader->scans, compare_scans);
+    reader->counts.frames++;
+    return true;
+}
+
+const struct rho_frame *frame_reader_next(struct frame_reader *reader)
+{
+    while (make_frame(reader)) {
+        if (reader->counts.frames > reader->skip) {
+            return &reader->frame;
+        }
+    }
+    return NULL;
+}
+
+/* ---- All files ---- */
+
+static int compare_sensors(const void *a, const void *b)
+{
+    const struct frame_sensor *first = a, *second = b;
+
+    return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
+}
+
+static void sort_sensors(struct frame_reader *reader)
+{
+    for (size_t i = 0; i < reader->known.count; i++) {
+        reader->sensors[i] = reader->known.list[i].sensor;
+    }
+    qsort(reader->sensors, reader->known.count, sizeof *reader->sensors, compare_sensors);
+}
+
+static void rewind_files(struct frame_reader *reader)
+{
+    for (int i = 0; i < reader->files.count; i++) {
+        scan_source_rewind(reader->files.list[i].source);
+    }
+    reader->twins.count = 0;
+    reader->twins_skipped = 0;
+    reader->counts = (struct frame_reader_counts){.frames = 0};
+}
+
+/*
+ * Sensors and counts: how many frames had so many scans is known before how many sensors there are.
+ */
+static void look_through(struct frame_reader *reader, uint64_t bytes)
+{
+    uint64_t frames_of[RHO_MAX_SENSORS + 1] = {0};
+    struct progress progress = progress_start("frames looked through", 0);
+
+    while (make_frame(reader)) {
+        frames_of[reader->frame.num_scans]++;
+        progress_show_bytes(&progress, reader->counts.frames, frame_reader_position(reader), bytes);
+    }
+    progress_end(&progress);
+    reader->total = reader->counts;
+    for (size_t i = 0; i < reader->known.count; i++) {
+        reader->total.frames_incomplete += frames_of[i];
+    }
+    reader->total.rows_skipped = reader->twins_skipped + scan_files_rows_skipped(&reader->files);
+    reader->known.is_closed = true;
+    sort_sensors(reader);
+}
+
+struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
+                                       const struct parameters *parameters, bool keep_going)
+{
+    struct frame_reader *reader = must_calloc(1, sizeof *reader);
+    uint64_t bytes = 0;
+
+    reader->keep_going = keep_going;
+    reader->tolerance_us = llround(parameters->value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
+    reader->files = scan_files_open(paths, num_paths, parameters,
+                                    (struct scan_source_options){.kind = RECORD_BEARINGS,
+                                                                 .keep_going = keep_going,
+                                                                 .known = &reader->known});
+    for (int i = 0; i < num_paths; i++) {
+        bytes += file_bytes(paths[i]);
+    }
+    look_through(reader, bytes);
+    rewind_files(reader);
+    return reader;
+}
+
+void frame_reader_need_pair(const struct frame_reader *reader)
+{
+    if (reader->known.count < 2) {
+        const struct known_sensor *only = &reader->known.list[0];
+
+        fail(EXIT_USAGE,
+             "%s:%u: sensor %d is the only one: positions need bearings of two sensors or more",
+             only->path, (unsigned)only->line, (int)only->sensor.sensor_id);
+    }
+}
+
+/* ---- What was read ---- */
+
+void frame_reader_skip(struct frame_reader *reader, uint64_t frames)
+{
+    say_last_taken(frames, reader->total.frames, "frames");
+    reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
+}
+
+uint64_t frame_reader_total(const struct frame_reader *reader)
+{
+    return reader->total.frames;
+}
+
+uint64_t frame_reader_position(const struct frame_reader *reader)
+{
+    return scan_files_position(&reader->files);
+}
+
+const struct frame_sensor *frame_reader_sensors(const struct frame_reader *reader, size_t *count)
+{
+    *count = reader->known.count;
+    return reader->sensors;
+}
+
+struct frame_reader_counts frame_reader_counts(const struct frame_reader *reader)
+{
+    return reader->total;
+}
+
+void frame_reader_report(const struct frame_reader *reader)
+{
+    say_rows_skipped(reader->total.rows_skipped);
+    if (reader->total.frames_incomplete) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " of %" PRIu64 " frames miss a sensor\n",
+                reader->total.frames_incomplete, reader->total.frames);
+    }
+    if (reader->total.frames_incomplete == reader->total.frames) {
+        fprintf(stderr,
+                "rhotrack: frames hold the scans within frame_tolerance_s %.9g of one another\n",
+                (double)reader->tolerance_us * 1e-6);
+    }
+}
+
+void frame_reader_close(struct frame_reader *reader)
+{
+    if (!reader) {
+        return;
+    }
+    drop_frame(reader);
+    if (reader->has_next) {
+        sensor_scan_free(&reader->next);
+    }
+    scan_files_close(&reader->files);
+    free(reader);
+}

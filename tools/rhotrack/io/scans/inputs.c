@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/inputs.h"
+
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "io/log/lcm_log.h"
+#include "io/log/log_scans.h"
+#include "io/scans/frame_reader.h"
+#include "io/scans/scan_reader.h"
+
+struct inputs {
+    struct scan_reader *scan_reader;   /* or NULL */
+    struct frame_reader *frame_reader; /* or NULL */
+    /* the next of each kind */
+    const struct rho_scan *scan;
+    const struct rho_sensor *sensor;
+    const struct rho_frame *frame;
+    bool has_scan,
+        has_frame;  /* read ahead; the next one overwrites it: not before the caller is done */
+    uint64_t bytes; /* of all files; 0: not known */
+};
+
+/* What a file holds: a table has one kind, a log may have both. */
+static unsigned kinds_of(const char *path)
+{
+    unsigned kinds;
+
+    if (!lcm_log_is_log(path)) {
+        return frame_reader_is_bearings(path) ? LOG_HAS_BEARINGS : LOG_HAS_PLOTS;
+    }
+    kinds = log_scans_kinds(path);
+    return kinds ? kinds : LOG_HAS_PLOTS; /* whose reader says what is missing */
+}
+
+/* The paths that hold a kind, in their order. Returns how many. */
+static int sort_paths(char *const *paths, int num_paths, unsigned kind, char **sorted)
+{
+    int count = 0;
+
+    for (int i = 0; i < num_paths; i++) {
+        if (kinds_of(paths[i]) & kind) {
+            sorted[count++] = paths[i];
+        }
+    }
+    return count;
+}
+
+static void next_scan(struct inputs *inputs)
+{
+    if (inputs->scan_reader && !inputs->has_scan) {
+        inputs->scan = scan_reader_next(inputs->scan_reader);
+        inputs->sensor = inputs->scan ? scan_reader_sensor(inputs->scan_reader) : NULL;
+        inputs->has_scan = inputs->scan;
+    }
+}
+
+static void next_frame(struct inputs *inputs)
+{
+    if (inputs->frame_reader && !inputs->has_frame) {
+        inputs->frame = frame_reader_next(inputs->frame_reader);
+        inputs->has_frame = inputs->frame;
+    }
+}
+
+/* A log of both kinds is read twice, and counts so. */
+static uint64_t sum_bytes(char *const *paths, int num_paths)
+{
+    uint64_t sum = 0;
+
+    for (int i = 0; i < num_paths; i++) {
+        uint64_t bytes = file_bytes(paths[i]);
+
+        if (bytes == 0) {
+            return 0;
+        }
+        sum += kinds_of(paths[i]) == (LOG_HAS_PLOTS | LOG_HAS_BEARINGS) ? 2 * bytes : bytes;
+    }
+    return sum;
+}
+
+struct inputs *inputs_open(char *const *paths, int num_paths, const struct parameters *parameters,
+                           bool keep_going)
+{
+    struct inputs *inputs = must_calloc(1, sizeof *inputs);
+    char **sorted = must_calloc((size_t)num_paths + 1, sizeof *sorted);
+    int count = sort_paths(paths, num_paths, LOG_HAS_PLOTS, sorted);
+
+    if (count > 0) {
+        inputs->scan_reader = scan_reader_open(sorted, count, parameters, keep_going);
+    }
+    count = sort_paths(paths, num_paths, LOG_HAS_BEARINGS, sorted);
+    if (count > 0) {
+        inputs->frame_reader = frame_reader_open(sorted, count, parameters, keep_going);
+        if (!inputs->scan_reader) {
+            frame_reader_need_pair(inputs->frame_reader);
+        }
+    }
+    free(sorted);
+    inputs->bytes = sum_bytes(paths, num_paths);
+    next_scan(inputs);
+    next_frame(inputs);
+    return inputs;
+}
+
+struct inputs *inputs_follow(char *path, const struct parameters *parameters, bool keep_going)
+{
+    struct inputs *inputs = must_calloc(1, sizeof *inputs);
+
+    inputs->scan_reader = scan_reader_follow(path, parameters, keep_going);
+    return inputs;
+}
+
+struct scan_reader *inputs_scan_reader(struct inputs *inputs)
+{
+    return inputs->scan_reader;
+}
+
+bool inputs_have_plots(const struct inputs *inputs)
+{
+    return inputs->scan_reader;
+}
+
+bool inputs_have_bearings(const struct inputs *inputs)
+{
+    return inputs->frame_reader;
+}
+
+struct input inputs_next(struct inputs *inputs)
+{
+    next_scan(inputs);
+    next_frame(inputs);
+    if (inputs->has_scan &&
+        (!inputs->has_frame || inputs->scan->time_us <= inputs->frame->time_us)) {
+        inputs->has_scan = false;
+        return (struct input){.scan = inputs->scan, .sensor = inputs->sensor};
+    }
+    if (inputs->has_frame) {
+        inputs->has_frame = false;
+        return (struct input){.frame = inputs->frame};
+    }
+    return (struct input){.scan = NULL};
+}
+
+const struct frame_sensor *inputs_passive_sensors(const struct inputs *inputs, size_t *count)
+{
+    *count = 0;
+    return inputs->frame_reader ? frame_reader_sensors(inputs->frame_reader, count) : NULL;
+}
+
+uint64_t inputs_position(const struct inputs *inputs)
+{
+    return (inputs->scan_reader ? scan_reader_position(inputs->scan_reader) : 0) +
+           (inputs->frame_reader ? frame_reader_position(inputs->frame_reader) : 0);
+}
+
+uint64_t inputs_size(const struct inputs *inputs)
+{
+    return inputs->bytes;
+}
+
+struct inputs_counts inputs_counts(const struct inputs *inputs)
+{
+    struct inputs_counts counts = {0};
+
+    if (inputs->scan_reader) {
+        struct scan_reader_counts scans = scan_reader_counts(inputs->scan_reader);
+
+        counts.scans = scans.scans;
+        counts.plots = scans.plots;
+        counts.rows_skipped = scans.rows_skipped;
+    }
+    if (inputs->frame_reader) {
+        struct frame_reader_counts frames = frame_reader_counts(inputs->frame_reader);
+
+        counts.frames = frames.frames;
+        counts.frames_incomplete = frames.frames_incomplete;
+        counts.plots += frames.bearings;
+        counts.rows_skipped += frames.rows_skipped;
+    }
+    counts.steps = counts.scans + counts.frames;
+    return counts;
+}
+
+void inputs_close(struct inputs *inputs)
+{
+    if (!inputs) {
+        return;
+    }
+    if (inputs->scan_reader) {
+        scan_reader_close(inputs->scan_reader);
+    }
+    frame_reader_close(inputs->frame_reader);
+    free(inputs);
+}

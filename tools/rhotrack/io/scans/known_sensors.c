@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/known_sensors.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define SAME_PLACE_M 1.0
+
+static const struct known_sensor *find_sensor(const struct known_sensors *known, int32_t sensor_id)
+{
+    for (size_t i = 0; i < known->count; i++) {
+        if (known->list[i].sensor.sensor_id == sensor_id) {
+            return &known->list[i];
+        }
+    }
+    return NULL;
+}
+
+/* Where a sensor was named, as seen from a row of the table: the file only where it is another. */
+#define WHERE_BYTES 120
+static const char *where(const struct known_sensor *known, const char *path, char text[WHERE_BYTES])
+{
+    int length = snprintf(text, WHERE_BYTES, "%.9g, %.9g, line %u", (double)known->sensor.x_m,
+                          (double)known->sensor.y_m, (unsigned)known->line);
+
+    if (known->path != path) {
+        snprintf(text + length, WHERE_BYTES - (size_t)length, " of %.60s", known->path);
+    }
+    return text;
+}
+
+static bool check_new(const struct known_sensors *known, const char *path, const struct record *row,
+                      const struct row_check *check)
+{
+    char text[WHERE_BYTES];
+
+    for (size_t i = 0; i < known->count; i++) {
+        const struct frame_sensor *other = &known->list[i].sensor;
+
+        if (hypot((double)row->sensor.x_m - (double)other->x_m,
+                  (double)row->sensor.y_m - (double)other->y_m) < SAME_PLACE_M) {
+            return row_refuse(check, "sensor %d is where sensor %d is: %s", (int)row->sensor_id,
+                              (int)other->sensor_id, where(&known->list[i], path, text));
+        }
+    }
+    if (known->is_closed) {
+        return row_refuse(check, "sensor %d is new: the file has grown", (int)row->sensor_id);
+    }
+    return known->count < RHO_MAX_SENSORS ||
+           row_refuse(check, "sensor %d is one more than %d sensors", (int)row->sensor_id,
+                      RHO_MAX_SENSORS);
+}
+
+bool known_sensors_check(const struct known_sensors *sensors, const char *path,
+                         const struct record *row, const struct row_check *check)
+{
+    const struct known_sensor *known = find_sensor(sensors, row->sensor_id);
+    char text[WHERE_BYTES];
+
+    if (!known) {
+        return check_new(sensors, path, row, check);
+    }
+    if (row->sensor.x_m < known->sensor.x_m || row->sensor.x_m > known->sensor.x_m ||
+        row->sensor.y_m < known->sensor.y_m || row->sensor.y_m > known->sensor.y_m) {
+        return row_refuse(check, "sensor %d has moved: it was at %s", (int)row->sensor_id,
+                          where(known, path, text));
+    }
+    return true;
+}
+
+void known_sensors_add(struct known_sensors *known, const char *path, const struct record *row)
+{
+    if (!find_sensor(known, row->sensor_id)) {
+        known->list[known->count++] =
+            (struct known_sensor){.sensor = {row->sensor_id, row->sensor.x_m, row->sensor.y_m},
+                                  .path = path,
+                                  .line = row->line};
+    }
+}

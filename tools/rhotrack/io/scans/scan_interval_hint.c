@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/scan_interval_hint.h"
+
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "rhotrack/message.h"
+
+#define SOON_US 1000000 /* an antenna that looks all round takes longer for it */
+#define LONE_LEAST 10   /* fewer say nothing */
+
+struct lone_sensor {
+    int16_t sensor_id;
+    int64_t last_us; /* of its last scan */
+};
+
+/* What counts of a message. */
+struct look {
+    int16_t sensor_id, num_parts, num_plots;
+    bool has_sector;
+    int64_t time_us;
+};
+
+static bool read_look(const struct message_event *event, struct look *look)
+{
+    static struct rho_message_plot_scan plots;
+    static struct rho_message_polar_scan polar;
+
+    if (text_begins_with(event->channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL) &&
+        rho_message_polar_scan_decode(event->data, event->size, &polar) == RHO_OK) {
+        *look = (struct look){polar.sensor_id, polar.num_parts, polar.num_polar_plots,
+                              polar.sector_from_rad != 0.0f || polar.sector_to_rad != 0.0f,
+                              polar.utime};
+        return polar.part == 0;
+    }
+    if (text_begins_with(event->channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) &&
+        rho_message_plot_scan_decode(event->data, event->size, &plots) == RHO_OK) {
+        *look = (struct look){plots.sensor_id, plots.num_parts, plots.num_plots,
+                              plots.sector_from_rad != 0.0f || plots.sector_to_rad != 0.0f,
+                              plots.utime};
+        return plots.part == 0;
+    }
+    return false;
+}
+
+/* NULL: the sensor's first scan. */
+static struct lone_sensor *find(const struct scan_interval_hint *plots, int16_t sensor_id)
+{
+    for (size_t i = 0; i < plots->count; i++) {
+        if (plots->sensors[i].sensor_id == sensor_id) {
+            return &plots->sensors[i];
+        }
+    }
+    return NULL;
+}
+
+void scan_interval_hint_add(struct scan_interval_hint *plots, const struct message_event *event)
+{
+    struct lone_sensor *sensor;
+    struct look look;
+
+    if (!read_look(event, &look)) {
+        return;
+    }
+    plots->scans++;
+    sensor = find(plots, look.sensor_id);
+    if (sensor) {
+        plots->lone += look.num_parts == 1 && look.num_plots == 1 && !look.has_sector &&
+                       look.time_us - sensor->last_us < SOON_US;
+    } else {
+        plots->sensors =
+            must_grow(plots->sensors, plots->count, &plots->capacity, sizeof *plots->sensors);
+        sensor = &plots->sensors[plots->count++];
+        sensor->sensor_id = look.sensor_id;
+    }
+    sensor->last_us = look.time_us;
+}
+
+void scan_interval_hint_report(const struct scan_interval_hint *plots, const char *path)
+{
+    if (plots->lone >= LONE_LEAST && plots->lone > plots->scans / 2) {
+        fprintf(stderr,
+                "rhotrack: %s: %" PRIu64 " of %" PRIu64
+                " scans have one plot each: is scan_interval_s meant?\n",
+                path, plots->lone, plots->scans);
+    }
+}
+
+void scan_interval_hint_free(struct scan_interval_hint *plots)
+{
+    free(plots->sensors);
+    *plots = (struct scan_interval_hint){.scans = 0};
+}

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/scan_reader.h"
+
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "io/scans/scan_files.h"
+
+struct scan_reader {
+    struct scan_files files;
+    struct sensor_scan now; /* handed out */
+    uint64_t scans, plots;
+};
+
+static struct scan_reader *open_files(char *const *paths, int num_paths,
+                                      const struct parameters *parameters,
+                                      struct scan_source_options options)
+{
+    struct scan_reader *reader = must_calloc(1, sizeof *reader);
+
+    options.kind = RECORD_PLOTS;
+    reader->files = scan_files_open(paths, num_paths, parameters, options);
+    return reader;
+}
+
+struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
+                                     const struct parameters *parameters, bool keep_going)
+{
+    return open_files(paths, num_paths, parameters,
+                      (struct scan_source_options){.keep_going = keep_going});
+}
+
+struct scan_reader *scan_reader_follow(char *path, const struct parameters *parameters,
+                                       bool keep_going)
+{
+    return open_files(&path, 1, parameters,
+                      (struct scan_source_options){.keep_going = keep_going, .follow = true});
+}
+
+struct scan_reader *scan_reader_open_any(char *const *paths, int num_paths,
+                                         const struct parameters *parameters)
+{
+    return open_files(paths, num_paths, parameters,
+                      (struct scan_source_options){.may_lack_sensor = true});
+}
+
+const struct rho_scan *scan_reader_next(struct scan_reader *reader)
+{
+    sensor_scan_free(&reader->now);
+    if (!scan_files_next(&reader->files, &reader->now)) {
+        return NULL;
+    }
+    reader->scans++;
+    reader->plots += reader->now.scan.num_plots;
+    return &reader->now.scan;
+}
+
+/* Of a file that is followed, which is the only one. */
+static struct scan_source *followed(const struct scan_reader *reader)
+{
+    return reader->files.list[0].source;
+}
+
+bool scan_reader_waits(const struct scan_reader *reader)
+{
+    return scan_source_waits(followed(reader));
+}
+
+bool scan_reader_is_mid_row(const struct scan_reader *reader)
+{
+    return scan_source_is_mid_row(followed(reader));
+}
+
+void scan_reader_complete(struct scan_reader *reader)
+{
+    scan_source_complete(followed(reader));
+}
+
+void scan_reader_end(struct scan_reader *reader)
+{
+    scan_source_end(followed(reader));
+}
+
+const char *scan_reader_why_over(const struct scan_reader *reader)
+{
+    return scan_source_why_over(followed(reader));
+}
+
+const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader)
+{
+    return reader->now.has_sensor ? &reader->now.sensor : NULL;
+}
+
+uint64_t scan_reader_position(const struct scan_reader *reader)
+{
+    return scan_files_position(&reader->files);
+}
+
+struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader)
+{
+    return (struct scan_reader_counts){.scans = reader->scans,
+                                       .plots = reader->plots,
+                                       .rows_skipped = scan_files_rows_skipped(&reader->files)};
+}
+
+void scan_reader_report(const struct scan_reader *reader)
+{
+    say_rows_skipped(scan_reader_counts(reader).rows_skipped);
+}
+
+void scan_reader_close(struct scan_reader *reader)
+{
+    if (!reader) {
+        return;
+    }
+    scan_files_close(&reader->files);
+    sensor_scan_free(&reader->now);
+    free(reader);
+}

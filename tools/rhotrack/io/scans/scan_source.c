@@ -1,0 +1,475 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/scan_source.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/csv/table_stream.h"
+#include "io/log/lcm_log.h"
+#include "io/log/log_scans.h"
+#include "io/scans/gather.h"
+#include "io/scans/reorder_buffer.h"
+
+#define FOLLOW_BEGUN_MAX 2 /* who waits for a numbered scan's last plots for a minute is late */
+
+struct scan_source {
+    const char *path;
+    const struct parameters *parameters;
+    struct scan_source_options options;
+    struct log_scans *log;       /* or NULL, and */
+    struct table_stream *stream; /* or NULL */
+    bool has_columns, has_good, is_over, waits, is_complete;
+    struct record_columns columns;
+    struct gather gather;
+    struct reorder_buffer
+        reorder;           /* of a file that says when its rows were received, or of a log */
+    uint32_t item;         /* of a log: the newest scan of bearings, 1-based */
+    uint64_t rows_skipped; /* but those of the stream */
+};
+
+/* ---- Rows to scans ---- */
+
+/* What a row must have in common with the scan that it would join. */
+static bool check_scan(const struct scan_source *source, const struct gathered *scan,
+                       const struct record *row, const struct row_check *check)
+{
+    if (!scan) {
+        return true;
+    }
+    if (row->sector_from_rad != scan->sector_from_rad ||
+        row->sector_to_rad != scan->sector_to_rad) {
+        return row_refuse(check, "the sector is not that of the scan's first row");
+    }
+    if (source->options.kind == RECORD_PLOTS &&
+        (row->sensor.x_m != scan->sensor.x_m || row->sensor.y_m != scan->sensor.y_m ||
+         row->sensor.z_m != scan->sensor.z_m)) {
+        return row_refuse(check, "the sensor's place is not that of the scan's first row");
+    }
+    return !row->has_measurement || !scan->has_measures || row->measures == scan->measures ||
+           row_refuse(check, "height, velocity or range rate must be given in all rows of a scan "
+                             "or in none");
+}
+
+/* Sensors of bearings are one list over all files. */
+static bool check_sensor(const struct scan_source *source, const struct record *row,
+                         const struct row_check *check)
+{
+    return source->options.kind == RECORD_PLOTS ||
+           known_sensors_check(source->options.known, source->path, row, check);
+}
+
+static bool check_received(const struct gather *gather, const struct gathered *scan,
+                           const struct record *row, const struct row_check *check)
+{
+    return !scan || !gather->has_clock ||
+           row_received_with(check, row->received_us, scan->heard_us,
+                             row->number.is_given && scan->number.is_given, gather->interval_us);
+}
+
+static struct gathered *begin_scan(struct scan_source *source, const struct record *row)
+{
+    const struct gathered scan = {.sensor_id = row->sensor_id,
+                                  .number = row->number,
+                                  .bias_us = row->bias_us,
+                                  .line = row->line,
+                                  .sector_from_rad = row->sector_from_rad,
+                                  .sector_to_rad = row->sector_to_rad,
+                                  .has_sensor = row->has_sensor,
+                                  .sensor = row->sensor};
+
+    return gather_begin(&source->gather, &scan, row->time_us);
+}
+
+static void add_row(struct scan_source *source, struct gathered *scan, const struct record *row)
+{
+    bool is_bearing = source->options.kind == RECORD_BEARINGS;
+
+    if (is_bearing) {
+        known_sensors_add(source->options.known, source->path, row);
+    }
+    scan = scan ? scan : begin_scan(source, row);
+    if (!row->has_measurement) {
+        gather_add_nothing(&source->gather, scan, row->time_us);
+        return;
+    }
+    scan->measures = row->measures;
+    scan->has_measures = true;
+    gather_add(&source->gather, scan, row->time_us,
+               is_bearing ? (const void *)&row->bearing : &row->plot);
+}
+
+static void find_columns(struct scan_source *source, const struct table *table)
+{
+    if (source->has_columns || !table->names) {
+        return;
+    }
+    if (source->options.follow && record_is_of_bearings(table)) {
+        table_fail(table, TABLE_HEADER, "--follow takes plots, and these are bearings");
+    }
+    source->columns = record_columns_find(table, source->parameters, source->options.kind,
+                                          !source->options.may_lack_sensor);
+    source->has_columns = true;
+    if (source->columns.received_s >= 0) {
+        source->gather.begun_max = FOLLOW_BEGUN_MAX;
+    }
+}
+
+/* The row that the table has. */
+static void take_row(struct scan_source *source, const struct table *table)
+{
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.table = table, .row = 0, .reason = reason};
+    struct gathered *scan = NULL;
+    struct record row;
+    bool is_good;
+
+    find_columns(source, table);
+    is_good = record_read(table, &source->columns, 0, source->parameters, &row, reason);
+    if (is_good && source->columns.received_s >= 0) {
+        gather_set_clock(&source->gather, row.received_us);
+    }
+    if (is_good) {
+        scan = gather_find(&source->gather, row.sensor_id, &row.number, row.time_us);
+        is_good = gather_check_time(&source->gather, scan, row.time_us, &check) &&
+                  check_received(&source->gather, scan, &row, &check) &&
+                  check_scan(source, scan, &row, &check) && check_sensor(source, &row, &check);
+    }
+    if (is_good) {
+        source->has_good = true;
+        add_row(source, scan, &row);
+        return;
+    }
+    if (!source->options.keep_going) {
+        table_fail(table, 0, "%s", reason);
+    }
+    source->rows_skipped++;
+}
+
+/*
+ * A file that ends without a good row; of one that is followed there may have been no time for any.
+ */
+static void check_end(const struct scan_source *source, const struct table *table)
+{
+    if (source->has_good || source->options.follow) {
+        return;
+    }
+    if (!scan_source_rows_skipped(source)) {
+        table_need_rows(table);
+    }
+    table_fail(table, TABLE_HEADER, "not one good row after the header");
+}
+
+/* One row more, or the end, or nothing. */
+static void read_row(struct scan_source *source)
+{
+    enum table_stream_found found = table_stream_next(source->stream);
+    const struct table *table = table_stream_table(source->stream);
+
+    source->waits = found == TABLE_STREAM_WAITS;
+    if (found == TABLE_STREAM_ROW) {
+        source->is_complete = false;
+        take_row(source, table);
+    } else if (found == TABLE_STREAM_END) {
+        source->is_over = true;
+        check_end(source, table);
+    }
+}
+
+/* ---- Scans ---- */
+
+static void fill_plots(struct sensor_scan *out, const struct gathered *scan)
+{
+    struct rho_plot *plots = scan->elements;
+
+    for (size_t i = 0; i < scan->count; i++) {
+        plots[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
+    }
+    *out = (struct sensor_scan){.scan = {.time_us = gathered_time_us(scan),
+                                         .sensor_id = scan->sensor_id,
+                                         .sector_from_rad = scan->sector_from_rad,
+                                         .sector_to_rad = scan->sector_to_rad,
+                                         .measures = scan->measures,
+                                         .num_plots = (uint32_t)scan->count,
+                                         .plots = plots},
+                                .has_sensor = scan->has_sensor,
+                                .sensor = scan->sensor};
+}
+
+static void fill_bearings(struct sensor_scan *out, const struct gathered *scan)
+{
+    struct rho_bearing *bearings = scan->elements;
+
+    for (size_t i = 0; i < scan->count; i++) {
+        bearings[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
+    }
+    *out = (struct sensor_scan){.is_bearings = true,
+                                .bearings = {.time_us = gathered_time_us(scan),
+                                             .sensor_id = scan->sensor_id,
+                                             .x_m = scan->sensor.x_m,
+                                             .y_m = scan->sensor.y_m,
+                                             .sector_from_rad = scan->sector_from_rad,
+                                             .sector_to_rad = scan->sector_to_rad,
+                                             .num_bearings = (uint32_t)scan->count,
+                                             .bearings = bearings},
+                                .line = scan->line};
+}
+
+static void fill_scan(const struct scan_source *source, struct sensor_scan *out,
+                      struct gathered *scan)
+{
+    if (source->options.kind == RECORD_BEARINGS) {
+        fill_bearings(out, scan);
+    } else {
+        fill_plots(out, scan);
+    }
+    out->path = source->path;
+    scan->elements = NULL;
+    gathered_free(scan);
+}
+
+/* The next one as its rows came. heard_us: its last one. */
+static bool next_gathered(struct scan_source *source, struct sensor_scan *scan, int64_t *heard_us)
+{
+    struct gathered gathered;
+
+    while (!gather_take(&source->gather, source->is_over || source->is_complete, &gathered)) {
+        if (source->is_over) {
+            return false;
+        }
+        read_row(source);
+        if (source->waits) {
+            return false;
+        }
+    }
+    *heard_us = gathered.heard_us;
+    fill_scan(source, scan, &gathered);
+    return true;
+}
+
+/* Where rows say when they were received, scans wait hold_ms for earlier ones. */
+static bool next_of_table(struct scan_source *source, struct sensor_scan *scan)
+{
+    int64_t heard_us;
+
+    while (!reorder_buffer_take(&source->reorder, false, scan)) {
+        struct sensor_scan next;
+
+        if (!next_gathered(source, &next, &heard_us)) {
+            return (source->is_over || source->is_complete) &&
+                   reorder_buffer_take(&source->reorder, true, scan);
+        }
+        if (source->columns.received_s < 0) {
+            *scan = next;
+            return true;
+        }
+        reorder_buffer_put(&source->reorder, &next, heard_us, heard_us);
+    }
+    return true;
+}
+
+/* The scan's heading as a row; its place in the log stands for a line. */
+static bool take_bearings(struct scan_source *source, const struct rho_bearing_scan *item)
+{
+    const struct record row = {.sensor_id = item->sensor_id,
+                               .line = ++source->item,
+                               .sensor = {.x_m = item->x_m, .y_m = item->y_m}};
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.reason = reason};
+
+    if (known_sensors_check(source->options.known, source->path, &row, &check)) {
+        known_sensors_add(source->options.known, source->path, &row);
+        return true;
+    }
+    if (!source->options.keep_going) {
+        fail(EXIT_USAGE, "%s: scan %u of bearings: %s", source->path, (unsigned)source->item,
+             reason);
+    }
+    source->rows_skipped += item->num_bearings ? item->num_bearings : 1;
+    return false;
+}
+
+/* Items of the other kind are left out. */
+static bool is_wanted(struct scan_source *source, const struct rho_scan_assembler_item *item)
+{
+    bool is_bearings = item->kind == RHO_SCAN_ASSEMBLER_BEARINGS;
+
+    return is_bearings == (source->options.kind == RECORD_BEARINGS) &&
+           (!is_bearings || take_bearings(source, &item->bearings));
+}
+
+/* In new memory; NULL where there is nothing. */
+static void *copy_of(const void *list, size_t count, size_t bytes)
+{
+    return count > 0 ? memcpy(must_calloc(count, bytes), list, count * bytes) : NULL;
+}
+
+static bool take_of_log(struct scan_source *source, struct sensor_scan *scan)
+{
+    struct rho_scan_assembler_item item;
+
+    do {
+        if (!log_scans_next(source->log, &item)) {
+            return false;
+        }
+    } while (!is_wanted(source, &item));
+    *scan = (struct sensor_scan){.is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS,
+                                 .path = source->path,
+                                 .line = source->item};
+    if (scan->is_bearings) {
+        scan->bearings = item.bearings;
+        scan->bearings.bearings =
+            copy_of(item.bearings.bearings, item.bearings.num_bearings, sizeof(struct rho_bearing));
+    } else {
+        scan->scan = item.scan;
+        scan->scan.plots = copy_of(item.scan.plots, item.scan.num_plots, sizeof(struct rho_plot));
+        scan->has_sensor = item.has_sensor;
+        scan->sensor = item.sensor;
+    }
+    return true;
+}
+
+/*
+ * A feed has room for RHO_MAX_OPEN_SCANS, and does not wait for a sensor of which it has not heard:
+ * what goes out of it too early is put in order here.
+ */
+static bool next_of_log(struct scan_source *source, struct sensor_scan *scan)
+{
+    struct sensor_scan next;
+
+    while (!reorder_buffer_take(&source->reorder, false, scan)) {
+        if (!take_of_log(source, &next)) {
+            return reorder_buffer_take(&source->reorder, true, scan);
+        }
+        if (source->reorder.hold_us == 0) {
+            *scan = next;
+            return true;
+        }
+        reorder_buffer_put(&source->reorder, &next, log_scans_heard_us(source->log),
+                           log_scans_clock_us(source->log));
+    }
+    return true;
+}
+
+bool scan_source_next(struct scan_source *source, struct sensor_scan *scan)
+{
+    return source->log ? next_of_log(source, scan) : next_of_table(source, scan);
+}
+
+/* ---- Opening ---- */
+
+static void open_table(struct scan_source *source)
+{
+    int32_t least_us;
+
+    source->stream = table_stream_open(source->path, source->parameters, source->options.keep_going,
+                                       source->options.follow);
+    gather_start(&source->gather,
+                 source->options.kind == RECORD_BEARINGS ? sizeof(struct rho_bearing)
+                                                         : sizeof(struct rho_plot),
+                 llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
+    parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
+    source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
+    source->reorder.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
+    find_columns(source, table_stream_table(source->stream));
+}
+
+/*
+ * Plots are put in order here, with all the room there is; bearings by the scan assembly. Of a log
+ * of both kinds the reader of plots says what is wrong.
+ */
+static void open_log(struct scan_source *source)
+{
+    bool is_plots = source->options.kind == RECORD_PLOTS;
+
+    source->reorder.hold_us = is_plots ? log_scans_hold_us(source->parameters) : 0;
+    source->log =
+        log_scans_open(source->path, source->parameters, source->options.keep_going,
+                       is_plots || log_scans_kinds(source->path) == LOG_HAS_BEARINGS, is_plots);
+}
+
+struct scan_source *scan_source_open(const char *path, const struct parameters *parameters,
+                                     struct scan_source_options options)
+{
+    struct scan_source *source = must_calloc(1, sizeof *source);
+
+    source->path = path;
+    source->parameters = parameters;
+    source->options = options;
+    if (!lcm_log_is_log(path)) {
+        open_table(source);
+    } else if (options.follow) {
+        fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is an LCM log", path);
+    } else {
+        open_log(source);
+    }
+    return source;
+}
+
+static void close_table(struct scan_source *source)
+{
+    gather_free(&source->gather);
+    record_columns_free(&source->columns);
+    table_stream_close(source->stream);
+}
+
+void scan_source_rewind(struct scan_source *source)
+{
+    source->has_good = source->is_over = source->has_columns = false;
+    source->item = 0;
+    source->rows_skipped = 0;
+    if (source->log) {
+        log_scans_rewind(source->log);
+    } else {
+        close_table(source);
+        open_table(source);
+    }
+}
+
+bool scan_source_waits(const struct scan_source *source)
+{
+    return source->waits;
+}
+
+const char *scan_source_why_over(const struct scan_source *source)
+{
+    return source->stream ? table_stream_why_over(source->stream) : NULL;
+}
+
+bool scan_source_is_mid_row(const struct scan_source *source)
+{
+    return source->stream && table_stream_is_mid_row(source->stream);
+}
+
+void scan_source_complete(struct scan_source *source)
+{
+    source->is_complete = true;
+}
+
+void scan_source_end(struct scan_source *source)
+{
+    source->is_over = true;
+}
+
+uint64_t scan_source_rows_skipped(const struct scan_source *source)
+{
+    return source->rows_skipped +
+           (source->stream ? table_stream_table(source->stream)->rows_skipped : 0);
+}
+
+uint64_t scan_source_position(const struct scan_source *source)
+{
+    return source->log ? log_scans_position(source->log) : table_stream_position(source->stream);
+}
+
+void scan_source_close(struct scan_source *source)
+{
+    if (source->log) {
+        log_scans_close(source->log);
+    } else {
+        close_table(source);
+    }
+    reorder_buffer_free(&source->reorder);
+    free(source);
+}

@@ -1,0 +1,365 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/node_core.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/output/clutter_file.h"
+#include "pipeline/learned.h"
+#include "pipeline/pipeline.h"
+#include "rhotrack/message.h"
+#include "rhotrack/publish.h"
+#include "rhotrack/udpm.h"
+
+/* Scans of plots that wait for the open frame; one more closes it. */
+#define WAITING_MAX 4
+
+struct timing {
+    int64_t sum_us, max_us;
+    uint64_t steps;
+};
+
+struct node_core {
+    const struct parameters *parameters;
+    struct node_core_events events;
+    struct pipeline chain;
+    struct rho_node node;
+    struct feed_order order;
+    struct timing timing; /* of all steps */
+    struct rho_scan_assembler assembler;
+    struct rho_frames frames;
+    struct rho_node_waiting waiting[WAITING_MAX];
+};
+
+/* ---- Start ---- */
+
+static void open_chain(struct node_core *core)
+{
+    pipeline_open(&core->chain, core->parameters);
+    pipeline_open_passive(&core->chain, core->parameters);
+}
+
+static void open_frames(struct node_core *core)
+{
+    const double *value = core->parameters->value;
+    struct rho_frames_config config;
+
+    rho_frames_config_default(&config);
+    config.tolerance_us = llround(value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
+    config.jump_max_us = llround(value[PARAMETER_JUMP_MAX_S] * 1e6);
+    config.follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS];
+    if (rho_frames_init(&core->frames, sizeof core->frames, &config) != RHO_OK) {
+        fail(EXIT_USAGE, "node: frame_tolerance_s has to be 10 s at most, and below jump_max_s");
+    }
+}
+
+static void open_node(struct node_core *core, int32_t epoch)
+{
+    const struct rho_node_config config = {
+        .assembler = &core->assembler,
+        .tracker = core->chain.tracker,
+        .report = core->chain.report,
+        .frames = &core->frames,
+        .passive = core->chain.passive,
+        .waiting = core->waiting,
+        .waiting_max = WAITING_MAX,
+        .passive_range_max_m = (float)core->parameters->value[PARAMETER_RANGE_MAX_M],
+        .epoch = epoch};
+
+    must_succeed(rho_node_init(&core->node, sizeof core->node, &config), "node");
+}
+
+struct node_core *node_core_open(const struct parameters *parameters, int32_t epoch,
+                                 const struct node_core_events *events)
+{
+    struct node_core *core = must_calloc(1, sizeof *core);
+
+    core->parameters = parameters;
+    core->events = *events;
+    core->chain = pipeline_start();
+    core->chain.is_live = true;
+    memset(core->chain.report, 0, sizeof *core->chain.report);
+    open_chain(core);
+    open_frames(core);
+    parameters_to_feed(parameters, &core->assembler);
+    open_node(core, epoch);
+    return core;
+}
+
+enum pipeline_restored node_core_restore(struct node_core *core, const char *path)
+{
+    enum pipeline_restored restored = pipeline_restore(&core->chain, core->parameters, path);
+
+    open_node(core, core->node.epoch); /* the chain has other objects */
+    core->node.is_restored = restored == PIPELINE_RESTORED;
+    return restored;
+}
+
+bool node_core_save(const struct node_core *core, const char *path)
+{
+    return pipeline_save(&core->chain, path);
+}
+
+/* Counters and the clutter map go on across a clock that was set. */
+static void start_anew(struct node_core *core)
+{
+    const struct rho_tracker_counters counters = core->chain.tracker->counters;
+    const struct rho_tracker_work work = core->chain.tracker->work;
+    struct rho_clutter_map *clutter = must_alloc(sizeof *clutter);
+
+    *clutter = core->chain.tracker->clutter_map;
+    pipeline_open(&core->chain, core->parameters);
+    clutter_file_carry(&core->chain.tracker->clutter_map, clutter);
+    free(clutter);
+    core->chain.tracker->counters = counters;
+    core->chain.tracker->work = work;
+    core->node.epoch = core->node.epoch == INT32_MAX ? 0 : core->node.epoch + 1;
+}
+
+/* ---- Steps ---- */
+
+static void send_step(const struct node_core *core)
+{
+    uint8_t buffer[RHO_UDPM_MAX_DATAGRAM];
+    size_t size;
+
+    for (uint16_t part = 0; part < rho_node_num_messages(&core->node); part++) {
+        if (rho_node_publish(&core->node, core->chain.initiator, part, buffer, sizeof buffer,
+                             &size) == RHO_OK) {
+            core->events.send(core->events.context, rho_node_channel(&core->node, part), buffer,
+                              size);
+        }
+    }
+}
+
+static void step(struct node_core *core, enum rho_node_due due)
+{
+    const int64_t start_us = clock_us();
+    struct rho_initiator *initiator =
+        due == RHO_NODE_SCAN ? pipeline_initiator_of(&core->chain, &core->node.scan) : NULL;
+    int64_t took_us;
+
+    if (rho_node_step(&core->node, initiator) != RHO_OK) {
+        return;
+    }
+    took_us = clock_us() - start_us;
+    rho_node_count_time(&core->node, took_us);
+    core->timing.steps++;
+    core->timing.sum_us += took_us;
+    core->timing.max_us = took_us > core->timing.max_us ? took_us : core->timing.max_us;
+    if (core->events.stepped) {
+        core->events.stepped(core->events.context, core->chain.report);
+    }
+    send_step(core);
+}
+
+static void run(struct node_core *core, int64_t now_us)
+{
+    enum rho_node_due due;
+
+    while ((due = rho_node_next(&core->node, now_us)) != RHO_NODE_NOTHING) {
+        if (due == RHO_NODE_RESTART) {
+            start_anew(core);
+        } else {
+            step(core, due);
+        }
+    }
+}
+
+void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,
+                    int64_t now_us)
+{
+    struct rho_scan_assembler_counters before;
+    bool has_room = false;
+
+    while (!has_room) {
+        before = core->assembler.counters;
+        has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
+        feed_order_note(&core->order, &before, &core->assembler);
+        run(core, now_us);
+    }
+}
+
+void node_core_tick(struct node_core *core, int64_t now_us)
+{
+    run(core, now_us);
+}
+
+int64_t node_core_due_us(const struct node_core *core)
+{
+    return rho_node_due_us(&core->node);
+}
+
+void node_core_flush(struct node_core *core)
+{
+    run(core, INT64_MAX);
+}
+
+/* ---- State ---- */
+
+static int32_t round_origin(const struct parameters *parameters, enum parameter_id id, double scale)
+{
+    return parameters_is_set(parameters, id) ? (int32_t)lround(parameters->value[id] * scale) : 0;
+}
+
+static void send_sensors(const struct node_core *core)
+{
+    struct rho_message_sensor_list list;
+    uint8_t buffer[RHO_MESSAGE_SENSOR_LIST_MAX_SIZE];
+    size_t size;
+
+    for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&core->assembler); part++) {
+        if (rho_publish_sensors(&core->assembler, core->chain.tracker, core->node.now_us, part,
+                                &list) != RHO_OK) {
+            return;
+        }
+        list.scan = core->node.step;
+        list.epoch = core->node.epoch;
+        if (rho_message_sensor_list_encode(&list, buffer, sizeof buffer, &size) == RHO_OK) {
+            core->events.send(core->events.context, RHO_MESSAGE_SENSOR_LIST_CHANNEL, buffer, size);
+        }
+    }
+}
+
+static int64_t at_most_int64(uint64_t count)
+{
+    return count < INT64_MAX ? (int64_t)count : INT64_MAX;
+}
+
+static void send_work(const struct node_core *core, const struct node_core_losses *losses)
+{
+    struct rho_message_work work;
+    uint8_t buffer[RHO_MESSAGE_WORK_MAX_SIZE];
+    size_t size;
+
+    rho_node_work(&core->node, &work);
+    work.reports_not_printed = at_most_int64(losses->reports_not_printed);
+    work.events_not_logged = at_most_int64(losses->events_not_logged);
+    if (rho_message_work_encode(&work, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_WORK_CHANNEL, buffer, size);
+    }
+}
+
+void node_core_status(struct node_core *core, const struct node_core_losses *losses)
+{
+    const uint64_t refused = losses->datagrams_refused;
+    struct rho_message_status status;
+    uint8_t buffer[RHO_MESSAGE_STATUS_MAX_SIZE];
+    size_t size;
+
+    rho_node_status(&core->node, core->chain.initiator, &status);
+    status.fragments_refused = refused < INT32_MAX ? (int32_t)refused : INT32_MAX;
+    status.origin_lat_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LAT_DEG, 1e7);
+    status.origin_lon_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LON_DEG, 1e7);
+    status.origin_alt_mm = round_origin(core->parameters, PARAMETER_ORIGIN_ALT_M, 1e3);
+    if (rho_message_status_encode(&status, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_STATUS_CHANNEL, buffer, size);
+    }
+    send_work(core, losses);
+    send_sensors(core);
+}
+
+void node_core_send_clutter(const struct node_core *core)
+{
+    struct rho_message_clutter_map list;
+    uint8_t buffer[RHO_MESSAGE_CLUTTER_MAP_MAX_SIZE];
+    size_t size;
+
+    for (uint16_t part = 0; part < rho_publish_num_clutter_parts(core->chain.tracker); part++) {
+        if (rho_publish_clutter(core->chain.tracker, part, &list) != RHO_OK) {
+            return;
+        }
+        list.scan = core->node.step;
+        list.epoch = core->node.epoch;
+        if (rho_message_clutter_map_encode(&list, buffer, sizeof buffer, &size) == RHO_OK) {
+            core->events.send(core->events.context, RHO_MESSAGE_CLUTTER_MAP_CHANNEL, buffer, size);
+        }
+    }
+}
+
+unsigned node_core_sensors(const struct node_core *core,
+                           struct rho_message_sensor sensors[RHO_MAX_SENSORS])
+{
+    unsigned count = 0;
+
+    for (unsigned place = 0; place < RHO_MAX_SENSORS; place++) {
+        count += rho_publish_sensor(&core->assembler, core->chain.tracker, core->node.now_us, place,
+                                    &sensors[count]) != 0;
+    }
+    return count;
+}
+
+bool node_core_has_twin(const struct node_core *core, int16_t sensor_id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *source = &core->assembler.sources[i];
+
+        if (source->is_used && source->sensor_id == sensor_id && source->has_twin) {
+            return true;
+        }
+    }
+    return false;
+}
+
+int node_core_follow_scans(const struct node_core *core)
+{
+    return (int)core->assembler.config.follow_scans;
+}
+
+const struct rho_report *node_core_report(const struct node_core *core)
+{
+    return core->chain.report;
+}
+
+struct rho_clutter_map *node_core_clutter(struct node_core *core)
+{
+    return &core->chain.tracker->clutter_map;
+}
+
+const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core)
+{
+    return &core->assembler.counters;
+}
+
+const struct rho_frames_counters *node_core_frames(const struct node_core *core)
+{
+    return &core->frames.counters;
+}
+
+const struct rho_tracker_counters *node_core_tracker(const struct node_core *core)
+{
+    return &core->chain.tracker->counters;
+}
+
+const struct rho_node_counters *node_core_counters(const struct node_core *core)
+{
+    return &core->node.counters;
+}
+
+const struct feed_order *node_core_order(const struct node_core *core)
+{
+    return &core->order;
+}
+
+double node_core_mean_us(const struct node_core *core)
+{
+    return core->timing.steps ? (double)core->timing.sum_us / (double)core->timing.steps : 0;
+}
+
+double node_core_max_us(const struct node_core *core)
+{
+    return (double)core->timing.max_us;
+}
+
+void node_core_close(struct node_core *core)
+{
+    pipeline_free(&core->chain);
+    free(core);
+}
+
+void node_core_print_learned(const struct node_core *core, FILE *to)
+{
+    learned_print(core->chain.tracker, to);
+}

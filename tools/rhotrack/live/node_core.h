@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * node_core: the library's node (rhotrack/node.h) with the objects that the program's parameters
+ * describe: (channel, bytes, time) in, messages out.
+ *
+ *     node_core_take(core, channel, data, size, now_us);    for each message that comes
+ *     node_core_tick(core, now_us);                         when nothing has come, at
+ *     node_core_due_us at the latest node_core_status(core, &losses);                      once a
+ *     second
+ *
+ * Any bytes may be given: faults in them are counted, and none of them ends the program.
+ */
+#ifndef RHOTRACK_TOOL_NODE_CORE_H
+#define RHOTRACK_TOOL_NODE_CORE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "io/scans/late_scans.h"
+#include "pipeline/pipeline_snapshot.h"
+#include "rhotrack/frames.h"
+#include "rhotrack/message.h"
+#include "rhotrack/node.h"
+#include "rhotrack/scan_assembler.h"
+#include "rhotrack/tracker.h"
+#include "settings/parameters.h"
+
+struct node_core;
+
+/* Called from within the functions below, which must not be called by them. */
+struct node_core_events {
+    void *context;
+    /* a message to publish */
+    void (*send)(void *context, const char *channel, const uint8_t *data, size_t size);
+    /* a step was made, before its messages; may be NULL */
+    void (*stepped)(void *context, const struct rho_report *report);
+};
+
+/*
+ * The parameters' address is kept. Values that the library does not take: exit 2.
+ *   epoch  boot number; goes up with every restart of the tracker
+ */
+struct node_core *node_core_open(const struct parameters *parameters, int32_t epoch,
+                                 const struct node_core_events *events);
+
+/*
+ * Goes on with the tracks and all that was learned of the file; before the first message. Where the
+ * first scan is more than jump_max_s older than the snapshot, the sensors' clock is another one,
+ * and tracks begin anew.
+ */
+enum pipeline_restored node_core_restore(struct node_core *core, const char *path);
+
+/* False: it failed, with errno. */
+bool node_core_save(const struct node_core *core, const char *path);
+
+/* A message that came at now_us of the reception clock; steps what is due then. */
+void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,
+                    int64_t now_us);
+
+/* Steps what is due though nothing has come. */
+void node_core_tick(struct node_core *core, int64_t now_us);
+
+/* When that is on the reception clock; INT64_MAX: not before a message comes. */
+int64_t node_core_due_us(const struct node_core *core);
+
+/* The end: all that is there is stepped. */
+void node_core_flush(struct node_core *core);
+
+/* What its surroundings lost so far. */
+struct node_core_losses {
+    uint64_t datagrams_refused;   /* by the transport */
+    uint64_t reports_not_printed; /* standard output took no more */
+    uint64_t events_not_logged;   /* the log took no more */
+};
+
+/* Publishes RHO_STATUS, RHO_WORK and RHO_SENSORS. */
+void node_core_status(struct node_core *core, const struct node_core_losses *losses);
+
+const struct rho_report *node_core_report(const struct node_core *core); /* of the last step */
+const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core);
+const struct rho_frames_counters *node_core_frames(const struct node_core *core);
+const struct rho_tracker_counters *node_core_tracker(const struct node_core *core);
+const struct rho_node_counters *node_core_counters(const struct node_core *core);
+
+/* Scans that came out of sequence, and were used. */
+const struct feed_order *node_core_order(const struct node_core *core);
+
+/*
+ * The sensors that are heard, as RHO_SENSORS says it, with the time of the last call that told it.
+ * Returns how many.
+ */
+unsigned node_core_sensors(const struct node_core *core,
+                           struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
+
+/* One of its scans came twice, with different contents. */
+bool node_core_has_twin(const struct node_core *core, int16_t sensor_id);
+
+/* Scans after which a sensor is believed. */
+int node_core_follow_scans(const struct node_core *core);
+
+/* Sends what is known of clutter that comes back, RHO_CLUTTER. */
+void node_core_send_clutter(const struct node_core *core);
+
+/* The tracker's map of clutter. */
+struct rho_clutter_map *node_core_clutter(struct node_core *core);
+
+/* Mean and longest step in us since the start. */
+double node_core_mean_us(const struct node_core *core);
+double node_core_max_us(const struct node_core *core);
+
+void node_core_close(struct node_core *core);
+
+/* What was learned of sensors that are not as stated (learned.h). */
+void node_core_print_learned(const struct node_core *core, FILE *to);
+
+#endif

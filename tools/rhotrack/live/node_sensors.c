@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/node_sensors.h"
+
+#include <math.h>
+
+#include "rhotrack/message.h"
+
+/* Its share of the others' tracks is so low only of a sensor that is doubted for it. */
+#define SHARE_LOW 0.3f
+#define US_PER_S 1e6
+
+/* The channel's name is what tells two sensors of one number apart. */
+static const char *channel_of(const struct rho_message_sensor *sensor)
+{
+    return sensor->kind == RHO_MESSAGE_SENSOR_PLOTS   ? RHO_MESSAGE_PLOT_SCAN_CHANNEL
+           : sensor->kind == RHO_MESSAGE_SENSOR_POLAR ? RHO_MESSAGE_POLAR_SCAN_CHANNEL
+                                                      : RHO_MESSAGE_BEARING_SCAN_CHANNEL;
+}
+
+unsigned node_sensors_established(const struct node_core *core,
+                                  struct rho_message_sensor sensors[RHO_MAX_SENSORS])
+{
+    const unsigned count = node_core_sensors(core, sensors);
+    unsigned kept = 0;
+
+    for (unsigned i = 0; i < count; i++) {
+        if (sensors[i].scans >= node_core_follow_scans(core)) {
+            sensors[kept++] = sensors[i];
+        }
+    }
+    return kept;
+}
+
+/* ---- Lines on standard error ---- */
+
+static void print_suspect(const struct rho_message_sensor *sensor, FILE *to)
+{
+    if (sensor->seen_share < SHARE_LOW) {
+        fprintf(to,
+                "rhotrack: sensor %d is doubted: it sees %.0f %% of the tracks that others see\n",
+                sensor->sensor_id, 100.0 * (double)sensor->seen_share);
+    } else {
+        fprintf(to,
+                "rhotrack: sensor %d is doubted: its innovations are %.1f times what its sigmas "
+                "say\n",
+                sensor->sensor_id, sqrt((double)sensor->innovation_factor));
+    }
+}
+
+static void print_silent(const struct rho_message_sensor *sensor, FILE *to)
+{
+    fprintf(to, "rhotrack: sensor %d is silent: nothing on %s%d for %.0f s\n", sensor->sensor_id,
+            channel_of(sensor), sensor->sensor_id, sensor->heard_age_us / US_PER_S);
+}
+
+static void print_changes(const struct node_sensor *before, const struct rho_message_sensor *sensor,
+                          FILE *to)
+{
+    if (sensor->is_doubted && !before->is_doubted) {
+        print_suspect(sensor, to);
+    } else if (!sensor->is_doubted && before->is_doubted) {
+        fprintf(to, "rhotrack: sensor %d is trusted again\n", sensor->sensor_id);
+    }
+    if (sensor->is_silent && !before->is_silent) {
+        print_silent(sensor, to);
+    } else if (!sensor->is_silent && before->is_silent) {
+        fprintf(to, "rhotrack: sensor %d is heard again\n", sensor->sensor_id);
+    }
+}
+
+/* ---- Changes since the last step ---- */
+
+static struct node_sensor find(const struct node_sensors *sensors,
+                               const struct rho_message_sensor *sensor)
+{
+    for (unsigned i = 0; i < sensors->count; i++) {
+        if (sensors->of[i].sensor_id == sensor->sensor_id && sensors->of[i].kind == sensor->kind) {
+            return sensors->of[i];
+        }
+    }
+    return (struct node_sensor){.sensor_id = sensor->sensor_id, .kind = sensor->kind};
+}
+
+void node_sensors_watch(struct node_sensors *sensors, const struct node_core *core, FILE *to)
+{
+    struct rho_message_sensor now[RHO_MAX_SENSORS];
+    struct node_sensors next = {.count = 0};
+    const unsigned count = node_sensors_established(core, now);
+
+    for (unsigned i = 0; i < count; i++) {
+        const bool has_twin = node_core_has_twin(core, now[i].sensor_id);
+
+        if (to) {
+            struct node_sensor before = find(sensors, &now[i]);
+
+            print_changes(&before, &now[i], to);
+            if (has_twin && !before.has_twin) {
+                fprintf(to,
+                        "rhotrack: sensor %d: a scan came twice with different contents: two "
+                        "senders use this number\n",
+                        now[i].sensor_id);
+            }
+        }
+        next.of[next.count++] = (struct node_sensor){now[i].sensor_id, now[i].kind,
+                                                     now[i].is_doubted, now[i].is_silent, has_twin};
+    }
+    *sensors = next;
+}
+
+void node_sensors_print(const struct node_core *core, FILE *to)
+{
+    struct rho_message_sensor now[RHO_MAX_SENSORS];
+    const unsigned count = node_sensors_established(core, now);
+
+    for (unsigned i = 0; i < count; i++) {
+        if (now[i].is_doubted) {
+            fprintf(to, "rhotrack: sensor %d contradicts the others\n", now[i].sensor_id);
+        }
+        if (now[i].is_silent) {
+            print_silent(&now[i], to);
+        }
+    }
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/node_tally.h"
+
+void node_tally(const struct node_core *core, const struct transport *transport,
+                struct node_tally tallies[NODE_TALLIES])
+{
+    const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
+    const struct rho_frames_counters *frames = node_core_frames(core);
+    const struct rho_tracker_counters *tracker = node_core_tracker(core);
+    const struct rho_node_counters *own = node_core_counters(core);
+    const struct feed_losses losses = feed_order_losses(node_core_order(core), assembler);
+    struct transport_counters network = transport_counters(transport);
+    const struct node_tally all[NODE_TALLIES] = {
+        {"datagrams refused (fragments, or no LCM)", network.refused, NODE_TALLY_FAULT},
+        {"datagrams of addresses that are not in sources_allowed", network.refused_source,
+         NODE_TALLY_FAULT},
+        {"datagrams dropped by the kernel (receive buffer full: net.core.rmem_max, recv_buf_size)",
+         network.dropped, NODE_TALLY_FAULT},
+        {"messages not sent", transport_can_send(transport) ? network.not_sent : 0,
+         NODE_TALLY_FAULT},
+        {"messages bad", assembler->messages_bad, NODE_TALLY_FAULT},
+        {"messages of another type or version", assembler->messages_wrong_type, NODE_TALLY_FAULT},
+        {"messages flooded", assembler->messages_flooded, NODE_TALLY_FAULT},
+        {"messages of sensors that are not in sensors_allowed", assembler->messages_not_allowed,
+         NODE_TALLY_FAULT},
+        {"messages of too many sensors", assembler->sensors_no_room, NODE_TALLY_FAULT},
+        {"scans out of order", losses.out_of_order, NODE_TALLY_USUAL},
+        {"scans late, dropped", losses.dropped, NODE_TALLY_FAULT},
+        {"scans double", assembler->scans_duplicate, NODE_TALLY_FAULT},
+        {"scans double with other contents (two senders of one sensor's number)",
+         assembler->scans_other, NODE_TALLY_FAULT},
+        {"scans that did not wait for hold_ms (no room for more)", own->scans_early,
+         NODE_TALLY_USUAL},
+        {"scans lost", losses.lost, NODE_TALLY_MAY_FALL},
+        {"scans bad", assembler->scans_bad, NODE_TALLY_FAULT},
+        {"scans incomplete", assembler->scans_incomplete, NODE_TALLY_FAULT},
+        {"scans far off the clock", assembler->clock_jumps, NODE_TALLY_FAULT},
+        {"sensor restarts", assembler->sensor_restarts, NODE_TALLY_FAULT},
+        {"tracker restarts", own->restarts, NODE_TALLY_FAULT},
+        {"plots beyond a scan's capacity", assembler->plots_no_room, NODE_TALLY_FAULT},
+        {"scans refused", own->scans_refused, NODE_TALLY_FAULT},
+        {"frames refused", own->frames_refused, NODE_TALLY_FAULT},
+        {"bearing scans refused (places, too many sensors)", own->bearings_refused,
+         NODE_TALLY_FAULT},
+        {"sensors' descriptions refused", own->sensors_refused, NODE_TALLY_FAULT},
+        {"bearing scans late, dropped", frames->scans_late, NODE_TALLY_FAULT},
+        {"bearing scans far off the clock", frames->scans_off_clock, NODE_TALLY_FAULT},
+        {"frames incomplete", frames->frames_incomplete, NODE_TALLY_USUAL},
+        {"bearings beyond a scan's capacity", frames->bearings_no_room, NODE_TALLY_USUAL},
+        {"inputs stale", tracker->fates[RHO_FATE_STALE], NODE_TALLY_FAULT},
+        {"inputs invalid", tracker->fates[RHO_FATE_INVALID] - tracker->plots_outside,
+         NODE_TALLY_FAULT},
+        {"inputs outside of their sensor's coverage", tracker->plots_outside, NODE_TALLY_USUAL},
+        {"inputs without room", tracker->fates[RHO_FATE_NO_ROOM], NODE_TALLY_USUAL},
+        {"tracks without room", tracker->tracks_no_room, NODE_TALLY_USUAL},
+        {"gate plots dropped", tracker->gate_plots_dropped, NODE_TALLY_USUAL},
+        {"updates refused", tracker->updates_refused, NODE_TALLY_USUAL},
+        {"hypotheses cut", tracker->hypotheses_cut, NODE_TALLY_USUAL},
+    };
+
+    for (int i = 0; i < NODE_TALLIES; i++) {
+        tallies[i] = all[i];
+    }
+}

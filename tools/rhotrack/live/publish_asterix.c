@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * publish udp://...: what radars send in ASTERIX goes on as messages, scan by scan, as it comes in.
+ */
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/common.h"
+#include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_udp.h"
+#include "io/csv/table.h"
+#include "io/log/message_shift.h"
+#include "io/rows/rows_read.h"
+#include "io/rows/rows_scans.h"
+#include "live/publish.h"
+
+#define WAIT_S 30.0 /* for a radar's place, and for its antenna's messages */
+#define POLL_MS 100
+#define DATAGRAM_MAX 65536
+
+struct forwarding {
+    const struct command_line *line;
+    struct parameters parameters; /* with the origin, once a radar told its place */
+    const char *url;
+    struct transport *transport;
+    struct asterix_scans *scans;
+    struct asterix_heard heard;
+    int32_t epoch;
+    struct first {
+        int32_t sensor_id;
+        int64_t time_128;
+    } firsts[ASTERIX_MAX_SENSORS]; /* each radar's first scan */
+    size_t num_firsts;
+    uint64_t scans_sent, scans_early, scans_free, rows_skipped;
+};
+
+/* ---- Places ---- */
+
+/* The radar's first scan was not long ago. */
+static bool is_new(struct forwarding *forwarding, const struct asterix_scan *scan)
+{
+    size_t i = 0;
+
+    while (i < forwarding->num_firsts && forwarding->firsts[i].sensor_id != scan->sensor_id) {
+        i++;
+    }
+    if (i == forwarding->num_firsts) { /* there are no more radars than that */
+        forwarding->firsts[forwarding->num_firsts++] =
+            (struct first){scan->sensor_id, scan->time_128};
+    }
+    return scan->time_128 - forwarding->firsts[i].time_128 < (int64_t)(WAIT_S * ASTERIX_TIME_HZ);
+}
+
+/*
+ * It may yet tell where it stands, and no other source did: a radar that moves later on would move
+ * its tracks.
+ */
+static bool is_place_awaited(struct forwarding *forwarding, const struct asterix_scan *scan)
+{
+    return is_new(forwarding, scan) && !scan->place.is_given &&
+           isnan(parameters_of_sensor(&forwarding->parameters, scan->sensor_id, SENSOR_X_M, NAN));
+}
+
+static void suggest_origin(struct forwarding *forwarding, const struct asterix_place *place)
+{
+    struct parameters *parameters = &forwarding->parameters;
+
+    if (place->is_given && !parameters_has_origin(parameters)) {
+        asterix_records_suggest_origin(forwarding->url, place, parameters);
+    }
+}
+
+/* ---- Scans to messages ---- */
+
+static struct table *table_of(const struct forwarding *forwarding, const struct asterix_scan *scan)
+{
+    const struct asterix_columns columns = {.has_place = scan->place.is_given, .has_scan = true};
+    struct table *table = asterix_records_table(forwarding->url, &columns);
+
+    asterix_records_add_scan(table, scan);
+    return table;
+}
+
+static void send_rows(struct forwarding *forwarding, struct rows_file *file)
+{
+    struct rows_scans scans;
+    struct rows_at at = {.scan = 0};
+    struct rows_output output;
+
+    rows_scans_make(&scans, file, 0);
+    while (rows_scans_next(&scans, &at, &output)) {
+        message_set_epoch(output.data, output.size, PUBLISH_EPOCH_OF_CSV, forwarding->epoch);
+        publish_send(forwarding->transport, output.channel, output.data, output.size);
+    }
+    rows_scans_free(&scans);
+    forwarding->scans_sent++;
+}
+
+static void send_scan(struct forwarding *forwarding, const struct asterix_scan *scan)
+{
+    struct rows_file file;
+    struct table *table;
+
+    suggest_origin(forwarding, &scan->place);
+    if (!scan->is_numbered) {
+        forwarding->scans_free++;
+        return;
+    }
+    if (is_place_awaited(forwarding, scan)) {
+        forwarding->scans_early++;
+        return;
+    }
+    table = table_of(forwarding, scan);
+    if (rows_read_table(&file, forwarding->url, table, &forwarding->parameters, true)) {
+        send_rows(forwarding, &file);
+    }
+    forwarding->rows_skipped += file.rows_skipped;
+    rows_read_end(&file);
+    table_free(table);
+}
+
+static void send_scans(struct forwarding *forwarding)
+{
+    struct asterix_scan scan;
+
+    while (asterix_scans_next(forwarding->scans, &scan)) {
+        send_scan(forwarding, &scan);
+    }
+}
+
+/* ---- Listening ---- */
+
+static void listen_until_over(struct forwarding *forwarding, int receiver)
+{
+    uint8_t *datagram = must_alloc(DATAGRAM_MAX);
+    struct pollfd ready = {.fd = receiver, .events = POLLIN};
+    int64_t start_us = clock_us();
+
+    while (!publish_is_stopped() &&
+           (forwarding->line->seconds <= 0 ||
+            (double)(clock_us() - start_us) < forwarding->line->seconds * 1e6)) {
+        ssize_t got;
+
+        if (poll(&ready, 1, POLL_MS) <= 0) {
+            continue;
+        }
+        got = recv(receiver, datagram, DATAGRAM_MAX, MSG_DONTWAIT);
+        if (got >= 0) {
+            asterix_datagram_take(forwarding->scans, datagram, (size_t)got, &forwarding->heard);
+            send_scans(forwarding);
+        } else if (errno != EAGAIN && errno != EINTR && errno != ECONNREFUSED) {
+            fail(EXIT_RUNTIME, "%s: %s", forwarding->url, strerror(errno));
+        }
+    }
+    asterix_scans_finish(forwarding->scans);
+    send_scans(forwarding);
+    free(datagram);
+}
+
+static void say(const struct forwarding *forwarding, uint64_t count, const char *what)
+{
+    if (count > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", forwarding->url, count, what);
+    }
+}
+
+static void report(const struct forwarding *forwarding)
+{
+    const struct asterix_counts *counts = asterix_scans_counts(forwarding->scans);
+
+    asterix_records_report(forwarding->url, counts);
+    say(forwarding, forwarding->heard.bad, "datagrams bad, from a place in them on");
+    say(forwarding, forwarding->heard.others, "data blocks of other categories left out");
+    say(forwarding, forwarding->scans_early, "scans left out before the radar's place was known");
+    say(forwarding, forwarding->scans_free,
+        "plots left out, of radars without antenna messages: set scan_interval_s");
+    say(forwarding, forwarding->rows_skipped, "bad rows skipped");
+    fprintf(stderr,
+            "rhotrack: %" PRIu64 " datagrams, %" PRIu64 " plots of %zu radars, %" PRIu64
+            " scans sent\n",
+            forwarding->heard.datagrams, counts->plots, forwarding->num_firsts,
+            forwarding->scans_sent);
+}
+
+/* Times are those of the day that it is now. */
+static void start_today(struct asterix_scans *scans)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_REALTIME, &now);
+    asterix_scans_start_near(scans, (int64_t)now.tv_sec * ASTERIX_TIME_HZ);
+}
+
+int publish_asterix(const struct command_line *line)
+{
+    struct asterix_rules rules;
+    struct forwarding *forwarding = must_calloc(1, sizeof *forwarding);
+    int receiver;
+
+    if (line->num_arguments > 1 || line->loop) {
+        fail(EXIT_USAGE, "publish: %s is listened to alone, and not in a loop", line->arguments[0]);
+    }
+    if (line->speed < 1 || line->speed > 1) {
+        fail(EXIT_USAGE, "publish: %s is heard live, and --speed is for files", line->arguments[0]);
+    }
+    parameters_check(&line->parameters);
+    forwarding->line = line;
+    forwarding->parameters = line->parameters;
+    forwarding->url = line->arguments[0];
+    forwarding->epoch = publish_epoch();
+    rules = asterix_records_rules(&line->parameters,
+                                  line->parameters.value[PARAMETER_ASTERIX_HOLD_S], WAIT_S);
+    forwarding->scans = asterix_scans_open(&rules);
+    start_today(forwarding->scans);
+    publish_watch_signals();
+    receiver = asterix_udp_open(forwarding->url); /* may fail: before a log is emptied */
+    forwarding->transport = transport_open(line->lcm, TRANSPORT_SEND);
+    listen_until_over(forwarding, receiver);
+    report(forwarding);
+    close(receiver);
+    transport_close(forwarding->transport);
+    asterix_scans_close(forwarding->scans);
+    free(forwarding);
+    return 0;
+}

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/transport.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/common.h"
+#include "live/transport_parts.h"
+
+static const char *or_default(const char *url)
+{
+    const char *variable = getenv("LCM_DEFAULT_URL");
+
+    return url ? url : variable && *variable ? variable : TRANSPORT_DEFAULT_URL;
+}
+
+bool transport_is_file(const char *url, const char *path)
+{
+    struct stat one, other;
+    char *name;
+    bool is_same;
+
+    url = or_default(url);
+    if (strncmp(url, "file://", 7) != 0) {
+        return false;
+    }
+    name = must_copy(url + 7);
+    name[strcspn(name, "?")] = '\0';
+    is_same = stat(name, &one) == 0 && stat(path, &other) == 0 && S_ISREG(one.st_mode) &&
+              one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+    free(name);
+    return is_same;
+}
+
+struct transport *transport_open(const char *url, enum transport_use use)
+{
+    struct transport *transport = must_calloc(1, sizeof *transport);
+
+    transport->source = url ? "--lcm" : "LCM_DEFAULT_URL";
+    url = or_default(url);
+    transport->url = must_copy(url);
+    transport->last_us = INT64_MIN;
+    if (!strstr(url, "://")) {
+        transport_refuse(transport, "no LCM URL; it looks like %s", TRANSPORT_DEFAULT_URL);
+    }
+    if (strncmp(url, "udpm://", 7) == 0) {
+        transport_open_udpm(transport, use);
+    } else {
+        transport_open_lcm(transport, use);
+    }
+    return transport;
+}
+
+const char *transport_url(const struct transport *transport)
+{
+    return transport->url;
+}
+
+bool transport_can_send(const struct transport *transport)
+{
+    return transport->can_send;
+}
+
+int transport_descriptor(const struct transport *transport)
+{
+    return transport->provider->descriptor(transport->object);
+}
+
+enum transport_found transport_receive(struct transport *transport,
+                                       struct transport_message *message)
+{
+    enum transport_found found =
+        transport->provider->receive(transport, transport->object, message);
+
+    transport->counters.received += found == TRANSPORT_MESSAGE;
+    return found;
+}
+
+bool transport_send(struct transport *transport, const char *channel, const uint8_t *data,
+                    size_t size)
+{
+    bool is_sent = false;
+
+    errno = EROFS;
+    if (transport->can_send) {
+        is_sent = transport->provider->send(transport->object, channel, data, size);
+    }
+    transport->counters.sent += is_sent;
+    transport->counters.not_sent += !is_sent;
+    return is_sent;
+}
+
+struct transport_counters transport_counters(const struct transport *transport)
+{
+    return transport->counters;
+}
+
+void transport_close(struct transport *transport)
+{
+    transport->provider->close(transport->object);
+    free(transport->url);
+    free(transport);
+}

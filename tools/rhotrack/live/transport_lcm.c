@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * transport_lcm: LCM's other providers, through liblcm; messages stay bytes, for this program's own
+ * decoders. But a log that is read without waiting, or written, is transport_log's: liblcm tells
+ * neither the times of its events nor errors.
+ */
+#include <errno.h>
+#include <lcm/lcm.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "live/transport_parts.h"
+#include "rhotrack/udpm.h"
+
+/* What waits inside liblcm; it drops the newest beyond. Longer messages are none of rhotrack's. */
+enum { QUEUE_MESSAGES = 10000, MESSAGE_BYTES = 65536 };
+
+struct provider {
+    lcm_t *lcm;
+    struct transport *transport;
+    bool has_ended, has_message;
+    size_t size;
+    int64_t time_us;
+    char channel[RHO_UDPM_MAX_CHANNEL + 1];
+    uint8_t data[MESSAGE_BYTES];
+};
+
+/* ---- Receiving ---- */
+
+static void on_message(const lcm_recv_buf_t *buffer, const char *channel, void *user)
+{
+    struct provider *provider = user;
+    size_t length = strlen(channel);
+
+    if (length == 0 || length > RHO_UDPM_MAX_CHANNEL || buffer->data_size > MESSAGE_BYTES) {
+        provider->transport->counters.refused += strncmp(channel, "RHO_", 4) == 0;
+        return;
+    }
+    memcpy(provider->channel, channel, length + 1);
+    memcpy(provider->data, buffer->data, buffer->data_size);
+    provider->size = buffer->data_size;
+    provider->time_us = buffer->recv_utime;
+    provider->has_message = true;
+}
+
+static int descriptor_of(const void *object)
+{
+    return lcm_get_fileno(((const struct provider *)object)->lcm);
+}
+
+static enum transport_found receive(struct transport *transport, void *object,
+                                    struct transport_message *message)
+{
+    struct provider *provider = object;
+    struct pollfd here = {.fd = descriptor_of(object), .events = POLLIN};
+
+    provider->has_message = false;
+    while (!provider->has_ended && !provider->has_message) {
+        if (poll(&here, 1, 0) <= 0) {
+            return TRANSPORT_NOTHING;
+        }
+        provider->has_ended = lcm_handle(provider->lcm) != 0;
+    }
+    if (!provider->has_message) {
+        return TRANSPORT_END;
+    }
+    *message =
+        (struct transport_message){.channel = provider->channel,
+                                   .data = provider->data,
+                                   .size = provider->size,
+                                   .received_us = transport_time_us(transport, provider->time_us)};
+    return TRANSPORT_MESSAGE;
+}
+
+/* ---- Sending, opening ---- */
+
+static bool send_message(void *object, const char *channel, const uint8_t *data, size_t size)
+{
+    struct provider *provider = object;
+
+    errno = EIO;
+    return lcm_publish(provider->lcm, channel, data, (unsigned)size) == 0;
+}
+
+static void close_lcm(void *object)
+{
+    struct provider *provider = object;
+
+    lcm_destroy(provider->lcm);
+    free(provider);
+}
+
+/* The value of one of the URL's options, and what is behind it; "" where it is not said. */
+static const char *option_of(const char *url, const char *name)
+{
+    size_t length = strlen(name);
+
+    for (const char *rest = strpbrk(url, "?&"); rest; rest = strpbrk(rest, "?&")) {
+        rest++;
+        if (strncmp(rest, name, length) == 0 && rest[length] == '=') {
+            return rest + length + 1;
+        }
+    }
+    return "";
+}
+
+/*
+ * A file is read, or written from its start or its end: liblcm's option mode, r where it is not
+ * said.
+ */
+static char file_mode(const char *url)
+{
+    const char *mode = option_of(url, "mode");
+
+    return *mode ? *mode : 'r';
+}
+
+static bool is_instant(const char *url)
+{
+    const char *speed = option_of(url, "speed");
+
+    return *speed && !(strtod(speed, NULL) > 0);
+}
+
+static void check_file(const struct transport *transport, enum transport_use use)
+{
+    bool is_read = file_mode(transport->url) == 'r';
+
+    if (!strchr("rwa", file_mode(transport->url))) {
+        transport_refuse(transport, "unknown mode; there are r, w and a");
+    }
+    if (is_read && use == TRANSPORT_SEND) {
+        transport_refuse(transport, "the file would be read; ?mode=w writes it");
+    }
+    if (!is_read && use == TRANSPORT_SEND_AND_RECEIVE) {
+        transport_refuse(transport, "a file that is written has nothing to receive; ?mode=r");
+    }
+}
+
+void transport_open_lcm(struct transport *transport, enum transport_use use)
+{
+    static const struct transport_provider methods = {descriptor_of, receive, send_message,
+                                                      close_lcm};
+    bool is_file = strncmp(transport->url, "file://", 7) == 0;
+    struct provider *provider;
+    lcm_subscription_t *all;
+
+    if (is_file) {
+        check_file(transport, use);
+        if (use == TRANSPORT_SEND) {
+            transport_open_written_log(transport, file_mode(transport->url) == 'a' ? "ab" : "wb");
+            return;
+        }
+        if (is_instant(transport->url)) {
+            transport_open_log(transport);
+            return;
+        }
+    }
+    provider = must_calloc(1, sizeof *provider);
+    provider->transport = transport;
+    provider->lcm = lcm_create(transport->url);
+    if (!provider->lcm) {
+        transport_refuse(transport, "liblcm does not open it");
+    }
+    if (use == TRANSPORT_SEND_AND_RECEIVE) {
+        all = lcm_subscribe(provider->lcm, ".*", on_message, provider);
+        if (!all || lcm_subscription_set_queue_capacity(all, QUEUE_MESSAGES)) {
+            fail(EXIT_RUNTIME, "%s: liblcm does not subscribe", transport->url);
+        }
+    }
+    transport->provider = &methods;
+    transport->object = provider;
+    transport->can_send = !is_file;
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * transport_log: an LCM log read without waiting, or written. The reception clock is that of its
+ * events, which may have been recorded over days: nothing of it comes too fast, and what waits does
+ * so in their time. Written it is not through liblcm, which does not say that a disk is full.
+ */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/log/lcm_log.h"
+#include "live/transport_parts.h"
+
+struct log {
+    struct lcm_log_reader *reader;
+    struct lcm_log_event event;
+    bool has_event; /* the first one, which sets the clock, was not given yet */
+};
+
+static int descriptor_of(const void *object)
+{
+    (void)object;
+    return -1; /* nothing is ever waited for */
+}
+
+static enum transport_found receive(struct transport *transport, void *object,
+                                    struct transport_message *message)
+{
+    struct log *log = object;
+
+    if (!log->has_event && !lcm_log_next(log->reader, &log->event)) {
+        return TRANSPORT_END;
+    }
+    log->has_event = false;
+    if (log->event.utime > transport->last_us) {
+        transport->last_us = log->event.utime;
+    }
+    *message = (struct transport_message){.channel = log->event.channel,
+                                          .data = log->event.data,
+                                          .size = log->event.size,
+                                          .received_us = transport->last_us};
+    return TRANSPORT_MESSAGE;
+}
+
+static void close_log(void *object)
+{
+    struct log *log = object;
+
+    lcm_log_report(log->reader);
+    lcm_log_close(log->reader);
+    free(log);
+}
+
+/* The URL's file, in new memory. */
+static char *path_of(const struct transport *transport)
+{
+    char *path = must_copy(transport->url + strlen("file://"));
+
+    path[strcspn(path, "?")] = '\0';
+    return path;
+}
+
+void transport_open_log(struct transport *transport)
+{
+    static const struct transport_provider provider = {descriptor_of, receive, NULL, close_log};
+    struct log *log = must_calloc(1, sizeof *log);
+    char *path = path_of(transport);
+
+    log->reader = lcm_log_open(path);
+    log->has_event = lcm_log_next(log->reader, &log->event);
+    if (!log->has_event) {
+        transport_refuse(transport, "not one event of an LCM log in it");
+    }
+    transport->provider = &provider;
+    transport->object = log;
+    transport->last_us = log->event.utime;
+    transport->has_own_clock = true;
+    free(path);
+}
+
+/* ---- Writing ---- */
+
+struct written_log {
+    struct transport *transport;
+    char *path;
+    struct lcm_log_writer writer;
+};
+
+static enum transport_found receive_nothing(struct transport *transport, void *object,
+                                            struct transport_message *message)
+{
+    (void)transport;
+    (void)object;
+    (void)message;
+    return TRANSPORT_NOTHING;
+}
+
+static bool write_message(void *object, const char *channel, const uint8_t *data, size_t size)
+{
+    struct written_log *log = object;
+
+    return lcm_log_write(&log->writer, transport_now_us(log->transport), channel, data, size);
+}
+
+static void close_written(void *object)
+{
+    struct written_log *log = object;
+
+    if (fclose(log->writer.file)) {
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", log->path, strerror(errno));
+    }
+    free(log->path);
+    free(log);
+}
+
+void transport_open_written_log(struct transport *transport, const char *mode)
+{
+    static const struct transport_provider provider = {descriptor_of, receive_nothing,
+                                                       write_message, close_written};
+    struct written_log *log = must_calloc(1, sizeof *log);
+
+    log->transport = transport;
+    log->path = path_of(transport);
+    log->writer.file = fopen(log->path, mode);
+    if (!log->writer.file) {
+        fail(EXIT_RUNTIME, "%s: %s", log->path, strerror(errno));
+    }
+    transport->provider = &provider;
+    transport->object = log;
+    transport->can_send = true;
+}

@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: MIT */
+/* transport_udpm: LCM over UDP multicast, on a socket of this program. */
+#include <arpa/inet.h>
+#include <errno.h>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/common.h"
+#include "live/transport_parts.h"
+#include "rhotrack/udpm.h"
+
+/*
+ * Datagrams taken from the kernel at a time. What is longer than DATAGRAM_BYTES is no message of
+ * rhotrack's; a short LCM message may have SHORT_MESSAGE_BYTES with its channel, and longer ones go
+ * in fragments, which are not sent.
+ */
+enum { BATCH = 64, DATAGRAM_BYTES = 2048, SHORT_MESSAGE_BYTES = 65499 };
+
+/*
+ * A burst of large scans, and what gathers while this program waits for a processor: 2 MiB are a
+ * second of 1500 datagrams as the kernel counts them. Below LITTLE_BYTES, half of what Debian
+ * allows, a word is in order.
+ */
+enum { WANTED_BYTES = 2 << 20, LITTLE_BYTES = 100 << 10 };
+
+union control {
+    struct cmsghdr align;
+    char bytes[CMSG_SPACE(sizeof(struct timespec)) + CMSG_SPACE(sizeof(uint32_t))];
+};
+
+struct udpm {
+    struct sockaddr_in group;
+    int ttl, wanted_bytes; /* wanted: 0 where the URL does not say */
+    unsigned interface;    /* of the loopback, where there is no route; else 0 */
+    int receiver, sender;  /* -1: none */
+    uint32_t sequence;
+    struct rho_udpm_guard guard;
+    int num_here, next; /* of the batch */
+    struct sockaddr_in sources[BATCH];
+    struct mmsghdr here[BATCH];
+    struct iovec parts[BATCH];
+    union control controls[BATCH];
+    uint8_t bytes[BATCH][DATAGRAM_BYTES];
+};
+
+/* ---- URL ---- */
+
+static long read_number(const struct transport *transport, const char *name, const char *text,
+                        long min, long max)
+{
+    char *end;
+    long number;
+
+    errno = 0;
+    number = strtol(text, &end, 10);
+    if (*text < '0' || *text > '9' || *end || errno || number < min || number > max) {
+        transport_refuse(transport, "%s '%s' is no number from %ld to %ld", name, text, min, max);
+    }
+    return number;
+}
+
+static void read_sources(const struct transport *transport, struct rho_udpm_guard *guard,
+                         char *text)
+{
+    char *rest = NULL;
+    struct in_addr address;
+
+    for (char *word = strtok_r(text, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
+        if (inet_pton(AF_INET, word, &address) != 1) {
+            transport_refuse(transport, "sources_allowed: '%s' is no IPv4 address", word);
+        }
+        if (guard->num_sources == RHO_UDPM_MAX_SOURCES) {
+            transport_refuse(transport, "sources_allowed: more than %d addresses",
+                             RHO_UDPM_MAX_SOURCES);
+        }
+        guard->sources[guard->num_sources++] = ntohl(address.s_addr);
+    }
+    if (guard->num_sources == 0) {
+        transport_refuse(transport, "sources_allowed has no address");
+    }
+}
+
+static void read_option(struct transport *transport, struct udpm *udpm, char *option)
+{
+    char *value = strchr(option, '=');
+
+    if (!value) {
+        transport_refuse(transport, "option '%s' has no value", option);
+    }
+    *value++ = '\0';
+    if (strcmp(option, "ttl") == 0) {
+        udpm->ttl = (int)read_number(transport, option, value, 0, 255);
+    } else if (strcmp(option, "recv_buf_size") == 0) {
+        udpm->wanted_bytes = (int)read_number(transport, option, value, 2048, 1 << 30);
+    } else if (strcmp(option, "sources_allowed") == 0) {
+        read_sources(transport, &udpm->guard, value);
+    } else {
+        transport_refuse(transport,
+                         "unknown option '%s'; there are ttl, recv_buf_size and sources_allowed",
+                         option);
+    }
+}
+
+static void read_group(struct transport *transport, struct udpm *udpm, char *text)
+{
+    char *port = strchr(text, ':');
+
+    if (port) {
+        *port++ = '\0';
+        udpm->group.sin_port = htons((uint16_t)read_number(transport, "port", port, 1, 65535));
+    }
+    if (*text && inet_pton(AF_INET, text, &udpm->group.sin_addr) != 1) {
+        transport_refuse(transport, "'%s' is no IPv4 address", text);
+    }
+    if (!IN_MULTICAST(ntohl(udpm->group.sin_addr.s_addr))) {
+        transport_refuse(transport, "'%s' is no multicast group (224.0.0.0 to 239.255.255.255)",
+                         text);
+    }
+}
+
+static void read_url(struct transport *transport, struct udpm *udpm)
+{
+    char *text = must_copy(transport->url + strlen("udpm://"));
+    char *options = strchr(text, '?'), *rest = NULL;
+
+    if (options) {
+        *options++ = '\0';
+    }
+    read_group(transport, udpm, text);
+    for (char *option = options ? strtok_r(options, "&", &rest) : NULL; option;
+         option = strtok_r(NULL, "&", &rest)) {
+        read_option(transport, udpm, option);
+    }
+    free(text);
+}
+
+/* ---- Sockets ---- */
+
+static void must_set(const struct transport *transport, int descriptor, int level, int option,
+                     const void *value, socklen_t size)
+{
+    if (setsockopt(descriptor, level, option, value, size)) {
+        fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
+    }
+}
+
+static void set_number(const struct transport *transport, int descriptor, int level, int option,
+                       int value)
+{
+    must_set(transport, descriptor, level, option, &value, sizeof value);
+}
+
+static int open_socket(const struct transport *transport)
+{
+    int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+
+    if (descriptor < 0) {
+        fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
+    }
+    return descriptor;
+}
+
+/*
+ * A machine without a network can still talk to itself: where no route leads to the group, the
+ * loopback does.
+ */
+static void find_route(const struct transport *transport, struct udpm *udpm)
+{
+    int descriptor = open_socket(transport);
+
+    if (connect(descriptor, (const struct sockaddr *)&udpm->group, sizeof udpm->group)) {
+        udpm->interface = if_nametoindex("lo");
+        if ((errno != ENETUNREACH && errno != EHOSTUNREACH) || !udpm->interface) {
+            fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
+        }
+        fprintf(
+            stderr,
+            "rhotrack: %s: no route to this group; the loopback is used: programs of this machine "
+            "alone\n",
+            transport->url);
+    }
+    close(descriptor);
+}
+
+static void set_buffer(const struct transport *transport, const struct udpm *udpm)
+{
+    int wanted = udpm->wanted_bytes ? udpm->wanted_bytes : WANTED_BYTES, granted = 0;
+    socklen_t size = sizeof granted;
+
+    if (setsockopt(udpm->receiver, SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted)) {
+        set_number(transport, udpm->receiver, SOL_SOCKET, SO_RCVBUF, wanted);
+    }
+    if (getsockopt(udpm->receiver, SOL_SOCKET, SO_RCVBUF, &granted, &size) == 0) {
+        granted /= 2; /* the kernel doubles it for its own needs */
+    }
+    if (granted < (udpm->wanted_bytes ? udpm->wanted_bytes : LITTLE_BYTES)) {
+        fprintf(stderr,
+                "rhotrack: %s: the receive buffer has %d bytes, %d are wanted: see sysctl "
+                "net.core.rmem_max\n",
+                transport->url, granted, wanted);
+    }
+}
+
+/* Bound to the group, it hears nothing that is sent to the machine's own address. */
+static void open_receiver(const struct transport *transport, struct udpm *udpm)
+{
+    struct ip_mreqn member = {.imr_multiaddr = udpm->group.sin_addr,
+                              .imr_ifindex = (int)udpm->interface};
+
+    udpm->receiver = open_socket(transport);
+    set_number(transport, udpm->receiver, SOL_SOCKET, SO_REUSEADDR, 1);
+    set_number(transport, udpm->receiver, SOL_SOCKET, SO_REUSEPORT, 1);
+    set_number(transport, udpm->receiver, SOL_SOCKET, SO_TIMESTAMPNS, 1);
+    set_number(transport, udpm->receiver, SOL_SOCKET, SO_RXQ_OVFL, 1);
+    set_buffer(transport, udpm);
+    if (bind(udpm->receiver, (const struct sockaddr *)&udpm->group, sizeof udpm->group)) {
+        fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
+    }
+    must_set(transport, udpm->receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member);
+    for (int i = 0; i < BATCH; i++) {
+        udpm->parts[i] = (struct iovec){udpm->bytes[i], DATAGRAM_BYTES};
+    }
+}
+
+static void open_sender(const struct transport *transport, struct udpm *udpm)
+{
+    struct ip_mreqn out = {.imr_ifindex = (int)udpm->interface};
+    struct timeval wait = {.tv_usec = 100000};
+
+    udpm->sender = open_socket(transport);
+    set_number(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
+    set_number(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_TTL, udpm->ttl);
+    must_set(transport, udpm->sender, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
+    if (udpm->interface) {
+        must_set(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
+    }
+}
+
+/* ---- Receiving ---- */
+
+static int descriptor_of(const void *object)
+{
+    return ((const struct udpm *)object)->receiver;
+}
+
+static void take_batch(struct udpm *udpm)
+{
+    int count;
+
+    for (int i = 0; i < BATCH; i++) {
+        udpm->here[i].msg_hdr = (struct msghdr){.msg_name = &udpm->sources[i],
+                                                .msg_namelen = sizeof udpm->sources[i],
+                                                .msg_iov = &udpm->parts[i],
+                                                .msg_iovlen = 1,
+                                                .msg_control = &udpm->controls[i],
+                                                .msg_controllen = sizeof udpm->controls[i]};
+    }
+    count = recvmmsg(udpm->receiver, udpm->here, BATCH, MSG_DONTWAIT, NULL);
+    udpm->num_here = count > 0 ? count : 0;
+    udpm->next = 0;
+}
+
+/* When the kernel took the datagram; how many it had to drop before. */
+static int64_t read_control(struct transport *transport, struct msghdr *header)
+{
+    int64_t time_us = INT64_MAX;
+
+    for (struct cmsghdr *part = CMSG_FIRSTHDR(header); part; part = CMSG_NXTHDR(header, part)) {
+        if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SO_TIMESTAMPNS) {
+            struct timespec time;
+
+            memcpy(&time, CMSG_DATA(part), sizeof time);
+            time_us = (int64_t)time.tv_sec * 1000000 + time.tv_nsec / 1000;
+        } else if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SO_RXQ_OVFL) {
+            uint32_t dropped;
+
+            memcpy(&dropped, CMSG_DATA(part), sizeof dropped);
+            transport->counters.dropped = dropped;
+        }
+    }
+    return time_us == INT64_MAX ? transport_now_us(transport)
+                                : transport_time_us(transport, time_us);
+}
+
+/* What this program has sent comes back: no fault. */
+static bool is_own(const struct udpm *udpm, const struct sockaddr_in *source)
+{
+    struct sockaddr_in own = {.sin_port = 0};
+    socklen_t size = sizeof own;
+
+    return getsockname(udpm->sender, (struct sockaddr *)&own, &size) == 0 &&
+           own.sin_port == source->sin_port;
+}
+
+static bool is_admitted(struct transport *transport, struct udpm *udpm,
+                        const struct sockaddr_in *source)
+{
+    if (rho_udpm_admits(&udpm->guard, ntohl(source->sin_addr.s_addr))) {
+        return true;
+    }
+    transport->counters.refused_source += !is_own(udpm, source);
+    return false;
+}
+
+/*
+ * False: no message. Messages of other programs may be longer than the buffer: their channels tell
+ * them.
+ */
+static bool open_datagram(struct transport *transport, struct mmsghdr *here, const uint8_t *bytes,
+                          struct transport_message *message)
+{
+    struct rho_udpm_datagram datagram;
+    bool is_cut = here->msg_hdr.msg_flags & MSG_TRUNC;
+    size_t size = here->msg_len < DATAGRAM_BYTES ? here->msg_len : DATAGRAM_BYTES;
+
+    message->received_us = read_control(transport, &here->msg_hdr);
+    if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
+        transport->counters.refused++;
+        return false;
+    }
+    if (is_cut) {
+        transport->counters.refused += strncmp(datagram.channel, "RHO_", 4) == 0;
+        return false;
+    }
+    message->channel = datagram.channel;
+    message->data = datagram.payload;
+    message->size = datagram.payload_size;
+    return !rho_udpm_is_self_test(&datagram);
+}
+
+/* One batch a call, so that a flood of refused datagrams does not hold the program here. */
+static enum transport_found receive(struct transport *transport, void *object,
+                                    struct transport_message *message)
+{
+    struct udpm *udpm = object;
+
+    if (udpm->next == udpm->num_here) {
+        take_batch(udpm);
+    }
+    while (udpm->next < udpm->num_here) {
+        int i = udpm->next++;
+
+        if (is_admitted(transport, udpm, &udpm->sources[i]) &&
+            open_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
+            return TRANSPORT_MESSAGE;
+        }
+    }
+    return TRANSPORT_NOTHING;
+}
+
+/* ---- Sending ---- */
+
+static bool send_message(void *object, const char *channel, const uint8_t *data, size_t size)
+{
+    struct udpm *udpm = object;
+    uint8_t head[RHO_UDPM_MAX_HEAD];
+    size_t head_bytes;
+    struct iovec parts[2] = {{.iov_base = head}, {.iov_base = (void *)data}};
+    struct msghdr header = {.msg_name = &udpm->group,
+                            .msg_namelen = sizeof udpm->group,
+                            .msg_iov = parts,
+                            .msg_iovlen = 2};
+
+    if (rho_udpm_begin(head, sizeof head, udpm->sequence, channel, &head_bytes) != RHO_OK) {
+        errno = EINVAL;
+        return false;
+    }
+    if (size + strlen(channel) > SHORT_MESSAGE_BYTES) {
+        errno = EMSGSIZE;
+        return false;
+    }
+    parts[0].iov_len = head_bytes;
+    parts[1].iov_len = size;
+    if (sendmsg(udpm->sender, &header, MSG_NOSIGNAL) < 0) {
+        return false;
+    }
+    udpm->sequence++;
+    return true;
+}
+
+static void close_sockets(void *object)
+{
+    struct udpm *udpm = object;
+
+    if (udpm->receiver >= 0) {
+        close(udpm->receiver);
+    }
+    close(udpm->sender);
+    free(udpm);
+}
+
+void transport_open_udpm(struct transport *transport, enum transport_use use)
+{
+    static const struct transport_provider provider = {descriptor_of, receive, send_message,
+                                                       close_sockets};
+    struct udpm *udpm = must_calloc(1, sizeof *udpm);
+
+    udpm->receiver = -1;
+    udpm->group = (struct sockaddr_in){.sin_family = AF_INET, .sin_port = htons(RHO_UDPM_PORT)};
+    inet_pton(AF_INET, RHO_UDPM_GROUP, &udpm->group.sin_addr);
+    read_url(transport, udpm);
+    find_route(transport, udpm);
+    if (use == TRANSPORT_SEND_AND_RECEIVE) {
+        open_receiver(transport, udpm);
+    }
+    open_sender(transport, udpm);
+    transport->provider = &provider;
+    transport->object = udpm;
+    transport->can_send = true;
+}

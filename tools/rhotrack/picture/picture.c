@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+#include "picture/picture.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/common.h"
+
+/* Okabe and Ito, darkest first where neighbours would look alike in grey. */
+static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#000000",
+                                      "#cc79a7", "#56b4e9", "#e69f00", "#7f7f7f"};
+static const int markers[] = {7, 5, 9, 11, 13, 6, 4, 8};
+
+#define NUM_COLOURS (sizeof colours / sizeof colours[0])
+
+const char *picture_colour(size_t i)
+{
+    return colours[i % NUM_COLOURS];
+}
+
+int picture_marker(size_t i)
+{
+    return markers[i % NUM_COLOURS];
+}
+
+static char *with_ending(const char *path, const char *ending)
+{
+    char *text = must_alloc(strlen(path) + 40);
+    snprintf(text, strlen(path) + 40, "%s.%ld%s", path, (long)getpid(), ending);
+    return text;
+}
+
+struct picture picture_open(const char *path, int width, int height)
+{
+    struct picture picture = {
+        .path = must_copy(path),
+        .temporary_path = with_ending(path, ".part"),
+        .script_path = with_ending(path, ".gnuplot"),
+    };
+    picture.script = fopen(picture.script_path, "w");
+    if (!picture.script) {
+        fail(EXIT_RUNTIME, "%s: %s", picture.script_path, strerror(errno));
+    }
+    fprintf(
+        picture.script,
+        "set terminal svg size %d,%d enhanced background '#ffffff' font 'Helvetica,15'\n"
+        "set output '%s'\n"
+        "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
+        "set grid lc rgb '#dddddd' lt 1 lw 0.7\nset key outside right top vertical Left reverse\n",
+        width, height, picture.temporary_path);
+    for (size_t i = 0; i < NUM_COLOURS; i++) {
+        fprintf(picture.script, "set linetype %zu lc rgb '%s' pt %d lw 2\n", i + 1, colours[i],
+                markers[i]);
+    }
+    return picture;
+}
+
+static void run_gnuplot(const struct picture *picture)
+{
+    pid_t child = fork();
+    int status = 0;
+    if (child == 0) {
+        execlp("gnuplot", "gnuplot", picture->script_path, (char *)NULL);
+        _exit(127);
+    }
+    if (child < 0 || waitpid(child, &status, 0) < 0) {
+        fail(EXIT_RUNTIME, "gnuplot: %s", strerror(errno));
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        remove(picture->temporary_path);
+        fail(EXIT_RUNTIME, "%s: gnuplot could not draw it%s", picture->path,
+             WIFEXITED(status) && WEXITSTATUS(status) == 127 ? ": it is not installed" : "");
+    }
+}
+
+void picture_close(struct picture *picture)
+{
+    if (fclose(picture->script)) {
+        fail(EXIT_RUNTIME, "%s: %s", picture->script_path, strerror(errno));
+    }
+    run_gnuplot(picture);
+    remove(picture->script_path);
+    if (rename(picture->temporary_path, picture->path)) {
+        fail(EXIT_RUNTIME, "%s: %s", picture->path, strerror(errno));
+    }
+    free(picture->path);
+    free(picture->temporary_path);
+    free(picture->script_path);
+}

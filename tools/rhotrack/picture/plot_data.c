@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: MIT */
+#include "picture/plot_data.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/csv/geodetic.h"
+#include "io/csv/record.h"
+#include "io/csv/table.h"
+#include "io/log/lcm_log.h"
+#include "io/log/log_scans.h"
+#include "io/log/log_table.h"
+#include "io/scans/frame_reader.h"
+
+/* A table that is read; columns are indices, -1 where it has none. */
+struct reading {
+    const struct table *table;
+    const struct parameters *parameters;
+    int time, id, status, x, y, vx, vy;
+    bool is_polar;
+    struct record_columns polar;
+    struct geodetic *
+        /* where latitude and longitude stand for x and y, which they are then; else NULL */
+        geodetic;
+};
+
+static void find_place(struct reading *reading)
+{
+    bool on_earth =
+        table_find(reading->table, "track_id") < 0 && table_find(reading->table, "lat_deg") >= 0;
+    if (on_earth) {
+        reading->geodetic = geodetic_open(reading->table, reading->parameters);
+    }
+    reading->x = table_need(reading->table, on_earth ? "lat_deg" : "x_m");
+    reading->y = table_need(reading->table, on_earth ? "lon_deg" : "y_m");
+}
+
+static struct reading start_reading(const struct table *table, int id_column,
+                                    const struct parameters *parameters)
+{
+    struct reading reading = {.table = table,
+                              .parameters = parameters,
+                              .time = table_need(table, "t_s"),
+                              .id = id_column,
+                              .status = table_find(table, "status"),
+                              .vx = table_find(table, "vx_mps"),
+                              .vy = table_find(table, "vy_mps"),
+                              .is_polar = table_find(table, "range_m") >= 0};
+    if (reading.is_polar) {
+        reading.polar = record_columns_find(table, parameters, RECORD_PLOTS, true);
+    } else {
+        find_place(&reading);
+    }
+    return reading;
+}
+
+static void end_reading(struct reading *reading)
+{
+    record_columns_free(&reading->polar);
+    geodetic_close(reading->geodetic);
+}
+
+/* As the tracks have them: the same checks, the same conversion. False: a scan that saw nothing. */
+static bool read_polar(const struct reading *reading, size_t row, struct plot_point *point)
+{
+    char reason[ROW_REASON_BYTES];
+    struct record record;
+    if (!record_read(reading->table, &reading->polar, row, reading->parameters, &record, reason)) {
+        table_fail(reading->table, row, "%s", reason);
+    }
+    *point = (struct plot_point){.time_us = record.time_us - record.bias_us,
+                                 .x_m = (double)record.plot.x_m,
+                                 .y_m = (double)record.plot.y_m};
+    return record.has_measurement;
+}
+
+static void read_place(const struct reading *reading, size_t row, struct plot_point *point)
+{
+    char reason[ROW_REASON_BYTES];
+    const struct row_check check = {.table = reading->table, .row = row, .reason = reason};
+    double place_m[3];
+    bool has_alt;
+    if (!reading->geodetic) {
+        point->x_m = table_number_at(reading->table, row, reading->x);
+        point->y_m = table_number_at(reading->table, row, reading->y);
+        return;
+    }
+    if (!geodetic_place(reading->geodetic, &check, place_m, &has_alt)) {
+        table_fail(reading->table, row, "%s", reason);
+    }
+    point->x_m = place_m[0];
+    point->y_m = place_m[1];
+}
+
+static struct plot_point read_cartesian(const struct reading *reading, size_t row)
+{
+    const struct table *table = reading->table;
+    struct plot_point point = {.table = table, .row = row};
+    const char *reason = table_time_us(table, row, reading->time, &point.time_us);
+    if (!reason && reading->id >= 0) {
+        reason = table_int32(table, row, reading->id, &point.id);
+    }
+    if (reason) {
+        table_fail(table, row, "time or identity: %s", reason);
+    }
+    read_place(reading, row, &point);
+    point.vx_mps = table_number_or(table, row, reading->vx, 0.0);
+    point.vy_mps = table_number_or(table, row, reading->vy, 0.0);
+    point.is_tentative =
+        reading->status >= 0 && table_is_word(table, row, reading->status, "tentative");
+    return point;
+}
+
+static bool is_deleted(const struct table *table, size_t row)
+{
+    int status = table_find(table, "status");
+    return status >= 0 && table_is_word(table, row, status, "deleted");
+}
+
+/* False: a scan that saw nothing, or a track that is no more. */
+static bool read_point(const struct reading *reading, size_t row, struct plot_point *point)
+{
+    if (reading->is_polar) {
+        return read_polar(reading, row, point);
+    }
+    if (table_is_empty(reading->table, row, reading->x) || is_deleted(reading->table, row)) {
+        return false;
+    }
+    *point = read_cartesian(reading, row);
+    return true;
+}
+
+static void add_points(struct plot_points *points, const struct table *table, int id_column,
+                       const struct parameters *parameters)
+{
+    struct reading reading = start_reading(table, id_column, parameters);
+    points->list =
+        must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
+    for (size_t row = 0; row < table->num_rows; row++) {
+        points->count += read_point(&reading, row, &points->list[points->count]);
+    }
+    end_reading(&reading);
+}
+
+/* Tables of tracks stay: what is wrong with a row may be seen only beside the truth. */
+static void keep_table(struct plot_data *data, struct table *table)
+{
+    data->track_tables = must_grow(data->track_tables, data->num_track_tables,
+                                   &data->track_tables_capacity, sizeof(struct table *));
+    data->track_tables[data->num_track_tables++] = table;
+}
+
+static void add_table(struct plot_data *data, struct table *table,
+                      const struct parameters *parameters)
+{
+    int track = table_find(table, "track_id"), target = table_find(table, "target_id");
+    if (track >= 0) {
+        add_points(&data->tracks, table, track, parameters);
+        keep_table(data, table);
+        return;
+    }
+    if (target >= 0 && table_find(table, "sensor_id") < 0) { /* plots of a scene have it, too */
+        add_points(&data->truth, table, target, parameters);
+    } else {
+        add_points(&data->plots, table, -1, parameters);
+    }
+    table_free(table);
+}
+
+static void add_file(struct plot_data *data, const char *path, const struct parameters *parameters)
+{
+    static const struct rows_kind *const kinds[] = {&rows_kind_plots, &rows_kind_polar,
+                                                    &rows_kind_truth, &rows_kind_tracks};
+    size_t found = 0;
+    unsigned scans;
+    if (!lcm_log_is_log(path)) {
+        add_table(data, table_read_as(path, parameters, false), parameters);
+        return;
+    }
+    scans = log_scans_kinds(path);
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        struct table *table =
+            log_table_read(path, kinds[i], false, i == 0 && scans != LOG_HAS_BEARINGS);
+        if (table != NULL) {
+            add_table(data, table, parameters);
+            found++;
+        }
+    }
+    if (found == 0 && scans == 0) {
+        fail(EXIT_USAGE, "%s: no messages of plots, bearings, truth or tracks in it", path);
+    }
+}
+
+/* ---- bearings ---- */
+
+static void keep_sensors(struct plot_rays *rays, const struct frame_reader *reader)
+{
+    const struct frame_sensor *sensors = frame_reader_sensors(reader, &rays->num_sensors);
+    rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
+    for (size_t i = 0; i < rays->num_sensors; i++) {
+        rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
+                                               .x_m = (double)sensors[i].x_m,
+                                               .y_m = (double)sensors[i].y_m};
+    }
+}
+
+static void add_rays(struct plot_rays *rays, const struct rho_bearing_scan *scan, double length_m)
+{
+    size_t sensor = 0;
+    while (rays->sensors[sensor].id != scan->sensor_id) {
+        sensor++;
+    }
+    for (uint32_t i = 0; i < scan->num_bearings; i++) {
+        double bearing_rad = (double)scan->bearings[i].bearing_rad;
+        const struct plot_point *place = &rays->sensors[sensor];
+        rays->list[rays->count++] =
+            (struct plot_ray){.sensor = sensor,
+                              .x_m = place->x_m,
+                              .y_m = place->y_m,
+                              .end_x_m = place->x_m + length_m * cos(bearing_rad),
+                              .end_y_m = place->y_m + length_m * sin(bearing_rad)};
+    }
+}
+
+static void read_bearings(struct plot_rays *rays, char *const *paths, int num_paths,
+                          const struct parameters *parameters)
+{
+    struct frame_reader *reader = frame_reader_open(paths, num_paths, parameters, false);
+    const struct rho_frame *frame;
+    keep_sensors(rays, reader);
+    rays->list = must_calloc(frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
+    while ((frame = frame_reader_next(reader)) != NULL) {
+        for (uint32_t i = 0; i < frame->num_scans; i++) {
+            const struct rho_bearing_scan *scan = &frame->scans[i];
+            add_rays(rays, scan, parameters_range_max_m(parameters, scan->sensor_id));
+        }
+    }
+    frame_reader_close(reader);
+}
+
+/* ---- all ---- */
+
+static int by_id_and_time(const void *a, const void *b)
+{
+    const struct plot_point *one = a, *other = b;
+    if (one->id != other->id) {
+        return one->id < other->id ? -1 : 1;
+    }
+    return one->time_us < other->time_us ? -1 : one->time_us > other->time_us;
+}
+
+bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_points *one)
+{
+    one->count = 0;
+    if (*at >= points->count) {
+        return false; /* an empty list may have no memory to point into */
+    }
+    one->list = points->list + *at;
+    while (*at < points->count && points->list[*at].id == one->list[0].id) {
+        ++*at;
+        ++one->count;
+    }
+    return true;
+}
+
+size_t plot_data_ids(const struct plot_points *points)
+{
+    struct plot_points one;
+    size_t at = 0, count = 0;
+    while (plot_data_next(points, &at, &one)) {
+        count++;
+    }
+    return count;
+}
+
+static bool was_confirmed(const struct plot_points *track)
+{
+    for (size_t i = 0; i < track->count; i++) {
+        if (!track->list[i].is_tentative) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void drop_unconfirmed(struct plot_points *tracks)
+{
+    struct plot_points one;
+    size_t at = 0, kept = 0;
+    while (plot_data_next(tracks, &at, &one)) {
+        if (was_confirmed(&one)) {
+            memmove(tracks->list + kept, one.list, one.count * sizeof one.list[0]);
+            kept += one.count;
+        }
+    }
+    tracks->count = kept;
+}
+
+static void sort_points(struct plot_points *points)
+{
+    if (points->count > 0) {
+        qsort(points->list, points->count, sizeof points->list[0], by_id_and_time);
+    }
+}
+
+static size_t count_points(const struct plot_data *data)
+{
+    return data->plots.count + data->tracks.count + data->truth.count;
+}
+
+struct plot_data plot_data_read(char *const *paths, int num_paths,
+                                const struct parameters *parameters)
+{
+    struct plot_data data = {0};
+    char **bearings = must_calloc((size_t)num_paths, sizeof bearings[0]);
+    int num_bearings = 0;
+    data.plot_paths = must_calloc((size_t)num_paths, sizeof data.plot_paths[0]);
+    for (int i = 0; i < num_paths; i++) {
+        bool is_log = lcm_log_is_log(paths[i]);
+        bool has_bearings = is_log ? (log_scans_kinds(paths[i]) & LOG_HAS_BEARINGS) != 0
+                                   : frame_reader_is_bearings(paths[i]);
+        if (has_bearings) {
+            bearings[num_bearings++] = paths[i];
+        }
+        size_t before = count_points(&data), plots_before = data.plots.count;
+        if (is_log || !has_bearings) {
+            add_file(&data, paths[i], parameters);
+        }
+        if (data.plots.count > plots_before) {
+            data.plot_paths[data.num_plot_paths++] = paths[i];
+        }
+        data.bearings.has_own_file |= has_bearings && count_points(&data) == before;
+    }
+    if (num_bearings > 0) {
+        read_bearings(&data.bearings, bearings, num_bearings, parameters);
+    }
+    free(bearings);
+    sort_points(&data.tracks);
+    sort_points(&data.truth);
+    drop_unconfirmed(&data.tracks);
+    return data;
+}
+
+void plot_data_free(struct plot_data *data)
+{
+    free(data->plots.list);
+    free(data->tracks.list);
+    free(data->truth.list);
+    free(data->bearings.list);
+    free(data->bearings.sensors);
+    free(data->plot_paths);
+    for (size_t i = 0; i < data->num_track_tables; i++) {
+        table_free(data->track_tables[i]);
+    }
+    free(data->track_tables);
+}

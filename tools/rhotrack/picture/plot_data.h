@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * plot_data: what the plot command draws: plots, bearings, tracks and truth from CSV files, told
+ * apart by their columns, and LCM logs.
+ */
+#ifndef RHOTRACK_TOOL_PLOT_DATA_H
+#define RHOTRACK_TOOL_PLOT_DATA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "io/csv/table.h"
+#include "settings/parameters.h"
+
+#define PLOT_LEGEND_MAX                                                                            \
+    8 /* more tracks or targets than that get no line of their own in the legend */
+
+struct plot_point {
+    int64_t time_us;
+    int32_t id; /* of the track or target */
+    double x_m, y_m;
+    double vx_mps, vy_mps; /* 0 where not given */
+    bool is_tentative;
+    const struct table *table; /* of a track's row; the data's */
+    size_t row;
+};
+
+/* By identity, then time (plots: as in the file). */
+struct plot_points {
+    struct plot_point *list;
+    size_t count;
+};
+
+/* From a passive sensor as far as it sees. */
+struct plot_ray {
+    size_t sensor; /* index of the list */
+    double x_m, y_m, end_x_m, end_y_m;
+};
+
+/* All bearings of the files, and their sensors in the order of sensor_id. */
+struct plot_rays {
+    struct plot_ray *list;
+    size_t count;
+    struct plot_point *sensors;
+    size_t num_sensors;
+    bool has_own_file; /* one of the files has bearings and nothing else to draw */
+};
+
+struct plot_data {
+    struct plot_points plots, tracks, truth;
+    struct plot_rays bearings;
+    char **plot_paths; /* of the files with plots; the names are the caller's */
+    int num_plot_paths;
+    struct table **track_tables;
+    size_t num_track_tables, track_tables_capacity;
+};
+
+/*
+ * Reads the files; errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. A track's rows while
+ * tentative are kept, but tracks that were never confirmed are left out. The parameters say where
+ * the sensors of polar plots are, what their biases are, and how far passive sensors see.
+ */
+struct plot_data plot_data_read(char *const *paths, int num_paths,
+                                const struct parameters *parameters);
+void plot_data_free(struct plot_data *data);
+
+/* The rows of one identity: from *at on; moves *at behind them. False at the end. */
+bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_points *one);
+
+/* How many identities. */
+size_t plot_data_ids(const struct plot_points *points);
+
+#endif

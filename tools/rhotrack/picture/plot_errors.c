@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: MIT */
+#include "picture/plot_errors.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "evaluation/gospa.h"
+#include "evaluation/time_alignment.h"
+
+/* ---- pairs ---- */
+
+/* Indices of the points of one time; tracks count once they are confirmed. */
+static size_t points_at(const struct plot_points *points, int64_t time_us, size_t *at,
+                        struct gospa_place *places)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        if (points->list[i].time_us == time_us && !points->list[i].is_tentative) {
+            places[count] = (struct gospa_place){points->list[i].x_m, points->list[i].y_m, 0.0};
+            at[count++] = i;
+        }
+    }
+    return count;
+}
+
+struct error_finder {
+    const struct plot_points *truth;
+    struct plot_points led; /* the tracks, at the truth's times */
+    double cutoff_m;
+    double *error_m; /* by row of the truth; NAN: no track; negative: not yet known */
+    size_t *targets, *tracks;
+    struct gospa_place *target_places, *track_places;
+    int *track_of;
+};
+
+static void find_errors_at(struct error_finder *finder, int64_t time_us)
+{
+    size_t num_targets = points_at(finder->truth, time_us, finder->targets, finder->target_places);
+    size_t num_tracks = points_at(&finder->led, time_us, finder->tracks, finder->track_places);
+    gospa_compare(finder->target_places, num_targets, finder->track_places, num_tracks,
+                  finder->cutoff_m, finder->track_of);
+    for (size_t i = 0; i < num_targets; i++) {
+        double *error_m = &finder->error_m[finder->targets[i]];
+        *error_m = NAN;
+        if (finder->track_of[i] >= 0) {
+            const struct gospa_place *track = &finder->track_places[finder->track_of[i]];
+            *error_m = hypot(track->x_m - finder->target_places[i].x_m,
+                             track->y_m - finder->target_places[i].y_m);
+        }
+    }
+}
+
+static void find_errors(struct error_finder *finder)
+{
+    const struct plot_points *truth = finder->truth;
+    for (size_t i = 0; i < truth->count; i++) {
+        finder->error_m[i] = -1.0;
+    }
+    for (size_t i = 0; i < truth->count; i++) {
+        if (finder->error_m[i] < 0.0) {
+            find_errors_at(finder, truth->list[i].time_us);
+        }
+    }
+}
+
+/* Of none gnuplot makes no picture. */
+static void need_one(const struct error_finder *finder)
+{
+    for (size_t i = 0; i < finder->truth->count; i++) {
+        if (!isnan(finder->error_m[i])) {
+            return;
+        }
+    }
+    fail(EXIT_USAGE, "plot errors: no target has a track within gospa_cutoff_m (%g m) at any time",
+         finder->cutoff_m);
+}
+
+/* ---- tracks at the truth's times ---- */
+
+static int by_time(const void *a, const void *b)
+{
+    const struct plot_point *one = a, *other = b;
+    if (one->time_us != other->time_us) {
+        return one->time_us < other->time_us ? -1 : 1;
+    }
+    return (one->id > other->id) - (one->id < other->id);
+}
+
+/* Those of tracks count that are confirmed. */
+static struct plot_points in_order_of_time(const struct plot_points *points)
+{
+    struct plot_points sorted = {.list = must_calloc(points->count + 1, sizeof *sorted.list)};
+    for (size_t i = 0; i < points->count; i++) {
+        if (!points->list[i].is_tentative) {
+            sorted.list[sorted.count++] = points->list[i];
+        }
+    }
+    qsort(sorted.list, sorted.count, sizeof *sorted.list, by_time);
+    return sorted;
+}
+
+static struct alignment_times times_of(const struct plot_points *points)
+{
+    int64_t *times_us = must_calloc(points->count + 1, sizeof *times_us);
+    for (size_t i = 0; i < points->count; i++) {
+        times_us[i] = points->list[i].time_us;
+    }
+    return (struct alignment_times){.list_us = times_us, .count = points->count};
+}
+
+static struct plot_point led(const struct plot_point *point, int64_t to_us)
+{
+    struct plot_point at = *point;
+    double by_s = (double)(to_us - point->time_us) * 1e-6;
+    at.time_us = to_us;
+    at.x_m += by_s * point->vx_mps;
+    at.y_m += by_s * point->vy_mps;
+    return at;
+}
+
+static struct plot_points lead_tracks(const struct plot_data *data, int64_t most_us)
+{
+    struct plot_points truth = in_order_of_time(&data->truth);
+    struct plot_points tracks = in_order_of_time(&data->tracks);
+    struct alignment_times truth_times = times_of(&truth), track_times = times_of(&tracks);
+    size_t far = alignment_find_far(track_times, truth_times, most_us);
+    if (far < tracks.count) {
+        alignment_fail(tracks.list[far].table, tracks.list[far].row, most_us);
+    }
+    struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
+    struct plot_points leading = {.list = must_calloc(alignment.count + 1, sizeof *leading.list),
+                                  .count = alignment.count};
+    for (size_t i = 0; i < alignment.count; i++) {
+        leading.list[i] = led(&tracks.list[alignment.list[i].row], alignment.list[i].to_us);
+    }
+    free(alignment.list);
+    free(truth_times.list_us);
+    free(track_times.list_us);
+    free(truth.list);
+    free(tracks.list);
+    return leading;
+}
+
+struct plot_errors plot_errors_find(const struct plot_data *data,
+                                    const struct parameters *parameters)
+{
+    struct plot_points leading = lead_tracks(data, alignment_tolerance_us(parameters));
+    size_t targets = data->truth.count + 1, tracks = leading.count + 1;
+    struct error_finder finder = {
+        .truth = &data->truth,
+        .led = leading,
+        .cutoff_m = parameters->value[PARAMETER_GOSPA_CUTOFF_M],
+        .error_m = must_calloc(targets, sizeof(double)),
+        .targets = must_calloc(targets, sizeof(size_t)),
+        .tracks = must_calloc(tracks, sizeof(size_t)),
+        .target_places = must_calloc(targets, sizeof(struct gospa_place)),
+        .track_places = must_calloc(tracks, sizeof(struct gospa_place)),
+        .track_of = must_calloc(targets, sizeof(int)),
+    };
+    find_errors(&finder);
+    need_one(&finder);
+    free(finder.led.list);
+    free(finder.targets);
+    free(finder.tracks);
+    free(finder.target_places);
+    free(finder.track_places);
+    free(finder.track_of);
+    return (struct plot_errors){.error_m = finder.error_m};
+}
+
+void plot_errors_free(struct plot_errors *errors)
+{
+    free(errors->error_m);
+}
+
+/* ---- the picture ---- */
+
+static void put_errors(FILE *script, const struct plot_data *data, const struct plot_errors *errors)
+{
+    fprintf(script, "$errors << EOD\n");
+    for (size_t i = 0; i < data->truth.count; i++) {
+        const struct plot_point *target = &data->truth.list[i];
+        if (i > 0 && target->id != data->truth.list[i - 1].id) {
+            fprintf(script, "\n\n");
+        }
+        fprintf(script, "%.6f ", (double)target->time_us * 1e-6);
+        if (isnan(errors->error_m[i])) {
+            fprintf(script, "NaN\n");
+        } else {
+            fprintf(script, "%.6g\n", errors->error_m[i]);
+        }
+    }
+    fprintf(script, "EOD\n");
+}
+
+void plot_errors(struct picture *picture, const struct plot_data *data,
+                 const struct plot_errors *errors)
+{
+    struct plot_points one;
+    size_t at = 0, index = 0, many = plot_data_ids(&data->truth) > PLOT_LEGEND_MAX;
+    put_errors(picture->script, data, errors);
+    fprintf(picture->script,
+            "set xlabel 'time (s)'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN "
+            "notitle",
+            many ? "set key off\n" : "");
+    while (plot_data_next(&data->truth, &at, &one)) {
+        fprintf(picture->script,
+                ", \\\n $errors index %zu using 1:2 with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' "
+                "title 'target %d'",
+                index, picture_marker(index), picture_colour(index), one.list[0].id);
+        index++;
+    }
+    fprintf(picture->script, "\n");
+}

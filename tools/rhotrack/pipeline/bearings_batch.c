@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/bearings_batch.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/scans/frame_reader.h"
+#include "pipeline/pipeline.h"
+
+static void check_apart(const struct frame_sensor *a, const struct frame_sensor *b,
+                        double apart_max_m, const struct parameters *parameters)
+{
+    double apart_m = hypot((double)a->x_m - (double)b->x_m, (double)a->y_m - (double)b->y_m);
+
+    if (apart_m > apart_max_m) {
+        fail(EXIT_USAGE,
+             "sensors %d and %d are %.0f m apart; cells of d_rho_m %.9g hold range_max_m %.9g and "
+             "%.0f m",
+             (int)a->sensor_id, (int)b->sensor_id, apart_m, parameters->value[PARAMETER_D_RHO_M],
+             parameters->value[PARAMETER_RANGE_MAX_M], apart_max_m);
+    }
+}
+
+void bearings_check_sensors(const struct frame_sensor *sensors, size_t count,
+                            const struct rho_batch *batch, const struct parameters *parameters)
+{
+    if (count > RHO_MAX_PASSIVE_SENSORS) {
+        fail(EXIT_USAGE, "%zu passive sensors; at most %d are searched together", count,
+             RHO_MAX_PASSIVE_SENSORS);
+    }
+    for (size_t i = 1; i < count; i++) {
+        for (size_t j = 0; j < i; j++) {
+            check_apart(&sensors[j], &sensors[i], (double)batch->apart_max_m, parameters);
+        }
+    }
+}
+
+static void check_sensors(const struct frame_reader *reader, const struct rho_batch *batch,
+                          const struct parameters *parameters)
+{
+    size_t count;
+    const struct frame_sensor *sensors = frame_reader_sensors(reader, &count);
+
+    frame_reader_need_pair(reader);
+    bearings_check_sensors(sensors, count, batch, parameters);
+}
+
+static void push(struct bearings_batch *batch, const struct bearings_search *search,
+                 const struct rho_frame *frame)
+{
+    size_t count = 0;
+    uint8_t *fates;
+
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        count += frame->scans[i].num_bearings;
+    }
+    fates = must_alloc(count + 1);
+    memset(fates, RHO_FATE_HELD, count + 1);
+    int64_t start_us = clock_us();
+    must_succeed(search->push(search->object, frame, fates), "passive");
+    batch->wall_us += clock_us() - start_us;
+    for (size_t i = 0; i < count; i++) {
+        batch->num_lost += fates[i] != RHO_FATE_HELD;
+    }
+    free(fates);
+    batch->frames++;
+    batch->bearings += count;
+    batch->time_us = frame->time_us;
+}
+
+struct bearings_batch bearings_batch_search(const struct bearings_search *search,
+                                            const struct command_line *line)
+{
+    struct bearings_batch batch = {.wall_us = 0};
+    struct frame_reader *reader = frame_reader_open(line->arguments, line->num_arguments,
+                                                    &line->parameters, line->keep_going);
+    const struct rho_frame *frame;
+
+    check_sensors(reader, search->batch, &line->parameters);
+    frame_reader_skip(reader, search->batch->scans_max);
+    while ((frame = frame_reader_next(reader))) {
+        push(&batch, search, frame);
+    }
+    int64_t start_us = clock_us();
+    must_succeed(search->search(search->object), "passive");
+    batch.wall_us += clock_us() - start_us;
+    frame_reader_report(reader);
+    if (batch.num_lost) {
+        fprintf(stderr, "rhotrack: %" PRIu64 " bearings beyond %d a scan are left out\n",
+                batch.num_lost, RHO_MAX_BEARINGS);
+    }
+    frame_reader_close(reader);
+    return batch;
+}

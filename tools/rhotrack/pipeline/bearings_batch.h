@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bearings_batch: the last frames of a file of bearings, searched as one batch by any method that
+ * takes them.
+ */
+#ifndef RHOTRACK_TOOL_BEARINGS_BATCH_H
+#define RHOTRACK_TOOL_BEARINGS_BATCH_H
+
+#include "commands.h"
+#include "io/scans/frame_reader.h"
+#include "rhotrack/detail/batch.h"
+
+/* An initiator, ready for a first frame. */
+struct bearings_search {
+    void *object;
+    const struct rho_batch *batch; /* its own */
+    enum rho_status (*push)(void *object, const struct rho_frame *frame, uint8_t *fates);
+    enum rho_status (*search)(void *object);
+};
+
+struct bearings_batch {
+    uint64_t frames, bearings, num_lost; /* lost: the library had no room for them */
+    int64_t time_us;                     /* of the last frame */
+    int64_t wall_us;
+};
+
+/*
+ * Reads and searches. Sensors that are too many, or too far apart for the cells, and bad input:
+ * exit 2.
+ */
+struct bearings_batch bearings_batch_search(const struct bearings_search *search,
+                                            const struct command_line *line);
+
+/* Exit 2 where the sensors are too many, or too far apart for the batch's cells. */
+void bearings_check_sensors(const struct frame_sensor *sensors, size_t count,
+                            const struct rho_batch *batch, const struct parameters *parameters);
+
+#endif

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/initiate_classic.h"
+
+#include <cjson/cJSON.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "io/output/initiated_output.h"
+#include "io/scans/revolutions.h"
+#include "io/scans/scan_reader.h"
+#include "pipeline/pipeline.h"
+
+#define CELLS_MAX (UINT32_C(1) << 20)
+#define PAIRS_MANY 1e7
+#define SPAN_MAX_US INT64_C(900000000000000)
+
+/* The last scans of a file, in the library's arrays. */
+struct batch {
+    int64_t time_us; /* of the last scan, which times count from */
+    unsigned num_scans;
+    uint32_t scan_end[RHO_MAX_SCANS];
+    uint32_t num_plots, num_invalid, room;
+    float *x_m, *y_m, *t_s;
+    double range_m; /* of the farthest plot */
+};
+
+struct search {
+    struct batch batch;
+    struct rho_classic *classic;
+    struct rho_accumulator_peak *peaks;
+    struct rho_classic_result result;
+    int64_t wall_us;
+};
+
+/* ---- The batch ---- */
+
+static void make_room(struct batch *batch, uint32_t plots)
+{
+    if (batch->num_plots + plots <= batch->room) {
+        return;
+    }
+    batch->room = 2 * (batch->num_plots + plots);
+    batch->x_m = must_realloc(batch->x_m, batch->room * sizeof *batch->x_m);
+    batch->y_m = must_realloc(batch->y_m, batch->room * sizeof *batch->y_m);
+    batch->t_s = must_realloc(batch->t_s, batch->room * sizeof *batch->t_s);
+}
+
+static bool is_usable(const struct rho_plot *plot)
+{
+    return rho_is_coordinate(plot->x_m) && rho_is_coordinate(plot->y_m);
+}
+
+/* Times count from the first scan, until all are there. */
+static void add_scan(struct batch *batch, const struct rho_scan *scan, int64_t first_us)
+{
+    if (scan->time_us - first_us > SPAN_MAX_US) {
+        fail(EXIT_USAGE, "the scans taken span %.3g s; at most %.0g s make a batch",
+             1e-6 * (double)(scan->time_us - first_us), 1e-6 * (double)SPAN_MAX_US);
+    }
+    make_room(batch, scan->num_plots);
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+
+        if (!is_usable(plot)) {
+            batch->num_invalid++;
+            continue;
+        }
+        batch->x_m[batch->num_plots] = plot->x_m;
+        batch->y_m[batch->num_plots] = plot->y_m;
+        batch->t_s[batch->num_plots++] =
+            (float)(1e-6 * (double)(scan->time_us - first_us + plot->offset_us));
+        batch->range_m = fmax(batch->range_m, hypot((double)plot->x_m, (double)plot->y_m));
+    }
+    batch->scan_end[batch->num_scans++] = batch->num_plots;
+    batch->time_us = scan->time_us;
+}
+
+static void read_batch(struct batch *batch, const struct command_line *line)
+{
+    struct scan_reader *reader =
+        scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct revolutions revolutions =
+        revolutions_read(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
+    int64_t first_us = revolutions.count > 0 ? revolutions.list[0].scan.time_us : 0;
+
+    for (size_t i = 0; i < revolutions.count; i++) {
+        add_scan(batch, &revolutions.list[i].scan, first_us);
+    }
+    revolutions_free(&revolutions);
+    for (uint32_t i = 0; i < batch->num_plots; i++) {
+        batch->t_s[i] -= (float)(1e-6 * (double)(batch->time_us - first_us));
+    }
+    scan_reader_report(reader);
+    if (batch->num_invalid) {
+        fprintf(stderr, "rhotrack: %" PRIu32 " plots beyond %.0f km are left out\n",
+                batch->num_invalid, (double)RHO_LIMIT_POSITION_M / 1e3);
+    }
+    scan_reader_close(reader);
+}
+
+static struct rho_classic_points points_of(const struct batch *batch)
+{
+    return (struct rho_classic_points){
+        .at = {batch->x_m, batch->y_m, batch->num_scans, batch->scan_end}, .t_s = batch->t_s};
+}
+
+/* ---- The search ---- */
+
+static void warn_of_lost(const struct rho_classic_result *result)
+{
+    if (result->cells_dropped) {
+        fprintf(stderr,
+                "rhotrack: more than %" PRIu32 " cells above the thresholds: the lowest are left "
+                "out; raise tau or votes_min\n",
+                CELLS_MAX);
+    }
+    if (result->votes_dropped || result->kernels_dropped) {
+        fprintf(stderr,
+                "rhotrack: %" PRIu32 " votes and %" PRIu32 " kernels found no room in their row\n",
+                result->votes_dropped, result->kernels_dropped);
+    }
+}
+
+/* Where every pair votes, so many passes are needed that seconds become minutes. */
+static void warn_of_time(const struct rho_classic *classic, const struct rho_classic_points *points)
+{
+    double pairs = 0;
+
+    for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
+        uint32_t before = scan > 1 ? points->at.scan_end[scan - 2] : 0;
+
+        pairs += (double)(points->at.scan_end[scan - 1] - before) *
+                 (points->at.scan_end[scan] - points->at.scan_end[scan - 1]);
+    }
+    if (classic->config.method == RHO_CLASSIC_MHT && pairs > PAIRS_MANY) {
+        fprintf(stderr,
+                "rhotrack: %.3g pairs vote, which takes some %.0f passes over all of them; iht "
+                "leaves out those that no target can fly\n",
+                pairs, ceil(2.0 * pairs / RHO_MAX_CLASSIC_CELLS));
+    }
+}
+
+static void find(struct search *search, const struct command_line *line, enum method method)
+{
+    struct rho_classic_config config =
+        method_classic(method, &line->parameters, search->batch.range_m);
+    struct rho_classic_points points = points_of(&search->batch);
+
+    must_succeed(rho_classic_init(search->classic, sizeof *search->classic, &config), "classic");
+    warn_of_time(search->classic, &points);
+    int64_t start_us = clock_us();
+    must_succeed(
+        rho_classic_find(search->classic, &points, search->peaks, CELLS_MAX, &search->result),
+        "classic");
+    search->wall_us = clock_us() - start_us;
+    if (method == METHOD_HT) {
+        rho_classic_count_pairs(search->classic, &points, &search->result.pairs,
+                                &search->result.candidates);
+    }
+    warn_of_lost(&search->result);
+}
+
+/* ---- What it found ---- */
+
+static double votes_of(const struct rho_accumulator_peak *peak)
+{
+    return round(1e6 * peak->votes / RHO_CLASSIC_VOTE) / 1e6;
+}
+
+static struct initiated row_of(const struct search *search, uint32_t number)
+{
+    const struct rho_accumulator_peak *peak = &search->peaks[number];
+    struct rho_classic_points points = points_of(&search->batch);
+    struct rho_classic_track track;
+
+    must_succeed(
+        rho_classic_track(search->classic, &points, peak->theta_cell, peak->rho_cell, 0, &track),
+        "classic");
+    return (struct initiated){.track_id = number + 1,
+                              .time_us = search->batch.time_us,
+                              .has_state = track.has_velocity,
+                              .x_m = track.x_m,
+                              .y_m = track.y_m,
+                              .vx_mps = track.vx_mps,
+                              .vy_mps = track.vy_mps,
+                              .rho_m = rho_classic_rho_m(search->classic, peak->rho_cell),
+                              .theta_rad = rho_classic_theta_rad(search->classic, peak->theta_cell),
+                              .scans = track.scans,
+                              .score = votes_of(peak)};
+}
+
+static void write_found(const struct search *search, const char *path)
+{
+    struct initiated_output *found = initiated_output_open(path);
+    struct progress progress = progress_start("tracks", search->result.num_peaks);
+
+    for (uint32_t i = 0; i < search->result.num_peaks; i++) {
+        struct initiated row = row_of(search, i);
+
+        initiated_output_row(found, &row);
+        progress_show(&progress, i + 1);
+    }
+    progress_end(&progress);
+    initiated_output_close(found);
+}
+
+static void add_peaks(cJSON *object, const struct search *search)
+{
+    cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
+
+    for (uint32_t i = 0; i < search->result.num_peaks; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(votes_of(&search->peaks[i])));
+    }
+}
+
+static void print_json(const struct search *search, enum method method)
+{
+    const struct rho_classic_result *result = &search->result;
+    cJSON *object = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(object, "method", method_name(method));
+    if (method == METHOD_NHT) {
+        int is_c = search->classic->config.method == RHO_CLASSIC_NHT_C;
+        cJSON_AddStringToObject(object, "nht_reading", is_c ? "c" : "a");
+    }
+    cJSON_AddNumberToObject(object, "scans", search->batch.num_scans);
+    cJSON_AddNumberToObject(object, "plots", search->batch.num_plots + search->batch.num_invalid);
+    cJSON_AddNumberToObject(object, "pairs", result->pairs);
+    cJSON_AddNumberToObject(object, "candidates", result->candidates);
+    cJSON_AddNumberToObject(object, "votes", result->votes);
+    add_peaks(object, search);
+    cJSON_AddNumberToObject(object, "tracks", result->num_peaks);
+    cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *search->classic);
+    cJSON_AddNumberToObject(object, "wall_us", (double)search->wall_us);
+    cJSON_AddNumberToObject(object, "cells", result->cells);
+    cJSON_AddNumberToObject(object, "passes", result->passes);
+    cJSON_AddNumberToObject(object, "cells_dropped", result->cells_dropped);
+    cJSON_AddNumberToObject(object, "votes_dropped", result->votes_dropped);
+    cJSON_AddNumberToObject(object, "kernels_dropped", result->kernels_dropped);
+    cJSON_AddNumberToObject(object, "plots_invalid", search->batch.num_invalid);
+    json_print(object);
+}
+
+void initiate_classic(const struct command_line *line, enum method method)
+{
+    struct search search = {.classic = must_alloc(sizeof *search.classic),
+                            .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
+
+    read_batch(&search.batch, line);
+    find(&search, line, method);
+    if (line->output || !line->json) {
+        write_found(&search, line->output);
+    }
+    if (line->json) {
+        print_json(&search, method);
+    }
+    free(search.batch.x_m);
+    free(search.batch.y_m);
+    free(search.batch.t_s);
+    free(search.peaks);
+    free(search.classic);
+}

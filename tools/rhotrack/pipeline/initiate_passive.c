@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/initiate_passive.h"
+
+#include <cjson/cJSON.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "io/output/initiated_output.h"
+#include "pipeline/bearings_batch.h"
+#include "pipeline/pipeline.h"
+#include "rhotrack/detail/angle.h"
+#include "settings/method.h"
+
+static enum rho_status push(void *object, const struct rho_frame *frame, uint8_t *fates)
+{
+    return rho_passive_push(object, frame, fates);
+}
+
+static enum rho_status search(void *object)
+{
+    return rho_passive_search(object);
+}
+
+/* ---- What it found ---- */
+
+static void write_found(const struct rho_passive *passive, int64_t time_us, const char *path)
+{
+    struct initiated_output *found = initiated_output_open(path);
+
+    for (unsigned i = 0; i < passive->num_tracks; i++) {
+        const struct rho_passive_track *track = &passive->tracks[i];
+        struct rho_line line = rho_angle_line(track->x_m, track->y_m, track->vx_mps, track->vy_mps);
+        struct initiated row = {.track_id = i + 1,
+                                .time_us = time_us,
+                                .has_state = true,
+                                .x_m = track->x_m,
+                                .y_m = track->y_m,
+                                .vx_mps = track->vx_mps,
+                                .vy_mps = track->vy_mps,
+                                .rho_m = line.rho_m,
+                                .theta_rad = line.theta_rad,
+                                .scans = rho_count_bits(track->scans),
+                                .sensor_pairs = rho_passive_sensor_pairs(track),
+                                .score = (double)((float)track->score_mnat / 1000.0f)};
+
+        initiated_output_row(found, &row);
+    }
+    initiated_output_close(found);
+}
+
+/* Bearings of each track, descending, and their number. */
+static void add_votes(cJSON *object, const struct rho_passive *passive)
+{
+    int hits[RHO_MAX_PASSIVE_TRACKS], sum = 0;
+
+    for (int i = 0; i < passive->num_tracks; i++) {
+        hits[i] = passive->tracks[i].hits;
+        sum += hits[i];
+    }
+    cJSON_AddNumberToObject(object, "votes", sum);
+    cJSON_AddItemToObject(object, "peak_votes", json_descending(hits, passive->num_tracks));
+}
+
+static void add_margins(cJSON *object, const struct rho_passive *passive)
+{
+    cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
+
+    for (int i = 0; i < passive->num_tracks; i++) {
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(1e-3 * passive->tracks[i].margin_mnat));
+    }
+}
+
+static void print_json(const struct rho_passive *passive, const struct bearings_batch *batch)
+{
+    const struct rho_passive_work *work = &passive->work;
+    cJSON *object = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(object, "method", method_name(METHOD_PASSIVE));
+    cJSON_AddNumberToObject(object, "scans", (double)batch->frames);
+    cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
+    cJSON_AddNumberToObject(object, "pairs", work->crossings);
+    cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
+    add_votes(object, passive);
+    cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
+    add_margins(object, passive);
+    cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
+    cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
+    cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);
+    cJSON_AddNumberToObject(object, "ghosts", work->ghosts);
+    cJSON_AddNumberToObject(object, "lines", work->peaks);
+    cJSON_AddNumberToObject(object, "hypotheses", work->hypotheses);
+    cJSON_AddNumberToObject(object, "fits", work->fits);
+    cJSON_AddNumberToObject(object, "points_dropped", work->points_dropped);
+    cJSON_AddNumberToObject(object, "candidates_dropped", work->candidates_dropped);
+    cJSON_AddNumberToObject(object, "bearings_no_room", (double)batch->num_lost);
+    json_print(object);
+}
+
+void initiate_passive(const struct command_line *line)
+{
+    struct rho_passive *passive = must_alloc(sizeof *passive);
+    struct rho_passive_config config = method_passive(&line->parameters);
+    struct bearings_search with = {passive, &passive->batch, push, search};
+
+    must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
+    struct bearings_batch batch = bearings_batch_search(&with, line);
+    if (line->output || !line->json) {
+        write_found(passive, batch.time_us, line->output);
+    }
+    if (line->json) {
+        print_json(passive, &batch);
+    }
+    free(passive);
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/learned.h"
+
+#include <cjson/cJSON.h>
+#include <inttypes.h>
+#include <math.h>
+
+#include "base/common.h"
+
+void learned_print(const struct rho_tracker *tracker, FILE *to)
+{
+    for (uint32_t i = 0; i < tracker->num_sensors; i++) {
+        const struct rho_sensor *sensor = &tracker->sensors[i];
+        struct rho_tracker_known known;
+        float least = sensor->pd;
+
+        must_succeed(rho_tracker_known_of(tracker, sensor->sensor_id, &known), "sensor");
+        for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+            least = known.pd[ring] < least ? known.pd[ring] : least;
+        }
+        if (fabsf(known.range_factor - 1) + fabsf(known.cross_factor - 1) > 0) {
+            fprintf(to, ", sensor %" PRId32 "'s noise is %.2f times as stated, across %.2f",
+                    sensor->sensor_id, (double)known.range_factor, (double)known.cross_factor);
+        }
+        if (least < sensor->pd) {
+            fprintf(to, ", sensor %" PRId32 "'s pd is down to %.2f", sensor->sensor_id,
+                    (double)least);
+        }
+    }
+}
+
+struct cJSON *learned_json(const struct rho_tracker *tracker)
+{
+    cJSON *list = cJSON_CreateArray();
+
+    for (uint32_t i = 0; i < tracker->num_sensors; i++) {
+        const struct rho_sensor *sensor = &tracker->sensors[i];
+        cJSON *object = cJSON_CreateObject(), *rings = cJSON_CreateArray();
+        struct rho_tracker_known known;
+
+        must_succeed(rho_tracker_known_of(tracker, sensor->sensor_id, &known), "sensor");
+        cJSON_AddNumberToObject(object, "sensor_id", sensor->sensor_id);
+        cJSON_AddNumberToObject(object, "sigma_range_factor", (double)known.range_factor);
+        cJSON_AddNumberToObject(object, "sigma_cross_factor", (double)known.cross_factor);
+        cJSON_AddNumberToObject(object, "innovations", known.innovations);
+        cJSON_AddNumberToObject(object, "pd_stated", (double)sensor->pd);
+        for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+            cJSON_AddItemToArray(rings, cJSON_CreateNumber((double)known.pd[ring]));
+        }
+        cJSON_AddItemToObject(object, "pd", rings);
+        cJSON_AddNumberToObject(object, "looks", known.looks);
+        cJSON_AddItemToArray(list, object);
+    }
+    return list;
+}

@@ -1,0 +1,462 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/maintainer.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "pipeline/maintainer_best.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/plot_distance.h"
+#include "pipeline/scan_density.h"
+#include "rhotrack/detail/gate.h"
+#include "rhotrack/detail/input.h"
+#include "rhotrack/measurement.h"
+
+#define DEG_RAD 0.017453292519943295
+#define AXES 3
+#define FIRST_ELIMINATION 3 /* measurements before the Hough gate's first choice */
+
+struct maintainer {
+    enum maintainer_gate gate;
+    struct maintainer_best *best; /* of its gate, which uses nothing below but the density */
+    struct scan_density *density;
+    struct rho_input_config config;
+    uint8_t planes; /* RHO_GATE_PLANE_... */
+    float theta_cell_rad;
+    struct rho_input input; /* after the last scan */
+    int64_t input_us;       /* its time: of the last plot, its own */
+    struct rho_input predicted;
+    int64_t predicted_us;
+    bool is_predicted;    /* the newest is `predicted` */
+    bool is_out_of_reach; /* no prediction to the scan's time: the track is to start again */
+    /* estimated after the last plot and the one before */
+    float newest_mps[AXES], before_mps[AXES];
+    unsigned measurements;
+    unsigned long refused;
+    bool has_sensor; /* that looked last */
+    struct rho_sensor sensor;
+};
+
+/* ---- What the parameters say ---- */
+
+static struct rho_input_config config_of(const struct parameters *parameters,
+                                         bool has_input_estimation)
+{
+    const double *value = parameters->value;
+    float v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    struct rho_input_config config;
+
+    rho_input_config_default(&config);
+    config.is_estimated = has_input_estimation;
+    config.model = value[PARAMETER_INPUT_MODEL] > 0.0 ? RHO_INPUT_PHYSICAL : RHO_INPUT_LITERAL;
+    config.sigma_mps2 = (float)value[PARAMETER_INPUT_SIGMA_MPS2];
+    config.threshold = rho_input_threshold((float)value[PARAMETER_ONSET_CONFIDENCE]);
+    config.gamma = (float)value[PARAMETER_GAMMA];
+    config.noise_m = (float)value[PARAMETER_FILTER_NOISE_M];
+    config.noise_mps = (float)value[PARAMETER_FILTER_NOISE_MPS];
+    config.velocity_variance = v_max_mps * v_max_mps;
+    return config;
+}
+
+struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_estimation,
+                                  const struct parameters *parameters)
+{
+    struct maintainer *maintainer = must_calloc(1, sizeof *maintainer);
+
+    parameters_check(parameters);
+    maintainer->gate = gate;
+    maintainer->density = scan_density_new();
+    maintainer->config = config_of(parameters, has_input_estimation);
+    maintainer->planes = (uint8_t)parameters->value[PARAMETER_PLANES];
+    maintainer->theta_cell_rad = (float)(parameters->value[PARAMETER_GATE_THETA_DEG] * DEG_RAD);
+    if (gate == MAINTAIN_BEST) {
+        maintainer->best = maintainer_best_new(parameters);
+    }
+    return maintainer;
+}
+
+void maintainer_free(struct maintainer *maintainer)
+{
+    if (maintainer) {
+        maintainer_best_free(maintainer->best);
+        scan_density_free(maintainer->density);
+        free(maintainer);
+    }
+}
+
+size_t maintainer_state_bytes(const struct maintainer *maintainer)
+{
+    if (maintainer->best) {
+        return maintainer_best_bytes();
+    }
+    return sizeof maintainer->input +
+           (maintainer->gate == MAINTAIN_HOUGH
+                ? sizeof maintainer->newest_mps + sizeof maintainer->before_mps
+                : 0);
+}
+
+static void keep_sensor(struct maintainer *maintainer, const struct rho_sensor *sensor)
+{
+    maintainer->has_sensor = sensor;
+    if (sensor) {
+        maintainer->sensor = *sensor;
+    }
+}
+
+/* ---- Start ---- */
+
+/* Velocities that were measured take the place of those that were not known. */
+static void start_velocity(struct rho_kalman *kalman, const struct rho_plot *plot)
+{
+    const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+
+    for (int i = 0; i < AXES; i++) {
+        if (rho_kalman_is_open(kalman, i)) {
+            kalman->state[i + 3] = velocity_mps[i];
+            kalman->covariance[RHO_AT(i + 3, i + 3)] = plot->sigma_mps * plot->sigma_mps;
+        }
+    }
+}
+
+/* The newest estimate is one that a measurement has made. */
+static void count_measurement(struct maintainer *maintainer)
+{
+    struct rho_kalman kalman;
+
+    rho_input_estimate(&maintainer->input, &kalman);
+    for (int i = 0; i < AXES; i++) {
+        maintainer->before_mps[i] = maintainer->newest_mps[i];
+        maintainer->newest_mps[i] = kalman.state[i + 3];
+    }
+    maintainer->measurements++;
+}
+
+void maintainer_start(struct maintainer *maintainer, int64_t time_us, const struct rho_plot *plot,
+                      uint32_t measures, const struct rho_sensor *sensor)
+{
+    struct rho_measurement seen;
+    struct rho_kalman kalman;
+
+    keep_sensor(maintainer, sensor);
+    rho_kalman_init(&kalman);
+    rho_measurement_open(plot, measures, sensor, &seen);
+    must_succeed(rho_kalman_update_position(&kalman, &seen, maintainer->config.velocity_variance),
+                 "start");
+    if (measures & RHO_MEASURES_VELOCITY) {
+        start_velocity(&kalman, plot);
+    }
+    if (maintainer->best) {
+        maintainer_best_start(maintainer->best, time_us + plot->offset_us, time_us, &kalman,
+                              sensor);
+        return;
+    }
+    must_succeed(rho_input_start(&maintainer->input, &maintainer->config, &kalman), "start");
+    maintainer->is_predicted = false;
+    maintainer->measurements = 0;
+    maintainer->input_us = time_us + plot->offset_us;
+    maintainer->predicted = maintainer->input;
+    maintainer->predicted_us = time_us;
+    count_measurement(maintainer);
+}
+
+/* ---- Predictions ---- */
+
+/*
+ * From the last plot on, or back to a scan that began before its own time; false where that is
+ * refused.
+ */
+static bool predict_to(const struct maintainer *maintainer, int64_t time_us,
+                       struct rho_input *predicted)
+{
+    float dt_s = rho_seconds_between(maintainer->input_us, time_us);
+
+    *predicted = maintainer->input;
+    return rho_input_predict(predicted, &maintainer->config, dt_s) == RHO_OK;
+}
+
+void maintainer_predict(struct maintainer *maintainer, int64_t time_us)
+{
+    bool was_out_of_reach = maintainer->is_out_of_reach;
+
+    if (maintainer->best) {
+        maintainer->is_out_of_reach = !maintainer_best_predict(maintainer->best, time_us);
+    } else {
+        maintainer->is_predicted = true;
+        maintainer->predicted_us = time_us;
+        maintainer->is_out_of_reach = !predict_to(maintainer, time_us, &maintainer->predicted);
+    }
+    maintainer->refused += maintainer->is_out_of_reach && !was_out_of_reach;
+}
+
+void maintainer_where(const struct maintainer *maintainer, double place_m[3])
+{
+    struct rho_kalman kalman;
+
+    if (maintainer->best) {
+        maintainer_best_where(maintainer->best, place_m);
+        return;
+    }
+    rho_input_estimate(&maintainer->predicted, &kalman);
+    for (int i = 0; i < AXES; i++) {
+        place_m[i] = (double)kalman.state[i];
+    }
+}
+
+/* The prediction at a plot's own time; false where that is refused. */
+static bool predict_to_plot(const struct maintainer *maintainer, const struct rho_plot *plot,
+                            struct rho_input *predicted)
+{
+    *predicted = maintainer->predicted;
+    return plot->offset_us == 0 ||
+           predict_to(maintainer, maintainer->predicted_us + plot->offset_us, predicted);
+}
+
+/* Where no input is present one may have begun. INFINITY where the distance says nothing. */
+static double distance2_of(const struct maintainer *maintainer, const struct rho_plot *plot,
+                           uint32_t measures, const struct rho_sensor *sensor, int *dimensions)
+{
+    struct rho_input at;
+    struct rho_kalman expected;
+    double distance2 = NAN;
+
+    if (predict_to_plot(maintainer, plot, &at)) {
+        rho_input_expect(&at, &expected);
+        distance2 = plot_distance2(&expected, plot, measures, sensor, dimensions);
+    }
+    return isfinite(distance2) ? distance2 : INFINITY;
+}
+
+double maintainer_nis(const struct maintainer *maintainer, const struct rho_plot *plot,
+                      uint32_t measures)
+{
+    int dimensions = 1;
+    double distance2;
+
+    if (maintainer->best) {
+        return maintainer_best_nis(maintainer->best, plot, measures);
+    }
+    distance2 = distance2_of(maintainer, plot, measures,
+                             maintainer->has_sensor ? &maintainer->sensor : NULL, &dimensions);
+    return distance2 / dimensions;
+}
+
+/* ---- Choices: the row of a plot, or -1 ---- */
+
+static int choose_any(const struct rho_scan *scan, struct random *random)
+{
+    uint64_t left = 0;
+
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        left += rho_measurement_is_valid(&scan->plots[i], scan->measures) != 0;
+    }
+    left = left > 0 ? random_below(random, left) + 1 : 0;
+    for (uint32_t i = 0; left > 0; i++) {
+        left -= rho_measurement_is_valid(&scan->plots[i], scan->measures) != 0;
+        if (left == 0) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+static int choose_nearest(const struct maintainer *maintainer, const struct rho_scan *scan,
+                          const struct rho_sensor *sensor)
+{
+    double least = INFINITY;
+    int chosen = -1;
+
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+        double distance2 = rho_measurement_is_valid(plot, scan->measures)
+                               ? distance2_of(maintainer, plot, scan->measures, sensor, NULL)
+                               : INFINITY;
+
+        if (distance2 < least) {
+            least = distance2;
+            chosen = (int)i;
+        }
+    }
+    return chosen;
+}
+
+/* Without heights only the plane xy is left; 0 where that was not asked for either. */
+static uint8_t planes_of(const struct maintainer *maintainer, uint32_t measures)
+{
+    return measures & RHO_MEASURES_Z ? maintainer->planes
+                                     : (uint8_t)(maintainer->planes & RHO_GATE_PLANE_XY);
+}
+
+static int choose_straightest(const struct rho_gate_hough *hough, const struct rho_scan *scan)
+{
+    float least_mps = INFINITY;
+    int chosen = -1;
+
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+        const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps,
+                                          scan->measures & RHO_MEASURES_Z ? plot->vz_mps : 0.0f};
+        float off_mps = rho_measurement_is_valid(plot, scan->measures)
+                            ? rho_gate_hough_residual_mps(hough, velocity_mps)
+                            : INFINITY;
+
+        if (off_mps < least_mps) {
+            least_mps = off_mps;
+            chosen = (int)i;
+        }
+    }
+    return chosen;
+}
+
+static int choose(const struct maintainer *maintainer, const struct rho_scan *scan,
+                  const struct rho_sensor *sensor, struct random *random)
+{
+    struct rho_gate_hough hough;
+
+    if (maintainer->gate == MAINTAIN_NONE) {
+        return choose_any(scan, random);
+    }
+    if (maintainer->gate == MAINTAIN_HOUGH && maintainer->measurements >= FIRST_ELIMINATION &&
+        (scan->measures & RHO_MEASURES_VELOCITY) &&
+        rho_gate_hough_open(&hough, planes_of(maintainer, scan->measures),
+                            maintainer->theta_cell_rad, maintainer->before_mps,
+                            maintainer->newest_mps) == RHO_OK) {
+        return choose_straightest(&hough, scan);
+    }
+    return choose_nearest(maintainer, scan, sensor);
+}
+
+/* ---- Updates ---- */
+
+static bool update_velocity(struct rho_input *input, const struct rho_input_config *config,
+                            const struct rho_plot *plot, int axes)
+{
+    const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+    float variance = plot->sigma_mps * plot->sigma_mps;
+
+    for (int i = 0; i < axes; i++) {
+        if (rho_kalman_is_open(&input->bare, i) &&
+            rho_input_update(input, config, i + 3, velocity_mps[i], variance) != RHO_OK) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/*
+ * Predicted, updated by everything that the plot measures, decided. False where any of it is
+ * refused.
+ */
+static bool update_with(const struct maintainer *maintainer, const struct rho_plot *plot,
+                        uint32_t measures, const struct rho_sensor *sensor, struct rho_input *input)
+{
+    const struct rho_input_config *config = &maintainer->config;
+    struct rho_measurement seen;
+
+    rho_measurement_open(plot, measures, sensor, &seen);
+    if (!predict_to_plot(maintainer, plot, input) ||
+        rho_input_update_position(input, config, &seen) != RHO_OK ||
+        ((measures & RHO_MEASURES_VELOCITY) &&
+         !update_velocity(input, config, plot, seen.has_z ? 3 : 2)) ||
+        ((measures & RHO_MEASURES_RANGE_RATE) &&
+         rho_input_update_range_rate(input, config, sensor, plot->range_rate_mps,
+                                     plot->sigma_range_rate_mps * plot->sigma_range_rate_mps) !=
+             RHO_OK)) {
+        return false;
+    }
+    rho_input_decide(input, config);
+    return true;
+}
+
+/* The row that was taken; where none was, or its update was refused, the track coasts. */
+static int take(struct maintainer *maintainer, const struct rho_scan *scan,
+                const struct rho_sensor *sensor, int row)
+{
+    struct rho_input updated;
+    bool is_taken =
+        row >= 0 && update_with(maintainer, &scan->plots[row], scan->measures, sensor, &updated);
+
+    maintainer->is_predicted = false;
+    maintainer->input = is_taken ? updated : maintainer->predicted;
+    maintainer->input_us = scan->time_us + (is_taken ? scan->plots[row].offset_us : 0);
+    if (is_taken) {
+        count_measurement(maintainer);
+    }
+    maintainer->refused += row >= 0 && !is_taken;
+    return is_taken ? row : -1;
+}
+
+/* After a gap so long that any place will do: from the plot nearest to where the track was last. */
+static int start_again(struct maintainer *maintainer, const struct rho_scan *scan,
+                       const struct rho_sensor *sensor)
+{
+    double last_m[AXES], least_m = INFINITY;
+    int chosen = -1;
+
+    maintainer_where(maintainer, last_m);
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+        double distance_m =
+            rho_measurement_is_valid(plot, scan->measures)
+                ? hypot((double)plot->x_m - last_m[0], (double)plot->y_m - last_m[1])
+                : INFINITY;
+
+        if (distance_m < least_m) {
+            least_m = distance_m;
+            chosen = (int)i;
+        }
+    }
+    if (chosen >= 0) {
+        maintainer_start(maintainer, scan->time_us, &scan->plots[chosen], scan->measures, sensor);
+    }
+    return chosen;
+}
+
+int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan,
+                      const struct rho_sensor *sensor, double log_density, double pd,
+                      struct random *random)
+{
+    double place_m[AXES];
+
+    keep_sensor(maintainer, sensor);
+    if (maintainer->is_out_of_reach) {
+        return start_again(maintainer, scan, sensor);
+    }
+    if (!maintainer->best) {
+        return take(maintainer, scan, sensor, choose(maintainer, scan, sensor, random));
+    }
+    maintainer_where(maintainer, place_m);
+    if (isnan(log_density)) {
+        log_density = scan_density_log(maintainer->density, scan, place_m, pd);
+    }
+    return maintainer_best_update(maintainer->best, scan, sensor, log_density, pd);
+}
+
+/* ---- The estimate ---- */
+
+void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_estimate *estimate)
+{
+    struct rho_input now = maintainer->predicted;
+
+    if (maintainer->best) {
+        maintainer_best_estimate(maintainer->best, estimate);
+        return;
+    }
+    if (!maintainer->is_predicted) {
+        now = maintainer->input;
+        if (maintainer->input_us != maintainer->predicted_us) {
+            (void)predict_to(maintainer, maintainer->predicted_us, &now);
+        }
+    }
+    *estimate =
+        (struct maintainer_estimate){.maneuver_probability = now.present != 0, .num_hypotheses = 1};
+    rho_input_estimate(&now, &estimate->kalman);
+    for (int i = 0; i < AXES; i++) {
+        estimate->accel_mps2[i] = now.present & (1u << i) ? now.input_mps2[i] : 0.0f;
+    }
+}
+
+unsigned long maintainer_refused(const struct maintainer *maintainer)
+{
+    return maintainer->refused + (maintainer->best ? maintainer_best_refused(maintainer->best) : 0);
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/maintainer_best.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/plot_distance.h"
+#include "rhotrack/detail/hypotheses.h"
+
+struct maintainer_best {
+    uint16_t slot;
+    int64_t time_us;                    /* of the last scan, or the start */
+    struct rho_hypotheses_estimate now; /* predicted, or updated */
+    bool has_sensor;
+    struct rho_sensor sensor;
+    struct rho_hypotheses pool;
+};
+
+struct maintainer_best *maintainer_best_new(const struct parameters *parameters)
+{
+    struct maintainer_best *best = must_calloc(1, sizeof *best);
+    struct rho_imm_model model;
+
+    rho_imm_model_default(&model, (float)parameters->value[PARAMETER_ACCEL_MAX_MPS2],
+                          (float)parameters->value[PARAMETER_V_MAX_MPS]);
+    must_succeed(rho_hypotheses_init(&best->pool, sizeof best->pool, &model), "hypotheses");
+    return best;
+}
+
+void maintainer_best_free(struct maintainer_best *best)
+{
+    free(best);
+}
+
+size_t maintainer_best_bytes(void)
+{
+    return RHO_HYPOTHESES_OF_TRACK * sizeof(struct rho_hypothesis);
+}
+
+static void estimate_now(struct maintainer_best *best)
+{
+    must_succeed(rho_hypotheses_estimate(&best->pool, best->slot, best->time_us, &best->now),
+                 "estimate");
+}
+
+void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
+                           const struct rho_kalman *kalman, const struct rho_sensor *sensor)
+{
+    best->has_sensor = sensor;
+    if (sensor) {
+        best->sensor = *sensor;
+    }
+    rho_hypotheses_close(&best->pool, best->slot); /* where it starts again */
+    must_succeed(rho_hypotheses_open(&best->pool, kalman, time_us, &best->slot), "start");
+    best->time_us = scan_us;
+    estimate_now(best);
+}
+
+bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
+{
+    if (rho_hypotheses_predict(&best->pool, best->slot, time_us) != RHO_OK) {
+        return false;
+    }
+    best->time_us = time_us;
+    estimate_now(best);
+    return true;
+}
+
+void maintainer_best_where(const struct maintainer_best *best, double place_m[3])
+{
+    const struct rho_hypothesis *heaviest = rho_hypotheses_at(&best->pool, best->slot, 0);
+    struct rho_kalman kalman = best->now.kalman; /* where none is left */
+
+    if (heaviest) {
+        rho_imm_estimate(&heaviest->imm, &kalman, NULL);
+    }
+    for (int i = 0; i < 3; i++) {
+        place_m[i] = (double)kalman.state[i];
+    }
+}
+
+static void weigh_all(struct maintainer_best *best, const struct rho_scan *scan,
+                      const struct rho_sensor *sensor, double log_density, double pd)
+{
+    /* the density is one of all that is measured */
+    struct rho_hypotheses_clutter clutter = {.log_per_m2 = (float)log_density};
+    struct rho_hypotheses_box reach;
+    float log_pd = (float)log(pd), gain_nat;
+
+    rho_hypotheses_begin_scan(&best->pool, best->slot, &reach);
+    for (uint32_t i = 0; i < scan->num_plots && i <= MAINTAINER_ROW_MAX; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+        struct rho_imm_plot seen;
+
+        if (rho_measurement_is_valid(plot, scan->measures) &&
+            rho_hypotheses_is_in_box(&best->pool, best->slot, &reach, plot, scan->measures)) {
+            rho_imm_open_plot(&seen, plot, scan->measures, sensor);
+            (void)rho_hypotheses_score_plot(&best->pool, best->slot, &seen,
+                                            scan->time_us + plot->offset_us, (int16_t)i, log_pd,
+                                            &clutter, &gain_nat);
+        }
+    }
+}
+
+int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *scan,
+                           const struct rho_sensor *sensor, double log_density, double pd)
+{
+    struct rho_hypotheses_scan seen = {.time_us = scan->time_us,
+                                       .measures = scan->measures,
+                                       .plots = scan->plots,
+                                       .sensor = sensor,
+                                       .log_miss = (float)log1p(-pd)};
+    struct rho_hypotheses_outcome outcome;
+
+    best->has_sensor = sensor;
+    if (sensor) {
+        best->sensor = *sensor;
+    }
+    weigh_all(best, scan, sensor, log_density, pd);
+    must_succeed(rho_hypotheses_commit(&best->pool, best->slot, &seen, &outcome), "commit");
+    estimate_now(best);
+    return outcome.row;
+}
+
+void maintainer_best_estimate(const struct maintainer_best *best,
+                              struct maintainer_estimate *estimate)
+{
+    *estimate = (struct maintainer_estimate){
+        .kalman = best->now.kalman,
+        .maneuver_probability = best->now.maneuver_probability,
+        .num_hypotheses = rho_hypotheses_count(&best->pool, best->slot),
+    };
+    for (int i = 0; i < 3; i++) {
+        estimate->accel_mps2[i] = best->now.accel_mps2[i];
+    }
+}
+
+double maintainer_best_nis(const struct maintainer_best *best, const struct rho_plot *plot,
+                           uint32_t measures)
+{
+    int dimensions = 1;
+    double distance2 = plot_distance2(&best->now.kalman, plot, measures,
+                                      best->has_sensor ? &best->sensor : NULL, &dimensions);
+
+    return distance2 / dimensions;
+}
+
+unsigned long maintainer_best_refused(const struct maintainer_best *best)
+{
+    return best->pool.updates_refused;
+}

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/pipeline.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "settings/method.h"
+
+static void allocate_initiator(struct pipeline *pipeline)
+{
+    pipeline->initiators = must_grow(pipeline->initiators, pipeline->num_allocated,
+                                     &pipeline->capacity, sizeof *pipeline->initiators);
+    pipeline->initiators[pipeline->num_allocated++].initiator =
+        must_alloc(sizeof(struct rho_initiator));
+}
+
+struct pipeline pipeline_start(void)
+{
+    struct pipeline pipeline = {.tracker = must_alloc(sizeof(struct rho_tracker)),
+                                .report = must_alloc(sizeof(struct rho_report)),
+                                .plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot))};
+
+    allocate_initiator(&pipeline);
+    pipeline.initiator = pipeline.initiators[0].initiator;
+    return pipeline;
+}
+
+void pipeline_free(struct pipeline *pipeline)
+{
+    for (size_t i = 0; i < pipeline->num_allocated; i++) {
+        free(pipeline->initiators[i].initiator);
+    }
+    free(pipeline->initiators);
+    free(pipeline->passive);
+    free(pipeline->tracker);
+    free(pipeline->report);
+    free(pipeline->plots);
+}
+
+void pipeline_set_gate(struct parameters *parameters, const char *gate)
+{
+    if (gate) {
+        parameters_set_gate(parameters, gate);
+    }
+    if (parameters->value[PARAMETER_GATE] >= RHO_NUM_TRACKER_GATES) {
+        fail(EXIT_USAGE, "gate none draws plots at random: that is for `maintain`; there are best, "
+                         "hough and nearest");
+    }
+}
+
+/* Memory of an earlier run is used again. */
+static struct pipeline_initiator *add_initiator(struct pipeline *pipeline, int32_t sensor_id)
+{
+    struct pipeline_initiator *added;
+
+    if (pipeline->num_initiators == pipeline->num_allocated) {
+        allocate_initiator(pipeline);
+    }
+    added = &pipeline->initiators[pipeline->num_initiators++];
+    added->sensor_id = sensor_id;
+    must_succeed(rho_initiator_init(added->initiator, sizeof *added->initiator, &pipeline->start),
+                 "initiator");
+    return added;
+}
+
+/* The held scan goes into another window too, but for the plots that have started tracks. */
+static void push_held(struct rho_initiator *initiator, const struct rho_window_scan *held)
+{
+    struct rho_plot *plots = must_calloc(held->num_plots + 1u, sizeof *plots);
+    uint8_t *fates = must_calloc(held->num_plots + 1u, sizeof *fates);
+    uint32_t left_unused = 0;
+
+    for (unsigned i = 0; i < held->num_plots; i++) {
+        plots[i] = rho_window_plot_of(held, i);
+        fates[i] = held->marks[i] & RHO_WINDOW_INITIATED ? RHO_FATE_CLAIMED : RHO_FATE_HELD;
+    }
+    const struct rho_scan scan = {.time_us = held->time_us,
+                                  .sensor_id = held->sensor.sensor_id,
+                                  .measures = held->measures,
+                                  .sector_from_rad = held->sector_from_rad,
+                                  .sector_to_rad = held->sector_to_rad,
+                                  .num_plots = held->num_plots,
+                                  .plots = plots};
+    must_succeed(rho_initiator_push(initiator, &scan, rho_window_sensor(held), fates, &left_unused),
+                 "initiator");
+    free(plots);
+    free(fates);
+}
+
+/*
+ * A sensor that leaves the window that it shared takes its scans along: its targets start from
+ * these.
+ */
+static void take_along(struct pipeline *pipeline, const struct pipeline_initiator *added)
+{
+    for (size_t i = 0; pipeline->initiators + i < added; i++) {
+        struct rho_window *shared = &pipeline->initiators[i].initiator->window;
+
+        for (unsigned m = 0; m < shared->num_scans; m++) {
+            const struct rho_window_scan *held = rho_window_scan_at(shared, m);
+
+            if (held->sensor.sensor_id == added->sensor_id) {
+                push_held(added->initiator, held);
+            }
+        }
+    }
+}
+
+/* The first one is there before its sensor is known. */
+struct rho_initiator *pipeline_initiator(struct pipeline *pipeline, int32_t sensor_id)
+{
+    struct pipeline_initiator *of = NULL;
+
+    if (pipeline->has_one_initiator) {
+        return pipeline->initiator;
+    }
+    if (!pipeline->has_sensor) {
+        pipeline->has_sensor = true;
+        pipeline->initiators[0].sensor_id = sensor_id;
+    }
+    for (size_t i = 0; i < pipeline->num_initiators && !of; i++) {
+        of = pipeline->initiators[i].sensor_id == sensor_id ? &pipeline->initiators[i] : NULL;
+    }
+    if (!of) {
+        of = add_initiator(pipeline, sensor_id);
+        take_along(pipeline, of);
+    }
+    pipeline->initiator = of->initiator;
+    return pipeline->initiator;
+}
+
+struct rho_initiator *pipeline_initiator_of(struct pipeline *pipeline, const struct rho_scan *scan)
+{
+    return pipeline_initiator(pipeline, pipeline->has_pairs ? pipeline_window_of(pipeline, scan)
+                                                            : scan->sensor_id);
+}
+
+void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    struct rho_tracker_config maintain;
+    parameters_to_initiator(parameters, &pipeline->start);
+    parameters_to_tracker(parameters, &maintain);
+    pipeline->has_pairs = parameters->value[PARAMETER_INITIATORS] == INITIATORS_PAIRS;
+    pipeline->has_one_initiator = parameters->value[PARAMETER_INITIATORS] == INITIATORS_ONE;
+    pipeline->has_sensor = false;
+    pipeline->num_named = parameters->num_sensors;
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        pipeline->named[i] = parameters->sensors[i].sensor_id;
+    }
+    pipeline->num_initiators = 0;
+    pipeline->initiator = add_initiator(pipeline, 0)->initiator;
+    must_succeed(rho_tracker_init(pipeline->tracker, sizeof *pipeline->tracker, &maintain),
+                 "tracker");
+}
+
+void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    struct parameters customary = *parameters;
+
+    method_suggest(METHOD_PASSIVE, &customary);
+    struct rho_passive_config config = method_passive(&customary);
+    if (!pipeline->passive) {
+        pipeline->passive = must_alloc(sizeof *pipeline->passive);
+    }
+    must_succeed(rho_passive_init(pipeline->passive, sizeof *pipeline->passive, &config),
+                 "passive");
+}
+
+void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
+{
+    must_succeed(rho_tracker_step(pipeline->tracker, pipeline_initiator_of(pipeline, scan), scan,
+                                  pipeline->report),
+                 "step");
+}
+
+void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame)
+{
+    must_succeed(
+        rho_tracker_step_frame(pipeline->tracker, pipeline->passive, frame, pipeline->report),
+        "step");
+}

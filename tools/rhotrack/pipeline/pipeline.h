@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * pipeline: the library's objects for the whole pipeline, scans in, tracks out, in memory of their
+ * own.
+ */
+#ifndef RHOTRACK_TOOL_PIPELINE_H
+#define RHOTRACK_TOOL_PIPELINE_H
+
+#include "settings/parameters.h"
+
+/* Whose plots start tracks together: the parameter initiators. */
+enum { INITIATORS_PAIRS, INITIATORS_SENSOR, INITIATORS_ONE };
+
+/* Who starts the tracks of a sensor, or of the two that share its window (pipeline_window_of). */
+struct pipeline_initiator {
+    int32_t sensor_id;
+    struct rho_initiator *initiator;
+};
+
+struct pipeline {
+    struct rho_initiator *initiator; /* that of the newest scan */
+    /* one a window, in the order in which these came; or one for all */
+    struct pipeline_initiator *initiators;
+    size_t num_initiators, num_allocated, capacity;
+    bool has_one_initiator, has_pairs, has_sensor;
+    bool is_live;                   /* anybody may send: set before pipeline_open */
+    int32_t named[RHO_MAX_SENSORS]; /* sensors of which the parameters say something */
+    size_t num_named;
+    struct rho_initiator_config start;
+    struct rho_passive *passive; /* NULL before pipeline_open_passive */
+    struct rho_tracker *tracker;
+    struct rho_report *report;
+    struct rho_plot *plots; /* RHO_MAX_PLOTS, for the caller's scans */
+};
+
+struct pipeline pipeline_start(void);
+void pipeline_free(struct pipeline *pipeline);
+
+/* The parameter gate from --gate, where that was given; gates that the tracker has not: exit 2. */
+void pipeline_set_gate(struct parameters *parameters, const char *gate);
+
+/* Ready for a first scan. */
+void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters);
+
+/* The same with bearings: the tracks that these start. After pipeline_open. */
+void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters);
+
+/* That of a window, which is the pipeline's from then on. */
+struct rho_initiator *pipeline_initiator(struct pipeline *pipeline, int32_t sensor_id);
+
+/*
+ * The sensor by which a scan's window is named: the scan's own, or the one described earlier that
+ * sees the same.
+ */
+int32_t pipeline_window_of(const struct pipeline *pipeline, const struct rho_scan *scan);
+
+/* Where a scan's plots start tracks: before its step, after its sensor was described. */
+struct rho_initiator *pipeline_initiator_of(struct pipeline *pipeline, const struct rho_scan *scan);
+
+/* One step; the report is the pipeline's. */
+void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);
+void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame);
+
+#endif

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: MIT */
+#include "pipeline/pipeline_snapshot.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/common.h"
+#include "rhotrack/snapshot.h"
+
+/* Written at a time. */
+#define PIECE_BYTES 65536
+
+/* The tracker's id: whose the initiators are. */
+enum { OF_NOBODY, OF_SENSORS, OF_ALL, OF_PAIRS };
+
+static int32_t initiators_of(const struct pipeline *pipeline)
+{
+    return pipeline->has_one_initiator ? OF_ALL
+           : !pipeline->has_sensor     ? OF_NOBODY
+           : pipeline->has_pairs       ? OF_PAIRS
+                                       : OF_SENSORS;
+}
+
+/* Tracker, initiators, passive; in new memory. */
+static struct rho_snapshot_part *list_parts(const struct pipeline *pipeline, unsigned *num_parts)
+{
+    struct rho_snapshot_part *parts = must_calloc(pipeline->num_initiators + 2, sizeof *parts);
+    unsigned count = 0;
+
+    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiators_of(pipeline),
+                                                pipeline->tracker, sizeof *pipeline->tracker};
+    for (size_t i = 0; i < pipeline->num_initiators; i++) {
+        const struct pipeline_initiator *of = &pipeline->initiators[i];
+
+        parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_INITIATOR, of->sensor_id,
+                                                    of->initiator, sizeof *of->initiator};
+    }
+    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_PASSIVE, 0, pipeline->passive,
+                                                sizeof *pipeline->passive};
+    *num_parts = count;
+    return parts;
+}
+
+/* ---- Save ---- */
+
+static bool write_all(int file, const uint8_t *bytes, size_t size)
+{
+    while (size > 0) {
+        ssize_t written = write(file, bytes, size);
+
+        if (written < 0 && errno != EINTR) {
+            return false;
+        }
+        bytes += written > 0 ? written : 0;
+        size -= written > 0 ? (size_t)written : 0;
+    }
+    return true;
+}
+
+static bool write_image(int file, const struct rho_snapshot_part *parts, unsigned num_parts)
+{
+    uint8_t piece[PIECE_BYTES];
+    size_t at = 0, length = 0;
+
+    do {
+        if (rho_snapshot_save(parts, num_parts, at, piece, sizeof piece, &length) != RHO_OK) {
+            errno = EINVAL;
+            return false;
+        }
+        if (!write_all(file, piece, length)) {
+            return false;
+        }
+        at += length;
+    } while (length > 0);
+    return fsync(file) == 0;
+}
+
+bool pipeline_save(const struct pipeline *pipeline, const char *path)
+{
+    unsigned num_parts;
+    struct rho_snapshot_part *parts = list_parts(pipeline, &num_parts);
+    size_t room = strlen(path) + sizeof ".part";
+    char *beside = must_alloc(room);
+    bool is_saved = false;
+    int file, reason;
+
+    snprintf(beside, room, "%s.part", path);
+    file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file >= 0) {
+        is_saved = write_image(file, parts, num_parts);
+        reason = errno;
+        is_saved = close(file) == 0 && is_saved && rename(beside, path) == 0;
+        if (!is_saved) {
+            reason = reason ? reason : errno;
+            unlink(beside);
+            errno = reason;
+        }
+    }
+    free(beside);
+    free(parts);
+    return is_saved;
+}
+
+/* ---- Restore ---- */
+
+/* The file's bytes in new memory, NULL where there are none. */
+static uint8_t *read_file(const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    uint8_t *bytes = NULL;
+    size_t room = 0, got = 1;
+
+    *size = 0;
+    if (!file && errno == ENOENT) {
+        return NULL;
+    }
+    if (!file) {
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
+    }
+    while (got > 0) {
+        if (*size == room) {
+            room = room ? 2 * room : 1 << 20;
+            bytes = must_realloc(bytes, room);
+        }
+        got = fread(bytes + *size, 1, room - *size, file);
+        *size += got;
+    }
+    if (ferror(file)) {
+        fail(EXIT_RUNTIME, "%s: %s", path, strerror(errno));
+    }
+    fclose(file);
+    return bytes;
+}
+
+static enum pipeline_restored refuse(const char *path, const char *why)
+{
+    fprintf(stderr, "rhotrack: %s: %s; tracks begin anew\n", path, why);
+    return PIPELINE_REFUSED;
+}
+
+static const char *reason_of(enum rho_status status)
+{
+    switch ((int)status) {
+    case RHO_ERROR_TYPE:
+        return "a snapshot of another version";
+    case RHO_ERROR_SIZE:
+        return "a snapshot of another build";
+    default:
+        return "the snapshot is damaged";
+    }
+}
+
+/* The initiators that the image has: true where a pipeline with such parameters can have them. */
+static bool add_initiators(struct pipeline *pipeline, const struct rho_snapshot_part *parts,
+                           unsigned num_parts)
+{
+    const unsigned last = num_parts - 1;
+
+    const bool has_sensors = parts[0].id == OF_SENSORS || parts[0].id == OF_PAIRS;
+
+    for (unsigned i = 1; i < last && has_sensors && !pipeline->has_one_initiator; i++) {
+        (void)pipeline_initiator(pipeline, parts[i].id);
+    }
+    return num_parts == pipeline->num_initiators + 2 && parts[0].id == initiators_of(pipeline);
+}
+
+static bool is_same(const void *one, const void *other, size_t size)
+{
+    return memcmp(one, other, size) == 0;
+}
+
+/* Into a pipeline that was opened: its parameters are those to be. */
+static enum rho_status load(struct pipeline *pipeline, const uint8_t *image, size_t size,
+                            bool *is_other)
+{
+    const struct rho_tracker_config maintain = pipeline->tracker->config;
+    const struct rho_passive_config search = pipeline->passive->config;
+    unsigned num_parts;
+    struct rho_snapshot_part *parts = list_parts(pipeline, &num_parts);
+    enum rho_status status = rho_snapshot_load(parts, num_parts, image, size);
+
+    free(parts);
+    *is_other =
+        status == RHO_OK && (!is_same(&pipeline->tracker->config, &maintain, sizeof maintain) ||
+                             !is_same(&pipeline->passive->config, &search, sizeof search));
+    for (size_t i = 0; status == RHO_OK && i < pipeline->num_initiators; i++) {
+        *is_other |= !is_same(&pipeline->initiators[i].initiator->config, &pipeline->start,
+                              sizeof pipeline->start);
+    }
+    return status;
+}
+
+static enum pipeline_restored take_over(struct pipeline *pipeline,
+                                        const struct parameters *parameters, const char *path,
+                                        const uint8_t *image, size_t size)
+{
+    unsigned num_parts = 0;
+    enum rho_status status = rho_snapshot_list(image, size, NULL, 0, &num_parts);
+    struct pipeline fresh;
+    bool is_other;
+
+    if (status != RHO_OK) {
+        return refuse(path, reason_of(status));
+    }
+    struct rho_snapshot_part *parts = must_calloc(num_parts + 1, sizeof *parts);
+    (void)!rho_snapshot_list(image, size, parts, num_parts, &num_parts);
+    fresh = pipeline_start();
+    fresh.is_live = pipeline->is_live;
+    memset(fresh.report, 0, sizeof *fresh.report);
+    pipeline_open(&fresh, parameters);
+    pipeline_open_passive(&fresh, parameters);
+    is_other = num_parts < 3 || !add_initiators(&fresh, parts, num_parts);
+    status = is_other ? RHO_OK : load(&fresh, image, size, &is_other);
+    free(parts);
+    if (is_other || status != RHO_OK) {
+        pipeline_free(&fresh);
+        return refuse(path, is_other ? "a snapshot with other parameters" : reason_of(status));
+    }
+    fresh.initiator = fresh.initiators[0].initiator;
+    pipeline_free(pipeline);
+    *pipeline = fresh;
+    return PIPELINE_RESTORED;
+}
+
+enum pipeline_restored pipeline_restore(struct pipeline *pipeline,
+                                        const struct parameters *parameters, const char *path)
+{
+    static const char magic[] = "rhosnap\n";
+    enum pipeline_restored restored = PIPELINE_NO_FILE;
+    size_t size;
+    uint8_t *image = read_file(path, &size);
+
+    if (size > 0 && (size < 8 || memcmp(image, magic, 8) != 0)) {
+        fail(EXIT_USAGE, "%s: is no snapshot, and would be written over", path);
+    }
+    if (size > 0) {
+        restored = take_over(pipeline, parameters, path, image, size);
+    }
+    free(image);
+    return restored;
+}

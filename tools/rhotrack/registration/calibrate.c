@@ -1,0 +1,491 @@
+/* SPDX-License-Identifier: MIT */
+#include "registration/calibrate.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "registration/calibrate_pieces.h"
+
+#define ROUNDS_MAX 8
+#define SETTLED 0.02 /* noise that changes by less between rounds stays */
+#define TRY_BETTER 1.5
+
+#define PARTS 10 /* of the data, each left out once: what the figures differ by */
+#define PIECES_MIN 4
+#define LOOKS_MIN 100
+#define TURNS_MIN 6
+#define SETTLING_PLOTS 6 /* of a track: it is there because these were seen */
+#define GROWN_PLOTS 12
+#define MOVES_SIGMAS 4.0
+
+/* Squares over their variance, cut at 4, of a normal distribution: their mean. */
+#define CUT 2.0
+#define CUT_MEAN 0.9205
+
+/* ---- figures that have parts ---- */
+
+struct parts {
+    double without[PARTS]; /* the figure without each part */
+};
+
+/* The jackknife's. */
+static double sigma_of(const struct parts *parts)
+{
+    double mean = 0.0, sum = 0.0;
+
+    for (int i = 0; i < PARTS; i++) {
+        mean += parts->without[i] / PARTS;
+    }
+    for (int i = 0; i < PARTS; i++) {
+        sum += (parts->without[i] - mean) * (parts->without[i] - mean);
+    }
+    return sqrt(sum * (PARTS - 1) / PARTS);
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double one = *(const double *)a, other = *(const double *)b;
+
+    return (one > other) - (one < other);
+}
+
+static double median(double *values, size_t count)
+{
+    qsort(values, count, sizeof *values, compare);
+    return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
+}
+
+/* ---- noise ---- */
+
+/* What an axis' residuals are of: metres, or radians. */
+static double value_of(const struct residual *residual, bool is_round)
+{
+    return fabs(residual->axis == 1 && !is_round ? residual->off_m / residual->range_m
+                                                 : residual->off_m);
+}
+
+static bool counts(const struct residual *residual, int axis, bool is_round, int part)
+{
+    return (is_round || residual->axis == axis) && (int)(residual->piece % PARTS) != part;
+}
+
+/* The sigma for which the cut squares have the mean that they should have; without a part, -1: of
+ * all. */
+static double noise_without(const struct calibrate_pieces *pieces, int axis, bool is_round,
+                            int part)
+{
+    double least = 1e-9, most = 1e7;
+
+    for (int i = 0; i < 60; i++) {
+        const double sigma = sqrt(least * most);
+        double sum = 0.0, count = 0.0;
+
+        for (size_t k = 0; k < pieces->num_residuals; k++) {
+            if (counts(&pieces->residuals[k], axis, is_round, part)) {
+                const double sigmas = value_of(&pieces->residuals[k], is_round) / sigma;
+
+                sum += sigmas < CUT ? sigmas * sigmas : CUT * CUT;
+                count += 1.0;
+            }
+        }
+        if (sum > CUT_MEAN * count) {
+            least = sigma;
+        } else {
+            most = sigma;
+        }
+    }
+    return sqrt(least * most);
+}
+
+static struct calibrate_figure noise_of(const struct calibrate_pieces *pieces, int axis,
+                                        bool is_round)
+{
+    struct calibrate_figure figure = {.is_known = pieces->num_pieces >= PIECES_MIN};
+    struct parts parts;
+
+    if (figure.is_known) {
+        for (int i = 0; i < PARTS; i++) {
+            parts.without[i] = noise_without(pieces, axis, is_round, i);
+        }
+        figure.value = noise_without(pieces, axis, is_round, -1);
+        figure.sigma = sigma_of(&parts);
+    }
+    return figure;
+}
+
+static void set_noise(struct radar_data *radar, bool is_round, double along_m, double across)
+{
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        struct radar_plot *plot = &radar->plots[i];
+        const double across_m = is_round ? along_m : across * plot->range_m;
+
+        plot->sigma_range_m = fmax(along_m, (double)RHO_LIMIT_SIGMA_MIN);
+        plot->sigma_cross_m = fmax(across_m, (double)RHO_LIMIT_SIGMA_MIN);
+        plot->plot.sigma_range_m = (float)plot->sigma_range_m;
+        plot->plot.sigma_cross_m = (float)plot->sigma_cross_m;
+        plot->plot.sigma_up_m = is_round ? plot->plot.sigma_range_m : plot->plot.sigma_up_m;
+    }
+}
+
+static void scale_noise(struct radar_data *radar, double factor)
+{
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        struct radar_plot *plot = &radar->plots[i];
+
+        plot->sigma_range_m *= factor;
+        plot->sigma_cross_m *= factor;
+        plot->plot.sigma_range_m = (float)plot->sigma_range_m;
+        plot->plot.sigma_cross_m = (float)plot->sigma_cross_m;
+        plot->plot.sigma_up_m = (float)(factor * (double)plot->plot.sigma_up_m);
+    }
+}
+
+/* ---- rounds ---- */
+
+static void forget_tracks(struct register_data *data)
+{
+    for (size_t i = 0; i < data->num_tracks; i++) {
+        free(data->tracks[i].plots);
+    }
+    data->num_tracks = 0;
+}
+
+static struct calibrate_pieces track_and_cut(struct register_data *data, size_t radar,
+                                             bool is_round, struct pipeline *pipeline)
+{
+    forget_tracks(data);
+    register_track_one(data, radar, pipeline);
+    return calibrate_cut(data, radar, is_round);
+}
+
+static double worth_of(const struct calibrate_pieces *pieces)
+{
+    return (double)pieces->num_pieces - (double)pieces->num_left_out;
+}
+
+/* Noise that is far from what was stated lets no tracks be found: with which of these factors
+ * there are most pieces. */
+static struct calibrate_pieces begin(struct register_data *data, size_t number, bool is_round,
+                                     struct pipeline *pipeline)
+{
+    static const double factors[] = {4.0, 16.0, 0.25};
+    struct radar_data *radar = &data->radars[number];
+    struct calibrate_pieces best = track_and_cut(data, number, is_round, pipeline);
+    double factor = 1.0;
+
+    for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
+        const double tried = factors[i];
+        struct calibrate_pieces pieces;
+
+        scale_noise(radar, tried / factor);
+        pieces = track_and_cut(data, number, is_round, pipeline);
+        if (worth_of(&pieces) > TRY_BETTER * fmax(worth_of(&best), 1.0)) {
+            calibrate_pieces_free(&best);
+            best = pieces;
+            factor = tried;
+        } else {
+            calibrate_pieces_free(&pieces);
+            scale_noise(radar, factor / tried);
+        }
+    }
+    calibrate_pieces_free(&best);
+    return track_and_cut(data, number, is_round, pipeline);
+}
+
+static bool has_settled(const struct calibrate_figure *before, const struct calibrate_figure *now)
+{
+    return before->is_known && fabs(now->value / before->value - 1.0) < SETTLED;
+}
+
+/* Where most pieces are no parabolas, those that look so are by chance. */
+static bool are_enough(const struct calibrate_pieces *pieces)
+{
+    return pieces->num_pieces >= PIECES_MIN && pieces->num_pieces > pieces->num_left_out;
+}
+
+/* Noise along and across, with the tracks that it makes. */
+static struct calibrate_pieces find_noise(struct register_data *data, size_t number,
+                                          struct calibrate_radar *out, struct pipeline *pipeline)
+{
+    struct calibrate_figure *noise = out->figures;
+    struct calibrate_pieces pieces = begin(data, number, out->is_round, pipeline);
+
+    for (int round = 0; round < ROUNDS_MAX && pieces.num_pieces >= PIECES_MIN; round++) {
+        const struct calibrate_figure before[2] = {noise[0], noise[1]};
+
+        noise[0] = noise_of(&pieces, 0, out->is_round);
+        noise[1] = noise_of(&pieces, 1, false);
+        noise[1].is_known = noise[1].is_known && !out->is_round;
+        if (has_settled(&before[0], &noise[0]) &&
+            (out->is_round || has_settled(&before[1], &noise[1]))) {
+            break;
+        }
+        set_noise(&data->radars[number], out->is_round, noise[0].value, noise[1].value);
+        calibrate_pieces_free(&pieces);
+        pieces = track_and_cut(data, number, out->is_round, pipeline);
+    }
+    if (!are_enough(&pieces)) {
+        noise[0].is_known = noise[1].is_known = false;
+    }
+    return pieces;
+}
+
+/* ---- turns, clutter ---- */
+
+struct turns {
+    size_t count;
+    double *end_s, *plots;
+};
+
+static struct turns turns_of(const struct register_data *data, const struct radar_data *radar)
+{
+    struct turns turns = {.end_s = must_calloc(radar->num_scans + 1, sizeof(double)),
+                          .plots = must_calloc(radar->num_scans + 1, sizeof(double))};
+
+    for (size_t first = 0, end; first < radar->num_scans; first = end) {
+        end = register_turn_end(radar, first);
+        for (size_t i = first; i < end; i++) {
+            turns.plots[turns.count] += (double)radar->scans[i].count;
+        }
+        turns.end_s[turns.count++] =
+            (double)(radar->scans[end - 1].time_us - data->start_us) * 1e-6;
+    }
+    return turns;
+}
+
+static struct calibrate_figure turn_time(const struct turns *turns)
+{
+    struct calibrate_figure figure = {.is_known = turns->count > TURNS_MIN};
+    const size_t count = turns->count > 0 ? turns->count - 1 : 0;
+    double *gaps_s = must_calloc(count + 1, sizeof *gaps_s);
+
+    if (figure.is_known) {
+        for (size_t i = 0; i < count; i++) {
+            gaps_s[i] = turns->end_s[i + 1] - turns->end_s[i];
+        }
+        figure.value = median(gaps_s, count);
+        figure.is_known = figure.value > 0.0;
+        for (size_t i = 0; i < count; i++) {
+            gaps_s[i] = fabs(gaps_s[i] - figure.value);
+        }
+        /* of a median: 1.25 sigma / sqrt(n); the sigma by the median of what they are off */
+        figure.sigma = 1.25 * 1.4826 * median(gaps_s, count) / sqrt((double)count);
+    }
+    free(gaps_s);
+    return figure;
+}
+
+static struct calibrate_figure clutter_of(const struct register_data *data, size_t number,
+                                          const struct turns *turns)
+{
+    const double count = (double)turns->count;
+    struct calibrate_figure figure = {.is_known = turns->count >= TURNS_MIN};
+    double mean = 0.0, square = 0.0, tracked = 0.0;
+
+    for (size_t i = 0; i < data->num_tracks; i++) {
+        if (data->tracks[i].radar == number) {
+            tracked += (double)(data->tracks[i].count + data->tracks[i].earlier);
+        }
+    }
+    for (size_t i = 0; i < turns->count; i++) {
+        mean += turns->plots[i] / count;
+        square += turns->plots[i] * turns->plots[i] / count;
+    }
+    figure.value = figure.is_known ? fmax(mean - tracked / count, 0.0) : 0.0;
+    figure.sigma = figure.is_known ? sqrt(fmax(square - mean * mean, 0.0) / count) : 0.0;
+    return figure;
+}
+
+/* Of the circle, or the box, that nearly all plots are in. */
+static double area_km2(const struct radar_data *radar, bool is_round)
+{
+    double *range_m = must_calloc(radar->num_plots + 1, sizeof *range_m), area_m2 = 0.0;
+    double x[2] = {1e9, -1e9}, y[2] = {1e9, -1e9};
+
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        const struct rho_plot *plot = &radar->plots[i].plot;
+
+        range_m[i] = radar->plots[i].range_m;
+        x[0] = fmin(x[0], (double)plot->x_m);
+        x[1] = fmax(x[1], (double)plot->x_m);
+        y[0] = fmin(y[0], (double)plot->y_m);
+        y[1] = fmax(y[1], (double)plot->y_m);
+    }
+    if (radar->num_plots > 0) {
+        qsort(range_m, radar->num_plots, sizeof *range_m, compare);
+        area_m2 = is_round ? (x[1] - x[0]) * (y[1] - y[0])
+                           : M_PI * pow(range_m[radar->num_plots - 1 - radar->num_plots / 200], 2);
+    }
+    free(range_m);
+    return area_m2 * 1e-6;
+}
+
+/* ---- pd ---- */
+
+/* Between two plots of a track, of which the first is not among those that it is there for. */
+static void count_looks(const struct register_data *data, const struct radar_track *track,
+                        double turn_s, double *looks, double *hits)
+{
+    const struct radar_plot *plots = data->radars[track->radar].plots;
+    const struct radar_plot *first, *last;
+
+    *looks = *hits = 0.0;
+    if (track->count < GROWN_PLOTS) {
+        return;
+    }
+    first = &plots[track->plots[SETTLING_PLOTS]];
+    last = &plots[track->plots[track->count - 1]];
+    *hits = (double)(track->count - 1 - SETTLING_PLOTS);
+    *looks = fmax(round((double)(last->time_us - first->time_us) * 1e-6 / turn_s), *hits);
+}
+
+static struct calibrate_figure pd_of(const struct register_data *data, size_t number, double turn_s)
+{
+    double looks[PARTS + 1] = {0.0}, hits[PARTS + 1] = {0.0};
+    struct calibrate_figure figure = {.is_known = false};
+    struct parts parts;
+
+    for (size_t i = 0; i < data->num_tracks; i++) {
+        double looks_of, hits_of;
+
+        if (data->tracks[i].radar == number) {
+            count_looks(data, &data->tracks[i], turn_s, &looks_of, &hits_of);
+            for (int part = 0; part <= PARTS; part++) {
+                const bool is_in = (int)(i % PARTS) != part;
+                looks[part] += is_in ? looks_of : 0.0;
+                hits[part] += is_in ? hits_of : 0.0;
+            }
+        }
+    }
+    if (looks[PARTS] >= LOOKS_MIN) {
+        const double pd = hits[PARTS] / looks[PARTS];
+        for (int part = 0; part < PARTS; part++) {
+            parts.without[part] = looks[part] > 0.0 ? hits[part] / looks[part] : pd;
+        }
+        /* where there are as few tracks as parts, rather what chance makes of so many looks */
+        figure = (struct calibrate_figure){
+            true, pd, fmax(sigma_of(&parts), sqrt((pd * (1.0 - pd) + 0.01) / looks[PARTS]))};
+    }
+    return figure;
+}
+
+/* ---- speeds ---- */
+
+/* Of a track: the median of its pieces', and how well it is known. False: fewer than two pieces. */
+static bool speed_of(const struct calibrate_pieces *pieces, size_t *next,
+                     struct calibrate_figure *speed)
+{
+    const size_t first = *next;
+    double *speeds, square = 0.0;
+    size_t count = 0;
+
+    while (*next < pieces->num_pieces &&
+           pieces->pieces[*next].track == pieces->pieces[first].track) {
+        ++*next;
+    }
+    count = *next - first;
+    speeds = must_calloc(count, sizeof *speeds);
+    for (size_t i = 0; i < count; i++) {
+        const struct calibrate_piece *piece = &pieces->pieces[first + i];
+
+        speeds[i] = piece->speed_mps;
+        square += piece->speed_sigma_mps * piece->speed_sigma_mps / (double)count;
+    }
+    *speed =
+        (struct calibrate_figure){true, median(speeds, count), 1.25 * sqrt(square / (double)count)};
+    free(speeds);
+    return count >= 2;
+}
+
+static void find_speeds(const struct calibrate_pieces *pieces, struct calibrate_figure *fastest,
+                        struct calibrate_figure *slowest)
+{
+    struct calibrate_figure speed;
+
+    for (size_t next = 0; next < pieces->num_pieces;) {
+        if (!speed_of(pieces, &next, &speed) || speed.value < MOVES_SIGMAS * speed.sigma) {
+            continue;
+        }
+        *fastest = !fastest->is_known || speed.value > fastest->value ? speed : *fastest;
+        *slowest = !slowest->is_known || speed.value < slowest->value ? speed : *slowest;
+    }
+}
+
+/* ---- a radar ---- */
+
+static bool has_round_plots(const struct radar_data *radar)
+{
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        if (radar->plots[i].sigma_range_m != radar->plots[i].sigma_cross_m) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void find_innovations(struct register_data *data, size_t number, struct calibrate_radar *out,
+                             const double *stated)
+{
+    struct radar_data *radar = &data->radars[number];
+    double sum;
+
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        radar->plots[i].sigma_range_m = stated[2 * i];
+        radar->plots[i].sigma_cross_m = stated[2 * i + 1];
+    }
+    sum = calibrate_innovations(data, number, out->is_round, &out->num_innovations);
+    out->innovations = out->num_innovations ? sum / CUT_MEAN / (double)out->num_innovations : NAN;
+}
+
+static void calibrate_one(struct register_data *data, size_t number, struct pipeline *pipeline,
+                          struct calibrate_radar *out)
+{
+    struct radar_data *radar = &data->radars[number];
+    double *stated = must_calloc(2 * radar->num_plots + 1, sizeof *stated);
+    struct calibrate_pieces pieces;
+    struct turns turns;
+
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        stated[2 * i] = radar->plots[i].sigma_range_m;
+        stated[2 * i + 1] = radar->plots[i].sigma_cross_m;
+    }
+    *out = (struct calibrate_radar){.sensor_id = radar->sensor.sensor_id,
+                                    .is_round = has_round_plots(radar),
+                                    .scans = radar->num_scans,
+                                    .plots = radar->num_plots};
+    pieces = find_noise(data, number, out, pipeline);
+    turns = turns_of(data, radar);
+    out->turns = turns.count;
+    out->tracks = data->num_tracks;
+    out->pieces = pieces.num_pieces;
+    out->pieces_left_out = pieces.num_left_out;
+    out->area_km2 = area_km2(radar, out->is_round);
+    out->figures[CALIBRATE_TURN] = turn_time(&turns);
+    out->figures[CALIBRATE_CLUTTER] = clutter_of(data, number, &turns);
+    if (out->figures[CALIBRATE_TURN].is_known) {
+        out->figures[CALIBRATE_PD] = pd_of(data, number, out->figures[CALIBRATE_TURN].value);
+    }
+    find_speeds(&pieces, &out->figures[CALIBRATE_FASTEST], &out->figures[CALIBRATE_SLOWEST]);
+    find_innovations(data, number, out, stated);
+    calibrate_pieces_free(&pieces);
+    free(turns.end_s);
+    free(turns.plots);
+    free(stated);
+}
+
+struct calibrate_result calibrate(struct register_data *data, struct pipeline *pipeline)
+{
+    struct calibrate_result result = {.num_radars = data->num_radars};
+
+    result.radars = must_calloc(data->num_radars + 1, sizeof *result.radars);
+    for (size_t i = 0; i < data->num_radars; i++) {
+        calibrate_one(data, i, pipeline, &result.radars[i]);
+    }
+    return result;
+}
+
+void calibrate_free(struct calibrate_result *result)
+{
+    free(result->radars);
+}

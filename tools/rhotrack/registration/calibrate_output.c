@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT */
+#include "registration/calibrate_output.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+
+#include "base/common.h"
+#include "base/grid.h"
+
+/* Speeds beyond those that were seen: of the fastest, and of the slowest. */
+#define FASTER 1.3
+#define SLOWER 0.6
+#define SPEED_SIGMAS 3.0
+#define SPEED_MAX_LEAST_MPS 1.0
+
+static const struct {
+    const char *what, *unit, *json, *why_not;
+} kinds[NUM_CALIBRATE_KINDS] = {
+    {"range noise", "m", "sigma_range_m",
+     "fewer than four pieces of tracks, or most are no parabolas"},
+    {"azimuth noise", "rad", "sigma_azimuth_rad",
+     "fewer than four pieces of tracks, or most are no parabolas"},
+    {"pd", "", "pd", "tracks were looked at fewer than 100 times"},
+    {"clutter a turn", "plots", "clutter_plots", "fewer than six turns"},
+    {"turn", "s", "turn_s", "fewer than seven turns"},
+    {"fastest", "m/s", "fastest_mps", "nothing was tracked for 20 plots that surely moves"},
+    {"slowest that moves", "m/s", "slowest_mps",
+     "nothing was tracked for 20 plots that surely moves"},
+};
+
+static const char *name_of(const struct calibrate_radar *of, int kind)
+{
+    return of->is_round && kind == CALIBRATE_RANGE ? "noise, each axis" : kinds[kind].what;
+}
+
+/* Plots without a range have no noise of azimuth. */
+static bool is_asked(const struct calibrate_radar *of, int kind)
+{
+    return !(of->is_round && kind == CALIBRATE_AZIMUTH);
+}
+
+bool calibrate_knows_any(const struct calibrate_result *result)
+{
+    for (size_t i = 0; i < result->num_radars; i++) {
+        const struct calibrate_figure *figures = result->radars[i].figures;
+
+        if (figures[CALIBRATE_RANGE].is_known || figures[CALIBRATE_PD].is_known) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void calibrate_print(const struct calibrate_result *result, FILE *out)
+{
+    struct grid grid = grid_start(2, "radar|what|value|sigma|unit");
+
+    for (size_t i = 0; i < result->num_radars; i++) {
+        const struct calibrate_radar *of = &result->radars[i];
+
+        for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
+            const struct calibrate_figure *figure = &of->figures[kind];
+
+            if (figure->is_known) {
+                grid_row(&grid, "%d|%s|%.4g|%.2g|%s", (int)of->sensor_id, name_of(of, kind),
+                         figure->value, figure->sigma, kinds[kind].unit);
+            }
+        }
+    }
+    grid_print(&grid, out);
+    for (size_t i = 0; i < result->num_radars; i++) {
+        const struct calibrate_radar *of = &result->radars[i];
+
+        fprintf(out,
+                "radar %d: %zu plots in %zu turns, %zu tracks, %zu pieces of them (%zu more left "
+                "out as no parabolas)",
+                (int)of->sensor_id, of->plots, of->turns, of->tracks, of->pieces,
+                of->pieces_left_out);
+        if (of->num_innovations > 0) {
+            fprintf(out, "; squared innovations by the noise as stated: %.2f of 1",
+                    of->innovations);
+        }
+        fprintf(out, "\n");
+        for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
+            if (!of->figures[kind].is_known && is_asked(of, kind)) {
+                fprintf(out, "radar %d, %s: not known: %s\n", (int)of->sensor_id, name_of(of, kind),
+                        kinds[kind].why_not);
+            }
+        }
+    }
+    grid_free(&grid);
+}
+
+void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_skipped)
+{
+    cJSON *object = cJSON_CreateObject(), *radars = cJSON_AddArrayToObject(object, "radars");
+
+    for (size_t i = 0; i < result->num_radars; i++) {
+        const struct calibrate_radar *of = &result->radars[i];
+        cJSON *radar = cJSON_CreateObject();
+
+        cJSON_AddNumberToObject(radar, "sensor_id", of->sensor_id);
+        cJSON_AddNumberToObject(radar, "scans", (double)of->scans);
+        cJSON_AddNumberToObject(radar, "turns", (double)of->turns);
+        cJSON_AddNumberToObject(radar, "plots", (double)of->plots);
+        cJSON_AddNumberToObject(radar, "tracks", (double)of->tracks);
+        cJSON_AddNumberToObject(radar, "pieces", (double)of->pieces);
+        cJSON_AddNumberToObject(radar, "pieces_left_out", (double)of->pieces_left_out);
+        for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
+            const struct calibrate_figure *figure = &of->figures[kind];
+            const char *name =
+                of->is_round && kind == CALIBRATE_RANGE ? "sigma_m" : kinds[kind].json;
+            cJSON *both = cJSON_AddObjectToObject(radar, name);
+
+            json_add_number(both, "value", figure->is_known ? figure->value : NAN);
+            json_add_number(both, "sigma", figure->is_known ? figure->sigma : NAN);
+        }
+        json_add_number(radar, "area_km2", of->area_km2);
+        json_add_number(radar, "innovations", of->innovations);
+        cJSON_AddNumberToObject(radar, "num_innovations", (double)of->num_innovations);
+        cJSON_AddItemToArray(radars, radar);
+    }
+    cJSON_AddNumberToObject(object, "rows_skipped", (double)rows_skipped);
+    json_print(object);
+}
+
+/* ---- INI ---- */
+
+/* Of all radars: what a tracker has to follow, a little beyond what was seen. */
+static void write_speeds(const struct calibrate_result *result, FILE *out)
+{
+    double fastest = 0.0, slowest = 1e9;
+
+    for (size_t i = 0; i < result->num_radars; i++) {
+        const struct calibrate_figure *most = &result->radars[i].figures[CALIBRATE_FASTEST];
+        const struct calibrate_figure *least = &result->radars[i].figures[CALIBRATE_SLOWEST];
+
+        if (most->is_known) {
+            fastest = fmax(fastest, FASTER * most->value + SPEED_SIGMAS * most->sigma);
+            slowest = fmin(slowest, SLOWER * (least->value - SPEED_SIGMAS * least->sigma));
+        }
+    }
+    if (fastest > 0.0) {
+        fprintf(out,
+                "# by targets' speeds, with %.1f times the fastest and %.1f times the slowest\n",
+                FASTER, SLOWER);
+        fprintf(out, "v_max_mps = %.4g\nv_min_mps = %.4g\n", fmax(fastest, SPEED_MAX_LEAST_MPS),
+                fmax(fmin(slowest, fastest), 0.0));
+    } else {
+        fprintf(out, "# v_max_mps, v_min_mps: not known\n");
+    }
+}
+
+static void write_figure(FILE *out, const struct calibrate_figure *figure, const char *name,
+                         const char *comment)
+{
+    if (figure->is_known) {
+        fprintf(out, "# sigma %.2g\n%s%s = %.6g\n", figure->sigma, comment, name, figure->value);
+    } else {
+        fprintf(out, "# %s: not known\n", name);
+    }
+}
+
+static void write_radar(const struct calibrate_radar *of, FILE *out)
+{
+    struct calibrate_figure pd = of->figures[CALIBRATE_PD];
+
+    pd.value = fmin(fmax(pd.value, 0.01), 0.999);
+    fprintf(out, "\n[sensor %d]\n", (int)of->sensor_id);
+    write_figure(out, &of->figures[CALIBRATE_RANGE], of->is_round ? "sigma_m" : "sigma_range_m",
+                 "");
+    if (!of->is_round) {
+        write_figure(out, &of->figures[CALIBRATE_AZIMUTH], "sigma_azimuth_rad", "");
+    }
+    write_figure(out, &pd, "pd", "");
+    write_figure(out, &of->figures[CALIBRATE_TURN], "turn_s", "# ");
+    write_figure(out, &of->figures[CALIBRATE_CLUTTER], "clutter plots a turn", "# ");
+    if (of->figures[CALIBRATE_CLUTTER].is_known && of->area_km2 > 0.0) {
+        fprintf(out, "# that is %.3g a km^2, on %.4g km^2\n",
+                of->figures[CALIBRATE_CLUTTER].value / of->area_km2, of->area_km2);
+    }
+}
+
+void calibrate_write_ini(const struct calibrate_result *result, const char *path)
+{
+    struct output output = output_open(path);
+
+    fprintf(output.file, "# found by rhotrack calibrate; each with its sigma\n");
+    write_speeds(result, output.file);
+    for (size_t i = 0; i < result->num_radars; i++) {
+        write_radar(&result->radars[i], output.file);
+    }
+    output_close(&output);
+}

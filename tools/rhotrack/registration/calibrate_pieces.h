@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* calibrate_pieces: pieces of a radar's tracks, each a parabola, and how far plots lie beside
+ * them. */
+#ifndef RHOTRACK_TOOL_CALIBRATE_PIECES_H
+#define RHOTRACK_TOOL_CALIBRATE_PIECES_H
+
+#include "registration/register_data.h"
+
+/* What a plot lies beside its piece's path, along an axis, as if that plot had not been used; its
+ * variance is that of the noise there. */
+struct residual {
+    size_t piece, track;
+    int axis; /* 0: along the line of sight, 1: across */
+    double off_m, range_m;
+};
+
+struct calibrate_piece {
+    size_t track;
+    double speed_mps, speed_sigma_mps; /* in its middle */
+};
+
+struct calibrate_pieces {
+    size_t num_pieces, pieces_room, num_residuals, residuals_room;
+    size_t num_left_out; /* no parabolas */
+    struct calibrate_piece *pieces;
+    struct residual *residuals;
+};
+
+/* Of the radar's tracks, weighed by the sigmas of its plots. Round: axes are x and y. */
+struct calibrate_pieces calibrate_cut(const struct register_data *data, size_t radar,
+                                      bool is_round);
+void calibrate_pieces_free(struct calibrate_pieces *pieces);
+
+/* Squares of the next plots of tracks beside where the last ones lead on a straight line, over
+ * what is expected of them by the plots' sigmas; cut at 4. Returns their sum. */
+double calibrate_innovations(const struct register_data *data, size_t radar, bool is_round,
+                             size_t *count);
+
+#endif

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: MIT */
+#include "registration/register.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "registration/register_data.h"
+
+#define FIRST_GATE_M                                                                               \
+    3000.0 /* two tracks of a target may be so far apart before anything is known */
+#define ROUNDS_MAX 10
+#define KNOWN_SHARE 0.5 /* of a plot's noise: a bias that is not known to so much is not known */
+
+/* ---- data ---- */
+
+struct register_data *register_start(const struct parameters *parameters)
+{
+    struct register_data *data = must_calloc(1, sizeof *data);
+
+    data->parameters = parameters;
+    return data;
+}
+
+static struct radar_data *radar_of(struct register_data *data, const struct rho_sensor *sensor)
+{
+    size_t at = 0;
+
+    while (at < data->num_radars && data->radars[at].sensor.sensor_id < sensor->sensor_id) {
+        at++;
+    }
+    if (at < data->num_radars && data->radars[at].sensor.sensor_id == sensor->sensor_id) {
+        return &data->radars[at];
+    }
+    data->radars =
+        must_grow(data->radars, data->num_radars, &data->radars_room, sizeof *data->radars);
+    for (size_t i = data->num_radars++; i > at; i--) {
+        data->radars[i] = data->radars[i - 1];
+    }
+    data->radars[at] = (struct radar_data){.sensor = *sensor};
+    return &data->radars[at];
+}
+
+/* The library gives polar plots an ellipse, Cartesian ones a circle. */
+static const char *what_is_wrong(const struct rho_scan *scan, const struct radar_data *radar,
+                                 const struct rho_sensor *sensor)
+{
+    if (radar->sensor.x_m != sensor->x_m || radar->sensor.y_m != sensor->y_m) {
+        return "it moves; radars that are registered stand still";
+    }
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+
+        if (plot->sigma_range_m == plot->sigma_cross_m && plot->sigma_range_m == plot->sigma_up_m) {
+            return "its plots are not in range and azimuth";
+        }
+    }
+    return NULL;
+}
+
+static struct radar_plot plot_of(const struct rho_plot *plot, int64_t scan_us,
+                                 const struct rho_sensor *sensor)
+{
+    double x_m = (double)plot->x_m - (double)sensor->x_m;
+    double y_m = (double)plot->y_m - (double)sensor->y_m;
+
+    return (struct radar_plot){.time_us = scan_us + plot->offset_us,
+                               .range_m = hypot(x_m, y_m),
+                               .azimuth_rad = atan2(y_m, x_m),
+                               .sigma_range_m = (double)plot->sigma_range_m,
+                               .sigma_cross_m = (double)plot->sigma_cross_m,
+                               .plot = *plot};
+}
+
+void register_take(struct register_data *data, const struct rho_scan *scan,
+                   const struct rho_sensor *sensor)
+{
+    struct radar_data *radar = radar_of(data, sensor);
+
+    if (data->num_radars == 1 && radar->num_scans == 0) {
+        data->start_us = scan->time_us;
+    }
+    radar->scans =
+        must_grow(radar->scans, radar->num_scans, &radar->scans_room, sizeof *radar->scans);
+    radar->scans[radar->num_scans++] =
+        (struct radar_scan){.time_us = scan->time_us,
+                            .from_rad = (double)scan->sector_from_rad,
+                            .to_rad = (double)scan->sector_to_rad,
+                            .first = radar->num_plots,
+                            .count = scan->num_plots};
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        radar->plots =
+            must_grow(radar->plots, radar->num_plots, &radar->plots_room, sizeof *radar->plots);
+        radar->plots[radar->num_plots++] = plot_of(&scan->plots[i], scan->time_us, sensor);
+    }
+}
+
+const char *register_add(struct register_data *data, const struct rho_scan *scan,
+                         const struct rho_sensor *sensor)
+{
+    const char *wrong = what_is_wrong(scan, radar_of(data, sensor), sensor);
+
+    if (!wrong) {
+        register_take(data, scan, sensor);
+    }
+    return wrong;
+}
+
+size_t register_num_radars(const struct register_data *data)
+{
+    return data->num_radars;
+}
+
+void register_free(struct register_data *data)
+{
+    for (size_t i = 0; i < data->num_radars; i++) {
+        free(data->radars[i].scans);
+        free(data->radars[i].plots);
+    }
+    for (size_t i = 0; i < data->num_tracks; i++) {
+        free(data->tracks[i].plots);
+    }
+    free(data->radars);
+    free(data->tracks);
+    free(data);
+}
+
+/* ---- the estimate ---- */
+
+static size_t reference_of(const struct register_data *data)
+{
+    const struct parameters *parameters = data->parameters;
+
+    if (parameters_is_set(parameters, PARAMETER_REFERENCE_SENSOR)) {
+        int32_t sensor_id = (int32_t)parameters->value[PARAMETER_REFERENCE_SENSOR];
+
+        for (size_t i = 0; i < data->num_radars; i++) {
+            if (data->radars[i].sensor.sensor_id == sensor_id) {
+                return i;
+            }
+        }
+        fail(EXIT_USAGE, "reference_sensor %d is none of the input's radars", (int)sensor_id);
+    }
+    return 0;
+}
+
+/* The noise of one plot of the radar, of each kind. */
+static void typical_noise(const struct radar_data *radar, double speed_mps,
+                          double noise[NUM_REGISTER_KINDS])
+{
+    double range_m = 0.0, azimuth_rad = 0.0;
+
+    for (size_t i = 0; i < radar->num_plots; i++) {
+        range_m += radar->plots[i].sigma_range_m;
+        azimuth_rad += radar->plots[i].sigma_cross_m / radar->plots[i].range_m;
+    }
+    noise[REGISTER_RANGE] = range_m / (double)radar->num_plots;
+    noise[REGISTER_AZIMUTH] = azimuth_rad / (double)radar->num_plots;
+    noise[REGISTER_TIME] = noise[REGISTER_RANGE] / speed_mps;
+}
+
+static void fill_radar(const struct register_data *data, size_t number,
+                       const struct solution *solution, struct register_radar *out)
+{
+    const struct radar_data *radar = &data->radars[number];
+    const double configured[NUM_REGISTER_KINDS] = {(double)radar->sensor.range_bias_m,
+                                                   (double)radar->sensor.azimuth_bias_rad,
+                                                   (double)radar->sensor.time_bias_s};
+    double noise[NUM_REGISTER_KINDS];
+
+    *out = (struct register_radar){.sensor_id = radar->sensor.sensor_id,
+                                   .scans = radar->num_scans,
+                                   .plots = radar->num_plots,
+                                   .common_plots = solution->radar_plots[number]};
+    for (size_t i = 0; i < data->num_tracks; i++) {
+        out->tracks += data->tracks[i].radar == number;
+    }
+    typical_noise(radar, solution->speed_mps, noise);
+    for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
+        double sigma = solution->sigma[number * NUM_REGISTER_KINDS + kind];
+        bool is_known = out->common_plots > 0 && sigma <= KNOWN_SHARE * noise[kind];
+
+        out->biases[kind] =
+            (struct register_bias){.value = configured[kind] + (is_known ? radar->bias[kind] : 0.0),
+                                   .sigma = sigma,
+                                   .is_known = is_known};
+    }
+}
+
+static struct register_result result_of(const struct register_data *data, size_t reference,
+                                        const struct solution *solution, size_t rounds)
+{
+    struct register_result result = {.num_radars = data->num_radars,
+                                     .reference = reference,
+                                     .targets = register_num_common(data),
+                                     .pieces = solution->pieces,
+                                     .pieces_left_out = solution->pieces_left_out,
+                                     .plots = solution->plots,
+                                     .misfit = solution->misfit,
+                                     .rounds = rounds};
+
+    result.radars = must_calloc(data->num_radars + 1, sizeof *result.radars);
+    for (size_t i = 0; i < data->num_radars; i++) {
+        fill_radar(data, i, solution, &result.radars[i]);
+    }
+    return result;
+}
+
+struct register_result register_estimate(struct register_data *data, struct pipeline *pipeline)
+{
+    size_t reference = reference_of(data), rounds = 1;
+    struct solution solution;
+    struct register_result result;
+
+    register_track_all(data, pipeline);
+    register_match(data, FIRST_GATE_M, 0.0);
+    solution = register_solve(data, reference);
+    while (rounds < ROUNDS_MAX && register_match(data, FIRST_GATE_M, solution.misfit)) {
+        solution_free(&solution);
+        solution = register_solve(data, reference);
+        rounds++;
+    }
+    result = result_of(data, reference, &solution, rounds);
+    solution_free(&solution);
+    return result;
+}
+
+void register_result_free(struct register_result *result)
+{
+    free(result->radars);
+}

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+/* register_solve: the biases by least squares over all pieces of paths that several radars saw. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "registration/cholesky.h"
+#include "registration/register_data.h"
+#include "registration/register_pieces.h"
+
+/* Beyond these nobody believes a bias (types.h): what the plots say nothing of stays within. */
+static const double prior_sigma[NUM_REGISTER_KINDS] = {
+    (double)RHO_LIMIT_BIAS_M, (double)RHO_LIMIT_BIAS_RAD, (double)RHO_LIMIT_BIAS_S};
+/* What biases are counted in, so that the equations have entries of a size. */
+static const double unit[NUM_REGISTER_KINDS] = {10.0, 1e-3, 0.1};
+
+#define STEPS_MAX 30
+#define STEP_LEAST 1e-6   /* in those units */
+#define PASSES_MAX 4      /* in which pieces are left out */
+#define MISFIT_SIGMAS 4.0 /* a piece whose chi-square is off by more is no parabola */
+
+static struct normal start_normal(const struct register_data *data)
+{
+    struct normal normal = {.num = data->num_radars * NUM_REGISTER_KINDS};
+
+    normal.matrix = must_calloc(normal.num * normal.num, sizeof *normal.matrix);
+    normal.right = must_calloc(normal.num, sizeof *normal.right);
+    return normal;
+}
+
+static void free_normal(struct normal *normal)
+{
+    free(normal->matrix);
+    free(normal->right);
+}
+
+/* What is not to be changed: its equation says so. */
+static void hold(struct normal *normal, size_t index)
+{
+    for (size_t i = 0; i < normal->num; i++) {
+        normal->matrix[index * normal->num + i] = normal->matrix[i * normal->num + index] = 0.0;
+    }
+    normal->matrix[index * normal->num + index] = 1.0;
+    normal->right[index] = 0.0;
+}
+
+/* In the units above, with the priors, the reference's time held, as a factor. */
+static void finish_normal(const struct register_data *data, size_t reference, struct normal *normal)
+{
+    size_t num = normal->num;
+
+    for (size_t i = 0; i < num; i++) {
+        size_t kind = i % NUM_REGISTER_KINDS;
+        double weight = 1.0 / (prior_sigma[kind] * prior_sigma[kind]);
+
+        normal->matrix[i * num + i] += weight;
+        normal->right[i] -= weight * data->radars[i / NUM_REGISTER_KINDS].bias[kind];
+    }
+    for (size_t i = 0; i < num; i++) {
+        normal->right[i] *= unit[i % NUM_REGISTER_KINDS];
+        for (size_t j = 0; j < num; j++) {
+            normal->matrix[i * num + j] *=
+                unit[i % NUM_REGISTER_KINDS] * unit[j % NUM_REGISTER_KINDS];
+        }
+    }
+    hold(normal, reference * NUM_REGISTER_KINDS + REGISTER_TIME);
+    if (!cholesky_factor(normal->matrix, num)) {
+        fail(EXIT_RUNTIME, "register: the normal equations of the biases cannot be solved");
+    }
+}
+
+static void add_pieces(const struct register_data *data, struct pieces *pieces,
+                       struct normal *normal)
+{
+    memset(normal->matrix, 0, normal->num * normal->num * sizeof *normal->matrix);
+    memset(normal->right, 0, normal->num * sizeof *normal->right);
+    for (size_t i = 0; i < pieces->num_pieces; i++) {
+        struct piece *piece = &pieces->pieces[i];
+
+        if (!piece->is_left_out && !piece_fit(data, pieces, piece, normal)) {
+            piece->is_left_out = true;
+        }
+    }
+}
+
+/* Gauss-Newton, with the weights going along. The normal equations of the last step stay. */
+static void iterate(struct register_data *data, struct pieces *pieces, size_t reference,
+                    struct normal *normal)
+{
+    for (int i = 0; i < STEPS_MAX; i++) {
+        double largest = 0.0;
+
+        add_pieces(data, pieces, normal);
+        finish_normal(data, reference, normal);
+        cholesky_solve(normal->matrix, normal->num, normal->right);
+        for (size_t j = 0; j < normal->num; j++) {
+            size_t kind = j % NUM_REGISTER_KINDS;
+
+            data->radars[j / NUM_REGISTER_KINDS].bias[kind] += normal->right[j] * unit[kind];
+            largest = fmax(largest, fabs(normal->right[j]));
+        }
+        if (largest < STEP_LEAST) {
+            return;
+        }
+    }
+}
+
+/* ---- pieces that are no parabolas ---- */
+
+static int by_size(const void *a, const void *b)
+{
+    double one = *(const double *)a, other = *(const double *)b;
+
+    return (one > other) - (one < other);
+}
+
+/* The median of chi-square over its degrees of freedom: what leaves out does not decide it. */
+static double usual_misfit(const struct pieces *pieces)
+{
+    double *ratios = must_calloc(pieces->num_pieces + 1, sizeof *ratios), median = 1.0;
+    size_t count = 0;
+
+    for (size_t i = 0; i < pieces->num_pieces; i++) {
+        if (!pieces->pieces[i].is_left_out) {
+            ratios[count++] = pieces->pieces[i].chi2 / piece_freedom(&pieces->pieces[i]);
+        }
+    }
+    if (count > 0) {
+        qsort(ratios, count, sizeof *ratios, by_size);
+        median = ratios[count / 2];
+    }
+    free(ratios);
+    return median;
+}
+
+/* True where any piece was left out that was not before. */
+static bool leave_out(struct pieces *pieces)
+{
+    double usual = usual_misfit(pieces);
+    bool is_changed = false;
+
+    for (size_t i = 0; i < pieces->num_pieces; i++) {
+        struct piece *piece = &pieces->pieces[i];
+        double freedom = piece_freedom(piece);
+
+        if (!piece->is_left_out &&
+            piece->chi2 > usual * (freedom + MISFIT_SIGMAS * sqrt(2.0 * freedom))) {
+            piece->is_left_out = is_changed = true;
+        }
+    }
+    return is_changed;
+}
+
+/* ---- what was found ---- */
+
+static void count_pieces(const struct pieces *pieces, struct solution *solution)
+{
+    double chi2 = 0.0, freedom = 0.0;
+
+    for (size_t i = 0; i < pieces->num_pieces; i++) {
+        const struct piece *piece = &pieces->pieces[i];
+
+        if (piece->is_left_out) {
+            solution->pieces_left_out++;
+            continue;
+        }
+        solution->pieces++;
+        solution->plots += piece->count;
+        solution->speed_mps += piece->speed_mps;
+        chi2 += piece->chi2;
+        freedom += piece_freedom(piece);
+        for (size_t j = 0; j < piece->count; j++) {
+            solution->radar_plots[pieces->plots[piece->first + j].radar]++;
+        }
+    }
+    solution->speed_mps /= solution->pieces > 0 ? (double)solution->pieces : 1.0;
+    solution->misfit = freedom > 0.0 ? sqrt(chi2 / freedom) : 1.0;
+}
+
+struct solution register_solve(struct register_data *data, size_t reference)
+{
+    struct pieces pieces = pieces_cut(data);
+    struct normal normal = start_normal(data);
+    struct solution solution = {0};
+    double *work = must_calloc(normal.num, sizeof *work);
+
+    for (int pass = 0; pass < PASSES_MAX; pass++) {
+        iterate(data, &pieces, reference, &normal);
+        if (!leave_out(&pieces)) {
+            break;
+        }
+    }
+    solution.radar_plots = must_calloc(data->num_radars + 1, sizeof *solution.radar_plots);
+    solution.sigma = must_calloc(normal.num + 1, sizeof *solution.sigma);
+    count_pieces(&pieces, &solution);
+    for (size_t i = 0; i < normal.num; i++) {
+        solution.sigma[i] = solution.misfit * unit[i % NUM_REGISTER_KINDS] *
+                            sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
+    }
+    solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
+    free(work);
+    free_normal(&normal);
+    pieces_free(&pieces);
+    return solution;
+}
+
+void solution_free(struct solution *solution)
+{
+    free(solution->radar_plots);
+    free(solution->sigma);
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* register_tracks: each radar's scans in the order of time, as turns, and its tracks. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "registration/register_data.h"
+
+#define TURN_RAD 6.283185307179586
+#define SAME_RAD 1e-4 /* sectors that begin so near begin together */
+
+/* ---- turns ---- */
+
+static double width_rad(const struct radar_scan *scan)
+{
+    double width = fmod(scan->to_rad - scan->from_rad, TURN_RAD);
+
+    width = width < 0.0 ? width + TURN_RAD : width;
+    return width < SAME_RAD ? TURN_RAD : width;
+}
+
+static bool begins_with(const struct radar_scan *scan, const struct radar_scan *other)
+{
+    return fabs(remainder(scan->from_rad - other->from_rad, TURN_RAD)) < SAME_RAD;
+}
+
+/*
+ * The plots of scans first .. end - 1, as one scan, for the tracker. Those beyond RHO_MAX_PLOTS are
+ * left out.
+ */
+static struct rho_scan turn_of(const struct radar_data *radar, size_t first, size_t end,
+                               size_t *rows, struct rho_plot *plots)
+{
+    const struct radar_scan *last = &radar->scans[end - 1];
+    struct rho_scan turn = {
+        .time_us = last->time_us, .sensor_id = radar->sensor.sensor_id, .plots = plots};
+
+    if (end - first == 1) {
+        turn.sector_from_rad = (float)last->from_rad;
+        turn.sector_to_rad = (float)last->to_rad;
+    }
+    for (size_t i = first; i < end; i++) {
+        const struct radar_scan *scan = &radar->scans[i];
+
+        for (size_t j = 0; j < scan->count && turn.num_plots < RHO_MAX_PLOTS; j++) {
+            const struct radar_plot *plot = &radar->plots[scan->first + j];
+
+            plots[turn.num_plots] = plot->plot;
+            plots[turn.num_plots].offset_us = (int32_t)(plot->time_us - turn.time_us);
+            rows[turn.num_plots++] = scan->first + j;
+        }
+    }
+    return turn;
+}
+
+/*
+ * One past the last scan of the turn that begins with `first`: all round, or until the first sector
+ * comes again, or for as long as a plot's time may be off its scan's.
+ */
+size_t register_turn_end(const struct radar_data *radar, size_t first)
+{
+    const struct radar_scan *scans = radar->scans;
+    double turned_rad = width_rad(&scans[first]);
+    size_t end = first + 1;
+
+    while (end < radar->num_scans && turned_rad < TURN_RAD - SAME_RAD &&
+           !begins_with(&scans[end], &scans[first]) &&
+           scans[end].time_us - scans[first].time_us < RHO_LIMIT_OFFSET_US / 2) {
+        turned_rad += width_rad(&scans[end++]);
+    }
+    return end;
+}
+
+/* ---- tracks ---- */
+
+/* The tracks of the radar that is stepped, by their identities. */
+struct following {
+    struct register_data *data;
+    size_t radar;
+    size_t num_ids, ids_room;
+    struct followed {
+        uint32_t track_id;
+        bool is_confirmed;
+        struct radar_track track;
+    } * ids;
+};
+
+static struct followed *followed_of(struct following *all, uint32_t track_id)
+{
+    for (size_t i = all->num_ids; i-- > 0;) { /* the newest are asked for most */
+        if (all->ids[i].track_id == track_id) {
+            return &all->ids[i];
+        }
+    }
+    all->ids = must_grow(all->ids, all->num_ids, &all->ids_room, sizeof *all->ids);
+    all->ids[all->num_ids] =
+        (struct followed){.track_id = track_id, .track = {.radar = all->radar}};
+    return &all->ids[all->num_ids++];
+}
+
+static void follow(struct following *all, const struct rho_report *report, const size_t *rows)
+{
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        const struct rho_track_report *from = &report->tracks[i];
+        struct followed *followed = followed_of(all, from->track_id);
+        struct radar_track *track = &followed->track;
+        const bool is_first = track->count == 0;
+
+        followed->is_confirmed |= from->status != RHO_TRACK_TENTATIVE;
+        if (from->plot >= 0) {
+            track->plots =
+                must_grow(track->plots, track->count, &track->capacity, sizeof *track->plots);
+            track->plots[track->count++] = rows[from->plot];
+            track->earlier = is_first ? from->hits - 1u : track->earlier;
+        }
+    }
+}
+
+/* Keeps the confirmed ones. */
+static void keep_tracks(struct following *all)
+{
+    struct register_data *data = all->data;
+
+    for (size_t i = 0; i < all->num_ids; i++) {
+        if (!all->ids[i].is_confirmed) {
+            free(all->ids[i].track.plots);
+            continue;
+        }
+        data->tracks =
+            must_grow(data->tracks, data->num_tracks, &data->tracks_room, sizeof *data->tracks);
+        data->tracks[data->num_tracks++] = all->ids[i].track;
+    }
+    free(all->ids);
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct radar_scan *one = a, *other = b;
+
+    if (one->time_us != other->time_us) {
+        return one->time_us > other->time_us ? 1 : -1;
+    }
+    return (one->first > other->first) - (one->first < other->first);
+}
+
+void register_track_one(struct register_data *data, size_t number, struct pipeline *pipeline)
+{
+    struct radar_data *radar = &data->radars[number];
+    struct following all = {.data = data, .radar = number};
+    size_t *rows = must_calloc(RHO_MAX_PLOTS, sizeof *rows);
+
+    if (radar->num_scans > 0) {
+        qsort(radar->scans, radar->num_scans, sizeof *radar->scans, by_time);
+    }
+    pipeline_open(pipeline, data->parameters);
+    must_succeed(rho_tracker_set_sensor(pipeline->tracker, &radar->sensor), "sensor");
+    for (size_t first = 0; first < radar->num_scans;) {
+        size_t end = register_turn_end(radar, first);
+        struct rho_scan turn = turn_of(radar, first, end, rows, pipeline->plots);
+
+        pipeline_step(pipeline, &turn);
+        follow(&all, pipeline->report, rows);
+        first = end;
+    }
+    keep_tracks(&all);
+    free(rows);
+}
+
+void register_track_all(struct register_data *data, struct pipeline *pipeline)
+{
+    for (size_t i = 0; i < data->num_radars; i++) {
+        register_track_one(data, i, pipeline);
+    }
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: MIT */
+#include "settings/method.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/common.h"
+
+static const char *const names[NUM_METHODS] = {"kernel", "ht",      "mht",          "iht",
+                                               "nht",    "passive", "passive-paper"};
+
+const char *method_name(enum method method)
+{
+    return names[method];
+}
+
+bool method_takes_bearings(enum method method)
+{
+    return method == METHOD_PASSIVE || method == METHOD_PASSIVE_PAPER;
+}
+
+enum method method_find(const char *name)
+{
+    for (int i = 0; i < NUM_METHODS; i++) {
+        if (!strcmp(names[i], name)) {
+            return (enum method)i;
+        }
+    }
+    fail(EXIT_USAGE, "no method '%s'; there are: " METHOD_NAMES, name);
+}
+
+static void suggest_bearings(struct parameters *parameters, double rho_cell_m,
+                             double theta_cell_rad, int prune)
+{
+    parameters_suggest(parameters, PARAMETER_SCANS, 8);
+    parameters_suggest(parameters, PARAMETER_D_RHO_M, rho_cell_m);
+    parameters_suggest(parameters, PARAMETER_D_THETA_RAD, theta_cell_rad);
+    parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 450);
+    parameters_suggest(parameters, PARAMETER_PRUNE, prune);
+}
+
+void method_suggest(enum method method, struct parameters *parameters)
+{
+    if (method == METHOD_PASSIVE) {
+        suggest_bearings(parameters, 2000, M_PI / 36, 0); /* safe */
+        parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, 5);
+    } else if (method == METHOD_PASSIVE_PAPER) {
+        suggest_bearings(parameters, 1000, M_PI / 90, 1);  /* literal */
+        parameters_suggest(parameters, PARAMETER_VOTE, 0); /* scans */
+    } else if (method != METHOD_KERNEL) {                  /* the paper's */
+        parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
+        parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
+        parameters_suggest(parameters, PARAMETER_VOTE, 1); /* counts */
+    }
+}
+
+static enum rho_classic_method classic_of(enum method method, const struct parameters *parameters)
+{
+    switch (method) {
+    case METHOD_HT:
+        return RHO_CLASSIC_HT;
+    case METHOD_MHT:
+        return RHO_CLASSIC_MHT;
+    case METHOD_IHT:
+        return RHO_CLASSIC_IHT;
+    default:
+        return parameters->value[PARAMETER_NHT_READING] > 0 ? RHO_CLASSIC_NHT_C : RHO_CLASSIC_NHT_A;
+    }
+}
+
+/* Cells of rho to either side that hold every line through such plots. */
+static double count_cells(double range_m, double cell_m)
+{
+    return floor(range_m / cell_m) + 1.0;
+}
+
+/* The least cell of three digits that leaves few enough. */
+static double cell_for(double range_m)
+{
+    double cell_m = 2.0 * range_m / (RHO_MAX_RHO_CELLS - 2);
+    double digit_m = pow(10.0, floor(log10(cell_m)) - 2.0);
+
+    cell_m = ceil(cell_m / digit_m) * digit_m;
+    while (2.0 * count_cells(range_m, cell_m) > RHO_MAX_RHO_CELLS) {
+        cell_m += digit_m;
+    }
+    return cell_m;
+}
+
+static double cells_for(double range_m, double cell_m)
+{
+    double cells = count_cells(range_m, cell_m);
+
+    if (2.0 * cells > RHO_MAX_RHO_CELLS) {
+        fail(EXIT_USAGE,
+             "plots %.0f m from the origin take %.0f cells of rho at d_rho_m %.9g; there are %d: "
+             "d_rho_m %.3g would do",
+             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS, cell_for(range_m));
+    }
+    return cells;
+}
+
+/* 2 eps spans at most so many cells. */
+static void check_reach(const struct parameters *parameters, enum parameter_id eps,
+                        enum parameter_id cell)
+{
+    if (2.0 * parameters->value[eps] > RHO_CLASSIC_REACH_MAX * parameters->value[cell]) {
+        fail(EXIT_USAGE, "2 %s is more than %u cells of %s %.9g", parameters_name(eps),
+             RHO_CLASSIC_REACH_MAX, parameters_name(cell), parameters->value[cell]);
+    }
+}
+
+struct rho_classic_config method_classic(enum method method, const struct parameters *parameters,
+                                         double range_m)
+{
+    const double *value = parameters->value;
+    struct rho_classic_config config;
+
+    parameters_check(parameters);
+    check_reach(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
+    check_reach(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
+    rho_classic_config_default(&config, classic_of(method, parameters));
+    config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
+    config.rho_max_m = (float)cells_for(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
+    config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.eps_rho_m = (float)value[PARAMETER_EPS_RHO_M];
+    config.eps_theta_rad = (float)value[PARAMETER_EPS_THETA_RAD];
+    config.v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
+    config.v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    config.p_false = (float)value[PARAMETER_P_FALSE];
+    config.lambda_k = (float)value[PARAMETER_LAMBDA_K];
+    config.uses_indeterminacy = value[PARAMETER_NHT_INDETERMINACY] > 0;
+    config.votes = value[PARAMETER_VOTE] > 0 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
+    config.tau = (float)value[PARAMETER_TAU];
+    config.votes_min = (float)value[PARAMETER_VOTES_MIN];
+    return config;
+}
+
+/* What both methods of bearings take. */
+static void check_bearings(const struct parameters *parameters, int rho_cells, int theta_cells)
+{
+    const double *value = parameters->value;
+    double cells = 2.0 * value[PARAMETER_RANGE_MAX_M] / value[PARAMETER_D_RHO_M];
+
+    parameters_check(parameters);
+    if (value[PARAMETER_SCANS] < 4) {
+        fail(EXIT_USAGE, "scans %.9g are too few for bearings: 4 or more", value[PARAMETER_SCANS]);
+    }
+    if (value[PARAMETER_RANGE_MAX_M] < 1000 || value[PARAMETER_RANGE_MAX_M] > 500000) {
+        fail(EXIT_USAGE, "range_max_m %.9g is outside 1000 .. 500000 m for bearings",
+             value[PARAMETER_RANGE_MAX_M]);
+    }
+    if (cells > rho_cells) {
+        fail(EXIT_USAGE, "range_max_m %.9g takes %.0f cells of d_rho_m %.9g; there are %d",
+             value[PARAMETER_RANGE_MAX_M], ceil(cells), value[PARAMETER_D_RHO_M], rho_cells);
+    }
+    if (M_PI / value[PARAMETER_D_THETA_RAD] > theta_cells + 0.5) {
+        fail(EXIT_USAGE, "d_theta_rad %.9g takes %.0f cells over half a turn; there are %d",
+             value[PARAMETER_D_THETA_RAD], ceil(M_PI / value[PARAMETER_D_THETA_RAD]), theta_cells);
+    }
+}
+
+static enum rho_ghost_rule rule_of(const struct parameters *parameters)
+{
+    static const enum rho_ghost_rule rules[3] = {RHO_GHOST_SAFE, RHO_GHOST_LITERAL,
+                                                 RHO_GHOST_NO_RULE};
+
+    return rules[(int)parameters->value[PARAMETER_PRUNE]];
+}
+
+struct rho_passive_config method_passive(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+    struct rho_passive_config config;
+    struct rho_settings settings;
+
+    check_bearings(parameters, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
+    settings = parameters_settings(parameters);
+    rho_passive_config_default(&config);
+    rho_settings_apply(&settings, NULL, NULL, &config);
+    config.scans = (uint16_t)value[PARAMETER_SCANS];
+    config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
+    config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.rule = rule_of(parameters);
+    return config;
+}
+
+struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+    struct rho_passive_paper_config config;
+
+    check_bearings(parameters, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
+    if (value[PARAMETER_VOTES_MIN] > 255) {
+        fail(EXIT_USAGE, "votes_min %.9g is more than 255, what passive-paper counts to",
+             value[PARAMETER_VOTES_MIN]);
+    }
+    rho_passive_paper_config_default(&config);
+    config.scans = (uint16_t)value[PARAMETER_SCANS];
+    config.votes_min = (uint16_t)ceil(value[PARAMETER_VOTES_MIN]);
+    config.range_max_m = (float)value[PARAMETER_RANGE_MAX_M];
+    config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
+    config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
+    config.votes = value[PARAMETER_VOTE] > 0 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
+    config.rule = rule_of(parameters);
+    return config;
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* method: the initiation methods by name, and what is customary with each. */
+#ifndef RHOTRACK_TOOL_METHOD_H
+#define RHOTRACK_TOOL_METHOD_H
+
+#include <stdbool.h>
+
+#include "rhotrack/classic.h"
+#include "rhotrack/passive.h"
+#include "rhotrack/passive_paper.h"
+#include "settings/parameters.h"
+
+enum method {
+    METHOD_KERNEL,
+    METHOD_HT,
+    METHOD_MHT,
+    METHOD_IHT,
+    METHOD_NHT,
+    METHOD_PASSIVE,
+    METHOD_PASSIVE_PAPER,
+    NUM_METHODS
+};
+
+#define METHOD_PLOT_NAMES "kernel, ht, mht, iht, nht"
+#define METHOD_NAMES METHOD_PLOT_NAMES ", passive, passive-paper"
+
+const char *method_name(enum method method);
+
+/* It takes bearings, not plots. */
+bool method_takes_bearings(enum method method);
+
+/* Unknown: exit 2 with the list. */
+enum method method_find(const char *name);
+
+/* The method's own customary values (parameters_suggest). */
+void method_suggest(enum method method, struct parameters *parameters);
+
+/*
+ * The config of ht, mht, iht and nht, for plots at most so far from the origin. Exit 2 where that
+ * takes more cells of rho than there are.
+ */
+struct rho_classic_config method_classic(enum method method, const struct parameters *parameters,
+                                         double range_m);
+
+/*
+ * The config of passive, and of passive-paper. Exit 2 where their cells do not hold range_max_m or
+ * half a turn, or they take no such scans, range or votes.
+ */
+struct rho_passive_config method_passive(const struct parameters *parameters);
+struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters);
+
+#endif

@@ -1,0 +1,486 @@
+/* SPDX-License-Identifier: MIT */
+#include "settings/parameters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "base/hint.h"
+#include "base/number_text.h"
+
+static const struct parameter_text texts[NUM_PARAMETERS] = {
+#define X(id, name, unit, value, min, max, is_integer, has_default, text)                          \
+    {name, unit, text, value, min, max, is_integer, has_default, NULL, false},
+    PARAMETERS(X)
+#undef X
+};
+
+static const struct parameter_text sensor_texts[NUM_SENSOR_PARAMETERS] = {
+#define X(id, name, unit, min, max, text)                                                          \
+    {name, unit, text, 0, min, max, false, false, NULL, false},
+    SENSOR_PARAMETERS(X)
+#undef X
+};
+
+/* Parameters that are words. */
+static const char *choices_of(enum parameter_id id)
+{
+    switch (id) {
+    case PARAMETER_NHT_READING:
+        return "a|c";
+    case PARAMETER_VOTE:
+        return "scans|counts";
+    case PARAMETER_PRUNE:
+        return "safe|literal|none";
+    case PARAMETER_INITIATORS:
+        return "pairs|sensor|one";
+    case PARAMETER_GATE:
+        return "best|hough|nearest|none";
+    case PARAMETER_INPUT_MODEL:
+        return "literal|physical";
+    case PARAMETER_ASTERIX_SCANS:
+        return "sector|turn";
+    case PARAMETER_PLANES:
+        return "xy|xz|yz";
+    default:
+        return NULL;
+    }
+}
+
+struct parameter_text parameters_text(enum parameter_id id)
+{
+    struct parameter_text text = texts[id];
+
+    text.choices = choices_of(id);
+    text.is_sum = id == PARAMETER_PLANES;
+    return text;
+}
+
+/* The words of a sum, joined by +. */
+static void sum_text(const char *words, unsigned sum, char buffer[PARAMETER_VALUE_BYTES])
+{
+    size_t length = 0;
+
+    for (; sum && length < PARAMETER_VALUE_BYTES; sum >>= 1) {
+        size_t bytes = strcspn(words, "|");
+
+        if (sum & 1u) {
+            length += (size_t)snprintf(buffer + length, PARAMETER_VALUE_BYTES - length, "%s%.*s",
+                                       length ? "+" : "", (int)bytes, words);
+        }
+        words += bytes + (words[bytes] == '|');
+    }
+}
+
+const char *parameters_value_text(const struct parameter_text *text, double value,
+                                  char buffer[PARAMETER_VALUE_BYTES])
+{
+    const char *word = text->choices;
+
+    snprintf(buffer, PARAMETER_VALUE_BYTES, "%.9g", value);
+    if (text->is_sum) {
+        sum_text(word, (unsigned)value, buffer);
+        return buffer;
+    }
+    for (int i = (int)value; word && i > 0; i--) {
+        word = strchr(word, '|') + 1;
+    }
+    if (word) {
+        snprintf(buffer, PARAMETER_VALUE_BYTES, "%.*s", (int)strcspn(word, "|"), word);
+    }
+    return buffer;
+}
+
+struct parameter_text parameters_sensor_text(enum sensor_parameter_id id)
+{
+    return sensor_texts[id];
+}
+
+const char *parameters_name(enum parameter_id id)
+{
+    return texts[id].name;
+}
+
+const char *parameters_source_name(enum parameter_source source)
+{
+    static const char *const names[] = {
+        [SOURCE_UNSET] = "unset",   [SOURCE_DEFAULT] = "default", [SOURCE_METHOD] = "method",
+        [SOURCE_CONFIG] = "config", [SOURCE_SET] = "set",
+    };
+
+    return names[source];
+}
+
+/* ---- One assignment ---- */
+
+static const char *text_name(size_t index)
+{
+    return index < NUM_PARAMETERS    ? texts[index].name
+           : index == NUM_PARAMETERS ? "sensors_allowed"
+                                     : NULL;
+}
+
+static const char *sensor_text_name(size_t index)
+{
+    return index < NUM_SENSOR_PARAMETERS ? sensor_texts[index].name : NULL;
+}
+
+/* Index of a name, or -1 and the reason with a hint. */
+static int find_name(const char *key, hint_name name, char *reason)
+{
+    const char *known, *hint;
+
+    for (size_t i = 0; (known = name(i)); i++) {
+        if (!strcmp(key, known)) {
+            return (int)i;
+        }
+    }
+    hint = hint_nearest(key, name);
+    snprintf(reason, PARAMETER_REASON_BYTES, "unknown parameter '%.60s'%s%s%s", key,
+             hint ? ", did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
+    return -1;
+}
+
+/* The number of a word of so many bytes among "a|b|c", or -1. */
+static int find_word(const char *words, const char *word, size_t bytes)
+{
+    for (int i = 0;; i++, words++) {
+        size_t length = strcspn(words, "|");
+
+        if (bytes == length && strncmp(words, word, length) == 0) {
+            return i;
+        }
+        words += length;
+        if (*words == '\0') {
+            return -1;
+        }
+    }
+}
+
+/* The sum of 1, 2, 4, ... of the words in "a+b", in any order, or -1. */
+static int find_sum(const char *words, const char *cell)
+{
+    unsigned sum = 0;
+
+    for (;; cell++) {
+        size_t bytes = strcspn(cell, "+");
+        int index = find_word(words, cell, bytes);
+
+        if (index < 0) {
+            return -1;
+        }
+        sum |= 1u << index;
+        cell += bytes;
+        if (*cell == '\0') {
+            return (int)sum;
+        }
+    }
+}
+
+static bool read_word(const struct parameter_text *text, const char *cell, double *value,
+                      char *reason)
+{
+    *value =
+        text->is_sum ? find_sum(text->choices, cell) : find_word(text->choices, cell, strlen(cell));
+    if (*value < 0) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not one of %s%s", text->name, cell,
+                 text->choices, text->is_sum ? ", or several joined by +" : "");
+    }
+    return *value >= 0;
+}
+
+static bool read_value(const struct parameter_text *text, const char *cell, double *value,
+                       char *reason)
+{
+    double number;
+    const char *why;
+
+    if (text->choices) {
+        return read_word(text, cell, value, reason);
+    }
+    why = text_to_number(cell, &number);
+    if (why) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' %s", text->name, cell, why);
+    } else if (text->is_integer && number != floor(number)) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not a whole number", text->name,
+                 cell);
+    } else if (number < text->min || number > text->max) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "%s %.60s is outside %.9g .. %.9g %s", text->name,
+                 cell, text->min, text->max, strcmp(text->unit, "-") ? text->unit : "");
+    } else {
+        *value = number;
+        return true;
+    }
+    reason[strlen(reason) - (reason[strlen(reason) - 1] == ' ')] = '\0';
+    return false;
+}
+
+/* Range rates that are ambiguous by next to nothing say nothing. */
+static bool check_span(double span_mps, char *reason)
+{
+    bool is_span = span_mps <= 0.0 || span_mps >= (double)RHO_LIMIT_SPAN_MIN_MPS;
+
+    if (!is_span) {
+        snprintf(reason, PARAMETER_REASON_BYTES,
+                 "range_rate_span_mps %.9g is neither 0 nor %g or more", span_mps,
+                 (double)RHO_LIMIT_SPAN_MIN_MPS);
+    }
+    return is_span;
+}
+
+static void store(double *value, enum parameter_source *source, double number,
+                  enum parameter_source from)
+{
+    if (from >= *source) {
+        *value = number;
+        *source = from;
+    }
+}
+
+static const struct sensor_parameters *find_sensor(const struct parameters *parameters,
+                                                   int32_t sensor_id)
+{
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        if (parameters->sensors[i].sensor_id == sensor_id) {
+            return &parameters->sensors[i];
+        }
+    }
+    return NULL;
+}
+
+/* The sensor, added where it is new; NULL where there is no room. */
+static struct sensor_parameters *have_sensor(struct parameters *parameters, int32_t sensor_id)
+{
+    const struct sensor_parameters *found = find_sensor(parameters, sensor_id);
+    struct sensor_parameters *sensor;
+
+    if (found) {
+        return &parameters->sensors[found - parameters->sensors];
+    }
+    if (parameters->num_sensors == RHO_MAX_SENSORS) {
+        return NULL;
+    }
+    sensor = &parameters->sensors[parameters->num_sensors++];
+    *sensor = (struct sensor_parameters){.sensor_id = sensor_id};
+    return sensor;
+}
+
+/* key: "N.name". */
+static bool assign_sensor(struct parameters *parameters, const char *key, const char *value,
+                          enum parameter_source source, char *reason)
+{
+    const char *dot = strchr(key, '.');
+    char digits[16] = "";
+    struct sensor_parameters *sensor;
+    int32_t sensor_id;
+    double number;
+    int id;
+
+    if (dot && (size_t)(dot - key) < sizeof digits) {
+        memcpy(digits, key, (size_t)(dot - key));
+    }
+    if (!dot || text_to_int32(digits, &sensor_id)) {
+        snprintf(reason, PARAMETER_REASON_BYTES,
+                 "'sensor.%.60s' is not sensor.N.key with a whole number N", key);
+        return false;
+    }
+    id = find_name(dot + 1, sensor_text_name, reason);
+    if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason) ||
+        (id == SENSOR_RANGE_RATE_SPAN_MPS && !check_span(number, reason))) {
+        return false;
+    }
+    sensor = have_sensor(parameters, sensor_id);
+    if (!sensor) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "more than %d sensors", RHO_MAX_SENSORS);
+        return false;
+    }
+    store(&sensor->value[id], &sensor->source[id], number, source);
+    return true;
+}
+
+/* sensors_allowed: numbers of sensors, with blanks or commas between them; empty: all. */
+static bool allow(struct parameters *parameters, const char *value, enum parameter_source source,
+                  char reason[PARAMETER_REASON_BYTES])
+{
+    static const char between[] = " \t,";
+    int16_t allowed[RHO_MAX_SENSORS] = {0};
+    uint16_t count = 0;
+    int32_t sensor_id;
+
+    for (value += strspn(value, between); *value; value += strspn(value, between)) {
+        const int bytes = (int)strcspn(value, between);
+        char digits[16];
+
+        snprintf(digits, sizeof digits, "%.*s", bytes, value);
+        if (bytes >= (int)sizeof digits || text_to_int32(digits, &sensor_id) ||
+            sensor_id != (int16_t)sensor_id) {
+            snprintf(reason, PARAMETER_REASON_BYTES,
+                     "sensors_allowed '%.*s' is no number of a sensor", bytes < 60 ? bytes : 60,
+                     value);
+            return false;
+        }
+        if (count == RHO_MAX_SENSORS) {
+            snprintf(reason, PARAMETER_REASON_BYTES, "sensors_allowed: more than %d sensors",
+                     RHO_MAX_SENSORS);
+            return false;
+        }
+        allowed[count++] = (int16_t)sensor_id;
+        value += bytes;
+    }
+    if (source >= parameters->allowed_source) {
+        memcpy(parameters->allowed, allowed, sizeof allowed);
+        parameters->num_allowed = count;
+        parameters->allowed_source = source;
+    }
+    return true;
+}
+
+bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
+                       enum parameter_source source, char reason[PARAMETER_REASON_BYTES])
+{
+    static const char prefix[] = "sensor.";
+    struct parameter_text text;
+    double number;
+    int id;
+
+    if (!strcmp(key, "sensors_allowed")) {
+        return allow(parameters, value, source, reason);
+    }
+    if (!strncmp(key, prefix, sizeof prefix - 1)) {
+        return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);
+    }
+    id = find_name(key, text_name, reason);
+    if (id < 0) {
+        return false;
+    }
+    text = parameters_text((enum parameter_id)id);
+    if (!read_value(&text, value, &number, reason) ||
+        (id == PARAMETER_RANGE_RATE_SPAN_MPS && !check_span(number, reason))) {
+        return false;
+    }
+    store(&parameters->value[id], &parameters->source[id], number, source);
+    return true;
+}
+
+/* ---- Values ---- */
+
+void parameters_default(struct parameters *parameters)
+{
+    memset(parameters, 0, sizeof *parameters);
+    for (int i = 0; i < NUM_PARAMETERS; i++) {
+        parameters->value[i] = texts[i].value;
+        parameters->source[i] = texts[i].has_default ? SOURCE_DEFAULT : SOURCE_UNSET;
+    }
+}
+
+void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value)
+{
+    store(&parameters->value[id], &parameters->source[id], value, SOURCE_METHOD);
+}
+
+void parameters_set(struct parameters *parameters, const char *assignment)
+{
+    const char *equals = strchr(assignment, '=');
+    char reason[PARAMETER_REASON_BYTES], key[80] = "";
+
+    if (!equals) {
+        fail(EXIT_USAGE, "--set %s: not of the form key=value", assignment);
+    }
+    snprintf(key, sizeof key, "%.*s", (int)(equals - assignment), assignment);
+    if (!parameters_assign(parameters, key, equals + 1, SOURCE_SET, reason)) {
+        fail(EXIT_USAGE, "--set %s: %s", assignment, reason);
+    }
+}
+
+bool parameters_is_set(const struct parameters *parameters, enum parameter_id id)
+{
+    return parameters->source[id] != SOURCE_UNSET;
+}
+
+void parameters_set_gate(struct parameters *parameters, const char *gate)
+{
+    char reason[PARAMETER_REASON_BYTES];
+
+    if (!parameters_assign(parameters, "gate", gate, SOURCE_SET, reason)) {
+        fail(EXIT_USAGE, "--%s", reason);
+    }
+}
+
+bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id)
+{
+    return find_sensor(parameters, sensor_id) != NULL;
+}
+
+double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                            enum sensor_parameter_id id, double otherwise)
+{
+    const struct sensor_parameters *sensor = find_sensor(parameters, sensor_id);
+
+    return sensor && sensor->source[id] != SOURCE_UNSET ? sensor->value[id] : otherwise;
+}
+
+/* ---- What only holds together ---- */
+
+static void check_below(const struct parameters *parameters, enum parameter_id low,
+                        enum parameter_id high)
+{
+    if (parameters->value[low] >= parameters->value[high]) {
+        fail(EXIT_USAGE, "%s %.9g is not below %s %.9g", texts[low].name, parameters->value[low],
+             texts[high].name, parameters->value[high]);
+    }
+}
+
+static void check_scans(const struct parameters *parameters)
+{
+    double scans = parameters->value[PARAMETER_SCANS];
+    double min_scans = parameters->value[PARAMETER_MIN_SCANS];
+
+    if (min_scans > scans) {
+        fail(EXIT_USAGE, "min_scans %.9g is more than scans %.9g", min_scans, scans);
+    }
+    if (min_scans > 0 && min_scans < 3) {
+        fail(EXIT_USAGE, "min_scans %.9g is neither 0 nor 3 or more", min_scans);
+    }
+}
+
+static void check_area(const struct parameters *parameters)
+{
+    int num_set = 0;
+
+    for (int i = PARAMETER_AREA_X_MIN_M; i <= PARAMETER_AREA_Y_MAX_M; i++) {
+        num_set += parameters_is_set(parameters, (enum parameter_id)i);
+    }
+    if (!num_set) {
+        return;
+    }
+    if (num_set < 4) {
+        fail(EXIT_USAGE,
+             "area_x_min_m, area_x_max_m, area_y_min_m and area_y_max_m go together: "
+             "%d of 4 are set",
+             num_set);
+    }
+    check_below(parameters, PARAMETER_AREA_X_MIN_M, PARAMETER_AREA_X_MAX_M);
+    check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
+}
+
+void parameters_check(const struct parameters *parameters)
+{
+    double range_min_m = parameters->value[PARAMETER_RANGE_MIN_M];
+    double range_max_m = parameters->value[PARAMETER_RANGE_MAX_M];
+
+    check_below(parameters, PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS);
+    check_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
+    check_scans(parameters);
+    check_area(parameters);
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        int32_t id = parameters->sensors[i].sensor_id;
+        double low = parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
+        double high = parameters_of_sensor(parameters, id, SENSOR_RANGE_MAX_M, range_max_m);
+
+        if (low >= high) {
+            fail(EXIT_USAGE, "sensor %d: range_min_m %.9g is not below range_max_m %.9g", (int)id,
+                 low, high);
+        }
+    }
+}

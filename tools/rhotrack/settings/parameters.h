@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * parameters: every --set name with its unit, default and range, and where its value came from.
+ *
+ * Precedence, highest first: CSV column (the readers'), --set, --config FILE (INI), the method's or
+ * scenario's own default, the default of the table below.
+ */
+#ifndef RHOTRACK_TOOL_PARAMETERS_H
+#define RHOTRACK_TOOL_PARAMETERS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "rhotrack/initiator.h"
+#include "rhotrack/scan_assembler.h"
+#include "rhotrack/settings.h"
+#include "rhotrack/tracker.h"
+
+/*
+ * X(id, name, unit, default, min, max, is_integer, has_default, text). has_default 0: unset until
+ * someone sets it.
+ */
+#define PARAMETERS(X)                                                                              \
+    X(SCANS, "scans", "-", 7, 3, 12, 1, 1, "N: scans in the initiation window")                    \
+    X(MIN_SCANS, "min_scans", "-", 0, 0, 12, 1, 1,                                                 \
+      "M: scans of the window that must have voted; 0: chosen from the "                           \
+      "clutter density")                                                                           \
+    X(FALSE_TRACKS_PER_HOUR, "false_tracks_per_hour", "1/h", 1, 1e-6, 1e6, 0, 1,                   \
+      "wanted rate of confirmed tracks from clutter")                                              \
+    X(SCORE_MIN_NAT, "score_min_nat", "nat", 0, -100, 1000, 0, 0,                                  \
+      "score that starts and confirms a track; overrides false_tracks_per_hour")                   \
+    X(SIGMA_M, "sigma_m", "m", 10, 0.001, 1e5, 0, 1, "position noise of a plot, each axis")        \
+    X(SIGMA_MPS, "sigma_mps", "m/s", 1, 0.001, 1e5, 0, 1, "velocity noise of a plot, each axis")   \
+    X(SIGMA_RANGE_M, "sigma_range_m", "m", 15, 0.001, 1e5, 0, 1, "range noise of a polar plot")    \
+    X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 0.003, 1e-6, 0.5, 0, 1,                       \
+      "azimuth noise of a polar plot")                                                             \
+    X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 0.003, 1e-6, 0.5, 0, 1,                   \
+      "elevation noise of a polar plot")                                                           \
+    X(SIGMA_ALT_M, "sigma_alt_m", "m", 30, 0.001, 1e5, 0, 1,                                       \
+      "noise of alt_m of a polar plot, a transponder's height")                                    \
+    X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 1, 0.001, 1e5, 0, 1,                    \
+      "range-rate noise of a plot")                                                                \
+    X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 0, 4e4, 0, 1,                          \
+      "range rates are known up to multiples of it; 0: not ambiguous")                             \
+    X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
+      "bearing noise of a passive sensor")                                                         \
+    X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
+      "bearings of different sensors within it are one frame")                                     \
+    X(PD, "pd", "-", 0.9, 0.01, 0.999, 0, 1, "assumed probability of detection")                   \
+    X(V_MIN_MPS, "v_min_mps", "m/s", 0, 0, 2e4, 0, 1,                                              \
+      "slowest target; what is surely slower is none")                                             \
+    X(V_MAX_MPS, "v_max_mps", "m/s", 700, 1, 2e4, 0, 1, "fastest target")                          \
+    X(RANGE_MIN_M, "range_min_m", "m", 0, 0, 2e6, 0, 1, "nearest range a sensor sees")             \
+    X(RANGE_MAX_M, "range_max_m", "m", 100000, 1, 2e6, 0, 1, "farthest range a sensor sees")       \
+    X(ACCEL_MAX_MPS2, "accel_max_mps2", "m/s^2", 30, 0, 1000, 0, 1,                                \
+      "manoeuvres that maintenance follows")                                                       \
+    X(STEADY_S, "steady_s", "s", 0, 0, 1e5, 0, 1,                                                  \
+      "mean time between manoeuvres of agile targets; 0: as long as they last")                    \
+    X(INITIATORS, "initiators", "-", 0, 0, 2, 1, 1,                                                \
+      "tracks start from the plots of two radars that see the same, of each sensor, or of all")    \
+    X(PROCESS_NOISE_MPS2, "process_noise_mps2", "m/s^2", 0, 0, 1000, 0, 1,                         \
+      "acceleration that the initiation window allows for; 0: straight")                           \
+    X(TURN_MPS2, "turn_mps2", "m/s^2", 0, 0, 1000, 0, 0,                                           \
+      "standard deviation of targets' accelerations while found; 0: straight; unset: accel_max/5") \
+    X(WORK_MAX, "work_max", "-", RHO_WORK_MAX, 0, 1e8, 1, 1,                                       \
+      "units of work, a scan (20 to 90 instructions each), tracks first; 0: no limit")             \
+    X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \
+      "misses in a row that end a track; one of 16 hits is in doubt for 2.4 times as many")        \
+    X(LATE_MAX_S, "late_max_s", "s", 20, 0, 60, 0, 1,                                              \
+      "older scans update tracks where they are no older than the newest by this")                 \
+    X(LEARN_NOISE_MIN, "learn_noise_min", "-", 0.7, 0.1, 1, 0, 0,                                  \
+      "plots' sigmas as learned: least share of those stated that is used; 1: never less")         \
+    X(LEARN_NOISE_MAX, "learn_noise_max", "-", 4, 1, 10, 0, 0,                                     \
+      "the same: the most; 1: never more")                                                         \
+    X(LEARN_PD_MIN, "learn_pd_min", "-", 0.5, 0.1, 1, 0, 0,                                        \
+      "pd as learned by range: least share of that stated; 1: as stated")                          \
+    X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
+      "rows of a sensor within it are one scan; 0: rows of equal t_s")                             \
+    X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0,                                       \
+      "area of clutter and births; unset: seen so far")                                            \
+    X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(AREA_Y_MIN_M, "area_y_min_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(AREA_Y_MAX_M, "area_y_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
+    X(HOLD_MS, "hold_ms", "ms", 20, 0, 10000, 0, 1,                                                \
+      "messages, and rows with received_s: wait for parts of a scan, and for earlier scans")       \
+    X(JUMP_MAX_S, "jump_max_s", "s", 30, 1, 3600, 0, 1,                                            \
+      "messages: gap in a sensor's times, or between sensors, that is believed at once")           \
+    X(FOLLOW_SCANS, "follow_scans", "-", 3, 2, 255, 1, 1,                                          \
+      "messages: scans in a row that must agree on new numbers or times")                          \
+    X(FLOOD_PER_S, "flood_per_s", "1/s", 10000, 1, 1e6, 1, 1,                                      \
+      "messages: of one sensor that are looked at")                                                \
+    X(STRANGER_PLOTS_PER_S, "stranger_plots_per_s", "1/s", 256, 1, 1e6, 1, 1,                      \
+      "messages: plots of all newcomers that are not named here")                                  \
+    X(FOLLOW_QUIET_S, "follow_quiet_s", "s", 2, 0.1, 3600, 0, 1,                                   \
+      "track --follow: the last scan is complete when the file has not grown for so long")         \
+    X(ASTERIX_SCANS, "asterix_scans", "-", 0, 0, 1, 1, 1,                                          \
+      "recordings in ASTERIX: a scan is each sector of a turn of the antenna, or all of it")       \
+    X(ASTERIX_HOLD_S, "asterix_hold_s", "s", 1, 0.1, 60, 0, 1,                                     \
+      "publish udp://: wait for the plots of a sector so long after its end")                      \
+    X(ASTERIX_SAC, "asterix_sac", "-", 0, 0, 255, 1, 1,                                            \
+      "system area and identification code of tracks written in ASTERIX")                          \
+    X(ASTERIX_SIC, "asterix_sic", "-", 0, 0, 255, 1, 1, "")                                        \
+    X(ORIGIN_LAT_DEG, "origin_lat_deg", "deg", 0, -90, 90, 0, 0,                                   \
+      "of the local frame, where latitudes and longitudes are used; passed on in RHO_STATUS")      \
+    X(ORIGIN_LON_DEG, "origin_lon_deg", "deg", 0, -180, 180, 0, 0, "")                             \
+    X(ORIGIN_ALT_M, "origin_alt_m", "m", 0, -1e4, 1e5, 0, 0,                                       \
+      "above the WGS 84 ellipsoid; unset: 0")                                                      \
+    X(D_RHO_M, "d_rho_m", "m", 5, 0.001, 1e5, 0, 1, "all methods but kernel: cell of rho")         \
+    X(D_THETA_RAD, "d_theta_rad", "rad", 0.001, 1e-4, 0.5, 0, 1,                                   \
+      "all methods but kernel: cell of theta")                                                     \
+    X(EPS_RHO_M, "eps_rho_m", "m", 20, 0.001, 1e5, 0, 1,                                           \
+      "ht, mht, iht, nht: within 2 of it lines are neighbours, and peaks are one")                 \
+    X(EPS_THETA_RAD, "eps_theta_rad", "rad", 0.004, 1e-4, 0.5, 0, 1, "the same in theta")          \
+    X(P_FALSE, "p_false", "-", 0.01, 0, 1, 0, 1, "nht: P_F, false alarm rate of the sensor")       \
+    X(LAMBDA_K, "lambda_k", "-", 1, 0, 1e6, 0, 1,                                                  \
+      "nht: adjustment factor of the falsity lambda_k P_F^2")                                      \
+    X(TAU, "tau", "-", 0.5, 0, 1, 0, 1,                                                            \
+      "ht, mht, iht, nht: votes of a peak, as a share of the most")                                \
+    X(VOTES_MIN, "votes_min", "-", 0, 0, 65535, 0, 1,                                              \
+      "ht, mht, iht, nht, passive-paper: votes of a peak; 0: passive-paper takes 4/5 of the "      \
+      "scans")                                                                                     \
+    X(NHT_READING, "nht_reading", "-", 1, 0, 1, 1, 1,                                              \
+      "nht: votes go to the pair's own cell (a) or all cells around it (c)")                       \
+    X(NHT_INDETERMINACY, "nht_indeterminacy", "-", 0, 0, 1, 1, 1,                                  \
+      "nht: 1: the line between the two best kernels counts too")                                  \
+    X(VOTE, "vote", "-", 0, 0, 1, 1, 1,                                                            \
+      "ht, passive-paper: a cell's votes are distinct scans, or plots")                            \
+    X(PRUNE, "prune", "-", 0, 0, 2, 1, 1,                                                          \
+      "passive, passive-paper: which crossings of bearings are left out as ghosts")                \
+    X(GATE, "gate", "-", 0, 0, 3, 1, 1,                                                            \
+      "how tracks choose their plots; --gate goes before it; none: maintain alone")                \
+    X(INPUT_ESTIMATION, "input_estimation", "-", 0, 0, 1, 1, 1,                                    \
+      "track: 1: hough and nearest estimate inputs, as maintain does")                             \
+    X(GAMMA, "gamma", "-", 1, 0.01, 1, 0, 1,                                                       \
+      "hough, nearest: forgetting of the estimated input a scan; 1: none")                         \
+    X(INPUT_MODEL, "input_model", "-", 0, 0, 1, 1, 1,                                              \
+      "hough, nearest: what an input does to a place in T: nothing, as the paper, or T^2/2")       \
+    X(INPUT_SIGMA_MPS2, "input_sigma_mps2", "m/s^2", 22.36, 0.001, 1e4, 0, 1,                      \
+      "hough, nearest: inputs before they are estimated, each axis; root of V(0)")                 \
+    X(ONSET_CONFIDENCE, "onset_confidence", "-", 0.95, 0.5, 0.9999, 0, 1,                          \
+      "hough, nearest: of the test for an input")                                                  \
+    X(FILTER_NOISE_M, "filter_noise_m", "m", 1, 0, 1e5, 0, 1,                                      \
+      "hough, nearest: process noise a scan, each axis; root of Q")                                \
+    X(FILTER_NOISE_MPS, "filter_noise_mps", "m/s", 1, 0, 1e4, 0, 1, "the same of velocities")      \
+    X(PLANES, "planes", "-", 7, 1, 7, 1, 1, "hough: planes of velocity space that count")          \
+    X(GATE_THETA_DEG, "gate_theta_deg", "deg", 5, 0.1, 90, 0, 1, "hough: cell of theta")           \
+    X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
+      "distance beyond which a track and a target are not paired")                                 \
+    X(TURNING_MPS2, "turning_mps2", "m/s^2", 0.02, 0, 1e4, 0, 1,                                   \
+      "evaluate: a target whose velocity changes by more turns")                                   \
+    X(REFERENCE_SENSOR, "reference_sensor", "-", 0, -2147483648.0, 2147483647, 1, 0,               \
+      "register: the radar whose time counts as right; unset: the lowest number")                  \
+    X(TIME_TOLERANCE_S, "time_tolerance_s", "s", 0.001, 0.001, 60, 0, 1,                           \
+      "evaluate: the truth's times have the nearest tracks, so far off at most, led there")
+
+enum parameter_id {
+#define X(id, name, unit, value, min, max, is_integer, has_default, text) PARAMETER_##id,
+    PARAMETERS(X)
+#undef X
+        NUM_PARAMETERS,
+    /* What experiments in C draw scenarios with (scenario.h); no user sets it. */
+    PARAMETER_CLUTTER_PER_KM2 = NUM_PARAMETERS,
+    PARAMETER_CLUTTER_PER_SCAN,
+    PARAMETER_TRUE_PD,
+    PARAMETER_MERGE_M,
+    PARAMETER_NUM_SCANS,
+    PARAMETER_INTERVAL_S,
+    PARAMETER_TARGETS,
+    PARAMETER_SPACING_M,
+    NUM_VALUES
+};
+
+enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONFIG, SOURCE_SET };
+
+/*
+ * A sensor's own: INI section [sensor N], or --set sensor.N.key=value. X(id, name, unit, min, max,
+ * text).
+ */
+#define SENSOR_PARAMETERS(X)                                                                       \
+    X(PD, "pd", "-", 0.01, 0.999, "assumed probability of detection")                              \
+    X(SIGMA_M, "sigma_m", "m", 0.001, 1e5, "position noise of a plot, each axis")                  \
+    X(SIGMA_MPS, "sigma_mps", "m/s", 0.001, 1e5, "velocity noise of a plot, each axis")            \
+    X(SIGMA_RANGE_M, "sigma_range_m", "m", 0.001, 1e5, "range noise of a polar plot")              \
+    X(SIGMA_AZIMUTH_RAD, "sigma_azimuth_rad", "rad", 1e-6, 0.5, "azimuth noise of a polar plot")   \
+    X(SIGMA_ELEVATION_RAD, "sigma_elevation_rad", "rad", 1e-6, 0.5,                                \
+      "elevation noise of a polar plot")                                                           \
+    X(SIGMA_ALT_M, "sigma_alt_m", "m", 0.001, 1e5, "noise of alt_m of a polar plot")               \
+    X(SIGMA_RANGE_RATE_MPS, "sigma_range_rate_mps", "m/s", 0.001, 1e5,                             \
+      "range-rate noise of a plot")                                                                \
+    X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 4e4,                                   \
+      "its range rates are known up to multiples of it")                                           \
+    X(SIGMA_RAD, "sigma_rad", "rad", 1e-6, 0.5, "bearing noise of a passive sensor")               \
+    X(RANGE_BIAS_M, "range_bias_m", "m", -1e4, 1e4, "it measures ranges so much too long")         \
+    X(AZIMUTH_BIAS_RAD, "azimuth_bias_rad", "rad", -0.5, 0.5,                                      \
+      "it measures azimuths so much too far counter-clockwise")                                    \
+    X(TIME_BIAS_S, "time_bias_s", "s", -10, 10, "its plots are so much older than they say")       \
+    X(RANGE_MIN_M, "range_min_m", "m", 0, 2e6, "nearest range it sees")                            \
+    X(RANGE_MAX_M, "range_max_m", "m", 1, 2e6, "farthest range it sees")                           \
+    X(SECTOR_FROM_RAD, "sector_from_rad", "rad", -6.2831853, 6.2831853,                            \
+      "it can look counter-clockwise from here")                                                   \
+    X(SECTOR_TO_RAD, "sector_to_rad", "rad", -6.2831853, 6.2831853, "to here; equal: all round")   \
+    X(X_M, "x_m", "m", -2e6, 2e6, "its place")                                                     \
+    X(Y_M, "y_m", "m", -2e6, 2e6, "")                                                              \
+    X(Z_M, "z_m", "m", -2e6, 2e6, "")                                                              \
+    X(LAT_DEG, "lat_deg", "deg", -90, 90, "its place on the earth, instead of x_m, y_m, z_m")      \
+    X(LON_DEG, "lon_deg", "deg", -180, 360, "")                                                    \
+    X(ALT_M, "alt_m", "m", -1e4, 1e5, "above the WGS 84 ellipsoid; unset: origin_alt_m")
+
+enum sensor_parameter_id {
+#define X(id, name, unit, min, max, text) SENSOR_##id,
+    SENSOR_PARAMETERS(X)
+#undef X
+        NUM_SENSOR_PARAMETERS
+};
+
+struct sensor_parameters {
+    int32_t sensor_id;
+    double value[NUM_SENSOR_PARAMETERS];
+    enum parameter_source source[NUM_SENSOR_PARAMETERS]; /* UNSET: as for all sensors */
+    double
+        turn_rad; /* of a place on the earth: its azimuths plus this are those of the local frame */
+};
+
+struct parameters {
+    double value[NUM_VALUES];
+    enum parameter_source source[NUM_VALUES];
+    size_t num_sensors;
+    struct sensor_parameters sensors[RHO_MAX_SENSORS];
+    uint16_t num_allowed; /* 0: all sensors may send messages */
+    int16_t allowed[RHO_MAX_SENSORS];
+    enum parameter_source allowed_source;
+};
+
+void parameters_default(struct parameters *parameters);
+
+/* A method's or scenario's own default: counts only where nobody set the parameter. */
+void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
+
+/*
+ * "key=value" or "sensor.N.key=value" from --set. On error prints `rhotrack: --set key=value: what
+ * is wrong` and exits with 2.
+ */
+void parameters_set(struct parameters *parameters, const char *assignment);
+
+/*
+ * INI file (no section, [rhotrack], or [sensor N]); errors as `rhotrack: FILE:LINE: what is wrong`,
+ * exit 2.
+ */
+void parameters_load(struct parameters *parameters, const char *path);
+
+/*
+ * Checks what only holds together (v_min < v_max, min_scans <= scans, all four area sides or none,
+ * min < max); exit 2.
+ */
+void parameters_check(const struct parameters *parameters);
+
+/*
+ * Places of sensors on the earth become x_m, y_m and z_m. Exit 2 without an origin, where a place
+ * is half said or twice, or too far away. Once, when all is set.
+ */
+void parameters_locate(struct parameters *parameters);
+
+/*
+ * The origin of the local frame is set. Its frame, to be closed; the origin's height where none is
+ * set is 0.
+ */
+bool parameters_has_origin(const struct parameters *parameters);
+struct local_frame;
+struct local_frame *parameters_open_origin(const struct parameters *parameters);
+
+/* What is said where it is not: "origin_lat_deg and origin_lon_deg are not set ..." */
+extern const char parameters_no_origin[];
+
+/* The sensor's place on the earth (lat_deg, lon_deg, alt_m); false where it was not said so. */
+bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sensor_id,
+                                double geodetic[3]);
+
+/* By how much its azimuths are turned in the local frame then (local_frame_turn_rad); else 0. */
+double parameters_turn_rad(const struct parameters *parameters, int32_t sensor_id);
+
+bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
+const char *parameters_name(enum parameter_id id);
+
+/* The parameter gate from --gate; exit 2 where it is none. */
+void parameters_set_gate(struct parameters *parameters, const char *gate);
+
+/*
+ * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher
+ * precedence stays. Returns false and the reason.
+ */
+#define PARAMETER_REASON_BYTES 256
+bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
+                       enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
+
+/* What the table says of a parameter, for the command `config`. */
+struct parameter_text {
+    const char *name, *unit, *text;
+    double value, min, max;
+    bool is_integer, has_default;
+    const char *choices; /* "a|b": a word, whose value is its number from 0; NULL: a number */
+    bool is_sum;         /* "a|b|c": words joined by +, whose value is the sum of 1, 2, 4 */
+};
+struct parameter_text parameters_text(enum parameter_id id);
+struct parameter_text parameters_sensor_text(enum sensor_parameter_id id); /* value: 0 */
+/* A value as one would type it. */
+#define PARAMETER_VALUE_BYTES 32
+const char *parameters_value_text(const struct parameter_text *text, double value,
+                                  char buffer[PARAMETER_VALUE_BYTES]);
+const char *parameters_source_name(enum parameter_source source);
+
+/* The table with unit, default, range, value and text (command `config`). */
+void parameters_print(const struct parameters *parameters, FILE *out);
+
+/* True where anything was said of this sensor. */
+bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id);
+
+/* A sensor's own value, or otherwise the value for all. */
+double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                            enum sensor_parameter_id id, double otherwise);
+
+/* How far a sensor sees: its own range_max_m, or the one for all. */
+double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id);
+
+/*
+ * A sensor's time bias, as the library has it; the least and the largest of all sensors, of which
+ * some have none.
+ */
+int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id);
+void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
+                               int32_t *largest_us);
+
+/*
+ * The library's configs from the parameters, checked (parameters_check). A sensor is described only
+ * where somebody set something of it, or the range limits of all: else false, and *sensor is
+ * unchanged.
+ */
+bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
+                          struct rho_sensor *sensor);
+
+/*
+ * The same for any sensor: what nobody described is at the origin, without biases, sees everything.
+ */
+void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
+                              struct rho_sensor *sensor);
+
+/*
+ * What several of the library's configs have in common; checked as parameters_check does, exit 2.
+ */
+struct rho_settings parameters_settings(const struct parameters *parameters);
+
+void parameters_to_initiator(const struct parameters *parameters,
+                             struct rho_initiator_config *config);
+void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config);
+
+/*
+ * The same for what takes the sensors' messages, with every sensor that anything was said of. Exit
+ * 1 where it refuses.
+ */
+void parameters_to_feed(const struct parameters *parameters, struct rho_scan_assembler *feed);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "settings/parameters.h"
+
+static struct rho_scan_assembler_noise noise_of(const struct parameters *parameters,
+                                                int32_t sensor_id)
+{
+    const double *value = parameters->value;
+
+#define OF_SENSOR(id)                                                                              \
+    (float)parameters_of_sensor(parameters, sensor_id, SENSOR_##id, value[PARAMETER_##id])
+    return (struct rho_scan_assembler_noise){.sigma_m = OF_SENSOR(SIGMA_M),
+                                             .sigma_mps = OF_SENSOR(SIGMA_MPS),
+                                             .sigma_range_m = OF_SENSOR(SIGMA_RANGE_M),
+                                             .sigma_azimuth_rad = OF_SENSOR(SIGMA_AZIMUTH_RAD),
+                                             .sigma_elevation_rad = OF_SENSOR(SIGMA_ELEVATION_RAD),
+                                             .sigma_range_rate_mps =
+                                                 OF_SENSOR(SIGMA_RANGE_RATE_MPS),
+                                             .sigma_rad = OF_SENSOR(SIGMA_RAD)};
+#undef OF_SENSOR
+}
+
+static struct rho_scan_assembler_sensor describe(const struct parameters *parameters,
+                                                 int32_t sensor_id)
+{
+    struct rho_scan_assembler_sensor known = {.noise = noise_of(parameters, sensor_id)};
+
+    parameters_to_any_sensor(parameters, sensor_id, &known.sensor);
+    return known;
+}
+
+/* A sensor that nobody described: one beyond those that can have messages. */
+#define NO_SENSOR INT32_MAX
+
+void parameters_to_feed(const struct parameters *parameters, struct rho_scan_assembler *feed)
+{
+    const double *value = parameters->value;
+    struct rho_sensor any;
+    struct rho_scan_assembler_config config = {
+        .hold_us = llround(value[PARAMETER_HOLD_MS] * 1e3),
+        .late_max_us = llround(value[PARAMETER_LATE_MAX_S] * 1e6),
+        .jump_max_us = llround(value[PARAMETER_JUMP_MAX_S] * 1e6),
+        .flood_per_s = (uint32_t)value[PARAMETER_FLOOD_PER_S],
+        .follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS],
+        .stranger_plots_per_s = (uint32_t)value[PARAMETER_STRANGER_PLOTS_PER_S],
+        .num_allowed = parameters->num_allowed,
+        .is_told = parameters_to_sensor(parameters, NO_SENSOR, &any),
+        .other = describe(parameters, NO_SENSOR),
+    };
+    enum rho_status status;
+
+    memcpy(config.allowed, parameters->allowed, sizeof config.allowed);
+    status = rho_scan_assembler_init(feed, sizeof *feed, &config);
+
+    for (size_t i = 0; i < parameters->num_sensors && status == RHO_OK; i++) {
+        struct rho_scan_assembler_sensor known =
+            describe(parameters, parameters->sensors[i].sensor_id);
+
+        status = rho_scan_assembler_set_sensor(feed, &known);
+    }
+    must_succeed(status, "feed");
+}

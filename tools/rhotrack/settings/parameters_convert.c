@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: MIT */
+/* parameters_convert: the library's configs from parameters. */
+#include <math.h>
+
+#include "base/common.h"
+#include "rhotrack/measurement.h"
+#include "settings/parameters.h"
+
+/* Bounds of the factor on sigmas where nobody has said how large they are. */
+#define UNSTATED_MIN 0.1f
+#define UNSTATED_MAX 10.0f
+
+struct rho_settings parameters_settings(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+    struct rho_settings settings;
+
+    parameters_check(parameters);
+    rho_settings_default(&settings);
+    settings.v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
+    settings.v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
+    settings.accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    settings.pd = (float)value[PARAMETER_PD];
+    settings.range_max_m = (float)value[PARAMETER_RANGE_MAX_M];
+    settings.area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
+    settings.area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
+    settings.area.x_max_m = (float)value[PARAMETER_AREA_X_MAX_M];
+    settings.area.y_min_m = (float)value[PARAMETER_AREA_Y_MIN_M];
+    settings.area.y_max_m = (float)value[PARAMETER_AREA_Y_MAX_M];
+    settings.false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
+    settings.scans = (uint16_t)value[PARAMETER_SCANS];
+    settings.min_scans = (uint16_t)value[PARAMETER_MIN_SCANS];
+    settings.coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
+    settings.work_max = (uint32_t)value[PARAMETER_WORK_MAX];
+    return settings;
+}
+
+void parameters_to_initiator(const struct parameters *parameters,
+                             struct rho_initiator_config *config)
+{
+    const double *value = parameters->value;
+    const struct rho_settings settings = parameters_settings(parameters);
+
+    rho_initiator_config_default(config);
+    rho_settings_apply(&settings, NULL, config, NULL);
+    config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
+    if (parameters_is_set(parameters, PARAMETER_TURN_MPS2)) {
+        config->turn_mps2 = (float)value[PARAMETER_TURN_MPS2];
+    }
+    if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT)) {
+        config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
+        config->false_tracks_per_hour = 0.0f;
+    }
+}
+
+/*
+ * In the tracker the process noise follows the largest acceleration, unless one a scan is asked
+ * for.
+ */
+static void parameters_to_input(const struct parameters *parameters,
+                                struct rho_input_config *config)
+{
+    const double *value = parameters->value;
+    float accel_mps2 = 0.5f * (float)value[PARAMETER_ACCEL_MAX_MPS2];
+    bool has_own_noise = parameters_is_set(parameters, PARAMETER_FILTER_NOISE_M) ||
+                         parameters_is_set(parameters, PARAMETER_FILTER_NOISE_MPS);
+
+    config->is_estimated = value[PARAMETER_INPUT_ESTIMATION] > 0.0;
+    config->model = value[PARAMETER_INPUT_MODEL] > 0.0 ? RHO_INPUT_PHYSICAL : RHO_INPUT_LITERAL;
+    config->gamma = (float)value[PARAMETER_GAMMA];
+    config->sigma_mps2 = (float)value[PARAMETER_INPUT_SIGMA_MPS2];
+    config->threshold = rho_input_threshold((float)value[PARAMETER_ONSET_CONFIDENCE]);
+    config->noise_density = has_own_noise ? 0.0f : accel_mps2 * accel_mps2;
+    config->noise_m = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_M] : 0.0f;
+    config->noise_mps = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_MPS] : 0.0f;
+    config->velocity_variance = (float)(value[PARAMETER_V_MAX_MPS] * value[PARAMETER_V_MAX_MPS]);
+}
+
+static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)
+{
+    return parameters->source[id] > SOURCE_DEFAULT;
+}
+
+/* Somebody has said what the noise of places is, of all sensors or of one. */
+static bool says_noise(const struct parameters *parameters)
+{
+    bool says = is_asked_for(parameters, PARAMETER_SIGMA_M) ||
+                is_asked_for(parameters, PARAMETER_SIGMA_RANGE_M) ||
+                is_asked_for(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
+
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        const int32_t id = parameters->sensors[i].sensor_id;
+
+        says |= !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_M, NAN)) ||
+                !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_RANGE_M, NAN)) ||
+                !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD, NAN));
+    }
+    return says;
+}
+
+/* What nobody has said is a default that knows nothing of the radar: it may be far off. */
+static void set_bounds(const struct parameters *parameters, struct rho_tracker_config *config)
+{
+    const double *value = parameters->value;
+    const bool says = says_noise(parameters);
+
+    config->learn_noise_min = says || is_asked_for(parameters, PARAMETER_LEARN_NOISE_MIN)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MIN]
+                                  : UNSTATED_MIN;
+    config->learn_noise_max = says || is_asked_for(parameters, PARAMETER_LEARN_NOISE_MAX)
+                                  ? (float)value[PARAMETER_LEARN_NOISE_MAX]
+                                  : UNSTATED_MAX;
+    config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
+}
+
+void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config)
+{
+    const double *value = parameters->value;
+    const struct rho_settings settings = parameters_settings(parameters);
+
+    rho_tracker_config_default(config);
+    rho_settings_apply(&settings, config, NULL, NULL);
+    config->steady_s = (float)value[PARAMETER_STEADY_S];
+    config->late_max_s = (float)value[PARAMETER_LATE_MAX_S];
+    set_bounds(parameters, config);
+    config->gate = (uint8_t)value[PARAMETER_GATE];
+    config->planes = (uint8_t)value[PARAMETER_PLANES];
+    config->theta_cell_rad = (float)(value[PARAMETER_GATE_THETA_DEG] * (3.141592653589793 / 180.0));
+    parameters_to_input(parameters, &config->input);
+}
+
+double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id)
+{
+    return parameters_of_sensor(parameters, sensor_id, SENSOR_RANGE_MAX_M,
+                                parameters->value[PARAMETER_RANGE_MAX_M]);
+}
+
+/* A sector that the sensor counts from its own east. Equal ends, the whole circle, stay equal. */
+static void turn_sector(struct rho_sensor *sensor, double turn_rad)
+{
+    const double turn = 6.283185307179586;
+
+    if (turn_rad < 0 || turn_rad > 0) {
+        sensor->sector_from_rad =
+            (float)remainder((double)sensor->sector_from_rad + turn_rad, turn);
+        sensor->sector_to_rad = (float)remainder((double)sensor->sector_to_rad + turn_rad, turn);
+    }
+}
+
+void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
+                              struct rho_sensor *sensor)
+{
+    const double *value = parameters->value;
+    double range_max_m = is_asked_for(parameters, PARAMETER_RANGE_MAX_M)
+                             ? value[PARAMETER_RANGE_MAX_M]
+                             : 2.0 * (double)RHO_LIMIT_POSITION_M;
+
+#define OF_SENSOR(id, otherwise) (float)parameters_of_sensor(parameters, sensor_id, id, otherwise)
+    *sensor = (struct rho_sensor){
+        .sensor_id = sensor_id,
+        .x_m = OF_SENSOR(SENSOR_X_M, 0),
+        .y_m = OF_SENSOR(SENSOR_Y_M, 0),
+        .z_m = OF_SENSOR(SENSOR_Z_M, 0),
+        .pd = OF_SENSOR(SENSOR_PD, value[PARAMETER_PD]),
+        .range_min_m = OF_SENSOR(SENSOR_RANGE_MIN_M, value[PARAMETER_RANGE_MIN_M]),
+        .range_max_m = OF_SENSOR(SENSOR_RANGE_MAX_M, range_max_m),
+        .sector_from_rad = OF_SENSOR(SENSOR_SECTOR_FROM_RAD, 0),
+        .sector_to_rad = OF_SENSOR(SENSOR_SECTOR_TO_RAD, 0),
+        .range_bias_m = OF_SENSOR(SENSOR_RANGE_BIAS_M, 0),
+        .azimuth_bias_rad = OF_SENSOR(SENSOR_AZIMUTH_BIAS_RAD, 0),
+        .time_bias_s = OF_SENSOR(SENSOR_TIME_BIAS_S, 0),
+        .range_rate_span_mps =
+            OF_SENSOR(SENSOR_RANGE_RATE_SPAN_MPS, value[PARAMETER_RANGE_RATE_SPAN_MPS]),
+    };
+#undef OF_SENSOR
+    turn_sector(sensor, parameters_turn_rad(parameters, sensor_id));
+}
+
+int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id)
+{
+    const struct rho_sensor sensor = {
+        .time_bias_s = (float)parameters_of_sensor(parameters, sensor_id, SENSOR_TIME_BIAS_S, 0.0)};
+
+    return rho_measurement_time_bias_us(&sensor);
+}
+
+void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
+                               int32_t *largest_us)
+{
+    *least_us = *largest_us = 0;
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        int32_t bias_us = parameters_time_bias_us(parameters, parameters->sensors[i].sensor_id);
+
+        *least_us = bias_us < *least_us ? bias_us : *least_us;
+        *largest_us = bias_us > *largest_us ? bias_us : *largest_us;
+    }
+}
+
+bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
+                          struct rho_sensor *sensor)
+{
+    if (!parameters_has_sensor(parameters, sensor_id) &&
+        !is_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
+        !is_asked_for(parameters, PARAMETER_RANGE_MAX_M) &&
+        !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0)) {
+        return false;
+    }
+    parameters_to_any_sensor(parameters, sensor_id, sensor);
+    return true;
+}

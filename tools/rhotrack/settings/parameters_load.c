@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+#include <ctype.h>
+#include <errno.h>
+#include <ini.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "settings/parameters.h"
+
+/* inih tells its handler no line, so the lines are counted as it asks for them. */
+struct loading {
+    struct parameters *parameters;
+    const char *path;
+    FILE *file;
+    unsigned line;
+};
+
+static char *read_line(char *buffer, int size, void *user)
+{
+    struct loading *loading = user;
+    char *line = fgets(buffer, size, loading->file);
+
+    if (!line) {
+        if (ferror(loading->file)) {
+            fail(EXIT_USAGE, "%s: %s", loading->path, strerror(errno));
+        }
+        return NULL;
+    }
+    loading->line++;
+    if (strlen(line) + 1 == (size_t)size && line[strlen(line) - 1] != '\n') {
+        fail(EXIT_USAGE, "%s:%u: line longer than %d characters", loading->path, loading->line,
+             size - 2);
+    }
+    return line;
+}
+
+/*
+ * "sensor 3" gives the key's prefix "sensor.3."; the main sections give "". False: no such section.
+ */
+static bool section_prefix(const char *section, char *prefix, size_t bytes)
+{
+    const char *number = section + strlen("sensor");
+
+    *prefix = '\0';
+    if (!*section || !strcmp(section, "rhotrack")) {
+        return true;
+    }
+    if (strncmp(section, "sensor", strlen("sensor")) != 0 || !isspace((unsigned char)*number)) {
+        return false;
+    }
+    while (isspace((unsigned char)*number)) {
+        number++;
+    }
+    snprintf(prefix, bytes, "sensor.%.12s.", number);
+    return true;
+}
+
+static int on_value(void *user, const char *section, const char *name, const char *value)
+{
+    struct loading *loading = user;
+    char prefix[32], key[128], reason[PARAMETER_REASON_BYTES];
+
+    if (!section_prefix(section, prefix, sizeof prefix)) {
+        fail(EXIT_USAGE, "%s:%u: unknown section [%s]; there are [rhotrack] and [sensor N]",
+             loading->path, loading->line, section);
+    }
+    snprintf(key, sizeof key, "%s%.80s", prefix, name);
+    if (!parameters_assign(loading->parameters, key, value, SOURCE_CONFIG, reason)) {
+        fail(EXIT_USAGE, "%s:%u: %s", loading->path, loading->line, reason);
+    }
+    return 1;
+}
+
+void parameters_load(struct parameters *parameters, const char *path)
+{
+    static char comment_marks[] = ";#";
+    struct loading loading = {parameters, path, fopen(path, "r"), 0};
+    int bad_line;
+
+    if (!loading.file) {
+        fail(EXIT_USAGE, "%s: %s", path, strerror(errno));
+    }
+    ini_allow_multiline = false; /* an indented line is a line like any other */
+    ini_inline_comment_prefixes = comment_marks;
+    ini_stop_on_first_error = true;
+    ini_use_stack = false;
+    ini_initial_alloc = ini_max_line = 400;
+    bad_line = ini_parse_stream(read_line, &loading, on_value, &loading);
+    if (bad_line < 0) {
+        fail(EXIT_RUNTIME, "out of memory");
+    }
+    if (bad_line) {
+        fail(EXIT_USAGE, "%s:%d: neither [section] nor key = value", path, bad_line);
+    }
+    fclose(loading.file);
+}

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy.scene;
+
+import java.io.ByteArrayInputStream;
+import java.io.DataInputStream;
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.util.ArrayList;
+import java.util.List;
+import rhotrack.bearing_scan_t;
+import rhotrack.clutter_map_t;
+import rhotrack.echo_t;
+import rhotrack.peak_list_t;
+import rhotrack.plot_scan_t;
+import rhotrack.polar_scan_t;
+import rhotrack.sensor_list_t;
+import rhotrack.sensor_t;
+import rhotrack.status_t;
+import rhotrack.track_list_t;
+import rhotrack.track_t;
+import rhotrack.truth_list_t;
+import rhotrack.work_t;
+
+/**
+ * Messages into the model. A message that is not one of ours to the last byte (another version's fingerprint, counts
+ * or numbers out of bounds, bytes missing or left over) is counted as ignored and changes nothing.
+ */
+public final class Decoder {
+    private final Model model;
+
+    public Decoder(Model model) {
+        this.model = model;
+    }
+
+    /** Whether messages of this fingerprint can be shown. */
+    public static boolean knows(long fingerprint) {
+        return fingerprint == plot_scan_t.LCM_FINGERPRINT || fingerprint == polar_scan_t.LCM_FINGERPRINT
+                || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
+                || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
+                || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT
+                || fingerprint == clutter_map_t.LCM_FINGERPRINT || fingerprint == work_t.LCM_FINGERPRINT;
+    }
+
+    public void decode(String channel, byte[] data) {
+        boolean good = false;
+        try {
+            good = data.length >= Long.BYTES && dispatch(channel, data, ByteBuffer.wrap(data).getLong());
+        } catch (IOException | RuntimeException e) {
+            // Whatever came was not ours, or was cut; RuntimeException is what generated code makes of a bad count.
+            good = false;
+        }
+        model.countMessage(good);
+    }
+
+    private boolean dispatch(String channel, byte[] data, long fingerprint) throws IOException {
+        DataInputStream in = new DataInputStream(new ByteArrayInputStream(data));
+        if (fingerprint == plot_scan_t.LCM_FINGERPRINT) {
+            return take(channel, new plot_scan_t(in), in);
+        }
+        if (fingerprint == polar_scan_t.LCM_FINGERPRINT) {
+            return take(channel, new polar_scan_t(in), in);
+        }
+        if (fingerprint == bearing_scan_t.LCM_FINGERPRINT) {
+            return take(channel, new bearing_scan_t(in), in);
+        }
+        if (fingerprint == track_list_t.LCM_FINGERPRINT) {
+            return take(new track_list_t(in), in);
+        }
+        if (fingerprint == truth_list_t.LCM_FINGERPRINT) {
+            return take(new truth_list_t(in), in);
+        }
+        if (fingerprint == peak_list_t.LCM_FINGERPRINT) {
+            return take(new peak_list_t(in), in);
+        }
+        if (fingerprint == sensor_list_t.LCM_FINGERPRINT) {
+            return take(new sensor_list_t(in), in);
+        }
+        if (fingerprint == clutter_map_t.LCM_FINGERPRINT) {
+            return take(new clutter_map_t(in), in);
+        }
+        if (fingerprint == work_t.LCM_FINGERPRINT) {
+            return take(new work_t(in), in);
+        }
+        return fingerprint == status_t.LCM_FINGERPRINT && take(new status_t(in), in);
+    }
+
+    private boolean take(String channel, plot_scan_t scan, DataInputStream in) throws IOException {
+        if (in.available() > 0 || scan.num_plots > plot_scan_t.MAX_PLOTS || !isPart(scan.part, scan.num_parts)
+                || !isOf(scan.sensor_id, channel)) {
+            return false;
+        }
+        List<Place> places = new ArrayList<>();
+        for (rhotrack.plot_t plot : scan.plots) {
+            places.add(new Place(plot.x_m, plot.y_m));
+        }
+        if (!areSane(places)) {
+            return false;
+        }
+        int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
+        model.addPlots(channel, scan.epoch, scan.scan, looks, new Scene.Plots(scan.sensor_id, places));
+        return true;
+    }
+
+    private boolean take(String channel, polar_scan_t scan, DataInputStream in) throws IOException {
+        Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
+        if (in.available() > 0 || scan.num_polar_plots > polar_scan_t.MAX_POLAR_PLOTS || !sensor.isSane()
+                || !isPart(scan.part, scan.num_parts) || !isOf(scan.sensor_id, channel)) {
+            return false;
+        }
+        List<Place> places = new ArrayList<>();
+        for (rhotrack.polar_plot_t plot : scan.polar_plots) {
+            double elevation = scan.has_elevation == 1 ? plot.elevation_rad : 0;
+            places.add(Geometry.fromPolar(sensor, plot.range_m, plot.azimuth_rad, elevation));
+        }
+        if (!areSane(places)) {
+            return false;
+        }
+        int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
+        model.addSensor(scan.sensor_id, sensor);
+        model.addPlots(channel, scan.epoch, scan.scan, looks, new Scene.Plots(scan.sensor_id, places));
+        return true;
+    }
+
+    private boolean take(String channel, bearing_scan_t scan, DataInputStream in) throws IOException {
+        Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
+        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD || !sensor.isSane()
+                || !isOf(scan.sensor_id, channel)) {
+            return false;
+        }
+        List<Double> angles = new ArrayList<>();
+        for (float angle : scan.bearing_rad) {
+            if (!(Math.abs(angle) <= 4)) {
+                return false;
+            }
+            angles.add((double) angle);
+        }
+        model.addBearings(channel, scan.epoch, scan.scan, new Scene.Bearings(scan.sensor_id, sensor, angles));
+        return true;
+    }
+
+    private boolean take(track_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_tracks > track_list_t.MAX_TRACKS || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<TrackMark> marks = new ArrayList<>();
+        for (track_t track : list.tracks) {
+            TrackMark mark = mark(track);
+            if (mark == null) {
+                return false;
+            }
+            marks.add(mark);
+        }
+        model.addTracks(list.epoch, list.scan, list.part, list.num_parts, marks);
+        return true;
+    }
+
+    private static TrackMark mark(track_t track) {
+        Place place = new Place(track.x_m, track.y_m);
+        TrackMark.Status[] states = TrackMark.Status.values();
+        boolean known = track.status >= track_t.TENTATIVE && track.status <= track_t.DELETED;
+        if (!known || !place.isSane() || !isFinite(track.z_m, track.vx_mps, track.vy_mps, track.score_nat)) {
+            return null;
+        }
+        Ellipse ellipse = Ellipse.of(track.covariance[0], track.covariance[1], track.covariance[2]);
+        return new TrackMark(track.track_id, states[track.status - track_t.TENTATIVE], place, track.z_m, track.vx_mps,
+                track.vy_mps, track.hits, track.misses, track.score_nat, ellipse);
+    }
+
+    private boolean take(truth_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_targets > truth_list_t.MAX_TARGETS
+                || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<Scene.Truth> targets = new ArrayList<>();
+        for (rhotrack.truth_t target : list.targets) {
+            Place place = new Place(target.x_m, target.y_m);
+            if (!place.isSane() || !isFinite(target.vx_mps, target.vy_mps)) {
+                return false;
+            }
+            targets.add(new Scene.Truth(target.target_id, place, target.vx_mps, target.vy_mps));
+        }
+        model.addTruth(list.scan, list.part, list.num_parts, targets);
+        return true;
+    }
+
+    private boolean take(peak_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_peaks > peak_list_t.MAX_PEAKS) {
+            return false;
+        }
+        List<Scene.Peak> peaks = new ArrayList<>();
+        for (rhotrack.peak_t peak : list.peaks) {
+            boolean within = peak.theta_rad >= 0 && peak.theta_rad < 3.15 && Math.abs(peak.rho_m) <= 4e6;
+            if (!within || !isFinite(peak.speed_mps, peak.score_nat)) {
+                return false;
+            }
+            peaks.add(new Scene.Peak(peak.rho_m, peak.theta_rad, peak.speed_mps, peak.score_nat, peak.scans_hit,
+                    peak.sensor_pairs));
+        }
+        model.addPeaks(list.scan, new Scene.Peaks(peaks));
+        return true;
+    }
+
+    private boolean take(status_t status, DataInputStream in) throws IOException {
+        if (in.available() > 0 || !isFinite(status.step_us, status.step_max_us, status.clutter_per_km2)) {
+            return false;
+        }
+        model.setStatus(new Scene.Status(status.scans_accepted, status.scans_lost, status.scans_late,
+                saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative, status.tracks_confirmed,
+                status.tracks_coasting, status.step_us, status.step_max_us, status.clutter_per_km2));
+        return true;
+    }
+
+    private boolean take(work_t work, DataInputStream in) throws IOException {
+        if (in.available() > 0 || work.work < 0 || work.work_max < 0 || work.partial_steps < 0
+                || work.reports_not_printed < 0 || work.events_not_logged < 0) {
+            return false;
+        }
+        model.setWork(new Scene.Work(work.work_max == 0 ? -1 : (double) work.work / work.work_max, work.partial_steps,
+                work.reports_not_printed, work.events_not_logged));
+        return true;
+    }
+
+    private boolean take(sensor_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_sensors > sensor_list_t.MAX_SENSORS
+                || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<String> faults = new ArrayList<>();
+        for (sensor_t sensor : list.sensors) {
+            if (sensor.is_doubted != 0) {
+                faults.add("S" + sensor.sensor_id + " doubted");
+            }
+            if (sensor.is_silent != 0) {
+                faults.add("S" + sensor.sensor_id + " silent");
+            } else if (sensor.is_off_clock != 0) {
+                faults.add("S" + sensor.sensor_id + " off the clock");
+            }
+        }
+        model.setSensorFaults(list.part, list.num_parts, faults);
+        return true;
+    }
+
+    private boolean take(clutter_map_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_echoes > clutter_map_t.MAX_ECHOES || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<Scene.Echo> echoes = new ArrayList<>();
+        for (echo_t echo : list.echoes) {
+            Place place = new Place(echo.x_m, echo.y_m);
+            if (!place.isSane() || echo.hits < 1 || !(echo.chance >= 0 && echo.chance <= 1)) {
+                return false;
+            }
+            echoes.add(new Scene.Echo(place, echo.sensor_id, echo.hits, echo.chance));
+        }
+        model.addEchoes(list.epoch, list.scan, list.part, list.num_parts, echoes);
+        return true;
+    }
+
+    private static int saturatedSum(int a, int b) {
+        return (int) Math.min(Integer.MAX_VALUE, (long) a + b);
+    }
+
+    private static boolean isPart(int part, int numParts) {
+        return part >= 0 && part < numParts;
+    }
+
+    /** A sensor has its number in its channel's name; anything else would be drawn in another one's colour. */
+    private static boolean isOf(int sensorId, String channel) {
+        return channel.endsWith("_" + sensorId);
+    }
+
+    private static boolean areSane(List<Place> places) {
+        return places.stream().allMatch(Place::isSane);
+    }
+
+    private static boolean isFinite(float... numbers) {
+        for (float number : numbers) {
+            if (!Float.isFinite(number)) {
+                return false;
+            }
+        }
+        return true;
+    }
+}

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy.scene;
+
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+
+/** What the messages have said so far. Messages come in one thread, painting asks from another. */
+public final class Model {
+    private static final int PLOT_TURNS = 12;
+    private static final int BEARING_TURNS = 3;
+    private static final int PEAK_LISTS = 6;
+    /** The tracker itself takes no more sensors than this. */
+    private static final int MAX_CHANNELS = 64;
+
+    private final Map<String, LookHistory<Scene.Plots>> plots = new LinkedHashMap<>();
+    private final Map<String, LookHistory<Scene.Bearings>> bearings = new LinkedHashMap<>();
+    private LookHistory<Scene.Peaks> peaks = new LookHistory<>(PEAK_LISTS);
+    private ListAssembler<TrackMark> trackParts = new ListAssembler<>();
+    private ListAssembler<Scene.Truth> truthParts = new ListAssembler<>();
+    private ListAssembler<Scene.Echo> echoParts = new ListAssembler<>();
+    private TrackStore tracks = new TrackStore();
+    private List<Scene.Truth> truth = List.of();
+    private List<Scene.Echo> echoes = List.of();
+    private final Map<Integer, Place> sensors = new TreeMap<>();
+    /** RHO_SENSORS: what is wrong with sensors, of each part of the list. */
+    private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
+    private Scene.Status status;
+    private Scene.Work work;
+    private long statusNanos;
+    private long tracksNanos;
+    private long received;
+    private long ignored;
+    private long changes;
+
+    public synchronized void addPlots(String channel, int epoch, int scan, int looksPerTurn, Scene.Plots look) {
+        add(plots, PLOT_TURNS, channel, epoch, scan, looksPerTurn, look);
+    }
+
+    public synchronized void addBearings(String channel, int epoch, int scan, Scene.Bearings look) {
+        add(bearings, BEARING_TURNS, channel, epoch, scan, 1, look);
+        addSensor(look.sensorId(), look.sensor());
+    }
+
+    private static <T> void add(Map<String, LookHistory<T>> channels, int turns, String channel, int epoch, int scan,
+            int looksPerTurn, T look) {
+        if (channels.containsKey(channel) || channels.size() < MAX_CHANNELS) {
+            channels.computeIfAbsent(channel, name -> new LookHistory<>(turns)).add(epoch, scan, looksPerTurn, look);
+        }
+    }
+
+    public synchronized void addSensor(int id, Place place) {
+        if (sensors.containsKey(id) || sensors.size() < MAX_CHANNELS) {
+            sensors.put(id, place);
+        }
+    }
+
+    public synchronized void addPeaks(int scan, Scene.Peaks list) {
+        peaks.add(0, scan, 1, list);
+    }
+
+    public synchronized void addTracks(int epoch, int scan, int part, int numParts, List<TrackMark> marks) {
+        trackParts.add(epoch, scan, part, numParts, marks).forEach(tracks::apply);
+        tracksNanos = System.nanoTime();
+    }
+
+    public synchronized void addTruth(int scan, int part, int numParts, List<Scene.Truth> targets) {
+        truthParts.add(0, scan, part, numParts, targets).forEach(list -> truth = List.copyOf(list.items()));
+    }
+
+    public synchronized void addEchoes(int epoch, int scan, int part, int numParts, List<Scene.Echo> known) {
+        echoParts.add(epoch, scan, part, numParts, known).forEach(list -> echoes = List.copyOf(list.items()));
+    }
+
+    public synchronized void setStatus(Scene.Status newStatus) {
+        status = newStatus;
+        statusNanos = System.nanoTime();
+    }
+
+    public synchronized void setWork(Scene.Work newWork) {
+        work = newWork;
+    }
+
+    /** Of a list with more parts than there are sensors, those beyond are not kept. */
+    public synchronized void setSensorFaults(int part, int numParts, List<String> faults) {
+        if (part < MAX_CHANNELS) {
+            sensorFaults.put(part, List.copyOf(faults));
+        }
+        sensorFaults.tailMap(numParts).clear();
+    }
+
+    public synchronized void countMessage(boolean good) {
+        received++;
+        ignored += good ? 0 : 1;
+        changes++;
+    }
+
+    /** Grows with each message: whoever has seen this number has nothing new to paint. */
+    public synchronized long changes() {
+        return changes;
+    }
+
+    /** Forgets all but the counts of messages. */
+    public synchronized void clear() {
+        plots.clear();
+        bearings.clear();
+        sensors.clear();
+        sensorFaults.clear();
+        peaks = new LookHistory<>(PEAK_LISTS);
+        trackParts = new ListAssembler<>();
+        truthParts = new ListAssembler<>();
+        echoParts = new ListAssembler<>();
+        tracks = new TrackStore();
+        truth = List.of();
+        echoes = List.of();
+        changes++;
+    }
+
+    public synchronized Scene scene() {
+        List<LookHistory.Faded<Scene.Plots>> allPlots = new ArrayList<>();
+        plots.values().forEach(history -> allPlots.addAll(history.fading()));
+        List<LookHistory.Faded<Scene.Bearings>> allBearings = new ArrayList<>();
+        bearings.values().forEach(history -> allBearings.addAll(history.fading()));
+        List<String> faults = new ArrayList<>();
+        sensorFaults.values().forEach(faults::addAll);
+        Scene.Health health =
+                new Scene.Health(status, work, faults, age(statusNanos), age(tracksNanos), received, ignored);
+        return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
+                echoes, new TreeMap<>(sensors), health);
+    }
+
+    private static double age(long nanos) {
+        return nanos == 0 ? -1 : (System.nanoTime() - nanos) / 1e9;
+    }
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+package rhotrack.spy.scene;
+
+import java.util.List;
+import java.util.Map;
+
+/** What is to be drawn: an immutable copy of the model, so that painting needs no lock and a pause is to keep one. */
+public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
+        List<LookHistory.Faded<Peaks>> peaks, List<TrackMark> tracks, List<List<Place>> trails, List<Truth> truth,
+        List<Echo> echoes, Map<Integer, Place> sensors, Health health) {
+    /** Plots of (a part of) one look. */
+    public record Plots(int sensorId, List<Place> places) {
+    }
+
+    /** Bearings of one look, rad counter-clockwise from east. */
+    public record Bearings(int sensorId, Place sensor, List<Double> angles) {
+    }
+
+    /** The candidates of one search. */
+    public record Peaks(List<Peak> peaks) {
+    }
+
+    public record Peak(double rho, double theta, double speed, double score, int scansHit, int sensorPairs) {
+    }
+
+    public record Truth(int id, Place place, double vx, double vy) {
+    }
+
+    /** Clutter that the tracker knows: it comes back to its place. */
+    public record Echo(Place place, int sensorId, int hits, double chance) {
+    }
+
+    /** RHO_STATUS, the few figures that a status line has room for. */
+    public record Status(int accepted, int lost, int late, int bad, int tentative, int confirmed, int coasting, double stepUs,
+            double stepMaxUs, double clutterPerKm2) {
+    }
+
+    /** RHO_WORK: work of the last step as a share of what it may be, negative where any is allowed; what was left out. */
+    public record Work(double share, long partialSteps, long notPrinted, long notLogged) {
+    }
+
+    /** How the messages themselves are doing; ages in seconds, negative where nothing came yet. */
+    public record Health(Status status, Work work, List<String> sensorFaults, double statusAge, double tracksAge,
+            long received, long ignored) {
+    }
+}
