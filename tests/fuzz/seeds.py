@@ -62,7 +62,7 @@ def write_scenes(folder):
     root = HERE.parents[1] / "tools"
     seeds = folder / "fuzz_scene"
     seeds.mkdir(parents=True, exist_ok=True)
-    for path in sorted((root / "scenes").glob("*.json")):
+    for path in sorted((root / "scenes").glob("*/*.json")):
         text = json.dumps(json.loads(path.read_text(encoding="utf-8")), separators=(",", ":"))
         if len(text) < 4000:
             (seeds / path.stem).write_text(text, encoding="utf-8")

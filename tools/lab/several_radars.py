@@ -23,7 +23,7 @@ import real_skies
 import scene_files
 import scoring
 
-SCENE = real_skies.ROOT / "tools" / "scenes" / "overlapping-radars.json"
+SCENE = real_skies.ROOT / "tools" / "scenes" / "radars" / "overlapping-radars.json"
 SLOWEST_S = 15  # times the slowest turn: what has no track by then counts as found then
 STANDARD_ERRORS = 2  # no later than the better one alone, within so many
 DUPLICATES_MAX = 1e-4  # of the times at which a target has a track: one has a second
